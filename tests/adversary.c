@@ -340,3 +340,19 @@ void adversary_make(struct adversary_problem *p, adversary_kind kind, uint64_t s
         make_long(p, &seed);
     }
 }
+
+void adversary_hold(struct adversary_problem *p, uint64_t seed)
+{
+    wiggly_desc *d = &p->desc;
+    double size = 0;
+    for (int k = 0; k < d->knot_count; k++) size = fmax(size, fabs(p->knots[k].value));
+    for (int i = 0; i < 8; i++) uniform(&seed);
+    const int rarely = 2 + pick(&seed, 4);
+    for (int k = 0; k < d->knot_count; k++) {
+        wiggly_knot *knot = &p->knots[k];
+        const double phase = size * between(&seed, -1, 1);
+        const int what = pick(&seed, 3 * rarely);
+        if (what < 2) knot->has_phase = true, knot->phase = phase;
+        if (what == 2) *knot = (wiggly_knot){.sample = knot->sample, .still = true};
+    }
+}

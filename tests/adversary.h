@@ -35,11 +35,16 @@ struct adversary_problem {
 /// The problem of a kind and seed: the same on every machine.
 void adversary_make(struct adversary_problem *problem, adversary_kind kind, uint64_t seed);
 
-/// The nth problem of a search: the kinds take turns.
+/// Makes poses of some of its knots, and lets some be still.
+void adversary_hold(struct adversary_problem *problem, uint64_t seed);
+
+/// The nth problem of a search: the kinds take turns, and every other time some knots hold more.
 static inline adversary_kind adversary_make_nth(struct adversary_problem *problem, uint64_t seed, uint64_t n)
 {
     const adversary_kind kind = (adversary_kind)(n % ADVERSARY_KINDS);
-    adversary_make(problem, kind, seed * 0x9E3779B97F4A7C15u + n);
+    const uint64_t own = seed * 0x9E3779B97F4A7C15u + n;
+    adversary_make(problem, kind, own);
+    if (n / ADVERSARY_KINDS % 2 == 1) adversary_hold(problem, own);
     return kind;
 }
 

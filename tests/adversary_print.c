@@ -46,7 +46,10 @@ void adversary_print(FILE *out, const struct adversary_problem *p)
     fprintf(out, ", \"knots\": [");
     for (int k = 0; k < d->knot_count; k++) {
         const wiggly_knot *knot = &d->knots[k];
-        fprintf(out, "%s{\"frame\": %d, \"value\": %.17g", k ? ", " : "", knot->sample, knot->value);
+        fprintf(out, "%s{\"frame\": %d", k ? ", " : "", knot->sample);
+        if (knot->still) fprintf(out, ", \"still\": true");
+        if (!knot->still) fprintf(out, ", \"value\": %.17g", knot->value);
+        if (knot->has_phase) fprintf(out, ", \"im\": %.17g", knot->phase);
         if (knot->has_slope) fprintf(out, ", \"slope\": %.17g, \"stiffness\": %.17g", knot->slope, knot->stiffness);
         fprintf(out, "}");
     }

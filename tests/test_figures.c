@@ -199,7 +199,11 @@ static double cubic_error(int substeps, double stiffness, const double *expected
     wiggly_desc desc = wiggly_default_desc();
     size_t n = FRAMES * (size_t)substeps + 1;
     for (int i = 0; i < KNOTS; i++) {
-        knots[i] = (wiggly_knot){knot_frame[i] * substeps, stiffness > 0, knot_value[i], knot_slope[i], stiffness};
+        knots[i] = (wiggly_knot){.sample = knot_frame[i] * substeps,
+                                 .has_slope = stiffness > 0,
+                                 .value = knot_value[i],
+                                 .slope = knot_slope[i],
+                                 .stiffness = stiffness};
     }
     desc.mode = WIGGLY_CUBIC;
     desc.passive = WIGGLY_FILTER; // the textbook's ends: nothing is held behind the last knot

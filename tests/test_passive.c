@@ -91,8 +91,9 @@ static double peak_of_differential_equation(void)
 static double largest_on_a_rising_frequency(wiggly_passive passive)
 {
     static double track[MOST];
-    static const wiggly_knot knots[] = {
-        {0, true, 0.5, 0, 1000}, {.sample = 20, .value = 1}, {.sample = 60, .value = 0}};
+    static const wiggly_knot knots[] = {{.sample = 0, .value = 0.5, .has_slope = true, .slope = 0, .stiffness = 1000},
+                                        {.sample = 20, .value = 1},
+                                        {.sample = 60, .value = 0}};
     wiggly_desc desc = swinging(passive, 0, 0.1);
     wiggly_curve curve = curve_create(MOST);
     double largest = 0;
@@ -114,7 +115,10 @@ static double change_with_rate(wiggly_passive passive, int substeps)
     wiggly_curve curves[2];
     for (int fine = 0; fine < 2; fine++) {
         const int by = substeps << fine;
-        const wiggly_knot knots[] = {{.sample = 0}, {by * 30, true, 1, -3, 1000}, {by * 70, true, 0.2, 1, 1000}};
+        const wiggly_knot knots[] = {
+            {.sample = 0},
+            {.sample = by * 30, .value = 1, .has_slope = true, .slope = -3, .stiffness = 1000},
+            {.sample = by * 70, .value = 0.2, .has_slope = true, .slope = 1, .stiffness = 1000}};
         wiggly_desc desc = swinging(passive, 1, 0.1);
         desc.mode = WIGGLY_REAL;
         desc.samples = 96 * by + 1;

@@ -84,7 +84,8 @@ static wiggly_desc read_desc(const struct scene *scene, const json_t *spline, wi
     size_t n;
     json_array_foreach(json_object_get(spline, "knots"), n, knot)
     {
-        const json_t *slope = json_object_get(knot, "slope"), *stiffness = json_object_get(knot, "stiffness");
+        const json_t *slope = json_object_get(knot, "slope"), *stiffness = json_object_get(knot, "stiffness"),
+                     *phase = json_object_get(knot, "im");
         double frame = json_number_value(json_object_get(knot, "frame"));
         knots[desc.knot_count++] = (wiggly_knot){
             .sample = (int)floor((frame - scene->first_frame) * scene->substeps + 0.5),
@@ -92,6 +93,9 @@ static wiggly_desc read_desc(const struct scene *scene, const json_t *spline, wi
             .has_slope = slope != NULL,
             .slope = json_number_value(slope),
             .stiffness = stiffness ? json_number_value(stiffness) : 1000,
+            .has_phase = phase != NULL,
+            .phase = json_number_value(phase),
+            .still = json_is_true(json_object_get(knot, "still")),
         };
     }
     return desc;
@@ -174,7 +178,7 @@ TEST(the_textbook_meets_every_small_problem)
     static struct textbook book;
     static double tracks[4][TEXTBOOK_MAX], expected[TEXTBOOK_MAX][3];
     double total[TEXTBOOK_MAX], re[TEXTBOOK_MAX], im[TEXTBOOK_MAX];
-    wiggly_knot knots[MAX_KNOTS];
+    wiggly_knot knots[MAX_KNOTS] = {0};
     wiggly_desc desc;
     int problems = 0;
     FILE *file = fopen("tests/textbook/small.txt", "r");

@@ -10,9 +10,12 @@ static const double blow_up = 1e4;
 
 static void find_knots(const wiggly_desc *desc, struct textbook *b)
 {
-    b->earliest = b->last = -1;
+    b->earliest = b->last = b->first_still = -1;
+    memset(b->still, 0, sizeof b->still);
     for (int n = 0; n < desc->knot_count; n++) {
         int sample = desc->knots[n].sample;
+        b->still[sample] = desc->knots[n].still;
+        if (desc->knots[n].still && (b->first_still < 0 || sample < b->first_still)) b->first_still = sample;
         if (b->earliest < 0 || sample < b->earliest) b->earliest = sample;
         if (sample > b->last) b->last = sample;
     }
@@ -67,10 +70,15 @@ static void solve_short(const wiggly_desc *desc, struct textbook *b)
 {
     for (int pass = 0; pass < 2; pass++) {
         for (int n = 0; n < desc->knot_count; n++) {
-            int sample = desc->knots[n].sample;
-            real w = (real)desc->knots[n].value - b->y[sample] - crealq(b->u[sample]);
+            const wiggly_knot *knot = &desc->knots[n];
+            int sample = knot->sample;
+            number w = textbook_knot(desc, b, knot);
+            const bool whole = knot->still || knot->has_phase;
             for (int k = 0; k < b->count; k++) {
-                if (pass == 0 ? sample == b->earliest : k == sample - b->first) b->x[2 * k] = w;
+                if (pass == 0 && sample != b->earliest) continue;
+                if (pass == 1 && k != sample - b->first) continue;
+                b->x[2 * k] = crealq(w);
+                if (whole) b->x[2 * k + 1] = cimagq(w);
                 if (pass == 0 && sample == b->earliest && desc->mode == WIGGLY_CUBIC && !b->filter)
                     b->x[2 * k] += b->y[sample] - b->y[b->first + k];
             }
@@ -171,7 +179,8 @@ static void measure_growth(const wiggly_desc *desc, struct textbook *b)
     scale = high - low;
     for (int n = 0; n < desc->knot_count; n++) {
         const wiggly_knot *knot = &desc->knots[n];
-        scale = fmaxq(scale, fabsq((real)knot->value - b->y[knot->sample] - crealq(b->u[knot->sample])));
+        number w = textbook_knot(desc, b, knot);
+        scale = fmaxq(scale, fmaxq(fabsq(crealq(w)), fabsq(cimagq(w))));
         if (knot->has_slope) scale = fmaxq(scale, t * fabsq((real)knot->slope));
     }
     b->growth = scale > 0 ? (double)(largest / scale) : 0;

@@ -30,6 +30,8 @@ struct textbook {
     real h, calm;
     int samples, first, count; ///< the domain: samples first … first + count − 1
     int earliest, last;        ///< knots' samples; −1 without knots
+    int first_still;           ///< sample of the first still knot, or −1
+    bool still[TEXTBOOK_MAX];  ///< whether a sample is a still knot's
     bool tied;                 ///< the motion after the last knot is given: the unknown there is tie·w + tie_rest
     number tie;
     real tie_rest;

@@ -26,6 +26,9 @@ struct textbook_speed textbook_speed_of(const struct textbook_poles *at, real h)
 real textbook_y_before(const struct textbook *book, int sample);
 real textbook_y_after(const struct textbook *book, int sample);
 
+/// w that a knot asks for; what it says nothing of is 0.
+number textbook_knot(const wiggly_desc *desc, const struct textbook *book, const wiggly_knot *knot);
+
 /// u, and the speed of y + Re u: what the oscillator does by itself as the equilibrium moves.
 void textbook_forced_response(const wiggly_desc *desc, struct textbook *book);
 

@@ -46,11 +46,33 @@ static void add_row(struct textbook *b, enum parts parts, real weight, int n, co
     }
 }
 
+number textbook_knot(const wiggly_desc *desc, const struct textbook *b, const wiggly_knot *knot)
+{
+    if (knot->still) return 0;
+    const number w = (real)knot->value - b->y[knot->sample] - crealq(b->u[knot->sample]);
+    if (desc->mode != WIGGLY_COMPLEX || !knot->has_phase) return w;
+    return w + 1.0Qi * ((real)knot->phase - cimagq(b->u[knot->sample]));
+}
+
 /// The poles of the domain's k-th sample.
 static const struct textbook_poles *poles_of(const struct textbook *b, int k) { return &b->at[b->first + k]; }
 
 /// The square of |g|, g = e^{(s₀+s₁)h/2}.
 static real gain(const struct textbook_poles *at, real h) { return expq(crealq(at->s[0] + at->s[1]) * h); }
+
+/// Coming to rest at a still sample, and leaving from it.
+static void add_still(const wiggly_desc *desc, struct textbook *b, int k)
+{
+    const struct textbook_poles *at = poles_of(b, k);
+    const int m = b->count, i = b->first + k;
+    const bool cubic = desc->mode == WIGGLY_CUBIC, ends = b->tied && i == b->last;
+    real weight = 2 / (b->h * b->h * b->h) / (b->filter ? 1 : gain(at, b->h));
+    number back = cexpq((at->s[0] + at->s[1]) * b->h);
+    number before = cubic ? b->y[i] - textbook_y_before(b, i) : 0,
+           after = cubic ? b->y[i] - textbook_y_after(b, i) : 0;
+    if (b->loop || k > 0) add_row(b, BOTH_PARTS, weight, 1, (struct term[]){{(k + m - 1) % m, back}}, before);
+    if (b->loop || (k < m - 1 && !ends)) add_row(b, BOTH_PARTS, weight, 1, (struct term[]){{(k + 1) % m, 1}}, after);
+}
 
 static void add_jet(const wiggly_desc *desc, struct textbook *b)
 {
@@ -65,11 +87,15 @@ static void add_jet(const wiggly_desc *desc, struct textbook *b)
             l0 = cexpq(at->s[0] * b->h), l1 = cexpq(at->s[1] * b->h), g = cexpq((at->s[0] + at->s[1]) * b->h / 2);
             size = gain(at, b->h);
         }
+        if (b->still[i]) continue;
         number drive = driven ? g * (textbook_y_after(b, i) - 2 * b->y[i] + textbook_y_before(b, i)) : 0;
         real weight = 1 / cube;
         if (!b->filter) weight /= size;
         if (b->tied && k == b->last - b->first) weight *= 2;
         add_row(b, BOTH_PARTS, weight, 3, (struct term[]){{before, l0 * l1}, {k, -(l0 + l1)}, {after, 1}}, -drive);
+    }
+    for (int k = 0; k < m; k++) {
+        if (b->still[b->first + k]) add_still(desc, b, k);
     }
     if (b->rest && !b->filter) { // r₀ = w₁, w₀ and the one before it being 0
         number drive = driven ? (number)(b->y[1] - b->y[0]) : 0;
@@ -77,17 +103,32 @@ static void add_jet(const wiggly_desc *desc, struct textbook *b)
     }
 }
 
+/// The highest frequency of the domain's samples between the still ones around k, both included.
+static real highest_around(const struct textbook *b, int k, int held)
+{
+    real top = poles_of(b, k)->natural;
+    for (int way = -1; way <= 1; way += 2) {
+        for (int n = 0, i = k; n < held && !b->still[b->first + i]; n++) {
+            i += way;
+            if (b->loop) i = (i + held) % held;
+            if (i < 0 || i >= held) break;
+            top = fmaxq(top, poles_of(b, i)->natural);
+        }
+    }
+    return top;
+}
+
 /// Im w must not float where little or nothing drives it.
 static void hold_imaginary(struct textbook *b)
 {
     if (!b->is_complex || (b->rest && b->earliest < 0)) return;
-    real t = (b->loop ? b->count : b->count - 1) * b->h, top = 0, t4 = t * t * t * t;
+    real t = (b->loop ? b->count : b->count - 1) * b->h, t4 = t * t * t * t;
     int held = b->tied ? b->last - b->first + 1 : b->count;
-    for (int k = 0; k < held; k++) top = fmaxq(top, poles_of(b, k)->natural);
     for (int k = 0; k < held; k++) {
         real natural = poles_of(b, k)->natural, w2 = natural * natural;
         real weight = b->h / (t4 * (1 + w2 * w2 * w2 * w2 * t4 * t4));
-        if (!b->filter && top > 0) {
+        const real top = b->filter ? 0 : highest_around(b, k, held);
+        if (top > 0) {
             real lack = fmaxq(0, 1 - 100 * w2 / (top * top));
             weight += b->h * (top * top * top * top) * lack * lack;
         }
@@ -98,10 +139,11 @@ static void hold_imaginary(struct textbook *b)
 /// What the swing at a free start costs.
 static void add_start(const wiggly_desc *desc, struct textbook *b)
 {
-    b->open = b->loop ? b->calm == 0 : !b->rest;
-    if (b->loop || b->rest) return;
+    b->open = b->loop ? b->calm == 0 : !b->rest && !b->still[b->first];
+    if (b->loop || b->rest || b->still[b->first]) return;
     int peak = b->first;
-    for (int i = b->first; !b->filter && i <= b->last; i++) {
+    const int end = b->first_still < 0 ? b->last : b->first_still;
+    for (int i = b->first; !b->filter && i <= end; i++) {
         if (b->at[i].natural > b->at[peak].natural) peak = i;
     }
     struct textbook_poles at = textbook_poles_at(desc, peak, 0.05Q);
@@ -167,11 +209,14 @@ static void add_knots(const wiggly_desc *desc, struct textbook *b, bool level)
         const wiggly_knot *knot = &desc->knots[n];
         int k = knot->sample - b->first;
         any_slope = any_slope || knot->has_slope;
+        number w = textbook_knot(desc, b, knot);
         b->fixed[2 * k] = true;
-        b->x[2 * k] = (real)knot->value - b->y[knot->sample] - crealq(b->u[knot->sample]);
+        b->x[2 * k] = crealq(w);
+        if (knot->still || (b->is_complex && knot->has_phase))
+            b->fixed[2 * k + 1] = true, b->x[2 * k + 1] = cimagq(w);
         if (knot->has_slope) add_slope(b, k, knot->slope, knot->stiffness);
     }
-    bool alone = desc->knot_count == 1 && !any_slope && !b->loop && b->open && !b->tied;
+    bool alone = desc->knot_count == 1 && !any_slope && !b->loop && b->open && !b->tied && !desc->knots[0].still;
     if (level || alone) add_slope(b, b->earliest - b->first, 0, 1000);
 }
 

@@ -34,8 +34,8 @@ typedef enum wiggly_status {
     WIGGLY_ERROR_ARGUMENT, ///< a pointer is missing or a count is out of range
     WIGGLY_ERROR_CAPACITY, ///< more samples or knots than the solver was created for
     WIGGLY_ERROR_NUMBER, ///< a number is NaN or infinite, a value beyond 1e300, a stiffness not above 0, or calm outside 0 … 1
-    WIGGLY_ERROR_KNOT,   ///< two knots on one sample, or a knot outside the domain (a loop's last sample is outside)
-    WIGGLY_ERROR_LOOP,   ///< a loop of one sample
+    WIGGLY_ERROR_KNOT, ///< two knots on one sample, a knot outside the domain (a loop's last sample is outside), or a still one that has more
+    WIGGLY_ERROR_LOOP, ///< a loop of one sample
     WIGGLY_ERROR_MEMORY, ///< out of memory
     WIGGLY_ERROR_PIN,    ///< a pin outside the domain, or on a spline that has no motion of its own
     WIGGLY_ERROR_LIMIT,  ///< a knot beyond a limit, or a low limit that is not below the high one
@@ -71,13 +71,17 @@ typedef struct wiggly_param {
     const double *track;
 } wiggly_param;
 
-/// A knot fixes the total, never the phase: Im x stays free.
+/// A knot fixes the total at its sample, and leaves the phase, Im x, free. One that has a phase is a pose: it fixes both, and with
+/// them every part that lags. A still one is where the motion comes to rest and begins from rest.
 typedef struct wiggly_knot {
     int sample;
     bool has_slope;
-    double value;
+    double value;     ///< of the total; a still knot's is not read
     double slope;     ///< value per second (eq. 9); read where has_slope
     double stiffness; ///< > 0, 1/s: what missing the slope costs; 1000 is firm
+    double phase;     ///< Im x; read where has_phase, in complex mode
+    bool has_phase;
+    bool still; ///< has neither a slope nor a phase
 } wiggly_knot;
 
 /// Frequency, Hz, and damping ratio of a spring k, 1/s², and a friction gamma, 1/s (eq. 12), neither below 0: √k/2π and gamma/2√k. No

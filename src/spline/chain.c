@@ -16,7 +16,8 @@
 //
 // a sum of four tabled columns a sample, the same for all stretches. F*^{−i} grows, and where the poles decay unlike each other it
 // costs digits: state and costate are taken anew every `run` samples, s_{p+k} = F^k s_p + W_k F*^{L−k} ν. After the last knot x runs free, or, where it
-// settles, d_L is a multiple of x_L and the last jet counts twice: as the last input's share of W is then a half, W_L − ½ B B*.
+// settles, d_L is a multiple of x_L and the last jet counts twice: as the last input's share of W is then a half, W_L − ½ B B*. The same holds
+// where a stretch ends in a still knot, in s = (0, 0); the next one begins there in (0, d), d costing 2 |d|².
 //
 // A slope at s_q sees h times a speed, φ = Re(on_x x_q + on_d d_q − on_r r_q), where r_q is the last jet of the stretch before. Given
 // both ends that jet is ν_d = B* ν ± √(1 − V₁₁), so that with s = weight / (1 + weight |on_r|² (1 − V₁₁)) what the slope costs is
@@ -55,7 +56,7 @@ static cplx jet_of_slope(const chain *c, const chain_stretch *s, const chain_nod
 static void costate_at_end(const chain *c, const chain_node *p, const chain_node *q, cplx nu[2])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
-    const cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
+    const cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = chain_end_d(q);
     const cplx v01 = chain_entry(s, FORM_V01);
     nu[0] = cplx_sub(cplx_add(cplx_scale(s->form[FORM_V00], xq), cplx_mul(v01, dq)),
                      cplx_add(cplx_mul(chain_entry(s, FORM_C00), xp), cplx_mul(chain_entry(s, FORM_C01), dp)));
@@ -72,7 +73,7 @@ static void costate_at_end(const chain *c, const chain_node *p, const chain_node
 static void begin_real(const chain *c, const chain_node *p, const chain_node *q, cplx weight[4])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
-    const double *f = s->form, xp = p->value, dp = p->d_re, xq = q->value, dq = q->d_re;
+    const double *f = s->form, xp = p->value, dp = p->d_re, xq = q->value, dq = chain_end_d(q).re;
     double on_x = f[FORM_C00] * xq + f[FORM_C10] * dq - (f[FORM_P00] * xp + f[FORM_P01] * dp);
     double on_d = f[FORM_C01] * xq + f[FORM_C11] * dq - (f[FORM_P01] * xp + f[FORM_P11] * dp);
     if (q->slope_weight > 0) {
@@ -86,7 +87,7 @@ static void begin_real(const chain *c, const chain_node *p, const chain_node *q,
 static void begin_complex(const chain *c, const chain_node *p, const chain_node *q, cplx weight[4])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
-    const cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = {q->d_re, q->d_im};
+    const cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = chain_end_d(q);
     const cplx p01 = chain_entry(s, FORM_P01);
     const cplx c00 = cplx_conj(chain_entry(s, FORM_C00)), c01 = cplx_conj(chain_entry(s, FORM_C01)),
                c10 = cplx_conj(chain_entry(s, FORM_C10)), c11 = cplx_conj(chain_entry(s, FORM_C11));
@@ -305,10 +306,12 @@ static void reset_nodes(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) {
         chain_node *node = &c->nodes[j];
-        bool known = node->fixed & (NODE_FIXED_E | NODE_AT_REST), settled = node->fixed & NODE_SETTLED;
-        node->x_im = 0;
-        node->d_re = known ? node->e - (c->lambda.re - 1) * node->value : settled ? c->tail.re * node->value : 0;
-        node->d_im = settled && c->is_complex ? c->tail.im * node->value : 0;
+        const cplx x = {node->value, node->im}, growth = {c->lambda.re - 1, c->lambda.im};
+        cplx d = {0, 0};
+        if (node->fixed & NODE_SETTLED) d = cplx_mul(c->tail, x);
+        if (node->fixed & (NODE_FIXED_E | NODE_AT_REST)) d.re = node->e - cplx_mul(growth, x).re;
+        if (node->fixed & NODE_FIXED_E_IM) d.im = node->next_im - cplx_mul(c->lambda, x).im;
+        node->x_im = x.im, node->d_re = d.re, node->d_im = d.im;
     }
 }
 
@@ -338,7 +341,7 @@ static bool fill(chain *c, double *x_re, double *x_im)
 static double largest_value(const chain *c)
 {
     double largest = 0;
-    for (int j = 0; j < c->node_count; j++) largest = fmax(largest, fabs(c->nodes[j].value));
+    for (int j = 0; j < c->node_count; j++) largest = fmax(largest, fabs(c->nodes[j].value) + fabs(c->nodes[j].im));
     return largest;
 }
 

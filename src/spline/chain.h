@@ -42,10 +42,17 @@ typedef struct chain_stretch {
 
 /// What is known of a node's state (x, d) beside Re x.
 enum {
-    NODE_FIXED_E = 1,   ///< Re e: the next sample is keyed
-    NODE_AT_REST = 2,   ///< all of it
-    NODE_FROM_REST = 4, ///< x
-    NODE_SETTLED = 8,   ///< that d follows x: what is behind moves by itself
+    NODE_FIXED_E = 1,     ///< Re e: the next sample is keyed
+    NODE_AT_REST = 2,     ///< all of it
+    NODE_FROM_REST = 4,   ///< x, and d costs twice what a jet does
+    NODE_SETTLED = 8,     ///< that d follows x: what is behind moves by itself
+    NODE_POSE = 16,       ///< Im x
+    NODE_FIXED_E_IM = 32, ///< Im e: the next sample is a pose
+    NODE_STILL = 64,      ///< where the stretch before it ends d is 0: neither side feels the other
+
+    NODE_KNOWN_X = NODE_AT_REST | NODE_FROM_REST | NODE_POSE,
+    NODE_KNOWN_D = NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED,
+    NODE_KNOWN_D_IM = NODE_AT_REST | NODE_FIXED_E_IM | NODE_SETTLED,
 };
 
 /// From where a node's speed is seen: the sample ahead, both neighbours, the sample behind, or what moves by itself.
@@ -60,8 +67,10 @@ typedef struct chain_speed {
 typedef struct chain_node {
     int sample;
     unsigned fixed;
-    double value; ///< Re x
-    double e;     ///< Re e where it is known
+    double value;   ///< Re x
+    double im;      ///< Im x of a pose, else 0
+    double e;       ///< Re e where it is known
+    double next_im; ///< Im x of the next sample where Im e is fixed
     chain_view view;
     double slope, slope_weight; ///< slope_weight (h speed − slope)²
     int stretch;                ///< to the next node
@@ -98,6 +107,7 @@ typedef struct chain {
     cplx tail;       ///< d / x of a settled node
     bool oscillates; ///< whether the speeds are those that the poles see
     bool settles;    ///< the last node is settled, or the second sample of a last pair is
+    bool posed;      ///< some Im x is known
     int run;         ///< samples of a stretch that are filled from one state and costate
     chain_powers powers;
     cplx_array pulled[2]; ///< first row of W_i F*^{−i}, i = 0 … run − 1
@@ -139,12 +149,25 @@ typedef struct state_form {
 /// The start's cost on the first state; and what the jet of a settled sample costs that is the second of the last node's pair: 0 elsewhere.
 state_form chain_start_form(const chain *chain);
 state_form chain_end_form(const chain *chain);
+/// From rest d, which is the jet there, counts twice.
+static inline state_form chain_node_form(const chain_node *node)
+{
+    return (state_form){.h11 = node->fixed & NODE_FROM_REST ? 2 : 0};
+}
 
 /// By how much Re d and Im d follow Im x at a node.
 static inline cplx chain_node_tie(const chain *c, const chain_node *node)
 {
     if (node->fixed & NODE_SETTLED) return (cplx){-c->tail.im, c->tail.re};
-    return (cplx){node->fixed & NODE_FIXED_E && c->is_complex ? c->lambda.im : 0, 0};
+    return (cplx){node->fixed & NODE_FIXED_E && c->is_complex ? c->lambda.im : 0,
+                  node->fixed & NODE_FIXED_E_IM ? -c->lambda.re : 0};
+}
+
+/// d of a node as the end of the stretch before it.
+static inline cplx chain_end_d(const chain_node *node)
+{
+    if (node->fixed & NODE_STILL) return (cplx){0, 0};
+    return (cplx){node->d_re, node->d_im};
 }
 
 /// Weight times what a slope's speed is too large, at the nodes' present state: seen with a jet that the stretch before makes `jet`, as

@@ -44,7 +44,7 @@ static void pull_stretch(const chain *c, int j)
     cplx f10 = cplx_mul(c->delta2, f01), f11 = f00;
     cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im};
     cplx e0 = mismatch((cplx){q->value, q->x_im}, f00, xp, f01, dp);
-    cplx e1 = mismatch((cplx){q->d_re, q->d_im}, f10, xp, f11, dp);
+    cplx e1 = mismatch(chain_end_d(q), f10, xp, f11, dp);
     cplx v01 = chain_entry(s, FORM_V01);
     double v11 = s->form[FORM_V11];
     cplx n0 = cplx_add(cplx_scale(s->form[FORM_V00], e0), cplx_mul(v01, e1));
@@ -56,7 +56,7 @@ static void pull_stretch(const chain *c, int j)
         n0 = cplx_sub(n0, cplx_mul(v01, eta));
         n1 = cplx_sub(n1, cplx_scale(v11, eta));
     }
-    chain_pull(c, next, cplx_scale(-1, n0), cplx_scale(-1, n1));
+    if (!(q->fixed & NODE_STILL)) chain_pull(c, next, cplx_scale(-1, n0), cplx_scale(-1, n1));
     chain_pull(c, j, cplx_add(cplx_mul(cplx_conj(f00), n0), cplx_mul(cplx_conj(f10), n1)),
                cplx_add(cplx_mul(cplx_conj(f01), n0), cplx_mul(cplx_conj(f11), n1)));
 }
@@ -87,11 +87,10 @@ void chain_hold_known(const chain *c, int j)
     double *right = c->rows[j].right;
     const unsigned fixed = c->nodes[j].fixed;
     const cplx tie = chain_node_tie(c, &c->nodes[j]);
-    bool holds_d = fixed & (NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED);
     right[0] += tie.re * right[1] + tie.im * right[2];
-    if (fixed & (NODE_AT_REST | NODE_FROM_REST)) right[0] = 0;
-    if (holds_d) right[1] = 0;
-    if (fixed & (NODE_AT_REST | NODE_SETTLED)) right[2] = 0;
+    if (fixed & NODE_KNOWN_X) right[0] = 0;
+    if (fixed & NODE_KNOWN_D) right[1] = 0;
+    if (fixed & NODE_KNOWN_D_IM) right[2] = 0;
 }
 
 void chain_gradient(chain *c)
@@ -105,6 +104,8 @@ void chain_gradient(chain *c)
         pull_form(c, c->node_count - 1, &end);
     }
     for (int j = 0; j < c->node_count; j++) {
+        const state_form own = chain_node_form(&c->nodes[j]);
+        if (own.h11 > 0) pull_form(c, j, &own);
         if (c->nodes[j].fixed) chain_hold_known(c, j);
     }
 }

@@ -33,13 +33,14 @@ ALWAYS_INLINE kernel_node kernel_node_of(const chain *c, const chain_node *node)
     const unsigned fixed = node->fixed;
     const cplx tie = chain_node_tie(c, node);
     return (kernel_node){.x = node->value,
+                         .x_im = node->x_im,
                          .d = node->d_re,
                          .d_im = node->d_im,
                          .tie = tie.re,
                          .tie_im = tie.im,
-                         .keep_x = fixed & (NODE_AT_REST | NODE_FROM_REST) ? 0 : 1,
-                         .keep_d = fixed & (NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED) ? 0 : 1,
-                         .keep_i = fixed & (NODE_AT_REST | NODE_SETTLED) ? 0 : 1};
+                         .keep_x = fixed & NODE_KNOWN_X ? 0 : 1,
+                         .keep_d = fixed & NODE_KNOWN_D ? 0 : 1,
+                         .keep_i = fixed & NODE_KNOWN_D_IM ? 0 : 1};
 }
 
 static kernel_slope kernel_slope_of(const chain *c, const chain_node *node)
@@ -61,10 +62,14 @@ ALWAYS_INLINE void assemble_stretch(const chain *c, int j, const kernel_node *p,
     kernel_enter(entering, form);
     if (end->slope_weight > 0) {
         const kernel_slope slope = kernel_slope_of(c, end);
-        const kernel_link link = kernel_link_of(&slope, form, p, q);
+        const kernel_link link = kernel_link_of(false, &slope, form, p, q);
         kernel_add_square(d, link.weight, link.before);
         kernel_add_square(entering, link.weight, link.at);
         kernel_add_coupling(n, &link);
+    }
+    if (end->fixed & NODE_STILL) {
+        for (int i = 0; i < 6; i++) entering[i] = 0;
+        for (int i = 0; i < 9; i++) n[i] = 0;
     }
     kernel_hold_columns(n, p);
     kernel_hold_rows(n, q);
@@ -83,7 +88,7 @@ ALWAYS_INLINE void assemble_first(const chain *c, const kernel_node *node, doubl
     kernel_form(d, h.h00, h.h01.re, h.h01.im, h.h11);
     if (c->nodes[0].slope_weight > 0) {
         const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
-        const kernel_link link = kernel_link_first(&slope, node);
+        const kernel_link link = kernel_link_first(false, &slope, node);
         kernel_add_square(d, link.weight, link.at);
     }
 }
@@ -95,6 +100,7 @@ ALWAYS_INLINE void assemble(chain *c, const bool is_complex)
     double d[6] = {0};
     assemble_first(c, &node, d);
     for (int j = 0; j < c->node_count; j++, node = next) {
+        const state_form own = chain_node_form(&c->nodes[j]);
         double n[9] = {0}, entering[6] = {0};
         next = node;
         if (j < chain_stretches(c)) {
@@ -104,6 +110,7 @@ ALWAYS_INLINE void assemble(chain *c, const bool is_complex)
             const state_form end = chain_end_form(c);
             kernel_form(d, end.h00, end.h01.re, end.h01.im, end.h11);
         }
+        d[3] += own.h11, d[5] += own.h11;
         kernel_hold(d, &node);
         for (int i = 0; i < 6; i++) {
             if (is_complex || i == 3) c->rows[j].diagonal[i] = d[i];
@@ -181,52 +188,53 @@ void chain_solve_nodes(chain *c)
 
 /// What a stretch and the slope at its end pull where everything unknown is 0.
 ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, bool is_complex,
-                              double *right, double *entering)
+                              bool posed, double *right, double *entering)
 {
     const double *form = form_after(c, j);
     const chain_node *end = &c->nodes[chain_next(c, j)];
-    kernel_leave_pull(is_complex, right, form, p, q);
-    kernel_enter_pull(entering, form, p, q);
+    kernel_leave_pull(is_complex, posed, right, form, p, q);
+    kernel_enter_pull(posed, entering, form, p, q);
     if (end->slope_weight > 0) {
         const kernel_slope slope = kernel_slope_of(c, end);
-        const kernel_link link = kernel_link_of(&slope, form, p, q);
+        const kernel_link link = kernel_link_of(posed, &slope, form, p, q);
         kernel_add_pull(right, link.miss, link.before);
         kernel_add_pull(entering, link.miss, link.at);
     }
+    for (int i = 0; i < 3 && end->fixed & NODE_STILL; i++) entering[i] = 0;
 }
 
-ALWAYS_INLINE void pull_first(const chain *c, const kernel_node *node, bool is_complex, double *right)
+ALWAYS_INLINE void pull_first(const chain *c, const kernel_node *node, bool is_complex, bool posed, double *right)
 {
     if (c->cyclic) {
         const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
         double leaving[3] = {0};
-        pull_along(c, c->node_count - 1, &last, node, is_complex, leaving, right);
+        pull_along(c, c->node_count - 1, &last, node, is_complex, posed, leaving, right);
         return;
     }
     const state_form h = chain_start_form(c);
-    kernel_form_pull(right, h.h01.re, h.h01.im, h.h11, node->x, node->d);
+    kernel_form_pull(posed, right, h.h00, h.h01.re, h.h01.im, h.h11, node);
     if (c->nodes[0].slope_weight > 0) {
         const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
-        const kernel_link link = kernel_link_first(&slope, node);
+        const kernel_link link = kernel_link_first(posed, &slope, node);
         kernel_add_pull(right, link.miss, link.at);
     }
 }
 
-ALWAYS_INLINE void pull_known(chain *c, const bool is_complex)
+ALWAYS_INLINE void pull_known(chain *c, const bool is_complex, const bool posed)
 {
     kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
     double entering[3] = {0};
-    pull_first(c, &node, is_complex, entering);
+    pull_first(c, &node, is_complex, posed, entering);
     for (int j = 0; j < c->node_count; j++, node = next) {
         double right[3];
         for (int i = 0; i < 3; i++) right[i] = entering[i], entering[i] = 0;
         next = node;
         if (j < chain_stretches(c)) {
             next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
-            pull_along(c, j, &node, &next, is_complex, right, entering);
+            pull_along(c, j, &node, &next, is_complex, posed, right, entering);
         } else {
             const state_form end = chain_end_form(c);
-            kernel_form_pull(right, end.h01.re, end.h01.im, end.h11, node.x, node.d);
+            kernel_form_pull(posed, right, end.h00, end.h01.re, end.h01.im, end.h11, &node);
         }
         kernel_hold_pull(right, &node);
         for (int i = 0; i < 3; i++) {
@@ -237,9 +245,11 @@ ALWAYS_INLINE void pull_known(chain *c, const bool is_complex)
 
 void chain_pull_known(chain *c)
 {
-    if (c->is_complex) {
-        pull_known(c, true);
+    if (!c->is_complex) {
+        pull_known(c, false, false);
+    } else if (c->posed) {
+        pull_known(c, true, true);
     } else {
-        pull_known(c, false);
+        pull_known(c, true, false);
     }
 }

@@ -19,7 +19,7 @@
 
 /// What a row takes from its node. A known unknown is kept out of the system by 0 in place of 1.
 typedef struct kernel_node {
-    double x, d, d_im;             ///< Re x, and d as far as it is known
+    double x, x_im, d, d_im;       ///< x and d as far as they are known
     double tie, tie_im;            ///< Re d and Im d follow Im x by this much
     double keep_x, keep_d, keep_i; ///< whether Im x, Re d, Im d is unknown
 } kernel_node;
@@ -51,12 +51,14 @@ ALWAYS_INLINE void kernel_form(double *d, double h00, double h01_re, double h01_
     d[5] += h11;
 }
 
-/// Its gradient, times −½, at a state that is real.
-ALWAYS_INLINE void kernel_form_pull(double *r, double h01_re, double h01_im, double h11, double x, double d)
+/// Its gradient, times −½, at a node. `posed`, here and below: there are nodes of which Im x is known.
+ALWAYS_INLINE void kernel_form_pull(bool posed, double *r, double h00, double h01_re, double h01_im, double h11,
+                                    const kernel_node *at)
 {
-    r[0] -= h01_im * d;
-    r[1] -= h01_re * x + h11 * d;
-    r[2] += h01_im * x;
+    r[0] -= h01_im * at->d + h01_re * at->d_im;
+    r[1] -= h01_re * at->x + h11 * at->d;
+    r[2] -= h11 * at->d_im - h01_im * at->x;
+    if (posed) r[0] -= h00 * at->x_im, r[1] -= h01_im * at->x_im, r[2] -= h01_re * at->x_im;
 }
 
 /// A stretch in the row of its first node, p, and the coupling.
@@ -75,7 +77,7 @@ ALWAYS_INLINE void kernel_enter(double *d, const double *f)
 }
 
 /// C* s_q − P s_p at the first node.
-ALWAYS_INLINE void kernel_leave_pull(bool is_complex, double *r, const double *f, const kernel_node *p,
+ALWAYS_INLINE void kernel_leave_pull(bool is_complex, bool posed, double *r, const double *f, const kernel_node *p,
                                      const kernel_node *q)
 {
     if (!is_complex) {
@@ -85,22 +87,27 @@ ALWAYS_INLINE void kernel_leave_pull(bool is_complex, double *r, const double *f
     r[0] += f[FORM_C10] * q->d_im - (f[FORM_C00 + 1] * q->x + f[FORM_C10 + 1] * q->d);
     r[1] += f[FORM_C01] * q->x + f[FORM_C11] * q->d + f[FORM_C11 + 1] * q->d_im;
     r[2] += f[FORM_C11] * q->d_im - (f[FORM_C01 + 1] * q->x + f[FORM_C11 + 1] * q->d);
-    kernel_form_pull(r, f[FORM_P01], f[FORM_P01 + 1], f[FORM_P11], p->x, p->d);
+    if (posed) r[0] += f[FORM_C00] * q->x_im, r[1] += f[FORM_C01 + 1] * q->x_im, r[2] += f[FORM_C01] * q->x_im;
+    kernel_form_pull(posed, r, f[FORM_P00], f[FORM_P01], f[FORM_P01 + 1], f[FORM_P11], p);
 }
 
 /// C s_p − V s_q at the last node.
-ALWAYS_INLINE void kernel_enter_pull(double *r, const double *f, const kernel_node *p, const kernel_node *q)
+ALWAYS_INLINE void kernel_enter_pull(bool posed, double *r, const double *f, const kernel_node *p,
+                                     const kernel_node *q)
 {
     r[0] += f[FORM_C00 + 1] * p->x + f[FORM_C01 + 1] * p->d;
     r[1] += f[FORM_C10] * p->x + f[FORM_C11] * p->d;
     r[2] += f[FORM_C10 + 1] * p->x + f[FORM_C11 + 1] * p->d;
-    kernel_form_pull(r, f[FORM_V01], f[FORM_V01 + 1], f[FORM_V11], q->x, q->d);
-    r[0] -= f[FORM_V01] * q->d_im;
-    r[2] -= f[FORM_V11] * q->d_im;
+    if (posed) {
+        r[0] += f[FORM_C00] * p->x_im + f[FORM_C01] * p->d_im;
+        r[1] -= f[FORM_C10 + 1] * p->x_im + f[FORM_C11 + 1] * p->d_im;
+        r[2] += f[FORM_C10] * p->x_im + f[FORM_C11] * p->d_im;
+    }
+    kernel_form_pull(posed, r, f[FORM_V00], f[FORM_V01], f[FORM_V01 + 1], f[FORM_V11], q);
 }
 
 /// The slope at node q, the jet there being ν_d = V₁₀ x_q + V₁₁ d_q − C₁₀ x_p − C₁₁ d_p of the stretch from p (see chain.c).
-ALWAYS_INLINE kernel_link kernel_link_of(const kernel_slope *s, const double *f, const kernel_node *p,
+ALWAYS_INLINE kernel_link kernel_link_of(bool posed, const kernel_slope *s, const double *f, const kernel_node *p,
                                          const kernel_node *q)
 {
     double a_re = s->x_re - (s->r_re * f[FORM_V01] + s->r_im * f[FORM_V01 + 1]);
@@ -111,15 +118,17 @@ ALWAYS_INLINE kernel_link kernel_link_of(const kernel_slope *s, const double *f,
     double e_re = s->r_re * f[FORM_C11] - s->r_im * f[FORM_C11 + 1],
            e_im = s->r_re * f[FORM_C11 + 1] + s->r_im * f[FORM_C11];
     double seen = (a_re * q->x + (b_re * q->d - b_im * q->d_im)) + (c_re * p->x + e_re * p->d);
+    if (posed) seen -= a_im * q->x_im + (c_im * p->x_im + e_im * p->d_im);
     double size = s->r_re * s->r_re + s->r_im * s->r_im;
     double weight = s->weight / (1.0 + s->weight * size * (1.0 - f[FORM_V11]));
     return (kernel_link){{-c_im, e_re, -e_im}, {-a_im, b_re, -b_im}, weight, weight * (s->target - seen)};
 }
 
 /// The slope at the first node, where there is no jet.
-ALWAYS_INLINE kernel_link kernel_link_first(const kernel_slope *s, const kernel_node *q)
+ALWAYS_INLINE kernel_link kernel_link_first(bool posed, const kernel_slope *s, const kernel_node *q)
 {
     double seen = s->x_re * q->x + (s->d_re * q->d - s->d_im * q->d_im);
+    if (posed) seen -= s->x_im * q->x_im;
     double none = s->weight * 0.0;
     return (kernel_link){
         {none, none, none}, {-s->x_im, s->d_re, -s->d_im}, s->weight, s->weight * (s->target - seen)};

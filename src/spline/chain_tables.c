@@ -215,7 +215,7 @@ void chain_make_tables(chain *c)
     int after = c->cyclic ? 0 : c->count - 1 - c->nodes[c->node_count - 1].sample;
     extend_powers(c, after < CHAIN_RUN ? after : CHAIN_RUN);
     for (int j = 0; j < chain_stretches(c); j++) {
-        bool settles = c->nodes[chain_next(c, j)].fixed & NODE_SETTLED;
+        bool settles = c->nodes[chain_next(c, j)].fixed & (NODE_SETTLED | NODE_STILL);
         int stretch = find_stretch(c, length_after(c, j), settles);
         if (stretch < 0) { // full of lengths of earlier solves; those of this one fit, they are no more than nodes
             forget_stretches(c);

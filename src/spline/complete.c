@@ -16,7 +16,7 @@ extent extent_of(const double *values, int count)
     return e;
 }
 
-/// Largest of |value − y| over knots, T·|slope| over slopes, and y's range: what max |x| is measured against.
+/// Largest of |w| over knots, T·|slope| over slopes, and y's range: what max |x| is measured against.
 static double problem_scale(const problem *p)
 {
     const extent y = p->y ? extent_of(p->y, p->desc->samples) : (extent){0, 0};
@@ -24,8 +24,10 @@ static double problem_scale(const problem *p)
     double t = (p->start == WIGGLY_LOOP ? p->count : p->count - 1) * p->desc->step;
     for (int k = 0; k < p->desc->knot_count; k++) {
         const wiggly_knot *knot = &p->desc->knots[k];
-        double size = fabs(knot->value - problem_about(p, knot->sample));
+        if (knot->still) continue;
+        double size = fabs(problem_knot_re(p, knot));
         if (size > scale) scale = size;
+        if (problem_is_whole(p, knot)) scale = fmax(scale, fabs(problem_knot_im(p, knot)));
         if (knot->has_slope && t * fabs(knot->slope) > scale) scale = t * fabs(knot->slope);
     }
     return scale;
@@ -102,7 +104,11 @@ static void add_equilibrium(const problem *p, wiggly_curve *curve)
     } else {
         add_to(curve->total, p->about, curve->re, n);
     }
-    for (int k = 0; k < p->desc->knot_count; k++) curve->total[p->desc->knots[k].sample] = p->desc->knots[k].value;
+    for (int k = 0; k < p->desc->knot_count; k++) {
+        const wiggly_knot *knot = &p->desc->knots[k];
+        if (knot->still && p->about) continue; // the sum is exact
+        curve->total[knot->sample] = knot->still ? problem_y(p, knot->sample) : knot->value;
+    }
     if (p->start == WIGGLY_LOOP) curve->total[n - 1] = curve->total[0];
     if (p->y && !p->about) take_bend(curve->re, p->level, p->y, n);
     if (p->y && p->about && p->about != p->y) add_swing(curve->re, p->about, p->y, n);

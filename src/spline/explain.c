@@ -42,6 +42,7 @@ static sight sight_of(const wiggly_desc *desc)
     sight s = {.is_real = desc->mode == WIGGLY_REAL, .smallest = INFINITY};
     for (int k = 0; k < desc->knot_count; k++) {
         const wiggly_knot *knot = &desc->knots[k];
+        if (knot->still) continue;
         sight_add(&s, knot->sample * desc->step, knot->value - (y->track ? y->track[knot->sample] : y->value));
     }
     for (int k = 1; k < s.count; k++) s.smallest = fmin(s.smallest, s.time[k] - s.time[k - 1]);
@@ -107,8 +108,9 @@ static wiggly_explanation refine(const sight *s, wiggly_explanation at, double r
 
 int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2])
 {
-    if (!desc || !best || desc->knot_count < WIGGLY_FEWEST_EXPLAINED) return 0;
+    if (!desc || !best) return 0;
     const sight s = sight_of(desc);
+    if (s.count < WIGGLY_FEWEST_EXPLAINED) return 0;
     const double lowest = 0.5 / (s.mean * (s.count - 1)), highest = fmax(headroom * 0.5 / s.smallest, 2 * lowest);
     const double ratio = pow(highest / lowest, 1.0 / (PITCHES - 1));
     wiggly_explanation all[PITCHES];

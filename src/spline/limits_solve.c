@@ -117,8 +117,9 @@ static void set_free(const limits_work *w)
         memset(m->free[1] + L, 0, sizeof(double) * (size_t)(count + 1));
         return;
     }
-    cplx re = {m->own[p->desc->knot_count - 1].value - problem_about(p, L), 0};
-    problem_fill_tail(solver, p, re, 1, count, m->free[0] + L + 1, m->pushed[0] + L + 1);
+    const wiggly_knot *last = &m->own[p->desc->knot_count - 1];
+    const cplx known = {problem_knot_re(p, last), problem_is_whole(p, last) ? problem_knot_im(p, last) : 0};
+    problem_fill_tail(solver, p, known, 1, count, m->free[0] + L + 1, m->pushed[0] + L + 1);
     problem_fill_tail(solver, p, (cplx){0, 1}, 1, count, m->free[1] + L + 1, m->pushed[0] + L + 1);
 }
 
@@ -132,6 +133,13 @@ void limits_set_tail_rows(limits_work *w)
     problem_set_rows(solver, &w->tail.p);
 }
 
+/// Whether there is a last knot, and it leaves Im w there free.
+static bool turn_is_free(const limits_work *w)
+{
+    const int knots = w->p->desc->knot_count;
+    return knots > 0 && !problem_is_whole(w->p, &w->solver->limits.own[knots - 1]);
+}
+
 /// Adds the tail's push to w, and what the held samples' pull is.
 static void add_push(limits_work *w)
 {
@@ -139,9 +147,10 @@ static void add_push(limits_work *w)
     limit_memory *m = &solver->limits;
     limits_part *tail = &w->tail;
     const int L = tail->begin, n = tail->desc.samples;
-    double turn = w->p->latest < 0 ? 0 : w->curve->im[L], *e = m->pushed[0] + L;
+    const bool turns = turn_is_free(w);
+    double turn = turns ? w->curve->im[L] : 0, *e = m->pushed[0] + L;
     const double unit = w->p->unit / tail->p.unit;
-    for (int i = 0; i < n; i++) e[i] += turn * m->pushed[1][L + i];
+    for (int i = 0; turns && i < n; i++) e[i] += turn * m->pushed[1][L + i];
     m->all[0] = at_rest(&tail->desc); // the body's knots were there meanwhile
     take_knots(solver, tail, 1);
     problem_set_rows(solver, &tail->p);
@@ -192,7 +201,7 @@ bool limits_solve(limits_work *w)
     if (w->tail.held > 0) {
         set_free(w);
         if (!push(w, PUSH_FREE, &on_turn[0])) return false;
-        if (knots > 0 && !push(w, PUSH_TURN, &on_turn[1])) return false;
+        if (turn_is_free(w) && !push(w, PUSH_TURN, &on_turn[1])) return false;
     }
     if (limits_has_body(w) || knots > 0) {
         if (!solve_body(w, on_turn)) return false;

@@ -40,7 +40,8 @@ static inline void jet_rows(const system_rows *rows, pentadiagonal *m, const boo
             if (is_complex) d[1] = 0, d[2] = d[0];
             put_complex(is_complex, m->below + 4 * (i - 1),
                         cplx_scale(-1, cplx_add(left, cplx_scale(w, cplx_mul(cplx_conj(a), b)))));
-            put_complex(is_complex, m->below2 + 4 * (i - 1), cplx_scale(rows->loop || i < n - 1 ? w : 0, b));
+            const bool apart = rows->fixed[i < n ? i : 0] & FIXED_STILL || (!rows->loop && i == n - 1);
+            put_complex(is_complex, m->below2 + 4 * (i - 1), cplx_scale(apart ? 0 : w, b));
         }
         own = before + w * cplx_norm(a);
         left = cplx_scale(w, a);

@@ -83,10 +83,16 @@ static void add_jet(walk *w, int i)
     cplx a = coefficients_a(&rows->at[i]), b = coefficients_b(&rows->at[i]);
     bool has_before = rows->loop || i > 0, has_after = rows->loop || i < n - 1;
     if (!has_after) a = (cplx){a.re - 1 - rows->tail.re, a.im - rows->tail.im};
+    const cplx one = {1, 0};
+    if (rows->fixed[i] & FIXED_STILL) { // two rows
+        if (has_before) add_row(w, rows->jet_weight[i], 1, (int[]){i - 1}, &b);
+        if (has_after) add_row(w, rows->jet_weight[i], 1, (int[]){i + 1}, &one);
+        return;
+    }
     int samples[3] = {i}, count = 1;
     cplx c[3] = {{-a.re, -a.im}};
     if (has_before) samples[count] = i - 1, c[count++] = b;
-    if (has_after) samples[count] = i + 1, c[count++] = (cplx){1, 0};
+    if (has_after) samples[count] = i + 1, c[count++] = one;
     add_row(w, rows->jet_weight[i], count, samples, c);
 }
 

@@ -24,12 +24,13 @@ static bool is_pulled_at(const pulled *spline, int sample)
     return false;
 }
 
-static bool has_knot_at(const wiggly_desc *desc, int sample)
+/// How many parts of a spline's x are known at a sample: none, Re x, or both.
+static int known_at(const problem *p, int sample)
 {
-    for (int k = 0; k < desc->knot_count; k++) {
-        if (desc->knots[k].sample == sample) return true;
+    for (int k = 0; k < p->desc->knot_count; k++) {
+        if (p->desc->knots[k].sample == sample) return 1 + problem_is_whole(p, &p->desc->knots[k]);
     }
-    return false;
+    return 0;
 }
 
 /// Three rows of B.
@@ -48,12 +49,12 @@ static void put_pin(double *b, int columns, const pulled *splines, const wiggly_
     }
 }
 
-/// B°: keyed samples cannot move their Re x.
+/// B°: keyed samples cannot move their Re x, poses and still ones none of it.
 static void hold_keyed(double *b, int rows, int columns, const pulled *splines, int sample)
 {
     for (int s = 0; s < columns / 2; s++) {
-        if (!has_knot_at(splines[s].problem.desc, sample)) continue;
-        for (int r = 0; r < rows; r++) b[columns * r + 2 * s] = 0;
+        const int known = known_at(&splines[s].problem, sample);
+        for (int r = 0; r < rows; r++) memset(b + columns * r + 2 * s, 0, (size_t)known * sizeof *b);
     }
 }
 
@@ -126,11 +127,11 @@ static void put_coefficients(const pulled *spline, const double c[2], double on[
     on[1] = spline->problem.desc->mode == WIGGLY_COMPLEX ? -c[1] : 0;
 }
 
-/// Whether the way of a bound's point in a direction of x is barred: by a knot there.
-static bool is_barred(const pulled *spline, int sample)
+/// How many parts of x cannot move a bound's point: a knot knows them.
+static int barred(const pulled *spline, int sample)
 {
     const int at = pin_rows_sample(spline, sample);
-    return at >= 0 && !bound_tail_moves(&spline->tail, sample) && has_knot_at(spline->problem.desc, at);
+    return at >= 0 && !bound_tail_moves(&spline->tail, sample) ? known_at(&spline->problem, at) : 0;
 }
 
 /// What of a bound's way lies along a pin's row, as a square.
@@ -140,7 +141,7 @@ static double square_along(const pin_rows *rows, const pulled *splines, const wi
     for (int s = 0; s < rows->splines; s++) {
         double own[2];
         put_coefficients(&splines[s], bound->c[s], own);
-        for (int part = is_barred(&splines[s], bound->sample); part < 2; part++) {
+        for (int part = barred(&splines[s], bound->sample); part < 2; part++) {
             product += own[part] * on[2 * s + part];
             square += on[2 * s + part] * on[2 * s + part];
         }
@@ -159,7 +160,7 @@ double pin_rows_reach(const pin_rows *rows, const pulled *splines, const wiggly_
         for (int part = 0; part < 2; part++) {
             const double square = own[part] * own[part];
             all += square;
-            if (moves && !(part == 0 && is_barred(&splines[s], bound->sample))) rest += square;
+            if (moves && part >= barred(&splines[s], bound->sample)) rest += square;
         }
     }
     for (int r = 0; r < rows->fixed; r++) {

@@ -42,7 +42,10 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     }
     for (int k = 0; k < desc->knot_count; k++) {
         const wiggly_knot *knot = &desc->knots[k];
+        if (knot->still && (knot->has_slope || knot->has_phase)) return WIGGLY_ERROR_KNOT;
+        if (knot->still) continue;
         if (!(fabs(knot->value) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
+        if (knot->has_phase && !(fabs(knot->phase) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
         if (knot->has_slope && !(isfinite(knot->slope) && knot->stiffness > 0 && knot->stiffness < INFINITY)) {
             return WIGGLY_ERROR_NUMBER;
         }
@@ -99,6 +102,11 @@ static void set_domain(wiggly_solver *solver, problem *p)
     p->first = p->start == WIGGLY_FREE && p->earliest > 0 ? p->earliest : 0;
     p->count = p->start == WIGGLY_LOOP ? desc->samples - 1 : desc->samples - p->first;
     p->settles = is_settling(solver, p);
+    p->still = -1;
+    for (int n = 0; n < knots && p->still < 0; n++) {
+        const wiggly_knot *knot = &desc->knots[solver->order[n]];
+        if (knot->still) p->still = knot->sample;
+    }
 }
 
 /// What knots are measured from.
@@ -123,12 +131,13 @@ static void set_about(wiggly_solver *solver, problem *p)
     }
 }
 
-/// The filter's start is that of the first sample; the oscillator's that of the fastest, seen from the first.
+/// The filter's start is that of the first sample; the oscillator's that of the fastest up to the first still knot, seen from the first.
 static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
     if (poles_are_constant(desc)) return problem_filter(solver, p)->start;
-    int at = problem_oscillates(p) ? poles_fastest(desc, p->first, p->latest, NULL) : p->first;
+    const int end = p->still >= 0 && p->still < p->latest ? p->still : p->latest;
+    int at = problem_oscillates(p) ? poles_fastest(desc, p->first, end, NULL) : p->first;
     poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
     start_cost cost = poles_start_cost(&damped, desc->step);
     if (!problem_oscillates(p)) return cost;
@@ -150,11 +159,11 @@ static void set_start(wiggly_solver *solver, problem *p)
 {
     p->cost = (start_cost){0};
     p->unit = unit_of(solver, p);
-    if (p->start == WIGGLY_FREE && p->latest >= 0) {
+    if (p->start == WIGGLY_FREE && p->latest >= 0 && !problem_starts_still(p)) {
         p->cost = cost_of_start(solver, p);
         for (int i = 0; i < 2; i++) p->cost.row[i].weight *= p->calm;
     }
-    p->free_end = p->start == WIGGLY_FREE && !(p->cost.row[0].weight > 0);
+    p->free_end = p->start == WIGGLY_FREE && !(p->cost.row[0].weight > 0) && !problem_starts_still(p);
 }
 
 void problem_set_calm(wiggly_solver *solver, problem *p, double calm)

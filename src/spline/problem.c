@@ -35,19 +35,20 @@ static bool has_company(const wiggly_solver *solver, const problem *p, int n)
     return p->start == WIGGLY_LOOP && knots > 1 && sample == p->count && knot_at(solver, p, 0)->sample == 0;
 }
 
-/// The knot that the chain begins with: the first, in a loop the first that has none on the sample before. -1 where there is none.
+/// The knot that the chain begins with: the first, in a loop the first that has none on the sample before, or is still. -1 where there is none.
 static int first_of_chain(const wiggly_solver *solver, const problem *p)
 {
     int knots = p->desc->knot_count;
     if (p->start != WIGGLY_LOOP) return 0;
     for (int n = 0; n < knots; n++) {
-        if (!has_company(solver, p, n > 0 ? n - 1 : knots - 1)) return n;
+        if (knot_at(solver, p, n)->still || !has_company(solver, p, n > 0 ? n - 1 : knots - 1)) return n;
     }
     return -1;
 }
 
-/// No slope may act inside a pair of knots side by side, but at its first; nor may the paper's at the domain's last sample.
-static bool slopes_fit(wiggly_solver *solver, const problem *p, int begin)
+/// No slope may act inside a pair of knots side by side, but at its first; nor may the paper's at the domain's last sample. A still knot has
+/// none beside it.
+static bool knots_fit(wiggly_solver *solver, const problem *p, int begin)
 {
     const wiggly_desc *desc = p->desc;
     const poles *at = &problem_filter(solver, p)->at;
@@ -57,8 +58,10 @@ static bool slopes_fit(wiggly_solver *solver, const problem *p, int begin)
         int n = in_turn(p, begin + i);
         const wiggly_knot *knot = knot_at(solver, p, n);
         bool on_last = !oscillates && p->start != WIGGLY_LOOP && knot->sample == desc->samples - 1;
+        const bool company = has_company(solver, p, n);
         if (knot->has_slope && (second || on_last || (oscillates && faint))) return false;
-        second = !second && has_company(solver, p, n);
+        if (company && (knot->still || knot_at(solver, p, in_turn(p, n + 1))->still)) return false;
+        second = !second && company;
     }
     return true;
 }
@@ -109,7 +112,7 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
     if (p->start == WIGGLY_REST && desc->knot_count > 0 && knot_at(solver, p, 0)->sample < 2)
         return false; // held at a limit: too near to the node at rest
     int begin = first_of_chain(solver, p);
-    return begin >= 0 && slopes_fit(solver, p, begin);
+    return begin >= 0 && knots_fit(solver, p, begin);
 }
 
 /// What a chain without the imaginary rows, or with no more than their pull on the nodes, may be off by, as a part of x; 0 where that is next to nothing.
@@ -142,6 +145,16 @@ static chain_view view_of(const problem *p, int sample)
     return ahead && behind ? VIEW_BOTH : ahead ? VIEW_AHEAD : VIEW_BEHIND;
 }
 
+/// What of a node is known by its knot, or by the pair of knots that it is.
+static unsigned known_of(const problem *p, const wiggly_knot *knot, const wiggly_knot *pair)
+{
+    const bool settled = p->settles && knot->sample == p->latest;
+    if (knot->still) return NODE_STILL | (settled ? NODE_AT_REST | NODE_SETTLED : NODE_FROM_REST);
+    unsigned fixed = problem_is_whole(p, knot) ? NODE_POSE : 0;
+    if (!pair) return fixed | (settled ? NODE_SETTLED : 0);
+    return fixed | NODE_FIXED_E | (problem_is_whole(p, pair) ? NODE_FIXED_E_IM : 0);
+}
+
 /// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.
 static bool put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair)
 {
@@ -149,10 +162,11 @@ static bool put_knot(const problem *p, chain_node *node, const wiggly_knot *knot
     const bool inside =
         pair && !problem_oscillates(p); // of two knots: what it asks of them is met to rounding, or not at all
     if (knot->has_slope && !inside) slope = problem_slope(p, knot->sample, knot->slope, knot->stiffness);
-    bool settled = p->settles && knot->sample == p->latest;
-    unsigned fixed = pair ? NODE_FIXED_E : settled ? NODE_SETTLED : 0;
-    node->value = knot->value - problem_about(p, knot->sample);
-    node->e = pair ? (pair->value - problem_about(p, pair->sample)) - node->value : 0;
+    const unsigned fixed = known_of(p, knot, pair);
+    node->value = problem_knot_re(p, knot);
+    node->im = fixed & NODE_POSE ? problem_knot_im(p, knot) : 0;
+    node->e = pair ? problem_knot_re(p, pair) - node->value : 0;
+    node->next_im = fixed & NODE_FIXED_E_IM ? problem_knot_im(p, pair) : 0;
     return put_node(node, knot->sample - p->first, fixed, view_of(p, knot->sample), slope.target, slope.weight);
 }
 
@@ -166,7 +180,7 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
     int turned = p->start == WIGGLY_LOOP ? knot_at(solver, p, begin)->sample : 0;
     if (p->start == WIGGLY_REST) {
         same = put_node(node, 0, problem_oscillates(p) ? NODE_FROM_REST : NODE_AT_REST, VIEW_AHEAD, 0, 0);
-        node->value = 0;
+        node->value = node->im = 0;
         node->e = p->y && !p->about ? p->y[1] - p->level : 0;
         node++;
     }
@@ -177,6 +191,9 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
         if (p->start == WIGGLY_LOOP) node->sample = (node->sample - turned + p->count) % p->count;
         if (pair) i++;
     }
+    c->posed = false;
+    for (const chain_node *at = c->nodes; at < node; at++)
+        c->posed = c->posed || at->fixed & (NODE_POSE | NODE_FIXED_E_IM);
     int count = (int)(node - c->nodes);
     same = same && count == c->node_count && turned == c->turned;
     c->node_count = count;
@@ -203,13 +220,6 @@ static bool same_filter(const wiggly_solver *solver, const problem *p)
            same_cplx(f->delta2, c->delta2) && same_cplx(tail_of(f, p), c->tail) && f->run == c->run;
 }
 
-/// From rest the oscillator's jet at sample 0, which is d, counts twice.
-static start_cost start_of(const problem *p)
-{
-    if (p->start == WIGGLY_REST && problem_oscillates(p)) return (start_cost){{{.weight = 2, .on_e = {1, 0}}}};
-    return p->cost;
-}
-
 /// h times the speed as it is seen from a node with d = e − (λ−1) x; behind it is as ahead but for the jet between.
 static chain_speed speed_of(speed_form form, cplx lambda, double jet)
 {
@@ -234,13 +244,12 @@ static void set_chain(wiggly_solver *solver, const problem *p)
     chain *c = &solver->chain;
     const constant_filter *f = problem_filter(solver, p);
     if (!same_filter(solver, p)) chain_forget(c);
-    start_cost start = start_of(p);
-    if (memcmp(&start, &c->start, sizeof start) != 0 || c->count != problem_rows(p)) c->kept = false;
+    if (memcmp(&p->cost, &c->start, sizeof p->cost) != 0 || c->count != problem_rows(p)) c->kept = false;
     if (c->settles != p->settles || c->cyclic != (p->start == WIGGLY_LOOP) || c->oscillates != problem_oscillates(p))
         c->kept = false;
     c->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     c->count = problem_rows(p);
-    c->start = start;
+    c->start = p->cost;
     c->settles = p->settles;
     c->loose = problem_is_loose(p);
     c->cyclic = p->start == WIGGLY_LOOP;

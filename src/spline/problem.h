@@ -38,6 +38,7 @@ typedef struct problem {
     bool strict;               ///< one plain solve is not enough: the total is far smaller than x
     bool level_slope;          ///< a level slope is implied at the earliest knot
     bool free_end;             ///< c·H = 0
+    int still;                 ///< sample of the earliest still knot, or -1
     double unit;     ///< what weights are times that are not jets': the oscillator's |g|² at `first`, else 1
     start_cost cost; ///< of the start's swing, times calm; weights 0 where it is free
 } problem;
@@ -49,6 +50,27 @@ static inline double problem_y(const problem *p, int sample)
 
 /// What w is measured from: a knot's w is its value less this.
 static inline double problem_about(const problem *p, int sample) { return p->about ? p->about[sample] : p->level; }
+
+/// w that a knot asks for; of a still one 0, or where a cubic is solved for its total, what keeps that at the equilibrium.
+static inline double problem_knot_re(const problem *p, const wiggly_knot *knot)
+{
+    if (!knot->still) return knot->value - problem_about(p, knot->sample);
+    return p->about ? 0 : problem_y(p, knot->sample) - p->level;
+}
+static inline double problem_knot_im(const problem *p, const wiggly_knot *knot)
+{
+    if (!knot->has_phase) return 0;
+    return knot->phase - (p->response.im ? p->response.im[knot->sample] : 0);
+}
+
+/// Whether Im x of a knot is known, too.
+static inline bool problem_is_whole(const problem *p, const wiggly_knot *knot)
+{
+    return p->desc->mode == WIGGLY_COMPLEX && (knot->has_phase || knot->still);
+}
+
+/// Whether the first sample is a still knot's: what is before it is at rest.
+static inline bool problem_starts_still(const problem *p) { return p->still >= 0 && p->still == p->first; }
 
 /// Rows of the system: the samples that are solved for.
 static inline int problem_rows(const problem *p) { return p->settles ? p->latest - p->first + 1 : p->count; }

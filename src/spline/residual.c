@@ -51,6 +51,7 @@ static inline ddc drive_of(const system_rows *rows, int i)
 static inline ddc jet_of(const system_rows *rows, int i)
 {
     cplx before = sample_of(rows, i - 1), here = sample_of(rows, i), after = sample_of(rows, i + 1);
+    if (rows->fixed[i] & FIXED_STILL) after = here;
     ddc step = {dd_difference(here.re, before.re), dd_difference(here.im, before.im)};
     ddc next = {dd_difference(after.re, here.re), dd_difference(after.im, here.im)};
     if (!rows->loop && i == rows->count - 1) next = ddc_scale(rows->tail, (ddc){dd_from(here.re), dd_from(here.im)});
@@ -80,6 +81,14 @@ static void set_jets(const system_rows *rows)
     }
 }
 
+/// The jet that begins from rest at the still sample before k.
+static inline ddc jet_from_rest(const system_rows *rows, int k)
+{
+    const cplx from = sample_of(rows, k - 1), to = sample_of(rows, k);
+    const double weight = rows->jet_weight[k > 0 ? k - 1 : rows->count - 1];
+    return ddc_scale((cplx){weight, 0}, (ddc){dd_difference(to.re, from.re), dd_difference(to.im, from.im)});
+}
+
 /// Number of the jet beside k, or -1 where there is none.
 static inline int jet_beside(const system_rows *rows, int i)
 {
@@ -93,6 +102,7 @@ static void set_adjoint(const system_rows *rows)
     for (int k = 0; k < rows->count; k++) {
         int b = jet_beside(rows, k - 1), a = jet_beside(rows, k + 1), h = jet_beside(rows, k);
         ddc before = b >= 0 ? jet_at(rows, b) : no_jet, after = a >= 0 ? jet_at(rows, a) : no_jet;
+        if (b >= 0 && rows->fixed[b] & FIXED_STILL) before = jet_from_rest(rows, k);
         ddc here = h >= 0 ? jet_at(rows, h) : no_jet;
         ddc second = ddc_subtract(ddc_subtract(before, here), ddc_subtract(here, after));
         ddc g = ddc_subtract(ddc_scale(cplx_conj(rows->at[k].m), here), second);
@@ -206,8 +216,9 @@ static void pull_plainly(const system_rows *rows)
         before = here, here = after, after = sample_of(rows, i + 1);
         if (before.re == 0 && here.re == 0 && after.re == 0 && rows->drive[i].re == 0 && rows->drive[i].im == 0)
             continue;
-        bool is_tail = !rows->loop && i == last;
-        cplx step = cplx_sub(here, before), next = is_tail ? cplx_mul(rows->tail, here) : cplx_sub(after, here);
+        const bool is_tail = !rows->loop && i == last, is_still = rows->fixed[i] & FIXED_STILL;
+        const cplx step = cplx_sub(here, before), ahead = cplx_sub(after, here);
+        const cplx next = is_still ? (cplx){0, 0} : is_tail ? cplx_mul(rows->tail, here) : ahead;
         cplx r = cplx_add(cplx_add(cplx_sub(next, step), rows->drive[i]),
                           cplx_sub(cplx_mul(at->p, before), cplx_mul(at->m, step)));
         if (rows->fast) r = cplx_add(r, cplx_sub(cplx_mul(at->b_rest, before), cplx_mul(at->a_rest, here)));
@@ -216,6 +227,7 @@ static void pull_plainly(const system_rows *rows)
         if (is_tail) middle = cplx_add(middle, (cplx){1 + rows->tail.re, rows->tail.im});
         pull_jet(rows, i, middle, r);
         if (i > 0 || rows->loop) pull_jet(rows, i > 0 ? i - 1 : last, before_of(at), r);
+        if (is_still) r = cplx_scale(rows->jet_weight[i], ahead);
         if (i < last || rows->loop) pull_jet(rows, i < last ? i + 1 : 0, (cplx){1, 0}, r);
     }
 }

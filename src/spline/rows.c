@@ -65,6 +65,34 @@ static cplx drive_phase(const poles_block *block, int i, const wiggly_desc *desc
     return cplx_exp((cplx){-0.5 * block->exponent[i], turn});
 }
 
+static double highest_from(const problem *p, int from, int to)
+{
+    double highest = 0;
+    poles_fastest(p->desc, p->first + from, p->first + to, &highest);
+    return highest;
+}
+
+/// The highest frequency between the still knots around row k, which is not behind the later one, `end`; or from and to the system's ends, and in a loop
+/// round its seam.
+static double highest_around(const problem *p, int k, int *end)
+{
+    const int last = problem_rows(p) - 1;
+    int before = -1, after = last + 1, latest = last;
+    for (int n = 0; n < p->desc->knot_count && p->still >= 0; n++) {
+        const int row = p->desc->knots[n].sample - p->first;
+        if (!p->desc->knots[n].still) continue;
+        if (row <= k && row > before) before = row;
+        if (row > k && row < after) after = row;
+        if (latest == last || row > latest) latest = row;
+    }
+    *end = after < last ? after : last;
+    double highest = highest_from(p, before < 0 ? 0 : before, *end);
+    if (p->start != WIGGLY_LOOP || p->still < 0) return highest;
+    if (before < 0) highest = fmax(highest, highest_from(p, latest, last));
+    if (after > last) highest = fmax(highest, highest_from(p, 0, p->still));
+    return highest;
+}
+
 /// Every row of parameters that vary, a block at a time; returns the lowest natural frequency at which Im x is left to itself. Weights are relative to the first sample's |g|⁻².
 static double set_varying(system_rows *rows, const problem *p, bool weighted)
 {
@@ -73,8 +101,8 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
     const double floor = problem_least_damping(p);
     poles_block block;
     double weight[POLES_BLOCK], reference = 0, highest = 0, lightest = INFINITY, heaviest = -INFINITY;
-    double slowest = INFINITY;
-    if (oscillates) poles_fastest(desc, p->first, p->first + rows->count - 1, &highest);
+    double slowest = INFINITY, least_highest = INFINITY;
+    int end = -1; // of what `highest` is of
     for (int k = 0; k < rows->count; k += POLES_BLOCK) {
         int count = rows->count - k < POLES_BLOCK ? rows->count - k : POLES_BLOCK;
         poles_block_fill(desc, p->first + k, count, floor, &block);
@@ -92,13 +120,18 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
             }
             if (driven) at.g = drive_phase(&block, i, desc);
             double im = weighted ? problem_im_weight(p, block.natural[i]) : 0;
+            if (oscillates && k + i > end) {
+                highest = highest_around(p, k + i, &end);
+                least_highest = fmin(least_highest, highest);
+            }
             if (oscillates) im = (im + slowness(block.natural[i], highest, desc->step)) * p->unit;
             set_row(rows, p, k + i, at, weight[i], im);
             slowest = block.natural[i] < slowest ? block.natural[i] : slowest;
         }
     }
     rows->unlike = oscillates && heaviest - lightest > unlike_jets;
-    if (oscillates && desc->mode == WIGGLY_COMPLEX) return fmax(slowest, slow_part * highest); // below, Im x is held
+    if (oscillates && desc->mode == WIGGLY_COMPLEX)
+        return fmax(slowest, slow_part * least_highest); // below, Im x is held
     return slowest;
 }
 
@@ -227,7 +260,8 @@ static void add_slope(system_rows *rows, const problem *p, int sample, double sl
 bool problem_implies_slope(const problem *p)
 {
     if (p->level_slope) return true;
-    bool alone = p->desc->knot_count == 1 && !p->pulls && !p->desc->knots[0].has_slope;
+    const wiggly_knot *knot = p->desc->knots;
+    bool alone = p->desc->knot_count == 1 && !p->pulls && !knot->has_slope && !knot->still;
     return alone && p->free_end && !(p->settles && p->desc->mode == WIGGLY_COMPLEX);
 }
 
@@ -245,6 +279,17 @@ static void set_rest(wiggly_solver *solver, const problem *p)
     }
 }
 
+/// A still knot: its jet is two, one to rest and one from rest, each of which counts twice.
+static void set_still(system_rows *rows, const problem *p, int k)
+{
+    rows->fixed[k] |= FIXED_IM | FIXED_STILL;
+    if (p->settles && p->first + k == p->latest) return; // set_tail() has done it
+    rows->jet_weight[k] *= 2;
+    rows->drive[k] = rows->at[k].g = (cplx){0, 0};
+    if (k == 0) rows->jet_from = 0;
+    if (k == rows->count - 1) rows->jet_to = k;
+}
+
 /// Slopes (also implied ones) and fixed unknowns.
 static void set_constraints(wiggly_solver *solver, const problem *p)
 {
@@ -258,7 +303,12 @@ static void set_constraints(wiggly_solver *solver, const problem *p)
         const wiggly_knot *knot = &p->desc->knots[solver->order[n]];
         int k = knot->sample - p->first;
         rows->fixed[k] |= FIXED_RE;
-        rows->x[2 * k] = knot->value - problem_about(p, knot->sample);
+        rows->x[2 * k] = problem_knot_re(p, knot);
+        if (knot->still) set_still(rows, p, k);
+        if (rows->is_complex && knot->has_phase) {
+            rows->fixed[k] |= FIXED_IM;
+            rows->x[2 * k + 1] = problem_knot_im(p, knot);
+        }
         if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot->stiffness);
     }
 }
@@ -283,8 +333,9 @@ static bool cancels(const problem *p)
     double values = 0, needed = 0;
     for (int k = 0; k < p->desc->knot_count; k++) {
         const wiggly_knot *knot = &p->desc->knots[k];
+        if (knot->still) continue;
         values = fmax(values, fabs(knot->value));
-        needed = fmax(needed, fabs(knot->value - problem_about(p, knot->sample)));
+        needed = fmax(needed, fabs(problem_knot_re(p, knot)));
     }
     return values < little * needed;
 }

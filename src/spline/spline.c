@@ -98,15 +98,21 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     return WIGGLY_SINGULAR;
 }
 
+/// w of a knot, as far as that is known, else 0.
+static cplx knot_w(const problem *p, const wiggly_knot *knot)
+{
+    return (cplx){problem_knot_re(p, knot), problem_is_whole(p, knot) ? problem_knot_im(p, knot) : 0};
+}
+
 /// Domains too short for a jet row (M < 3) or without anything that moves: each w is its knot's, else the earliest knot's, else 0. Of a
 /// cubic that is solved for its total, what is 0 is x; and the paper's has the earliest knot's x, not its total.
 static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const wiggly_desc *desc = p->desc;
-    double *re = curve->re, *im = curve->im, other = 0;
-    if (p->earliest >= 0 && p->start != WIGGLY_REST)
-        other = desc->knots[solver->order[0]].value - problem_about(p, p->earliest);
-    for (int i = p->first; i < p->first + p->count; i++) re[i] = other, im[i] = 0;
+    double *re = curve->re, *im = curve->im;
+    cplx other = {0, 0};
+    if (p->earliest >= 0 && p->start != WIGGLY_REST) other = knot_w(p, &desc->knots[solver->order[0]]);
+    for (int i = p->first; i < p->first + p->count; i++) re[i] = other.re, im[i] = other.im;
     if (p->y && !p->about && p->earliest >= 0 && !problem_oscillates(p)) {
         for (int i = p->first; i < p->first + p->count; i++) re[i] += p->y[i] - p->y[p->earliest];
     }
@@ -114,13 +120,15 @@ static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *c
         for (int i = 0; i < desc->samples; i++) re[i] = p->y[i] - p->level;
     }
     for (int n = 0; n < desc->knot_count; n++) {
-        int sample = desc->knots[n].sample;
-        re[sample] = desc->knots[n].value - problem_about(p, sample);
+        const wiggly_knot *knot = &desc->knots[n];
+        const cplx w = knot_w(p, knot);
+        re[knot->sample] = w.re;
+        if (problem_is_whole(p, knot)) im[knot->sample] = w.im;
     }
 }
 
 /// True where nothing moves w: no knots, and no drive that could.
-static bool is_still(const problem *p)
+static bool is_unmoved(const problem *p)
 {
     if (problem_is_asked(p)) return false;
     if (p->start == WIGGLY_FREE || !p->y) return true;
@@ -184,12 +192,12 @@ static void keep_asked(wiggly_curve *curve, wiggly_curve all)
 /// Whether nothing is to be minimised: too short, nothing moves, or nothing constrains.
 static bool is_plain(const problem *p)
 {
-    return p->count < 3 || is_still(p) || (p->start == WIGGLY_REST && !problem_is_asked(p));
+    return p->count < 3 || is_unmoved(p) || (p->start == WIGGLY_REST && !problem_is_asked(p));
 }
 
 static void solve_plain(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
-    if (p->count < 3 || is_still(p)) {
+    if (p->count < 3 || is_unmoved(p)) {
         solve_short(solver, p, curve);
         return;
     }

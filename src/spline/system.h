@@ -6,15 +6,16 @@
 ///     slope   w       Re(here x_j + ahead (x_{j+1} − x_j) + behind (x_j − x_{j−1})) − target                  (eq. 9)
 ///     start   w       on_x x_0 + on_e (x_1 − x_0), twice
 ///     im      w_k     Im x_k                                              complex mode
-/// Outside a loop x_{−1} is 0 and x_M is (1 + tail) x_{M−1}. Fixed unknowns (knots on Re x, rest on both, outside complex mode every Im x)
-/// keep the value that x holds.
+/// Outside a loop x_{−1} is 0 and x_M is (1 + tail) x_{M−1}. Fixed unknowns (knots on Re x, poses and rest on both, outside complex mode
+/// every Im x) keep the value that x holds. At a still knot the jet is two rows, r_i with x_i for x_{i+1} and with x_i for x_{i−1}, as far
+/// as there are samples on that side: what is before it and what is behind it do not feel each other.
 #ifndef SPLINE_SYSTEM_H
 #define SPLINE_SYSTEM_H
 
 #include "spline/pentadiagonal.h"
 #include "spline/poles.h"
 
-enum { FIXED_RE = 1, FIXED_IM = 2 };
+enum { FIXED_RE = 1, FIXED_IM = 2, FIXED_STILL = 4 };
 
 typedef struct slope_row {
     int sample;

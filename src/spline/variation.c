@@ -87,7 +87,7 @@ static double size_of(const problem *p)
     double farthest = 0;
     for (int k = 0; k < p->desc->knot_count; k++) {
         const wiggly_knot *knot = &p->desc->knots[k];
-        farthest = fmax(farthest, fabs(knot->value - problem_y(p, knot->sample)));
+        if (!knot->still) farthest = fmax(farthest, fabs(knot->value - problem_y(p, knot->sample)));
     }
     return p->desc->variation * (farthest > 0 ? farthest : 1);
 }
