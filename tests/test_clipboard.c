@@ -91,14 +91,17 @@ TEST(test_bad_text_is_refused_in_one_sentence)
     static const struct {
         const char *text, *sentence;
     } cases[] = {
-        {"1,2\n3\n", "clipboard:2: expected a value after the frame (frame,value[,slope[,stiffness]]), got nothing"},
-        {"1,2\n3,x\n", "clipboard:2: expected a value after the frame (frame,value[,slope[,stiffness]]), got \"x\""},
+        {"1,2\n3\n", "clipboard:2: expected a value or still after the frame (frame,value[,slope[,stiffness[,im]]]), "
+                     "got nothing"},
+        {"1,2\n3,x\n",
+         "clipboard:2: expected a value or still after the frame (frame,value[,slope[,stiffness[,im]]]), got \"x\""},
         {"hello", "clipboard:1: expected a frame from -1000000000 to 1000000000, got \"hello\""},
         {"1,2\n\nlater,3\n", "clipboard:3: expected a frame from -1000000000 to 1000000000, got \"later\""},
         {"1e30,2", "clipboard:1: expected a frame from -1000000000 to 1000000000, got \"1e30\""},
         {"1,2,steep", "clipboard:1: expected a number as the slope, got \"steep\""},
         {"1,2,0,-4", "clipboard:1: expected a number above 0 as the stiffness, got \"-4\""},
-        {"1,nan", "clipboard:1: expected a value after the frame (frame,value[,slope[,stiffness]]), got \"nan\""},
+        {"1,nan", "clipboard:1: expected a value or still after the frame (frame,value[,slope[,stiffness[,im]]]), "
+                  "got \"nan\""},
         {"frame,value\n", "clipboard:1: expected knots as JSON or as lines frame,value, got nothing"},
         {"[]", "clipboard:1: scene: expected at least one knot, got none"},
         {"{\"knots\": 3}", "clipboard:1: knots: expected an array, got a number"},

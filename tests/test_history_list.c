@@ -93,7 +93,7 @@ SESSION_TEST(test_wheel, open_list(s, 40))
 }
 
 /// The list says what it does not have any more.
-SESSION_TEST(test_dropped, panel_open(s, scene, 1280, 720))
+SESSION_TEST(test_dropped, panel_open(s, scene, 1280, 800))
 {
     panel_click(s, "section.history");
     history_set_limit(s->history, 2000);

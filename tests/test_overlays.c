@@ -73,7 +73,7 @@ SESSION_TEST(test_onion_shows_the_nearest_knots, session_open(s, scene))
 /// A mark a frame, where the tip will be; the range's ends are the arc's.
 SESSION_TEST(test_arc_is_where_the_tip_goes, session_open(s, scene))
 {
-    session_key(s, 'P', 0);
+    session_key(s, 'O', MOD_SHIFT);
     struct found marks = find(s, DRAW_RECT, theme()->playhead);
     assert_in_range(marks.count, 44, 49); // two seconds ahead of the first frame, less what has faded
     for (int step = 1; step <= 3; step++) {
@@ -90,7 +90,7 @@ SESSION_TEST(test_arc_is_where_the_tip_goes, session_open(s, scene))
 
 SESSION_TEST(test_arc_follows_an_edit_at_once, session_open(s, scene))
 {
-    session_key(s, 'P', 0);
+    session_key(s, 'O', MOD_SHIFT);
     float before[2], after[2], again[2];
     middle_of(s, find(s, DRAW_RECT, theme()->playhead).command[14], before);
     session_click(s, "knot(sway,1)");
@@ -108,7 +108,7 @@ SESSION_TEST(test_overlays_outlive_documents,
              session_open(s, "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\"}]}"))
 {
     session_key(s, 'O', 0);
-    session_key(s, 'P', 0);
+    session_key(s, 'O', MOD_SHIFT);
     editor_open(s->editor, &s->world);
     session_frame(s);
     assert_true(s->editor->core.overlays.onion);
@@ -199,7 +199,7 @@ SESSION_TEST(test_a_character_has_skins_and_an_arc, open_bear(s))
     session_key(s, 'O', 0);
     assert_true(find(s, DRAW_LINE, theme()->spline[0]).count >= 2); // of two knots
     assert_int_equal(find(s, DRAW_RECT, theme()->playhead).count, 0);
-    session_key(s, 'P', 0);
+    session_key(s, 'O', MOD_SHIFT);
     assert_in_range(find(s, DRAW_RECT, theme()->playhead).count, 44, 49);
     const struct character *bear = &models_figure(s->world.models, 0)->character;
     const int point = overlay_point(s->editor->stage, &s->editor->core).at;

@@ -31,7 +31,7 @@ static double difference(const wiggly_curve *a, const wiggly_curve *b)
         worst = fmax(worst, fabs(a->total[i] - b->total[i]));
         worst = fmax(worst, fmax(fabs(a->re[i] - b->re[i]), fabs(a->im[i] - b->im[i])));
     }
-    return worst / fmax(high - low, fmax(fabs(low), fabs(high)));
+    return worst > 0 ? worst / fmax(high - low, fmax(fabs(low), fabs(high))) : 0;
 }
 
 static void check_document(const char *name, const struct document *document, const double *expected)

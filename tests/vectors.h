@@ -54,7 +54,8 @@ static inline double vectors_error(const wiggly_curve *curve, const double *tabl
         worst = fmax(worst, fabs(curve->total[i] - row[0]));
         worst = fmax(worst, fmax(fabs(curve->re[i] - row[1]), fabs(curve->im[i] - row[2])));
     }
-    return worst / fmax(high - low, fmax(fabs(low), fabs(high)));
+    const double size = fmax(high - low, fmax(fabs(low), fabs(high)));
+    return size > 0 ? worst / size : worst;
 }
 
 #endif

@@ -216,6 +216,8 @@ const struct binding key_bindings[] = {
     {.key = KEY_PAGE_DOWN, .repeats = true, .core = core_activate_neighbour, .argument = 1},
     {.key = KEY_PAGE_UP, .mods = MOD_SHIFT, .repeats = true, .knot = core_extend_selection, .argument = -1},
     {.key = KEY_PAGE_DOWN, .mods = MOD_SHIFT, .repeats = true, .knot = core_extend_selection, .argument = 1},
+    {.key = 'P', .core = core_set_hold, .argument = HOLDS_POSE},
+    {.key = 'P', .mods = MOD_SHIFT, .core = core_set_hold, .argument = HOLDS_STILL},
     {.key = 'T', .core = slopes_set, .argument = SLOPES_TOGGLE},
     {.key = 'T', .mods = MOD_SHIFT, .core = slopes_set, .argument = SLOPES_FLAT},
     {.key = 'T', .mods = MOD_CTRL, .core = slopes_set, .argument = SLOPES_SMOOTH},
@@ -266,7 +268,7 @@ const struct binding key_bindings[] = {
     {.key = 'V', .any_time = true, .core = core_turn_look},
     {.key = 'O', .any_time = true, .core = core_flip, .argument = SWITCH_ONION},
     {.key = KEY_F4, .any_time = true, .core = core_flip, .argument = SWITCH_GHOST},
-    {.key = 'P', .any_time = true, .core = core_flip, .argument = SWITCH_TRAIL},
+    {.key = 'O', .mods = MOD_SHIFT, .any_time = true, .core = core_flip, .argument = SWITCH_TRAIL},
     {.key = 'K', .run = run_brush},
     {.key = 'H', .run = run_hold},
     {.key = KEY_PAGE_UP, .mods = MOD_ALT, .repeats = true, .core = pins_retime, .argument = -1},
@@ -350,7 +352,7 @@ static bool run(struct editor *editor, const struct binding *list, int key, unsi
     const bool pins = b->pins && has_pin(editor);
     if (pins) pins_select_neighbour(core, b->argument);
     const struct knot *knot = b->knot && !pins ? b->knot(core, b->argument) : NULL;
-    if (knot) curves_reveal(editor->curves, core, knot->frame, knot->value);
+    if (knot) curves_reveal(editor->curves, core, knot->frame, core_knot_value(core, core->active, knot));
     return b->key != 0;
 }
 

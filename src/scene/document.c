@@ -404,11 +404,14 @@ bool spline_is_limited(const struct spline *spline)
 
 void spline_values(const struct spline *spline, int first, int end, double range[2])
 {
-    range[0] = range[1] = spline->knots[first].value;
-    for (int k = first + 1; k < end; k++) {
+    bool any = false;
+    range[0] = range[1] = 0;
+    for (int k = first; k < end; k++) {
         const double value = spline->knots[k].value;
-        range[0] = value < range[0] ? value : range[0];
-        range[1] = value > range[1] ? value : range[1];
+        if (spline->knots[k].still) continue;
+        range[0] = !any || value < range[0] ? value : range[0];
+        range[1] = !any || value > range[1] ? value : range[1];
+        any = true;
     }
 }
 

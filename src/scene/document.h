@@ -27,11 +27,14 @@ enum {
 struct json_t;
 
 struct knot {
-    double frame; ///< as written; may be fractional
-    double value;
+    double frame;     ///< as written; may be fractional
+    double value;     ///< 0 where it is still
     double slope;     ///< value per second
     double stiffness; ///< 1/s
+    double phase;     ///< Im x of a pose
     bool has_slope;
+    bool has_phase; ///< it is a pose
+    bool still;     ///< it has neither value, slope nor phase
     unsigned
         id; ///< unique in the document, as those of splines, rigs and pins, kept through edits and undo; not saved
     struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL

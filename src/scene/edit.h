@@ -12,7 +12,7 @@
 /// Inserts a knot; id 0: a new one is given.
 bool edit_knot_insert(struct document *document, int spline, const struct knot *knot, struct error *error);
 bool edit_knot_remove(struct document *document, int spline, unsigned id, struct error *error);
-/// The knot of that id gets the frame, value, slope, has_slope and stiffness.
+/// The knot of that id gets the frame and what the knot holds.
 bool edit_knot_set(struct document *document, int spline, const struct knot *knot, struct error *error);
 
 // --- splines -------------------------------------------------------------------------------------------------------------

@@ -229,6 +229,7 @@ static bool check_limit(const struct document *document, const struct spline *sp
         return fail(error, ERROR_INPUT, "%s: the low limit must be below the high one", spline->name);
     for (int k = 0; k < spline->knot_count; k++) {
         char frame[NUMBER_TEXT_SIZE];
+        if (spline->knots[k].still) continue;
         if (is_high ? spline->knots[k].value <= value : spline->knots[k].value >= value) continue;
         number_print(spline->knots[k].frame, frame);
         return fail(error, ERROR_INPUT, "%s: the knot at frame %s is %s that", spline->name, frame,
@@ -315,16 +316,22 @@ bool edit_parameter(struct document *document, int spline, enum parameter parame
     return edit_end(document, before, change(document, spline, parameter, param, error), error);
 }
 
-/// Whether a knot may go where it says; `id` is its own. −0 is saved as 0, so it becomes 0.
+/// Whether a knot may go where it says; `id` is its own. −0 is saved as 0, so it becomes 0, and a still knot holds nothing else.
 static bool check_knot(const struct document *document, const struct spline *spline, struct knot *knot, unsigned id,
                        struct error *error)
 {
     char frame[NUMBER_TEXT_SIZE];
     struct error why;
+    if (knot->still)
+        *knot = (struct knot){.frame = knot->frame,
+                              .stiffness = KNOT_DEFAULT_STIFFNESS,
+                              .still = true,
+                              .id = knot->id,
+                              .extra = knot->extra};
     if (!fields_check(document, JOINTS_UNKNOWN, knot_fields, knot, &why))
         return fail(error, ERROR_INPUT, "%s: a knot: %s", spline->name, why.text);
     const double low = spline->parameter[PARAMETER_LOW].value, high = spline->parameter[PARAMETER_HIGH].value;
-    if (knot->value < low || knot->value > high) {
+    if (!knot->still && (knot->value < low || knot->value > high)) {
         return fail(error, ERROR_INPUT, "%s: a knot at %.6g would be %s limit, %.6g", spline->name, knot->value,
                     knot->value < low ? "below the low" : "above the high", knot->value < low ? low : high);
     }

@@ -270,6 +270,7 @@ static bool is_left_out(const struct field *field, const void *object)
     const void *at = look(object, field->place);
     if (field->kind == FIELD_NUMBER && field->flag != 0) return !*(const bool *)look(object, field->flag);
     if (!field->is_quiet || field->kind == FIELD_LIST) return false;
+    if (field->kind == FIELD_FLAG) return !*(const bool *)at;
     return (field->kind == FIELD_NUMBER ? *(const double *)at : *(const int *)at) == field->usual[0];
 }
 

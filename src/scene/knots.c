@@ -1,4 +1,4 @@
-/// Reads and writes knots as JSON, and reads them from CSV lines frame,value[,slope[,stiffness]].
+/// Reads and writes knots as JSON, and reads them from CSV lines frame,value[,slope[,stiffness[,im]]].
 #include "scene/knots.h"
 #include "base/need.h"
 #include "scene/fields.h"
@@ -60,10 +60,13 @@ static bool parse_json(const char *name, const char *text, struct knot_list *lis
 
 enum { MAX_FIELDS = 64, MAX_FIELD = 64, FIRST_KNOTS = 64 };
 
-enum column { COLUMN_FRAME, COLUMN_VALUE, COLUMN_SLOPE, COLUMN_STIFFNESS, COLUMN_COUNT };
+enum column { COLUMN_FRAME, COLUMN_VALUE, COLUMN_SLOPE, COLUMN_STIFFNESS, COLUMN_IM, COLUMN_COUNT };
 
-static const char *const column_names[] = {
-    [COLUMN_FRAME] = "frame", [COLUMN_VALUE] = "value", [COLUMN_SLOPE] = "slope", [COLUMN_STIFFNESS] = "stiffness"};
+static const char *const column_names[] = {[COLUMN_FRAME] = "frame",
+                                           [COLUMN_VALUE] = "value",
+                                           [COLUMN_SLOPE] = "slope",
+                                           [COLUMN_STIFFNESS] = "stiffness",
+                                           [COLUMN_IM] = "im"};
 
 static const char byte_order_mark[] = "\xEF\xBB\xBF", cut_off[] = "…"; // no number ends in that
 
@@ -140,11 +143,12 @@ static void read_header(struct csv *csv)
 /// Reads a field's number; an optional one that is missing stays as it is.
 static bool read_field(const struct csv *csv, enum column column, bool *given, double *number)
 {
-    static const char *const expected[] = {[COLUMN_FRAME] = "a frame from -1000000000 to 1000000000",
-                                           [COLUMN_VALUE] =
-                                               "a value after the frame (frame,value[,slope[,stiffness]])",
-                                           [COLUMN_SLOPE] = "a number as the slope",
-                                           [COLUMN_STIFFNESS] = "a number above 0 as the stiffness"};
+    static const char *const expected[] = {
+        [COLUMN_FRAME] = "a frame from -1000000000 to 1000000000",
+        [COLUMN_VALUE] = "a value or still after the frame (frame,value[,slope[,stiffness[,im]]])",
+        [COLUMN_SLOPE] = "a number as the slope",
+        [COLUMN_STIFFNESS] = "a number above 0 as the stiffness",
+        [COLUMN_IM] = "a number as im"};
     int at = csv->at[column];
     const char *field = at >= 0 && at < csv->line.count ? csv->line.field[at] : "";
     *given = *field;
@@ -171,9 +175,13 @@ static bool read_knot(struct csv *csv)
 {
     struct knot knot = {.stiffness = KNOT_DEFAULT_STIFFNESS};
     bool given;
+    const int at = csv->at[COLUMN_VALUE];
+    knot.still = at < csv->line.count && strcasecmp(csv->line.field[at], "still") == 0;
+    if (knot.still) return read_field(csv, COLUMN_FRAME, &given, &knot.frame) && add_knot(csv, &knot);
     return read_field(csv, COLUMN_FRAME, &given, &knot.frame) && read_field(csv, COLUMN_VALUE, &given, &knot.value) &&
            read_field(csv, COLUMN_STIFFNESS, &given, &knot.stiffness) &&
-           read_field(csv, COLUMN_SLOPE, &knot.has_slope, &knot.slope) && add_knot(csv, &knot);
+           read_field(csv, COLUMN_SLOPE, &knot.has_slope, &knot.slope) &&
+           read_field(csv, COLUMN_IM, &knot.has_phase, &knot.phase) && add_knot(csv, &knot);
 }
 
 static bool read_line(struct csv *csv, const char *text, size_t length, bool *started)
@@ -192,7 +200,7 @@ static bool read_line(struct csv *csv, const char *text, size_t length, bool *st
 
 static bool knots_parse_csv(const char *name, const char *text, struct knot_list *list, struct error *error)
 {
-    struct csv csv = {.name = name, .at = {0, 1, 2, 3}, .list = list, .error = error};
+    struct csv csv = {.name = name, .at = {0, 1, 2, 3, 4}, .list = list, .error = error};
     bool started = false, good = true;
     *list = (struct knot_list){0};
     if (strncmp(text, byte_order_mark, sizeof byte_order_mark - 1) == 0) text += sizeof byte_order_mark - 1;

@@ -16,8 +16,8 @@ struct knot_list {
 /// it.
 char *knots_print(const struct knot_list *list);
 
-/// Reads what knots_print() writes, an object with "knots" (a scene file's spline), or CSV lines frame,value[,slope[,stiffness]], also with semicolons
-/// or tabs, and then with decimal commas; blank lines and `#` comments are skipped. Under a header, columns go by name; frame and value
+/// Reads what knots_print() writes, an object with "knots" (a scene file's spline), or CSV lines frame,value[,slope[,stiffness[,im]]], the value `still` for
+/// a still knot, also with semicolons or tabs, and then with decimal commas; blank lines and `#` comments are skipped. Under a header, columns go by name; frame and value
 /// are the first and second column if it does not name them. If there are no knots, returns false with a
 /// sentence "name:line: …: expected …, got …" and an empty list.
 bool knots_parse(const char *name, const char *text, struct knot_list *list, struct error *error);

@@ -87,9 +87,37 @@ static void load_spring(struct reader *reader, const struct value *object, struc
                        &spline->parameter[PARAMETER_DAMPING].value);
 }
 
+/// Nothing that a knot could hold may be beside "still".
+static void load_still(struct reader *reader, const struct value *object, void *at)
+{
+    static const char *const held[] = {"value", "im", "slope", "stiffness"};
+    struct knot *knot = at;
+    reader_flag(reader, reader_member(object, "still"), &knot->still);
+    for (int i = 0; knot->still && i < 4; i++) {
+        const struct value value = reader_member(object, held[i]);
+        if (value.json) reader_fail(reader, &value.at, "expected none beside \"still\"");
+    }
+}
+
+static void load_value(struct reader *reader, const struct value *object, void *at)
+{
+    struct knot *knot = at;
+    const struct range any = FIELD_ANY;
+    if (!knot->still) reader_number(reader, reader_member(object, "value"), true, any, &knot->value);
+}
+
+static void print_value(struct members *members, const struct document *document, const void *at, const char *folder)
+{
+    const struct knot *knot = at;
+    (void)document, (void)folder;
+    if (!knot->still) member_number(members, "value", knot->value);
+}
+
 const struct field knot_fields[] = {
     {FIELD("frame", FIELD_NUMBER, struct knot, frame), .range = FIELD_ANY, .is_required = true},
-    {FIELD("value", FIELD_NUMBER, struct knot, value), .range = FIELD_ANY, .is_required = true},
+    {FIELD("still", FIELD_FLAG, struct knot, still), .is_quiet = true, .load = load_still},
+    {FIELD("value", FIELD_NUMBER, struct knot, value), .range = FIELD_ANY, .load = load_value, .print = print_value},
+    {FIELD("im", FIELD_NUMBER, struct knot, phase), .range = FIELD_ANY, .flag = offsetof(struct knot, has_phase)},
     {FIELD("slope", FIELD_NUMBER, struct knot, slope), .range = FIELD_ANY, .flag = offsetof(struct knot, has_slope)},
     {FIELD("stiffness", FIELD_NUMBER, struct knot, stiffness), .range = FIELD_POSITIVE,
      .usual = {KNOT_DEFAULT_STIFFNESS}, .is_quiet = true},
@@ -163,6 +191,7 @@ static void check_limits(struct reader *reader, const struct where *spline_at, c
     }
     for (int i = 0; i < spline->knot_count; i++) {
         const struct knot *knot = &spline->knots[i];
+        if (knot->still) continue;
         struct where at = {.parent = knots_at, .index = knot->id - first_id};
         struct where value_at = {.parent = &at, .key = "value"};
         if (knot->value < low)

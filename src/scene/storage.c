@@ -58,7 +58,10 @@ void storage_add_knots(wiggly_desc *desc, const struct document *document, int s
                                  .has_slope = knot->has_slope,
                                  .value = knot->value,
                                  .slope = knot->slope,
-                                 .stiffness = knot->stiffness};
+                                 .stiffness = knot->stiffness,
+                                 .phase = knot->phase,
+                                 .has_phase = knot->has_phase,
+                                 .still = knot->still};
     }
     desc->knots = knots;
     desc->knot_count = of->knot_count;

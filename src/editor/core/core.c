@@ -148,11 +148,18 @@ void core_message(struct core *core, bool is_error, const char *text)
 
 void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_SIZE])
 {
-    const double within = spline_within(spline, knot->value);
+    const double within = knot->still ? knot->value : spline_within(spline, knot->value);
     if (within != knot->value)
         snprintf(why, STOPPED_SIZE, "held by the limit %.4g of %.24s at frame %.6g", within, spline->name,
                  knot->frame);
     knot->value = within;
+}
+
+double core_knot_value(const struct core *core, int spline, const struct knot *knot)
+{
+    if (!knot->still) return knot->value;
+    const wiggly_value here = evaluation_at(core->evaluation, spline, document_sample(core->document, knot->frame));
+    return here.y + here.re;
 }
 
 void core_add_stopped(const char *why, char *text, size_t size)
@@ -207,7 +214,7 @@ void core_flip(struct core *core, int which)
                           {"Onion skin off.", "Onion skin on: the pose at the knots around the playhead (O)."}},
         [SWITCH_TRAIL] = {&core->overlays.trail,
                           {"Motion arc off.",
-                           "Motion arc on: the path of the tip or liveliest point, one mark per frame (P)."}},
+                           "Motion arc on: the path of the tip or liveliest point, one mark per frame (Shift+O)."}},
         [SWITCH_SHEET] = {&core->curves.sheet,
                           {"Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F3)."}},
         [SWITCH_SECONDS] = {&core->curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},

@@ -40,6 +40,8 @@ struct question *core_ask(struct core *core, const struct answer *answers, int c
 void core_message(struct core *core, bool is_error, const char *text);
 /// Puts a knot within the limits of its spline. Where one holds it, says so: "held by the limit 1.2 of sway at frame 14".
 void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_SIZE]);
+/// Where a knot is shown: at its value; a still one on its curve.
+double core_knot_value(const struct core *core, int spline, const struct knot *knot);
 /// Adds what stopped an edit, as a sentence, to what else is said; nothing for "".
 void core_add_stopped(const char *why, char *text, size_t size);
 /// What stopped an edit, as a sentence of the status line.

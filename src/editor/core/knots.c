@@ -66,8 +66,51 @@ void core_insert_on_curve(struct core *core, double frame, bool snap, bool slope
     int sample = document_sample(document, knot.frame);
     wiggly_value here = evaluation_at(core->evaluation, core->active, sample);
     knot.value = here.y + here.re;
+    knot.has_phase = spline_mode(core_active_spline(core)) == WIGGLY_COMPLEX;
+    knot.phase = knot.has_phase ? here.im : 0;
     if (slope) knot.slope = evaluation_slope(core->evaluation, document, core->active, sample);
     insert_at(core, &knot);
+}
+
+/// A knot as it holds something else, at its place on the curve.
+static struct knot held(const struct core *core, int spline, const struct knot *knot, enum holds holds)
+{
+    const wiggly_value here = evaluation_at(core->evaluation, spline, document_sample(core->document, knot->frame));
+    struct knot to = *knot;
+    to.value = core_knot_value(core, spline, knot);
+    to.still = holds == HOLDS_STILL;
+    to.has_phase = holds == HOLDS_POSE;
+    to.phase = to.has_phase ? here.im : 0;
+    return to;
+}
+
+void core_set_hold(struct core *core, int holds)
+{
+    static const char *const labels[] = {
+        [HOLDS_VALUE] = "Free the phase", [HOLDS_POSE] = "Make poses", [HOLDS_STILL] = "Make still"};
+    bool all = true, swings = false;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        all = all && knot_holds(knot_at(core->document, at)) == (enum holds)holds;
+        swings = swings || spline_mode(core->document->splines[at.spline]) == WIGGLY_COMPLEX;
+    }
+    if (selected_count(core) == 0) return;
+    if (holds == HOLDS_POSE && !all && !swings) {
+        core_message(core, false, "Only complex mode has a phase; press M to change the mode.");
+        return;
+    }
+    if (all) holds = HOLDS_VALUE;
+    if (!core_begin(core, labels[holds], 0)) return;
+    core_collect(core, false);
+    for (int i = 0; i < core->originals.count; i++) {
+        const struct original *original = &core->originals.list[i];
+        struct knot knot = held(core, original->spline, &original->knot, (enum holds)holds);
+        if (holds == HOLDS_POSE && spline_mode(core->document->splines[original->spline]) != WIGGLY_COMPLEX) continue;
+        if (holds == HOLDS_POSE && original->knot.has_phase) continue; // it stays the pose that it is
+        if (holds == HOLDS_STILL) knot.has_slope = false;
+        core_put_knot(core, original->spline, &knot);
+    }
+    core_end(core, true);
+    core_edited(core, -1);
 }
 
 void core_remove_knots(struct core *core, const char *label)

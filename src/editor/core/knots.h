@@ -8,7 +8,7 @@
 uint64_t core_merge_key(const struct core *core, uint64_t kind);
 /// A knot on a frame (whole frames when `snap`), selected; where there is one already, that one is selected.
 void core_insert_knot(struct core *core, double frame, double value, bool snap);
-/// A knot that leaves the curve where it is, with its slope there too (eq. 9) where `slope` is set.
+/// A pose that leaves the curve where it is, with its slope there too (eq. 9) where `slope` is set.
 void core_insert_on_curve(struct core *core, double frame, bool snap, bool slope);
 /// Removes the selected knots as a step of that name.
 void core_remove_knots(struct core *core, const char *label);
@@ -24,6 +24,15 @@ const struct knot *core_visit_neighbour(struct core *core, int direction);
 const struct knot *core_extend_selection(struct core *core, int direction);
 /// Activates the next spline in the list (1) or the previous one (-1), wrapping round.
 void core_activate_neighbour(struct core *core, int direction);
+
+/// What a knot holds: its value, a pose (value and phase), or that the motion is still.
+enum holds { HOLDS_VALUE, HOLDS_POSE, HOLDS_STILL };
+static inline enum holds knot_holds(const struct knot *knot)
+{
+    return knot->still ? HOLDS_STILL : knot->has_phase ? HOLDS_POSE : HOLDS_VALUE;
+}
+/// Lets the selected knots hold that, as the curves run there now; where all of them hold it, their value alone.
+void core_set_hold(struct core *core, int holds);
 
 /// Turns the slopes of the selected knots up (1) or down (-1), in proportion to the values in sight.
 void slopes_turn(struct core *core, int direction);

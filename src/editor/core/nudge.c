@@ -61,10 +61,11 @@ double core_slider_end(const struct document *document, const struct spline *spl
 double core_fresh_limit(const struct spline *spline, enum parameter parameter)
 {
     const bool is_high = parameter == PARAMETER_HIGH;
-    double edge = 0, largest = 0;
+    double edge = 0, largest = -1;
     for (int k = 0; k < spline->knot_count; k++) {
         const double value = spline->knots[k].value;
-        if (k == 0 || (is_high ? value > edge : value < edge)) edge = value;
+        if (spline->knots[k].still) continue;
+        if (largest < 0 || (is_high ? value > edge : value < edge)) edge = value;
         largest = fmax(largest, fabs(value));
     }
     const double room = largest > 0 ? FRESH_ROOM * largest : 1;

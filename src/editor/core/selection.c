@@ -121,7 +121,9 @@ void core_collect(struct core *core, bool later)
         for (int k = 0; k < spline->knot_count; k++) {
             bool selected = selection_has(&core->selection, spline->knots[k].id);
             begun |= selected;
-            if (selected || (later && begun)) originals_add(originals, s, &spline->knots[k]);
+            if (!selected && !(later && begun)) continue;
+            originals_add(originals, s, &spline->knots[k]);
+            originals->list[originals->count - 1].knot.value = core_knot_value(core, s, &spline->knots[k]);
         }
     }
 }

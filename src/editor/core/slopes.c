@@ -62,6 +62,7 @@ static void change_knots(struct core *core, const struct knot_change *change)
     if (selected_count(core) == 0 || !core_begin(core, change->label, merge)) return;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         const struct knot *before = knot_at(document, at);
+        if (before->still) continue;
         const bool fresh = change->on && !before->has_slope;
         struct knot knot = *before;
         if (fresh) knot.slope = slope_at(core, at.spline, before);

@@ -44,7 +44,7 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
         const struct knot *knot = &spline->knots[k];
         float at = curves_knot_x(curves, core, knot);
         if (at > x + reach) break;
-        if (is_nearest(hypotf(x - at, isnan(row) ? y - curves_y_of(curves, core, of, knot->value) : 0), &best))
+        if (is_nearest(hypotf(x - at, isnan(row) ? y - curves_knot_y(curves, core, of, knot) : 0), &best))
             *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
     }
     return best;
@@ -225,6 +225,7 @@ static void apply(void *room, struct core *core)
     const double other = spline->parameter[limit_of(!drag->handle)].value;
     for (int k = 0; k < spline->knot_count; k++) {
         const double knot = spline->knots[k].value;
+        if (spline->knots[k].still) continue;
         value = drag->handle ? fmax(value, knot) : fmin(value, knot);
     }
     if (drag->handle ? value <= other : value >= other) return; // without knots: they do not pass each other
@@ -313,7 +314,7 @@ static void take_inside(const struct curves *curves, struct core *core, int s, f
     const struct spline *spline = core->document->splines[s];
     for (int k = curves_knot_from(curves, core, spline, box.x); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
-        const float x = curves_knot_x(curves, core, knot), y = curves_y_of(curves, core, s, knot->value);
+        const float x = curves_knot_x(curves, core, knot), y = curves_knot_y(curves, core, s, knot);
         if (x >= box.x + box.w) break;
         if (x >= box.x && (!isnan(row) || rect_contains(box, x, y)))
             selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);

@@ -210,7 +210,7 @@ static struct knot scaled(const void *how, const struct original *original)
     const double frame = pivot + by.time * (original->knot.frame - pivot);
     struct knot to = original->knot;
     if (by.time != 1) to.frame = core->drag.snap ? round(frame) : frame;
-    if (by.value != 1) to.value = scaled_value(curves, core, original, by.value);
+    if (by.value != 1) to.value = scaled_value(curves, core, original, by.value), to.phase *= by.value;
     if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * core->visible);
     return to;
 }
@@ -432,7 +432,7 @@ static bool find_knot_box(const struct curves *curves, const struct core *core, 
     for (struct knot_place at = SELECTED_START; selected_next(core, &at); count++) {
         const struct knot *knot = knot_at(core->document, at);
         const float x = curves_knot_x(curves, core, knot);
-        const float y = curves_y_of(curves, core, at.spline, knot->value);
+        const float y = curves_knot_y(curves, core, at.spline, knot);
         left = fminf(left, x);
         right = fmaxf(right, x);
         top = fminf(top, y);

@@ -119,10 +119,19 @@ static void show_handle(const struct curves *curves, struct core *core, const st
     }
 }
 
-/// A knot: a diamond, with an outline or 0.
-static void knot_mark(struct drawlist *list, float x, float y, float r, uint32_t color, uint32_t outline)
+/// What a knot holds: its value a diamond, a pose a circle, a still one a square; with an outline or 0.
+static void knot_mark(struct drawlist *list, const struct knot *knot, float x, float y, float r, uint32_t color,
+                      uint32_t outline)
 {
-    const float xy[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
+    const float s = 0.8f * r;
+    const float diamond[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
+    const float square[] = {x - s, y - s, x + s, y - s, x + s, y + s, x - s, y + s, x - s, y - s};
+    const float *xy = knot->still ? square : diamond;
+    if (knot->has_phase) {
+        drawlist_disc(list, (const float[]){x, y}, 0.9f * r, color);
+        if (outline) drawlist_circle(list, (const float[]){x, y}, 0.9f * r, 1.5f, outline);
+        return;
+    }
     drawlist_convex(list, xy, 4, color);
     if (outline) drawlist_line(list, xy, 5, 1.5f, outline);
 }
@@ -190,10 +199,10 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
                       uint32_t color)
 {
     bool selected = selection_has(&core->selection, knot->id);
-    float y = curves_y(curves, core, knot->value);
+    float y = curves_knot_y(curves, core, core->active, knot);
     if (knot->has_slope && selected) show_handle(curves, core, knot, color);
     if (knot->has_slope && !selected) show_tick(curves, core, knot, color);
-    knot_mark(&core->list, x, y, KNOT_RADIUS, selected ? color : theme()->panel,
+    knot_mark(&core->list, knot, x, y, KNOT_RADIUS, selected ? color : theme()->panel,
               selected ? theme()->playhead : color); // one that is not selected is hollow
     if (is_hovered(core, knot)) hover_ring(&core->list, x, y);
 }
@@ -244,10 +253,10 @@ void knots_show(const struct curves *curves, struct core *core, int s, float row
         const struct knot *knot = &spline->knots[k];
         const bool selected = selection_has(&core->selection, knot->id);
         const float x = curves_knot_x(curves, core, knot);
-        const float y = on_sheet ? row : curves_y_of(curves, core, s, knot->value);
+        const float y = on_sheet ? row : curves_knot_y(curves, core, s, knot);
         if (x < plot->x - margin) continue;
         if (x > plot->x + plot->w + margin) break;
-        knot_mark(&core->list, x, y,
+        knot_mark(&core->list, knot, x, y,
                   selected   ? KNOT_RADIUS
                   : on_sheet ? MARK_RADIUS
                              : OTHER_RADIUS,

@@ -176,6 +176,8 @@ double curves_value(const struct curves *curves, const struct core *core, double
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline);
 /// Height of a value of any spline in logical pixels; normalised curves are scaled.
 float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value);
+/// The pixel of a knot of a spline.
+float curves_knot_y(const struct curves *curves, const struct core *core, int spline, const struct knot *knot);
 /// Measures the curves to normalise, but not during a drag, so that other curves keep still.
 void normal_update(struct curves *curves, const struct core *core);
 

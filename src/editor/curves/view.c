@@ -93,7 +93,7 @@ static void include_knot(const struct curves *curves, const struct core *core, s
     const struct knot *knot = knot_at(core->document, at);
     part->frame0 = fmin(part->frame0, knot->frame);
     part->frame1 = fmax(part->frame1, knot->frame);
-    include_value(part, map.scale * knot->value + map.offset);
+    include_value(part, map.scale * core_knot_value(core, at.spline, knot) + map.offset);
 }
 
 /// Widens a part to the values, as they are drawn, that a curve takes from a sample to another.
@@ -168,7 +168,8 @@ void curves_frame_all(struct curves *curves, struct core *core)
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
         if (core->curves.normalise && s != core->active) continue;
-        for (int k = 0; k < spline->knot_count; k++) include_value(&part, spline->knots[k].value);
+        for (int k = 0; k < spline->knot_count; k++)
+            include_value(&part, core_knot_value(core, s, &spline->knots[k]));
         include_curve(curves, core, s, 0, INFINITY, &part);
     }
     show_values(&curves->view, &part);
@@ -253,6 +254,11 @@ float curves_y_of(const struct curves *curves, const struct core *core, int spli
 {
     struct value_map map = normal_map(curves, core, spline);
     return curves_y(curves, core, map.scale * value + map.offset);
+}
+
+float curves_knot_y(const struct curves *curves, const struct core *core, int spline, const struct knot *knot)
+{
+    return curves_y_of(curves, core, spline, core_knot_value(core, spline, knot));
 }
 
 void normal_update(struct curves *curves, const struct core *core)

@@ -8,13 +8,16 @@
 #include <stddef.h>
 #include <stdio.h>
 
-enum { FIELD_FRAME, FIELD_VALUE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
+enum { FIELD_FRAME, FIELD_VALUE, FIELD_PHASE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
 
 static const struct number_row rows[FIELDS] = {
     [FIELD_FRAME] = {"frame", "frame", NULL, "Frame of the first selected knot; the others move with it",
                      "Move knots", NUMBER_AT(struct knot, frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
     [FIELD_VALUE] = {"value", "value", NULL, "Type to set all selected knots; drag to shift each by the same amount",
                      "Set values", NUMBER_AT(struct knot, value), 0, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0,
+                     0.01, 3},
+    [FIELD_PHASE] = {"phase", "phase", NULL, "Type to set all selected knots; drag to shift each by the same amount",
+                     "Set phases", NUMBER_AT(struct knot, phase), 0, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0,
                      0.01, 3},
     [FIELD_SLOPE] = {"slope", "slope", "/s", "Type to set all selected knots; drag to shift each by the same amount",
                      "Set slopes", NUMBER_AT(struct knot, slope), 0, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0,
@@ -30,6 +33,7 @@ static const struct {
 } of_one[FIELDS] = {
     [FIELD_FRAME] = {"Move knot", "Frame of the knot"},
     [FIELD_VALUE] = {"Set value", "Value of the knot; the curve hits it exactly"},
+    [FIELD_PHASE] = {"Set phase", "Im x of a pose: with it every part that lags is held (P)"},
     [FIELD_SLOPE] = {"Set slope", "Change per second (D, E)"},
     [FIELD_STIFFNESS] = {"Set stiffness", "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)"},
 };
@@ -110,18 +114,78 @@ static bool all_sloped(const struct inspector *in)
     return sloped;
 }
 
+/// What all selected knots hold, or -1; a still one among them counts as one.
+static int all_hold(const struct inspector *in, bool *any_still)
+{
+    int all = -1;
+    *any_still = false;
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);) {
+        const int holds = (int)knot_holds(knot_at(in->core->document, at));
+        *any_still = *any_still || holds == HOLDS_STILL;
+        all = all == -1 ? holds : all == holds ? all : HOLDS_STILL + 1;
+    }
+    return all > HOLDS_STILL ? -1 : all;
+}
+
 /// A row without anything to set yet.
 static void build_idle(struct inspector *in, const char *label, const char *text)
 {
     ui_label(&in->ui, inspector_labelled(in, label), text, theme()->text_dim);
 }
 
+struct knot_button {
+    const char *name, *label, *hint;
+};
+
+/// A row of three buttons, one of them (-1: none) lit; the one that was pressed, or -1.
+static int build_buttons(struct inspector *in, const struct knot_button buttons[3], int lit)
+{
+    enum { GAP = 4 };
+    struct rect r = ui_row(&in->ui, UI_ROW);
+    int pressed = -1;
+    r.w = (r.w - 2 * GAP) / 3;
+    for (int i = 0; i < 3; i++, r.x += r.w + GAP) {
+        ui_hint(&in->ui, r, buttons[i].hint);
+        if (ui_button(&in->ui, r, buttons[i].name, buttons[i].label, i == lit)) pressed = i;
+    }
+    return pressed;
+}
+
+/// What the selected knots hold.
+static void build_holds(struct inspector *in)
+{
+    bool any_still;
+    const int lit = all_hold(in, &any_still);
+    const int pressed = build_buttons(
+        in,
+        (const struct knot_button[3]){{"holds.value", "Value", "Hold the value and leave the phase free"},
+                                      {"holds.pose", "Pose", "Hold every part that lags as it is seen now (P)"},
+                                      {"holds.still", "Still", "Come to rest here, and begin from rest (Shift+P)"}},
+        lit);
+    if (pressed >= 0 && pressed != lit) core_set_hold(in->core, pressed);
+}
+
+/// A number's row, or one that says that there is none.
+static void build_or_idle(struct inspector *in, int field, bool there)
+{
+    if (there) {
+        build_field(in, field, ui_row(&in->ui, UI_ROW));
+    } else {
+        build_idle(in, rows[field].label, "–");
+    }
+}
+
 static void build_several(struct inspector *in)
 {
     const bool sloped = all_sloped(in);
+    bool any_still;
+    const bool posed = all_hold(in, &any_still) == HOLDS_POSE;
     for (int i = 0; i < FIELDS; i++) {
+        if (i == FIELD_PHASE) build_holds(in);
         if (i >= FIELD_SLOPE && !sloped) {
             build_idle(in, rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
+        } else if ((i == FIELD_PHASE && !posed) || (i == FIELD_VALUE && any_still)) {
+            build_idle(in, rows[i].label, i == FIELD_PHASE ? "not all hold one" : "–");
         } else {
             build_field(in, i, ui_row(&in->ui, UI_ROW));
         }
@@ -152,34 +216,18 @@ static void build_slope(struct inspector *in, unsigned id)
     }
 }
 
-struct knot_button {
-    const char *name, *label, *hint;
-};
-
-/// A row of three buttons; the one that was pressed, or -1.
-static int build_buttons(struct inspector *in, const struct knot_button buttons[3])
-{
-    enum { GAP = 4 };
-    struct rect r = ui_row(&in->ui, UI_ROW);
-    int pressed = -1;
-    r.w = (r.w - 2 * GAP) / 3;
-    for (int i = 0; i < 3; i++, r.x += r.w + GAP) {
-        ui_hint(&in->ui, r, buttons[i].hint);
-        if (ui_button(&in->ui, r, buttons[i].name, buttons[i].label, false)) pressed = i;
-    }
-    return pressed;
-}
-
 /// What can be done with the slopes of all selected knots.
 static void build_slopes(struct inspector *in, bool sloped)
 {
     static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
     const int pressed = build_buttons(
-        in, (const struct knot_button[3]){
-                {"slope.flat", "Flat", "Make the slopes flat (Shift+T)"},
-                {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
-                {"slope.switch", sloped ? "Remove" : "Add",
-                 sloped ? "Let go of the slopes (T)" : "Give the knots the slope that the curve has there (T)"}});
+        in,
+        (const struct knot_button[3]){
+            {"slope.flat", "Flat", "Make the slopes flat (Shift+T)"},
+            {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
+            {"slope.switch", sloped ? "Remove" : "Add",
+             sloped ? "Let go of the slopes (T)" : "Give the knots the slope that the curve has there (T)"}},
+        -1);
     if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
 }
 
@@ -198,12 +246,13 @@ static void build_overview(struct inspector *in, const struct spline *spline)
     ui_paragraph(&in->ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
     build_idle(in, "knots", frames);
     build_idle(in, "values", values);
-    const int pressed =
-        build_buttons(in, (const struct knot_button[3]){
-                              {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)"},
-                              {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)"},
-                              {"knot.all", "All", "Select all knots of the spline (Ctrl+A)"},
-                          });
+    const int pressed = build_buttons(in,
+                                      (const struct knot_button[3]){
+                                          {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)"},
+                                          {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)"},
+                                          {"knot.all", "All", "Select all knots of the spline (Ctrl+A)"},
+                                      },
+                                      -1);
     if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, false);
     if (pressed == 1) core_visit_neighbour(in->core, 1);
     if (pressed == 2) core_select_all(in->core, false);
@@ -225,7 +274,7 @@ void inspector_knot(struct inspector *in)
     const int count = selected_count(in->core);
     struct knot_place only = SELECTED_START;
     const bool one = count == 1 && selected_next(in->core, &only) && only.spline == in->core->active;
-    const float end = ui->y + (FIELDS + 1) * UI_ROW;
+    const float end = ui->y + (FIELDS + 2) * UI_ROW;
     if (count > 1) {
         build_several(in);
         build_slopes(in, all_sloped(in));
@@ -234,14 +283,18 @@ void inspector_knot(struct inspector *in)
     } else {
         // Each is built from the document as the one before left it; ids survive what happens to the order of knots.
         const unsigned id = spline->knots[only.knot].id;
+        bool still;
         build_field(in, FIELD_FRAME, ui_row(ui, UI_ROW));
-        build_field(in, FIELD_VALUE, ui_row(ui, UI_ROW));
-        build_slope(in, id);
-        if (has_slope(in, id)) {
-            build_field(in, FIELD_STIFFNESS, ui_row(ui, UI_ROW));
+        const bool posed = all_hold(in, &still) == HOLDS_POSE;
+        build_or_idle(in, FIELD_VALUE, !still);
+        build_holds(in);
+        build_or_idle(in, FIELD_PHASE, posed);
+        if (still) {
+            build_idle(in, "slope", "–");
         } else {
-            build_idle(in, "stiffness", "–");
+            build_slope(in, id);
         }
+        build_or_idle(in, FIELD_STIFFNESS, has_slope(in, id));
         build_slopes(in, has_slope(in, id));
     }
     ui->y = end;

@@ -201,7 +201,7 @@ void inspector_overlays(struct inspector *in)
         bool *on;
     } toggles[] = {
         {"onion", "onion skin", "Show the pose at the knots around the playhead (O)", &core->overlays.onion},
-        {"trail", "motion arc", "Show the path of the tip or liveliest point, one mark per frame (P)",
+        {"trail", "motion arc", "Show the path of the tip or liveliest point, one mark per frame (Shift+O)",
          &core->overlays.trail},
         {"ghost", "ghost pose", "Show the pose at the knot that is dragged or nudged (F4)", &core->overlays.ghost},
     };

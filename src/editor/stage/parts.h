@@ -205,7 +205,7 @@ void ghost_show(struct stage *stage, struct core *core);
 /// What stands for a rig where nothing is pointed at: the tip of the tail or chain that the active spline moves, else the liveliest
 /// vertex of the selected character. It may not exist (point_exists()).
 struct rig_point overlay_point(struct stage *stage, const struct core *core);
-/// Motion arc (P): where that point goes within two seconds of the playhead, with a mark at each frame.
+/// Motion arc (Shift+O): where that point goes within two seconds of the playhead, with a mark at each frame.
 void trail_show(struct stage *stage, struct core *core);
 /// The same of any point of a rig.
 void path_show(struct stage *stage, struct core *core, enum trail which, struct rig_point point);
