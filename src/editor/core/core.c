@@ -63,6 +63,13 @@ bool core_put_knot(struct core *core, int spline, const struct knot *knot)
                          : edit_knot_set(core->document, spline, knot, &core->error);
 }
 
+double core_parameter_at(const struct core *core, const struct spline *spline, enum parameter parameter, int sample)
+{
+    const struct param *param = &spline->parameter[parameter];
+    const wiggly_value track = evaluation_at(core->evaluation, param->track, sample);
+    return parameter_clamped(parameter, spline_mode(spline), param->track < 0 ? param->value : track.y + track.re);
+}
+
 struct knot core_knot_at(const struct document *document, int spline, int sample)
 {
     const struct spline *edited = document->splines[spline];

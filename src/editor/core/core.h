@@ -21,6 +21,8 @@ bool core_end(struct core *core, bool done);
 void core_settle(struct core *core);
 /// An edit: gives a parameter of a spline a value, which stops it from following another.
 bool core_set_parameter(struct core *core, int spline, enum parameter parameter, double value);
+/// A parameter of a spline at a sample, in its range, also where it follows another spline.
+double core_parameter_at(const struct core *core, const struct spline *spline, enum parameter parameter, int sample);
 /// An edit: sets a knot, or inserts it where its id is 0.
 bool core_put_knot(struct core *core, int spline, const struct knot *knot);
 /// The knot on a sample, or a new one with id 0 for it.

@@ -217,16 +217,7 @@ enum { CIRCLE = 112, INSET = 92, TICKS = 18, RESPONSE = 112 }; ///< heights
 /// A parameter's value at the playhead, in its range.
 static double value_now(const struct inspector *in, const struct spline *spline, enum parameter parameter)
 {
-    const struct param *param = &spline->parameter[parameter];
-    const struct evaluation *evaluation = in->core->evaluation;
-    double value = param->value;
-    if (param->track >= 0) {
-        if (!evaluation || param->track >= evaluation->count) return 0;
-        int sample = document_sample(in->core->document, core_frame(in->core));
-        if (sample < 0 || sample >= evaluation->samples) return 0;
-        value = evaluation->curves[param->track].total[sample];
-    }
-    return parameter_clamped(parameter, spline_mode(spline), value);
+    return core_parameter_at(in->core, spline, parameter, document_sample(in->core->document, core_frame(in->core)));
 }
 
 static struct pole_setting setting_of(const struct inspector *in, const struct spline *spline)

@@ -113,14 +113,32 @@ static void damped_step(const double column[2][2], const double miss[2], double 
     step[1] *= factor;
 }
 
-/// Sets the knot of one axis at the grabbed sample, or inserts it, as far as the limits of its spline allow.
+/// A spline without knots begins from rest, a quarter of a period before its first one.
+static void begin_from_rest(struct core *core, int spline, int sample)
+{
+    const struct document *document = core->document;
+    const struct spline *of = document->splines[spline];
+    const double frame = document_frame(document, sample), first = document->first_frame;
+    const double frequency = core_parameter_at(core, of, PARAMETER_FREQUENCY, sample);
+    struct knot still = {.stiffness = KNOT_DEFAULT_STIFFNESS, .still = true};
+    if (of->knot_count > 0 || !(frequency > 0)) return;
+    still.frame = frame - fmax(1, round(document->fps / (4 * frequency)));
+    if (still.frame < first)
+        still.frame = spline_start(of) == WIGGLY_LOOP ? still.frame + document->last_frame - first : first;
+    if (still.frame >= first && still.frame != frame) core_put_knot(core, spline, &still);
+}
+
+/// Sets the knot of one axis at the grabbed sample, or inserts it, as far as the limits of its spline allow. Its phase is free for as
+/// long as it is pulled.
 static void set_knot(const struct stage *stage, struct core *core, struct tail_drag_axis *axis,
                      char why[STOPPED_SIZE])
 {
     struct knot knot = core_knot_at(core->document, axis->spline, stage->tail_drag.sample);
     knot.value = axis->value;
+    knot.has_phase = knot.still = false;
     core_hold(core->document->splines[axis->spline], &knot, why);
     axis->value = knot.value;
+    begin_from_rest(core, axis->spline, stage->tail_drag.sample);
     core_put_knot(core, axis->spline, &knot);
 }
 
@@ -180,6 +198,21 @@ static void apply(void *room, struct core *core)
     select_knot(stage, core);
 }
 
+/// What is seen is what stays: the pulled knots become poses.
+static void end(void *room, struct core *core, bool keep)
+{
+    const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
+    for (int a = 0; keep && grab->applied && a < 2; a++) {
+        const struct tail_drag_axis *axis = &grab->axis[a];
+        if (!axis->active || spline_mode(core->document->splines[axis->spline]) != WIGGLY_COMPLEX) continue;
+        struct knot knot = core_knot_at(core->document, axis->spline, grab->sample);
+        knot.has_phase = true;
+        knot.phase = evaluation_at(core->evaluation, axis->spline, grab->sample).im;
+        core_put_knot(core, axis->spline, &knot);
+    }
+    stage_click(room, core, keep);
+}
+
 static void show(void *room, struct core *core)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
@@ -188,7 +221,7 @@ static void show(void *room, struct core *core)
 }
 
 static const struct drag_owner owner = {
-    .cursor = CURSOR_HAND, .goes_on = true, .apply = apply, .end = stage_click, .show = show};
+    .cursor = CURSOR_HAND, .goes_on = true, .apply = apply, .end = end, .show = show};
 
 void tail_drag_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event)
 {
