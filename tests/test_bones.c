@@ -317,6 +317,7 @@ SESSION_TEST(test_a_ramps_plot_is_as_high_as_its_points, open_beast(s, TAIL))
 
 SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR))
 {
+    panel_enter(s, "chain.turn", "30");
     const char *before = session_saved(s);
     panel_click(s, "chain.twin");
     assert_int_equal(s->document->rig_count, 3);
@@ -325,6 +326,7 @@ SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR)
     assert_string_equal(twin->chain.from, "ear_R_1");
     assert_string_equal(twin->chain.to, "ear_R_2");
     assert_true(twin->chain.mirror);
+    assert_near(twin->chain.turn, -30, 0); // turned the other way round, as in a mirror
     assert_int_equal(twin->chain.channels[0].spline, s->document->rigs[1]->chain.channels[0].spline);
     assert_false(panel_shows(s, "chain.twin")); // there is one now
     assert_one_step(s, before);

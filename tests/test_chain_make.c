@@ -144,6 +144,19 @@ STAND_TEST(test_ears_share_splines)
     assert_int_equal(right->channels[0].spline, splines - 2);
 }
 
+STAND_TEST(test_ears_may_have_splines_of_their_own)
+{
+    int rig;
+    make(stand, "ear_1_L", true);
+    const struct chain_wish wish = {.from = "ear_1_R", .follows = true, .own = true};
+    assert_done(chain_make(stand->opened.document, stand->opened.models, &wish, &rig, &error));
+    const struct document *document = stand->opened.document;
+    assert_int_equal(document->spline_count, 4);
+    const struct joint_motion *motion = document->splines[3]->parameter[PARAMETER_EQUILIBRIUM].motion;
+    assert_string_equal(motion->joint, "ear_4_R");
+    assert_false(document->rigs[rig]->chain.mirror);
+}
+
 STAND_TEST(test_undo_takes_all_of_it_back)
 {
     make(stand, "tail_1", true);
@@ -169,17 +182,16 @@ STAND_TEST(test_what_cannot_be_a_chain)
 
 TEST(test_sides_of_names)
 {
-    static const char *const pairs[][2] = {{"ear_1_L", "ear_1_R"},
-                                           {"mixamorig:LeftHand", "mixamorig:RightHand"},
-                                           {"arm.l.002", "arm.r.002"},
-                                           {"R_wing", "L_wing"}};
+    static const char *const pairs[][2] = {{"ear_1_L", "ear_1_R"},     {"mixamorig:LeftHand", "mixamorig:RightHand"},
+                                           {"arm.l.002", "arm.r.002"}, {"R_wing", "L_wing"},
+                                           {"EarL", "EarR"},           {"hairR2", "hairL2"}};
     char other[BONE_NAME_SIZE];
     for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
-        assert_true(chain_other_side(pairs[i][0], other));
+        assert_true(bone_other_side(pairs[i][0], other));
         assert_string_equal(other, pairs[i][1]);
-        assert_true(chain_other_side(pairs[i][1], other));
+        assert_true(bone_other_side(pairs[i][1], other));
         assert_string_equal(other, pairs[i][0]);
     }
-    assert_false(chain_other_side("tail_1", other));
-    assert_false(chain_other_side("Roll", other));
+    assert_false(bone_other_side("tail_1", other));
+    assert_false(bone_other_side("Roll", other));
 }

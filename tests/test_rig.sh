@@ -36,6 +36,9 @@ expect 3 "a scene in a folder that is not there" "$WIGGLY" rig $dog --chain tail
 says "is said" "none/dog.json: cannot be written" "$err"
 expect 0 "its splines follow the clip" "$WIGGLY" solve "$scratch/dog.json" -o "$scratch/dog.csv"
 holds "and swing" [ "$(awk -F, 'NR > 1 && $3 * $3 > 1e-4' "$scratch/dog.csv" | wc -l)" -gt 5 ]
+ears() { $WIGGLY rig $dog --chain ear_1_L --chain ear_1_R "$@" -o "$scratch/ears.json" >"$scratch/said" && grep -c '"equilibrium"' "$scratch/ears.json"; }
+holds "two ears share a spline for each axis" [ "$(ears)" = 2 ]
+holds "or have their own" [ "$(ears --own-splines)" = 4 ]
 expect 0 "straight to an animated character" "$WIGGLY" rig $dog --chain tail_1 --clip Trot -o "$scratch/trot.glb"
 expect 0 "which opens" "$WIGGLY" rig "$scratch/trot.glb"
 says "with the clip at its own length" "Trot (0.583 s)" "$out"

@@ -119,6 +119,9 @@ int command_rig(int argc, char **argv)
          1e-6, 1},
         {"--lag", NULL, "DEGREES", "how far each bone lags behind the one before", OPTION_REAL, &job.wish.lag, 1e-6,
          360},
+        {"--own-splines", NULL, NULL,
+         "every chain has splines of its own (default: a left and a right one share theirs, mirrored)", OPTION_FLAG,
+         &job.wish.own, 0, 0},
         {"--plain", NULL, NULL, "do not follow the clip: knots alone will move the chains", OPTION_FLAG, &job.plain,
          0, 0},
     };

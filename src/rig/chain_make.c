@@ -15,36 +15,6 @@ static const double WHOLE_LAG = 110;  ///< degrees from the first bone to the ti
 static const double WHOLE_BEND = 110; ///< degrees for 1 of a spline that knots direct
 static const double DEGREES = 57.29577951308232;
 
-/// Whether a letter is a word of its own.
-static bool stands_alone(const char *name, size_t at)
-{
-    return (at == 0 || !isalpha((unsigned char)name[at - 1])) && !isalpha((unsigned char)name[at + 1]);
-}
-
-bool chain_other_side(const char *name, char other[BONE_NAME_SIZE])
-{
-    static const char *const words[][2] = {{"Left", "Right"}, {"left", "right"}, {"LEFT", "RIGHT"}};
-    static const char *const letters[][2] = {{"L", "R"}, {"l", "r"}};
-    for (size_t w = 0; w < 3; w++) {
-        for (int side = 0; side < 2; side++) {
-            const char *at = strstr(name, words[w][side]);
-            if (!at) continue;
-            snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)(at - name), name, words[w][!side],
-                     at + strlen(words[w][side]));
-            return true;
-        }
-    }
-    for (size_t i = 0; name[i]; i++) {
-        for (int k = 0; k < 4; k++) {
-            const char *letter = letters[k / 2][k % 2];
-            if (name[i] != letter[0] || !stands_alone(name, i)) continue;
-            snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)i, name, letters[k / 2][!(k % 2)], name + i + 1);
-            return true;
-        }
-    }
-    return false;
-}
-
 static bool is_taken(const struct document *document, const char *name)
 {
     for (int r = 0; r < document->rig_count; r++) {
@@ -58,7 +28,7 @@ static void name_chain(const struct document *document, const char *bone, char n
 {
     char other[BONE_NAME_SIZE];
     int length = (int)strnlen(bone, BONE_NAME_SIZE);
-    if (!chain_other_side(bone, other)) { // ear_1_L keeps all of it
+    if (!bone_other_side(bone, other)) { // ear_1_L keeps all of it
         while (length > 1 && isdigit((unsigned char)bone[length - 1])) length--;
         while (length > 1 && strchr("_-. ", bone[length - 1])) length--;
     }
@@ -136,7 +106,7 @@ static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, s
 static const struct chain *find_twin(const struct document *document, const struct chain_wish *wish)
 {
     char other[BONE_NAME_SIZE];
-    for (int r = 0; r < document->rig_count && chain_other_side(wish->from, other); r++) {
+    for (int r = 0; r < document->rig_count && bone_other_side(wish->from, other); r++) {
         const struct rig *rig = document->rigs[r];
         if (rig->kind == RIG_CHAIN && strcmp(rig->chain.from, other) == 0 &&
             document_find_model(document, rig->chain.model, rig->chain.by_file) == wish->model)
@@ -203,13 +173,12 @@ bool chain_make(struct document *document, const struct models *models, const st
                               .damping = wish->damping > 0 ? wish->damping : USUAL_DAMPING,
                               .loops = is_loop(document, &model->model, gltf)};
     struct chain chain = {.model = plan.model, .by_file = plan.by_file, .from = plan.from, .to = plan.to};
-    const struct chain *twin = find_twin(document, wish);
+    const struct chain *twin = wish->own ? NULL : find_twin(document, wish);
     const double bend =
         wish->follows ? chain_bend_a_metre(imported, &bones, model->model.scale) : WHOLE_BEND / bones.count;
     if (!twin) return add_whole(&plan, &chain, bones.count, bend, rig, error);
-    // What knots direct looks well mirrored; but what moves both sides, as a head does, throws both the same way.
-    chain.turn = wish->follows ? twin->turn : -twin->turn;
-    chain.mirror = wish->follows ? twin->mirror : !twin->mirror;
+    chain.turn = -twin->turn;
+    chain.mirror = !twin->mirror;
     chain.channels = twin->channels;
     chain.channel_count = twin->channel_count;
     return add_chain(&plan, &chain, rig, error);

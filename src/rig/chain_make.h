@@ -10,6 +10,7 @@ struct chain_wish {
     int model;        ///< index of the model rig
     const char *from; ///< its first bone
     const char *to;   ///< its last; NULL: the only way down to a tip
+    bool own;         ///< it shares no splines with its twin
     bool follows;     ///< its splines' equilibria follow its tip through the clip, so that it swings without a knot
     double frequency; ///< Hz
     double damping;   ///< ratio
@@ -17,18 +18,12 @@ struct chain_wish {
 };
 
 /// Adds the chain and its splines (side and up). Where its twin on the other side, by the bones' names, is a chain already, it
-/// shares the twin's splines: mirrored, unless it follows the clip. `rig`: its index. After a failure some of its splines may be
-/// there: the caller takes them back.
+/// shares the twin's splines, mirrored, unless the wish is for its own. `rig`: its index. After a failure some of its splines may be there: the
+/// caller takes them back.
 bool chain_make(struct document *document, const struct models *models, const struct chain_wish *wish, int *rig,
                 struct error *error);
 
 /// Degrees by which each of its bones is to bend where the tip is to move by a metre; `scale`: of the character.
 double chain_bend_a_metre(const struct imported *imported, const struct chain_bones *bones, double scale);
-
-enum { BONE_NAME_SIZE = 256 };
-
-/// The name of the same bone on the other side: ear_1_L → ear_1_R, LeftHand → RightHand, arm.l.002 → arm.r.002. false where a name has no
-/// side.
-bool chain_other_side(const char *name, char other[BONE_NAME_SIZE]);
 
 #endif

@@ -29,7 +29,7 @@ static struct chain_axes axes_of(const struct document *document, const struct i
         struct chain_bones bones;
         if (rig->kind != RIG_CHAIN || !rig->name || strcmp(rig->name, name) != 0) continue;
         if (!chain_find(&imported->gltf, rig->chain.from, rig->chain.to, &bones, NULL)) continue;
-        return chain_axes_at_rest(imported, &bones, rig->chain.turn);
+        return chain_axes_at_rest(imported, &rig->chain, &bones);
     }
     return (struct chain_axes){.side = {0, 1, 0}, .up = {-1, 0, 0}, .along = {0, 0, 1}};
 }

@@ -2,7 +2,10 @@
 #include "rig/imported.h"
 #include "base/need.h"
 #include "model/vector.h"
+#include <ctype.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const float SHORT_TIP = 0.1f;     ///< of the character's height: a lone joint's
 static const float SHORT_SIBLING = 0.4f; ///< of the way from its parent: one of several, as an eye of a head
@@ -142,4 +145,44 @@ int chain_end(const struct gltf *gltf, int from, struct error *error)
     fail(error, ERROR_INPUT, "below \"%s\" there are more than %d bones: choose the one where the chain is to end",
          gltf->nodes[from].name, ANGLES_MAX_JOINTS);
     return -1;
+}
+
+// --- pairs
+
+/// Whether a letter is a word of its own, as in ear.l, or as in earL.
+static bool stands_alone(const char *name, size_t at)
+{
+    const unsigned char before = at > 0 ? (unsigned char)name[at - 1] : ' ', letter = (unsigned char)name[at];
+    return (!isalpha(before) || (islower(before) && isupper(letter))) && !isalpha((unsigned char)name[at + 1]);
+}
+
+bool bone_other_side(const char *name, char other[BONE_NAME_SIZE])
+{
+    static const char *const words[][2] = {{"Left", "Right"}, {"left", "right"}, {"LEFT", "RIGHT"}};
+    static const char *const letters[][2] = {{"L", "R"}, {"l", "r"}};
+    for (size_t w = 0; w < 3; w++) {
+        for (int side = 0; side < 2; side++) {
+            const char *at = strstr(name, words[w][side]);
+            if (!at) continue;
+            snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)(at - name), name, words[w][!side],
+                     at + strlen(words[w][side]));
+            return true;
+        }
+    }
+    for (size_t i = 0; name[i]; i++) {
+        for (int k = 0; k < 4; k++) {
+            const char *letter = letters[k / 2][k % 2];
+            if (name[i] != letter[0] || !stands_alone(name, i)) continue;
+            snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)i, name, letters[k / 2][!(k % 2)], name + i + 1);
+            return true;
+        }
+    }
+    return false;
+}
+
+bool chain_find_twin(const struct gltf *gltf, const char *from, const char *to, struct chain_bones *bones)
+{
+    char ends[2][BONE_NAME_SIZE];
+    return bone_other_side(from, ends[0]) && bone_other_side(to, ends[1]) &&
+           chain_find(gltf, ends[0], ends[1], bones, NULL);
 }

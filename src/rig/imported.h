@@ -51,4 +51,15 @@ bool chain_find(const struct gltf *gltf, const char *from, const char *to, struc
 /// The bone at the end of the only way down from `from`; −1 with a sentence where the way branches, or is too long.
 int chain_end(const struct gltf *gltf, int from, struct error *error);
 
+// --- pairs
+
+enum { BONE_NAME_SIZE = 256 };
+
+/// The name of the same bone on the other side: ear_1_L → ear_1_R, LeftHand → RightHand, arm.l.002 → arm.r.002. false where a name has no
+/// side.
+bool bone_other_side(const char *name, char other[BONE_NAME_SIZE]);
+
+/// The bones of the same chain on the other side, by the names of its ends. false where there is none.
+bool chain_find_twin(const struct gltf *gltf, const char *from, const char *to, struct chain_bones *bones);
+
 #endif

@@ -33,16 +33,49 @@ void chain_points_at_rest(const struct imported *imported, const struct chain_bo
     memcpy(point[bones->count], tip.raw, sizeof tip.raw);
 }
 
-struct chain_axes chain_axes_at_rest(const struct imported *imported, const struct chain_bones *bones, double turn)
+/// Unit, from the first bone to the tip at rest.
+static vec3s direction(const struct imported *imported, const struct chain_bones *bones)
 {
-    const vec3s up = {.raw = {0, 1, 0}}, front = {.raw = {0, 0, 1}};
     float point[ANGLES_MAX_JOINTS + 1][3];
     chain_points_at_rest(imported, bones, point);
-    vec3s along = glms_vec3_sub(vec3_from(point[bones->count]), vec3_from(point[0]));
-    along = glms_vec3_norm(along) > 0.0f ? glms_vec3_normalize(along) : front;
-    const vec3s above = fabsf(glms_vec3_dot(along, up)) > UPRIGHT ? front : up;
-    vec3s side = glms_vec3_normalize(glms_vec3_muladds(along, -glms_vec3_dot(above, along), above));
-    side = glms_vec3_rotate(side, (float)radians(turn), along);
+    const vec3s along = glms_vec3_sub(vec3_from(point[bones->count]), vec3_from(point[0]));
+    return glms_vec3_norm(along) > 0.0f ? glms_vec3_normalize(along) : (vec3s){.raw = {0, 0, 1}};
+}
+
+/// The part of a vector that is perpendicular to a unit one, as long as 1.
+static vec3s perpendicular(vec3s vector, vec3s along)
+{
+    return glms_vec3_normalize(glms_vec3_muladds(along, -glms_vec3_dot(vector, along), vector));
+}
+
+/// The side axis without a turn.
+static vec3s side_of(const struct imported *imported, const struct chain_bones *bones)
+{
+    const vec3s up = {.raw = {0, 1, 0}}, front = {.raw = {0, 0, 1}}, along = direction(imported, bones);
+    return perpendicular(fabsf(glms_vec3_dot(along, up)) > UPRIGHT ? front : up, along);
+}
+
+/// The mirror image of the twin's side axis: both must take the same one of up and front, and the mirror image of front is back
+/// where a pair stands apart along z.
+static vec3s mirrored_side(const struct imported *imported, const struct chain_bones *bones,
+                           const struct chain_bones *twin)
+{
+    const vec3s apart =
+        glms_vec3_sub(place_of(imported->rest.world[bones->node[0]]), place_of(imported->rest.world[twin->node[0]]));
+    vec3s side = side_of(imported, twin);
+    const int across = fabsf(apart.z) > fabsf(apart.x) ? 2 : 0;
+    side.raw[across] = -side.raw[across];
+    return perpendicular(side, direction(imported, bones));
+}
+
+struct chain_axes chain_axes_at_rest(const struct imported *imported, const struct chain *chain,
+                                     const struct chain_bones *bones)
+{
+    struct chain_bones twin;
+    const bool has_twin = chain->mirror && chain_find_twin(&imported->gltf, chain->from, chain->to, &twin);
+    const vec3s along = direction(imported, bones);
+    const vec3s straight = has_twin ? mirrored_side(imported, bones, &twin) : side_of(imported, bones);
+    const vec3s side = glms_vec3_rotate(straight, (float)radians(chain->turn), along);
     const vec3s lift = glms_vec3_cross(along, side);
     struct chain_axes axes;
     memcpy(axes.side, side.raw, sizeof axes.side);
@@ -75,7 +108,7 @@ bool strand_of_chain(const struct chain *chain, const struct imported *imported,
                               .imported = imported};
     if (!chain_find(&imported->gltf, chain->from, chain->to, &strand->bones, NULL)) return false;
     strand->joints = strand->bones.count;
-    strand->axes = chain_axes_at_rest(imported, &strand->bones, chain->turn);
+    strand->axes = chain_axes_at_rest(imported, chain, &strand->bones);
     return true;
 }
 

@@ -14,8 +14,9 @@ struct chain_axes {
     float side[3], up[3], along[3];
 };
 
-/// `turn`: degrees by which `side` and `up` are turned about `along`.
-struct chain_axes chain_axes_at_rest(const struct imported *imported, const struct chain_bones *bones, double turn);
+/// The chain's `turn` turns `side` and `up` about `along`. A mirrored chain's `side` is the mirror image of its twin's.
+struct chain_axes chain_axes_at_rest(const struct imported *imported, const struct chain *chain,
+                                     const struct chain_bones *bones);
 
 /// Where the bones begin at rest, and the tip, in the character's space: one more than bones.
 void chain_points_at_rest(const struct imported *imported, const struct chain_bones *bones, float (*point)[3]);

@@ -290,7 +290,7 @@ static bool find_twin(const struct core *core, int rig, char from[BONE_NAME_SIZE
     const struct chain *chain = &core->document->rigs[rig]->chain;
     const int model = rig_body(core->document, rig);
     const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
-    if (!shown || !chain_other_side(chain->from, from) || !chain_other_side(chain->to, to)) return false;
+    if (!shown || !bone_other_side(chain->from, from) || !bone_other_side(chain->to, to)) return false;
     return gltf_find_node(&shown->gltf, from) >= 0 && gltf_find_node(&shown->gltf, to) >= 0 &&
            !begins_at(core->document, model, from);
 }
@@ -306,10 +306,11 @@ void bones_make_twin(struct core *core, int chain)
     char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE], name[BONE_NAME_SIZE], text[2 * BONE_NAME_SIZE];
     if (!find_twin(core, chain, from, to)) return;
     struct rig twin = *core->document->rigs[chain];
-    twin.name = twin.name && chain_other_side(twin.name, name) ? name : NULL;
+    twin.name = twin.name && bone_other_side(twin.name, name) ? name : NULL;
     twin.chain.from = from;
     twin.chain.to = to;
     twin.chain.mirror = !twin.chain.mirror;
+    twin.chain.turn = -twin.chain.turn;
     if (!core_begin(core, "Mirror chain", 0)) return;
     if (!core_end(core, edit_rig_add(core->document, &twin, &core->error))) return;
     snprintf(text, sizeof text, "Made the chain %s, mirrored, by the same splines.",

@@ -326,7 +326,8 @@ static void build_twin(struct inspector *in)
 {
     if (!bones_has_twin(in->core, in->rig)) return;
     const struct rect row = ui_row(&in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
-    ui_hint(&in->ui, button, "The same chain on the other side, mirrored, by the same splines");
+    ui_hint(&in->ui, button,
+            "The same chain on the other side, mirrored, by the same splines; its channels may get others");
     if (!ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) return;
     bones_make_twin(in->core, in->rig);
     in->rig = in->core->document->rig_count - 1;
