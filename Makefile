@@ -198,7 +198,7 @@ install: $(if $(BORROWED),,$(B)/wiggly $(LIBRARIES))
 	install -m 755 $(SHARED_LIBRARY) "$(ROOT)/lib"
 	ln -sf libwiggly.so.$(VERSION) "$(ROOT)/lib/libwiggly.so.$(MAJOR)"
 	ln -sf libwiggly.so.$(MAJOR) "$(ROOT)/lib/libwiggly.so"
-	install -m 644 include/wiggly/wiggly.h "$(ROOT)/include/wiggly/wiggly.h"
+	install -m 644 include/wiggly/wiggly.h include/wiggly/more.h "$(ROOT)/include/wiggly"
 	install -m 644 $(wildcard assets/scenes/*.json) "$(ROOT)/share/wiggly/scenes"
 	install -m 644 $(wildcard assets/models/*.glb) "$(ROOT)/share/wiggly/models"
 	$(B)/wiggly --licenses > "$(ROOT)/share/doc/wiggly/copyright"
@@ -239,7 +239,7 @@ $(B)/obj/%.o: $(GENERATED)/%.S | packages
 	@mkdir -p $(@D)
 	$(Q)$(CC) -c $< -o $@
 
-# One object, from which no name leaves but those of wiggly.h.
+# One object, from which no name leaves but those of its headers.
 $(B)/obj/libwiggly.o: $(LIBRARY_OBJECTS) $(B)/objects | packages
 	$(Q)$(CC) $(filter -m%,$(CFLAGS)) -nostdlib -r $(LIBRARY_OBJECTS) -o $@
 	$(Q)$(OBJCOPY) --wildcard --keep-global-symbol='wiggly_*' $@

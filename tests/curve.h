@@ -4,7 +4,7 @@
 
 #include "near.h"
 
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 static inline wiggly_curve curve_create(int samples)
 {

@@ -3,7 +3,7 @@
 #ifndef TESTS_QUAD_H
 #define TESTS_QUAD_H
 
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 /// Solves; re and im receive desc->samples numbers (im may be NULL outside complex mode). Exits the test on a bad pivot.
 void quad_solve(const wiggly_desc *desc, double *re, double *im);

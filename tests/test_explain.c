@@ -2,7 +2,7 @@
 #include "near.h"
 #include "uniform.h"
 
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 enum { SEEDS = 200, MOST = 8 };
 

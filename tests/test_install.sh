@@ -11,7 +11,7 @@ status=$?
 ok "make install" $status
 
 root=$scratch/stage/opt/wiggly
-for file in bin/wiggly lib/libwiggly.a lib/libwiggly.so lib/cmake/wiggly/wigglyConfig.cmake lib/pkgconfig/wiggly.pc include/wiggly/wiggly.h share/wiggly/scenes/tail.json \
+for file in bin/wiggly lib/libwiggly.a lib/libwiggly.so lib/cmake/wiggly/wigglyConfig.cmake lib/pkgconfig/wiggly.pc include/wiggly/wiggly.h include/wiggly/more.h share/wiggly/scenes/tail.json \
     share/man/man1/wiggly.1 share/applications/wiggly.desktop share/icons/hicolor/scalable/apps/wiggly.svg; do
     holds "$file is installed" [ -s "$root/$file" ]
 done
@@ -66,15 +66,16 @@ says "the curve hits its second knot" "1.500000,1.000000000," "$("$scratch/curve
 says "the curve hits its third knot" "3.750000,-0.500000000," "$("$scratch/curve")"
 
 cat >"$scratch/use.cpp" <<'CPP'
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 int main()
 {
     wiggly_desc desc = wiggly_default_desc();
-    return desc.calm == 1 ? 0 : 1;
+    wiggly_explanation best[2];
+    return desc.calm == 1 && wiggly_explain(&desc, best) == 0 ? 0 : 1;
 }
 CPP
 # shellcheck disable=SC2086
-expect 0 "C++ compiles and links the header" g++ -Wall -Wextra -Wpedantic -Werror $sanitizers "$scratch/use.cpp" $flags -o "$scratch/use"
+expect 0 "C++ compiles and links the headers" g++ -Wall -Wextra -Wpedantic -Werror $sanitizers "$scratch/use.cpp" $flags -o "$scratch/use"
 expect 0 "the C++ program runs" "$scratch/use"
 
 cat >"$scratch/version.c" <<'C'

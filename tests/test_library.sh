@@ -7,15 +7,15 @@ shared=$B/libwiggly.so.$version
 
 # --- names
 
-sed -nE 's/^[a-z].*[ *](wiggly_[a-z_]+)\(.*/\1/p' include/wiggly/wiggly.h | sort >"$scratch/promised"
+sed -nE 's/^[a-z].*[ *](wiggly_[a-z_]+)\(.*/\1/p' include/wiggly/*.h | sort >"$scratch/promised"
 names() { # <nm's arguments>...: what is defined there and seen from outside
     nm --defined-only "$@" | awk 'NF == 3 { print $3 }' | sort
 }
 names -g "$B/libwiggly.a" >"$scratch/static"
 names -D "$shared" | grep -v '^__\|^_init$\|^_fini$' >"$scratch/shared" # a sanitizer's own
-holds "the header promises functions" [ -s "$scratch/promised" ]
+holds "the headers promise functions" [ -s "$scratch/promised" ]
 for kind in static shared; do
-    holds "the names that leave the $kind library are those of the header" diff "$scratch/promised" "$scratch/$kind"
+    holds "the names that leave the $kind library are those of the headers" diff "$scratch/promised" "$scratch/$kind"
 done
 says "the shared library's soname has the major version" "[libwiggly.so.${version%%.*}]" "$(readelf -d "$shared" | grep SONAME)"
 

@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "editor/inspector/response.h"
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 static const double step = 1.0 / 24;
 

@@ -1,7 +1,7 @@
 /// Variations: other motions of the same material through the same knots.
 #include "near.h"
 
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 enum { MOST = 2000, SEEDS = 400 };
 

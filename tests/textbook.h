@@ -5,7 +5,7 @@
 
 #include "quad_math.h"
 #include <stdbool.h>
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 enum { TEXTBOOK_MAX = 4096, TEXTBOOK_BAND = 10 }; ///< samples; entries of a matrix row up to its diagonal
 

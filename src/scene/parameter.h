@@ -7,7 +7,7 @@
 
 #include <stdatomic.h>
 #include <stdbool.h>
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 /// What of a joint is followed: degrees about world up, or metres across the chain's direction or up.
 enum motion_of { MOTION_TURN, MOTION_ACROSS, MOTION_UP, MOTION_KINDS };

@@ -2,7 +2,7 @@
 #ifndef SPLINE_DESC_H
 #define SPLINE_DESC_H
 
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 /// What a member is.
 typedef enum desc_kind {

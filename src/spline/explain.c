@@ -2,7 +2,7 @@
 #include "spline/symmetric.h"
 #include <math.h>
 #include <string.h>
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 enum { MOST = 48, PITCHES = 96, DAMPINGS = 10, REFINEMENTS = 24 };
 

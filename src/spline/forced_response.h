@@ -2,7 +2,7 @@
 #ifndef SPLINE_FORCED_RESPONSE_H
 #define SPLINE_FORCED_RESPONSE_H
 
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 /// The answer u to an equilibrium, as arrays of N numbers.
 typedef struct forced_response {

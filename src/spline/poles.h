@@ -2,7 +2,7 @@
 #ifndef SPLINE_POLES_H
 #define SPLINE_POLES_H
 
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 typedef struct cplx {
     double re, im;

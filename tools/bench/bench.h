@@ -5,7 +5,7 @@
 
 #include "base/lapack.h"
 #include <stdio.h>
-#include <wiggly/wiggly.h>
+#include <wiggly/more.h>
 
 /// One line of the table. Times are of one core; NAN is what was not measured.
 struct bench_result {
