@@ -24,8 +24,14 @@ static const char WIDE[] =
 
 /// Knots on both samples beside a slope: nothing is left for it to say.
 static const char IDLE[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
-                           "\"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0.2},"
+                           "\"mode\": \"real\", \"damping\": 0.1, \"knots\": [{\"frame\": 10, \"value\": 0.2},"
                            "{\"frame\": 11, \"value\": 0.3, \"slope\": 5}, {\"frame\": 12, \"value\": 0.38}]}]}";
+
+/// Poses where there is no phase.
+static const char POSED[] =
+    "{\"wiggly\": 2, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"mode\": \"cubic\","
+    "\"knots\": [{\"frame\": 10, \"value\": 0.2, \"im\": 1},"
+    "{\"frame\": 20, \"value\": 0.3, \"im\": 0}]}]}";
 
 /// Opens a scene that has a warning, clicks it, and finds it gone by one step that undo takes back byte by byte.
 static void assert_remedied(struct session *s, const char *scene, enum warning_kind kind)
@@ -73,6 +79,11 @@ SESSION_TEST(test_a_fast_spline_gets_substeps, assert_remedied(s, FAST, WARNING_
 SESSION_TEST(test_a_slope_without_effect_is_switched_off, assert_remedied(s, IDLE, WARNING_SLOPE))
 {
     assert_false(s->document->splines[0]->knots[1].has_slope);
+}
+
+SESSION_TEST(test_poses_outside_complex_mode_are_freed, assert_remedied(s, POSED, WARNING_PHASE))
+{
+    for (int k = 0; k < 2; k++) assert_false(s->document->splines[0]->knots[k].has_phase);
 }
 
 SESSION_TEST(test_a_wide_band_is_narrowed_to_what_the_knots_hold, assert_remedied(s, WIDE, WARNING_DRIFT))

@@ -6,6 +6,7 @@
 #include "scene/order.h"
 #include "scene/pins.h"
 #include "scene/reader.h"
+#include "scene/warnings.h"
 #include <limits.h>
 #include <math.h>
 #include <stdlib.h>
@@ -154,6 +155,34 @@ static void check_aliasing(struct reader *reader, const struct where *splines_at
     }
 }
 
+/// The id of the knot that comes first in its file, in which ids rise by 1.
+static unsigned first_id(const struct spline *spline)
+{
+    unsigned first = UINT_MAX;
+    for (int k = 0; k < spline->knot_count; k++) first = spline->knots[k].id < first ? spline->knots[k].id : first;
+    return first;
+}
+
+/// Slopes without effect and, once a spline, phases.
+static void check_idle(struct reader *reader, const struct where *splines_at)
+{
+    const struct document *document = reader->document;
+    for (int i = 0; i < document->spline_count; i++) {
+        const struct spline *spline = document->splines[i];
+        const struct where spline_at = {.parent = splines_at, .index = (size_t)i};
+        const struct where knots_at = {.parent = &spline_at, .key = "knots"};
+        const unsigned first = first_id(spline);
+        const int pose = spline_idle_pose(spline);
+        for (int k = 0; k < spline->knot_count; k++) {
+            const struct where at = {.parent = &knots_at, .index = spline->knots[k].id - first};
+            const struct where im_at = {.parent = &at, .key = "im"}, slope_at = {.parent = &at, .key = "slope"};
+            const char *why = knot_idle_slope(document, i, k);
+            if (k == pose) reader_warn(reader, &im_at, "im has no effect outside complex mode");
+            if (why) reader_warn(reader, &slope_at, "slope has no effect: %s", why);
+        }
+    }
+}
+
 /// Where a pin is in its file, in which ids rise: the index of a rig's pin in order of frames is another.
 static size_t index_in_file(const struct rig *rig, int pin)
 {
@@ -181,6 +210,7 @@ static void validate_scene(struct reader *reader, const struct where *scene_at)
     struct where splines_at = {.parent = scene_at, .key = "splines"};
     check_cycles(reader, &splines_at);
     check_aliasing(reader, &splines_at);
+    if (reader->has_domain) check_idle(reader, &splines_at);
     if (reader->has_domain && reader->errors == 0) check_pins(reader, scene_at);
 }
 

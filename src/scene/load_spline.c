@@ -144,19 +144,6 @@ static void check_domain(struct reader *reader, const struct where *at, const st
     if (!document_has_frame(reader->document, frame, last, &error)) reader_fail(reader, &frame_at, "%s", error.text);
 }
 
-/// Whether the neighbouring sample that a knot's slope is measured to (eq. 9) has a knot, too.
-static bool slope_is_fixed(const struct document *document, const struct spline *spline, int at)
-{
-    int sample = document_sample(document, spline->knots[at].frame), samples = document_samples(document);
-    int other = sample + 1;
-    if (spline_start(spline) == WIGGLY_LOOP) {
-        other %= samples > 1 ? samples - 1 : 1;
-    } else if (other == samples) {
-        other = sample - 1;
-    }
-    return other != sample && spline_find_knot(document, spline, other) >= 0;
-}
-
 /// Sorts the knots and checks them against each other. `first_id` belongs to the first one in the file.
 static void check_knots(struct reader *reader, const struct where *knots_at, struct spline *spline, unsigned first_id)
 {
@@ -169,12 +156,10 @@ static void check_knots(struct reader *reader, const struct where *knots_at, str
     for (int i = 0; i < spline->knot_count; i++) {
         const struct knot *knot = &spline->knots[i], *before = i > 0 ? knot - 1 : NULL;
         struct where at = {.parent = knots_at, .index = knot->id - first_id};
-        struct where frame_at = {.parent = &at, .key = "frame"}, slope_at = {.parent = &at, .key = "slope"};
+        struct where frame_at = {.parent = &at, .key = "frame"};
         if (before && document_sample(document, before->frame) == document_sample(document, knot->frame)) {
             reader_fail(reader, &frame_at, "expected a sample of its own, got that of knots[%u]",
                         before->id - first_id);
-        } else if (knot->has_slope && slope_is_fixed(document, spline, i)) {
-            reader_warn(reader, &slope_at, "slope has no effect: the next sample is a knot too");
         }
     }
 }

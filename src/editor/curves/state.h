@@ -99,7 +99,8 @@ enum warning_kind {
     WARNING_SWING, ///< the curve swings more than twice as far as its knots
     WARNING_RATE,  ///< a frequency near half the sample rate
     WARNING_DRIFT, ///< bandwidth times the periods between two knots
-    WARNING_SLOPE, ///< a slope between knots on the samples beside it, which say it all
+    WARNING_SLOPE, ///< a slope that has no effect
+    WARNING_PHASE, ///< poses outside complex mode
 };
 
 /// A problem of the active spline.
@@ -110,6 +111,7 @@ struct warning {
     double amount;       ///< swing in heights of the knots; Hz; periods
     double limit;        ///< Hz that would be fine; bandwidth as it is
     double remedy;       ///< value of a knot at the place; substeps; bandwidth
+    const char *why;     ///< a slope has no effect
 };
 
 enum { WARNINGS_MAX = 16 };

@@ -1,4 +1,5 @@
 /// Warnings on the active curve: what is found, what a click does about it, and the marks.
+#include "scene/warnings.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -95,14 +96,21 @@ static void find_swing(const struct document *document, const wiggly_curve *curv
                                  .remedy = curve->y[peak] + copysign(limit, curve->total[peak] - curve->y[peak])});
 }
 
-static void find_idle_slope(const struct document *document, const struct spline *spline, int k,
-                            struct warnings *found)
+static void find_idle(const struct document *document, int of, int k, struct warnings *found)
 {
-    const struct knot *knot = &spline->knots[k];
-    const bool filters = spline->parameter[PARAMETER_PASSIVE].value == WIGGLY_FILTER; // it sees one side alone
-    if (!knot->has_slope || filters || k == 0 || k + 1 == spline->knot_count) return;
-    if (document_sample(document, knot[1].frame) - document_sample(document, knot[-1].frame) != 2) return;
-    add(found, &(struct warning){.kind = WARNING_SLOPE, .frame = knot->frame, .value = knot->value});
+    const struct knot *knot = &document->splines[of]->knots[k];
+    const char *why = knot_idle_slope(document, of, k);
+    if (!why) return;
+    add(found, &(struct warning){.kind = WARNING_SLOPE, .frame = knot->frame, .value = knot->value, .why = why});
+}
+
+/// Poses outside complex mode: the first one stands for all.
+static void find_idle_poses(const struct spline *spline, struct warnings *found)
+{
+    const int pose = spline_idle_pose(spline);
+    if (pose < 0) return;
+    const struct knot *knot = &spline->knots[pose];
+    add(found, &(struct warning){.kind = WARNING_PHASE, .frame = knot->frame, .value = knot->value});
 }
 
 /// The worst drift alone is kept: its remedy is the others' too.
@@ -129,14 +137,16 @@ void warnings_find(const struct document *document, const struct evaluation *eva
 {
     const struct spline *spline = document->splines[of];
     found->count = 0;
-    if (of >= evaluation->count || spline_mode(spline) == WIGGLY_CUBIC || evaluation->cubic) return;
+    if (of >= evaluation->count || evaluation->cubic) return;
+    find_idle_poses(spline, found);
+    for (int k = 0; k < spline->knot_count; k++) find_idle(document, of, k, found);
+    if (spline_mode(spline) == WIGGLY_CUBIC) return;
     const double frequency = frequency_of(evaluation, spline), bandwidth = bandwidth_of(spline);
     double highest = 0;
     struct warning drift = {0};
     find_rate(document, evaluation, spline, found);
     for (int k = 0; k < spline->knot_count; k++) {
         highest = fmax(highest, height(&evaluation->curves[of], document_sample(document, spline->knots[k].frame)));
-        find_idle_slope(document, spline, k, found);
     }
     for (int k = 0; k < spline->knot_count; k++) {
         struct knot_span span;
@@ -250,6 +260,21 @@ static bool resolve_rate(struct core *core, const struct warning *warning, char 
     return core_set_parameter(core, core->active, PARAMETER_FREQUENCY, lower);
 }
 
+static bool free_phases(struct core *core, char text[96])
+{
+    const struct spline *spline = core_active_spline(core);
+    bool good = true;
+    for (int k = 0; k < spline->knot_count && good; k++) {
+        struct knot knot = spline->knots[k];
+        knot.has_phase = false;
+        knot.phase = 0;
+        good = core_put_knot(core, core->active, &knot);
+        spline = core_active_spline(core);
+    }
+    snprintf(text, 96, "The knots hold their values alone.");
+    return good;
+}
+
 static bool switch_off(struct core *core, const struct warning *warning, char text[96])
 {
     const struct spline *spline = core_active_spline(core);
@@ -277,7 +302,8 @@ void warning_remedy(const struct curves *curves, struct core *core, const struct
     static const char *const labels[] = {[WARNING_SWING] = "Tame swing",
                                          [WARNING_RATE] = "Add substeps",
                                          [WARNING_DRIFT] = "Narrow bandwidth",
-                                         [WARNING_SLOPE] = "Slope off"};
+                                         [WARNING_SLOPE] = "Slope off",
+                                         [WARNING_PHASE] = "Free the phase"};
     const struct warning chosen = *warning;
     char text[96] = "";
     bool good = false;
@@ -289,6 +315,7 @@ void warning_remedy(const struct curves *curves, struct core *core, const struct
         snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
     }
     if (chosen.kind == WARNING_SLOPE) good = switch_off(core, &chosen, text);
+    if (chosen.kind == WARNING_PHASE) good = free_phases(core, text);
     if (core_end(core, good)) {
         core_message(core, false, text);
     } else if (chosen.kind == WARNING_SWING) {
@@ -337,9 +364,13 @@ static void put_words(const struct warning *warning, char what[160], char remedy
         snprintf(remedy, 96, "Click to narrow it to %.3g.", warning->remedy);
         break;
     case WARNING_SLOPE:
-        snprintf(what, 160, "Frame %.6g: the slope has no effect, as both samples beside it have knots.",
-                 warning->frame);
+        snprintf(what, 160, "Frame %.6g: the slope has no effect: %s.", warning->frame, warning->why);
         snprintf(remedy, 96, "Click to switch it off.");
+        break;
+    case WARNING_PHASE:
+        snprintf(what, 160, "Frame %.6g: the pose holds its value alone, as only complex mode has a phase.",
+                 warning->frame);
+        snprintf(remedy, 96, "Click to free the phases of the spline's knots.");
         break;
     }
 }
