@@ -189,3 +189,15 @@ for document in $documents; do
     [ -z "$missing" ] || echo "  not there:" $missing
     holds "$document: files and links are there" [ -z "$missing" ]
 done
+
+# --- assets: a licence for each, and no picture that no page shows
+
+# shellcheck disable=SC2086
+missing=$(
+    find assets -type f ! -name README.md | sed 's|^assets/||' | while read -r file; do
+        grep -qE "^\| \`(${file//./\\.}|${file%/*}/\*(\.${file##*.})?)\` \| [A-Z]" assets/README.md || echo "$file"
+    done
+    find assets/pictures -type f | while read -r picture; do grep -qF "$picture" $documents || echo "$picture"; done
+)
+[ -z "$missing" ] || echo "  no licence, or on no page:" $missing
+holds "every asset has a licence, every picture a page" [ -z "$missing" ]

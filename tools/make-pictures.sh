@@ -1,6 +1,5 @@
 #!/bin/sh
-# Makes the pictures in assets/pictures: the README's, its animation, and the five that are looked at before a change of looks is accepted
-# (assets/pictures/README.md says what for). Run it from the root of the tree.
+# Makes the pictures in assets/pictures, which README and docs show. Run it from the root of the tree.
 # Usage: tools/make-pictures.sh [wiggly]
 set -eu
 wiggly=${1:-build/wiggly}
@@ -63,10 +62,6 @@ replay select.replay <<'END'
 4 release left @knot(sway,2)
 6 pointer @curve(sway,50,1.2)
 END
-replay help.replay <<'END'
-10 key F1
-11 keyup F1
-END
 
 animation drag.gif
 replay bones.replay assets/models/dog.glb <<'END'
@@ -80,10 +75,4 @@ picture bones.png 60 --replay "$scratch/bones.replay" assets/models/dog.glb
 picture dog.png 130 assets/scenes/dog.json
 picture live.png 66 --replay "$scratch/select.replay"
 picture light.png 66 --theme light --replay "$scratch/select.replay"
-picture welcome.png 40 --size 960x600 --welcome --theme light
-picture start.png 20
-picture drag.png 95 --replay tests/replays/session.replay tests/replays/session.json
-picture help.png 20 --replay "$scratch/help.replay"
-picture small.png 20 --size 960x600
-picture scale2.png 20 --scale 2
 picture figure7.png 60 assets/scenes/figure7.json
