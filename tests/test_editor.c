@@ -145,6 +145,20 @@ SESSION_TEST(test_a_click_edits_nothing, session_open(s, SWAY))
     assert_true(history_revision(s->history) == revision);
 }
 
+/// What was undone is said until the next edit, not beside what that has made.
+SESSION_TEST(test_an_edit_ends_the_message_of_an_undo, session_open(s, SWAY))
+{
+    for (int edit = 0; edit < 3; edit++) {
+        session_carry(s, "knot(sway,2)", 0, -20, 3);
+        session_key(s, 'Z', MOD_CTRL);
+        assert_string_equal(s->editor->core.message.text, "Undone: Move knot");
+        if (edit == 0) session_carry(s, "knot(sway,1)", 0, 30, 3);
+        if (edit == 1) session_key(s, KEY_UP, MOD_ALT);
+        if (edit == 2) session_carry(s, "slider(frequency)", 9, 0, 3);
+        assert_string_equal(s->editor->core.message.text, "");
+    }
+}
+
 SESSION_TEST(test_selecting, session_open(s, SWAY))
 {
     session_click(s, "knot(sway,1)");

@@ -214,11 +214,11 @@ static bool take_theirs(struct app *app, struct error *error)
 static bool add_file(struct app *app, const char *path, struct error *error)
 {
     struct table *table = &app->table;
+    struct core *core = &table->editor->core;
     editor_let_go(table->editor);
-    history_begin(table->history, "Add character", 0);
-    const bool added = import_add(table->document, path, table->editor->core.active, error);
-    if (!added) history_restart(table->history);
-    history_end(table->history);
+    core_begin(core, "Add character", 0);
+    const bool added = import_add(table->document, path, core->active, error);
+    core_end(core, added);
     editor_refresh(table->editor);
     if (added) editor_show_last(table->editor);
     return added;

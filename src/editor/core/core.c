@@ -31,6 +31,7 @@ bool core_begin(struct core *core, const char *label, uint64_t merge)
     if (history_is_open(core->history)) return false;
     history_begin(core->history, label, merge);
     core->error = (struct error){0};
+    core->message = (struct message){0};
     return true;
 }
 

@@ -12,7 +12,7 @@ void core_open(struct core *core);
 void core_set_path(struct core *core, const char *path);
 /// A spline was edited, or where it is -1, its selected knots were.
 void core_edited(struct core *core, int spline);
-/// Opens a step, whose edits say why they fail in core->error; `merge` as in history_begin(). false while another step is open: that of a
+/// Opens a step, whose edits say why they fail in core->error, and clears the last message; `merge` as in history_begin(). false while another step is open: that of a
 /// drag is not to be mixed with others.
 bool core_begin(struct core *core, const char *label, uint64_t merge);
 /// Closes the step, taken back where it is not `done`, which is returned.

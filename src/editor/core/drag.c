@@ -29,7 +29,7 @@ void drag_start_moving(struct core *core)
     struct drag *drag = &core->drag;
     if (drag->moved) return;
     drag->moved = true;
-    if (drag->label) history_begin(core->history, drag->label, 0);
+    if (drag->label) core_begin(core, drag->label, 0);
 }
 
 void drag_restart(const struct core *core)

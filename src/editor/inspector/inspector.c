@@ -275,11 +275,7 @@ bool inspector_begin(struct inspector *in, enum ui_change change, const char *la
         return false;
     case UI_DRAG:
         in->core->error = (struct error){0};
-        if (history_is_open(history)) {
-            history_restart(history);
-        } else {
-            history_begin(history, label, 0);
-        }
+        if (!core_begin(in->core, label, 0)) history_restart(history);
         return true;
     case UI_CANCEL:
     case UI_DROP:
