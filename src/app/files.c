@@ -58,21 +58,11 @@ static bool assets_has(const char *path)
 
 const char *app_path(const struct app *app) { return app->table.document->path ? app->table.document->path : ""; }
 
-void file_watch_note(struct app *app, uint64_t content)
-{
-    struct own_file *own = &app->own_file;
-    snprintf(own->path, sizeof own->path, "%s", app_path(app));
-    own->content = content;
-}
+void file_watch_note(struct app *app, uint64_t content) { app->own_file.content = content; }
 
 static void file_watch_note_now(struct app *app) { file_watch_note(app, file_content(app_path(app))); }
 
-uint64_t file_watch_known(const struct app *app)
-{
-    const struct own_file *own = &app->own_file;
-    return strcmp(own->path, app_path(app)) == 0 ? own->content
-                                                 : 0; // another document's file, back by undo: who knows
-}
+uint64_t file_watch_known(const struct app *app) { return app->own_file.content; }
 
 /// What somebody else has written into the document's file; 0: nothing, or it is gone.
 static uint64_t changed_content(const struct app *app)
@@ -114,6 +104,7 @@ void app_adopt(struct app *app, struct document *document)
     document_destroy(app->table.document);
     app->table.document = document;
     document->serial = ++app->last_serial;
+    app->own_file = (struct own_file){0};
     history_clear(app->table.history, document);
     history_mark_saved(app->table.history);
     struct editor_world world = table_world(&app->table);
@@ -165,35 +156,16 @@ bool app_open(struct app *app, const char *path, struct error *error)
     return true;
 }
 
-/// What follows the paper's seven figures.
-enum { FIGURES = 7, OTHERS = 3 };
-static const struct {
-    const char *name, *undo;
-} others[OTHERS] = {
-    {"dog.json", "Open the dog"}, {"hands.json", "Open the hands"}, {"meadow.json", "Open the meadow"}};
-
-/// Puts a document, which ends, in place of the one on the table, as a step of the history.
-static void replace_document(struct app *app, struct document *document, const char *label)
-{
-    document->serial = ++app->last_serial;
-    editor_let_go(app->table.editor); // a drag may have begun since the request
-    history_begin(app->table.history, label, 0);
-    edit_document(app->table.document, document);
-    history_end(app->table.history);
-    editor_refresh(app->table.editor);
-    show_title(app);
-}
-
-/// Opens a figure of the paper, the dog, the hands or the meadow in place of the document: undo brings the document back, with its file.
+/// Opens a figure of the paper, the dog, the hands or the meadow as an untitled scene.
 static bool open_figure(struct app *app, int number, struct error *error)
 {
-    const int other = number - FIGURES - 1;
-    char name[32];
-    snprintf(name, sizeof name, "figure%d.json", number);
-    if (other >= 0 && other < OTHERS) snprintf(name, sizeof name, "%s", others[other].name);
+    static const char *const names[] = {"figure1.json", "figure2.json", "figure3.json", "figure4.json",
+                                        "figure5.json", "figure6.json", "figure7.json", "dog.json",
+                                        "hands.json",   "meadow.json"};
+    const char *name = names[number - 1];
     struct document *document = parse_built_in(name, error);
     if (!document) return false;
-    replace_document(app, document, other >= 0 ? others[other].undo : "Open a figure");
+    app_adopt(app, document);
     show_subject(app, name);
     return true;
 }
@@ -204,8 +176,14 @@ static bool take_theirs(struct app *app, struct error *error)
     struct document *document = scene_load(app_path(app), NULL, error);
     if (!document) return false;
     document_set_path(document, app_path(app));
-    replace_document(app, document, "Take theirs");
+    document->serial = ++app->last_serial;
+    editor_let_go(app->table.editor); // a drag may have begun since the request
+    history_begin(app->table.history, "Take theirs", 0);
+    edit_document(app->table.document, document);
+    history_end(app->table.history);
     history_mark_saved(app->table.history);
+    editor_refresh(app->table.editor);
+    show_title(app);
     file_watch_note_now(app);
     return true;
 }

@@ -29,7 +29,6 @@ struct demo {
 
 /// The document's own file as it was last seen: another program, or a second window, may write it.
 struct own_file {
-    char path[PATH_LIMIT];
     uint64_t content; ///< when it was read or written last (file_content())
     uint64_t asked;   ///< what the user was asked about at the window's focus
 };

@@ -20,7 +20,7 @@ static void ask_for(struct editor *editor, enum request_kind kind, int number)
 {
     const struct request request = {.kind = kind, .number = number};
     const bool has_path = editor->core.path[0] != '\0';
-    if (kind == REQUEST_NEW || kind == REQUEST_OPEN || kind == REQUEST_QUIT) {
+    if (kind == REQUEST_NEW || kind == REQUEST_OPEN || kind == REQUEST_FIGURE || kind == REQUEST_QUIT) {
         editor_leave(editor, &request);
     } else if (kind == REQUEST_SAVE_AS || (kind == REQUEST_SAVE && !has_path)) {
         dialogs_save_as(editor->dialogs, &editor->core);

@@ -37,7 +37,7 @@ enum request_kind {
     REQUEST_OVERWRITE, ///< the document's own file, which somebody else has changed
     REQUEST_KEEP_MINE, ///< the same, but not before the next REQUEST_SAVE
     REQUEST_THEIRS,    ///< the document's file as it is now in place of the document, as a step of the history
-    REQUEST_FIGURE,    ///< number: a figure of the paper in place of the document, as a step of the history
+    REQUEST_FIGURE,    ///< number: a figure of the paper, or one of the scenes after them
     REQUEST_QUIT,
     REQUEST_RECOVER, ///< the work that was offered
     REQUEST_FORGET,  ///< the same, for good

@@ -83,7 +83,7 @@ void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct reque
     if (after->kind == REQUEST_OPEN && !after->path[0]) {
         dialog_open(dialogs, DIALOG_OPEN, "");
     } else if (after->kind != REQUEST_NONE) {
-        core_request(core, after->kind, after->path);
+        core->request = *after;
     }
 }
 

@@ -68,8 +68,8 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core);
 void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory);
 /// How far the export is that was asked for; without an end in sight `total` is 0.
 void dialogs_tell_export(struct dialogs *dialogs, long done, long total);
-/// Does `after` (REQUEST_NEW, REQUEST_OPEN with a path, or without: asks for one, REQUEST_QUIT), but asks first where work
-/// would be lost: Save, Discard, Cancel. `after` then follows only when the save has succeeded.
+/// Does `after` (REQUEST_NEW, REQUEST_FIGURE, REQUEST_OPEN with a path, or without: asks for one, REQUEST_QUIT), but asks first
+/// where work would be lost: Save, Discard, Cancel. `after` then follows only when the save has succeeded.
 void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct request *after);
 /// The app's answer to what the dialog has asked for: it closes and goes on with `after`, or stays and says why not. false
 /// where it waits for no such answer.
