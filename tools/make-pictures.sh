@@ -56,11 +56,12 @@ animation() { # <name>: every fourth of 300 frames, 15 a second
     echo "$out/$1, $(($(wc -c <"$out/$1") / 1000)) kB"
 }
 
-replay select.replay <<'END'
-2 pointer @knot(sway,2)
-3 press left @knot(sway,2)
-4 release left @knot(sway,2)
-6 pointer @curve(sway,50,1.2)
+# docs/first-swing.md, up to its second knot.
+replay swing.replay <<'END'
+10 key N ctrl
+20 double left @curve(sway,20,0.6)
+40 double left @curve(sway,50,-0.6)
+60 pointer @curve(sway,56,-0.9)
 END
 
 animation drag.gif
@@ -73,6 +74,5 @@ END
 
 picture bones.png 60 --replay "$scratch/bones.replay" assets/models/dog.glb
 picture dog.png 130 assets/scenes/dog.json
-picture live.png 66 --replay "$scratch/select.replay"
-picture light.png 66 --theme light --replay "$scratch/select.replay"
+picture swing.png 100 --replay "$scratch/swing.replay"
 picture figure7.png 60 assets/scenes/figure7.json
