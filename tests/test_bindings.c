@@ -1,4 +1,5 @@
 /// Keyboards of other countries: every action has a key there, and what is typed is what counts, not the key that types it.
+#include "editor/commands.h"
 #include "editor/keys.h"
 #include "panel_session.h"
 
@@ -29,49 +30,35 @@ static const struct layout_of {
 
 static bool is_punctuation(int key) { return key < KEY_ESCAPE && key != KEY_SPACE && !isalnum(key); }
 
-static bool is_same(const struct binding *a, const struct binding *b)
+/// Whether a command can be reached: one of its keys is on the layout.
+static bool is_reached(const struct command *command, const struct layout_of *layout)
 {
-    return a->run == b->run && a->core == b->core && a->curves == b->curves && a->inspector == b->inspector &&
-           a->knot == b->knot && a->request == b->request && a->argument == b->argument;
+    for (const struct chord *c = command->chords; c->key; c++) {
+        const char *keys = c->mods & CHORD_TYPED ? layout->typed : layout->printed;
+        if (!is_punctuation(c->key) || strchr(keys, c->key)) return true;
+    }
+    return command->chords[0].key == 0;
 }
 
-/// Whether an action can be reached: one of what it is bound to is on the layout.
-static bool is_reached(const struct binding *action, const struct layout_of *layout)
-{
-    for (const struct binding *b = key_bindings; b->key; b++) {
-        if (!is_same(b, action)) continue;
-        if (!is_punctuation(b->key) || strchr(layout->printed, b->key)) return true;
-    }
-    for (const struct binding *b = character_bindings; b->key; b++) {
-        if (is_same(b, action) && strchr(layout->typed, b->key)) return true;
-    }
-    return false;
-}
-
-static int check_reached(const struct binding *list, const struct layout_of *layout)
-{
-    int count = 0;
-    for (const struct binding *b = list; b->key; b++, count++) {
-        if (is_reached(b, layout)) continue;
-        fail_msg("%s has no key for what “%s” with modifiers %u does", layout->name, key_name(b->key), b->mods);
-    }
-    return count;
-}
-
-TEST(test_every_layout_has_a_key_for_every_action)
+TEST(test_every_layout_has_a_key_for_every_command)
 {
     for (size_t i = 0; i < sizeof layouts / sizeof *layouts; i++) {
-        assert_true(check_reached(key_bindings, &layouts[i]) + check_reached(character_bindings, &layouts[i]) > 80);
+        for (int c = 0; c < command_count; c++) {
+            if (!is_reached(&commands[c], &layouts[i]))
+                fail_msg("%s has no key for “%s”", layouts[i].name, commands[c].name);
+        }
     }
 }
 
 TEST(test_no_key_is_bound_twice)
 {
-    for (const struct binding *b = key_bindings; b->key; b++) {
-        for (const struct binding *other = key_bindings; other < b; other++) {
-            assert_false(b->key == other->key && b->mods == other->mods);
+    for (int c = 0; c < command_count; c++) {
+        for (const struct chord *chord = commands[c].chords; chord->key; chord++) {
+            if (keys_command(chord->key, chord->mods) != &commands[c])
+                fail_msg("%s with modifiers %u is bound twice", key_name(chord->key), chord->mods);
+            assert_true(!is_punctuation(chord->key) ||
+                        chord->mods); // it would act once more when its character comes
         }
-        assert_true(!is_punctuation(b->key) || b->mods); // it would act once more when its character comes
     }
 }
 

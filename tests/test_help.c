@@ -1,5 +1,5 @@
-/// The overlay with all keys: whole in every usual window, scrolled in small ones, and true: it names each key that the editor
-/// answers to, and no other.
+/// The table of commands: what it says is true, F1 shows all of it, and docs/keys.md names the same keys.
+#include "editor/commands.h"
 #include "editor/keys.h"
 #include "panel_session.h"
 #include "shown.h"
@@ -18,55 +18,39 @@ static void open_help(struct session *s, float width, float height)
 
 static bool is_seen(const struct draw_command *c) { return c && c->y > c->clip.y && c->y < c->clip.y + c->clip.h; }
 
-static void assert_whole(struct session *s)
+/// A row that is added must be reached by scrolling in every usual window, and nothing of it may be cut.
+TEST(test_every_row_is_reached_whole)
 {
-    for (int g = 0; g < HELP_GROUPS; g++) {
-        for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
-            const struct help_row row = help_row(&help_groups[g], i);
-            if (!is_seen(shown_text(s->editor, row.keys)) || !is_seen(shown_text(s->editor, row.what))) {
-                fail_msg("“%s, %s” is not to be seen", row.keys, row.what);
-            }
-        }
-    }
-}
-
-TEST(test_all_of_it_fits)
-{
-    static const float sizes[][2] = {{1280, 720}, {1920, 1080}, {3840, 2160}};
+    static const float sizes[][2] = {{960, 600}, {1280, 720}, {1920, 1080}, {3840, 2160}};
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
         struct session s;
+        bool *seen = calloc((size_t)command_count, sizeof *seen);
         open_help(&s, sizes[i][0], sizes[i][1]);
-        assert_non_null(shown_text(s.editor, "Press any key to close"));
-        assert_whole(&s);
-        session_close(&s);
-    }
-}
-
-/// A row that is added must not be lost in the smallest usual window, be it by scrolling.
-SESSION_TEST(test_all_of_it_is_reached_at_960_by_600, open_help(s, 960, 600))
-{
-    bool seen[HELP_GROUPS][HELP_MAX_ROWS] = {{false}};
-    for (int page = 0; page < 6; page++) {
-        for (int g = 0; g < HELP_GROUPS; g++) {
-            for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
-                seen[g][i] |= is_seen(shown_text(s->editor, help_row(&help_groups[g], i).what));
+        for (int page = 0; page < 60; page++) {
+            for (int c = 0; c < command_count; c++) {
+                char keys[COMMAND_KEYS];
+                command_keys(&commands[c], keys);
+                seen[c] |= is_seen(shown_text(s.editor, commands[c].name)) &&
+                           (!keys[0] || is_seen(shown_text(s.editor, keys)));
             }
+            session_wheel(&s, -1);
         }
-        session_wheel(s, -1);
-    }
-    for (int g = 0; g < HELP_GROUPS; g++) {
-        for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
-            if (!seen[g][i]) fail_msg("“%s” is never to be seen", help_row(&help_groups[g], i).what);
+        for (int c = 0; c < command_count; c++) {
+            if (!seen[c] && commands[c].about != ABOUT_COUNT)
+                fail_msg("“%s” is never to be seen whole at %g × %g", commands[c].name, (double)sizes[i][0],
+                         (double)sizes[i][1]);
         }
+        free(seen);
+        session_close(&s);
     }
 }
 
 SESSION_TEST(test_small_windows_scroll, open_help(s, 500, 360))
 {
     assert_true(is_seen(shown_text(s->editor, "Double-click")));
-    assert_false(is_seen(shown_text(s->editor, "Ctrl+Q")));
-    for (int i = 0; i < 40; i++) session_key(s, KEY_DOWN, 0);
-    assert_true(is_seen(shown_text(s->editor, "Ctrl+Q")));
+    assert_false(is_seen(shown_text(s->editor, "Ctrl+0")));
+    session_wheel(s, -1000);
+    assert_true(is_seen(shown_text(s->editor, "Ctrl+0")));
     assert_false(is_seen(shown_text(s->editor, "Double-click")));
     session_wheel(s, 1000);
     assert_true(is_seen(shown_text(s->editor, "Double-click")));
@@ -87,13 +71,59 @@ SESSION_TEST(test_any_key_closes_the_help_and_does_nothing_else, panel_open(s, s
     assert_false(s->editor->dialogs->help.open);
 }
 
-// --- the table against the keys -------------------------------------------------------------------------------------------
+// --- the table -------------------------------------------------------------------------------------------
 
-/// A key with exactly these modifiers.
-struct chord {
-    int key;
-    unsigned mods;
-};
+/// Rows under a heading stand together, and no two are called the same.
+TEST(test_the_table_is_in_order)
+{
+    for (int c = 0; c < command_count; c++) {
+        for (int other = 0; other < c; other++) {
+            if (strcmp(commands[c].name, commands[other].name) == 0) fail_msg("two are called %s", commands[c].name);
+            if (commands[other].about == commands[c].about && commands[c - 1].about != commands[c].about)
+                fail_msg("“%s” stands apart from its like", commands[c].name);
+        }
+        assert_true(command_runs(&commands[c]) != (commands[c].gesture != NULL));
+    }
+}
+
+TEST(test_every_letter_to_hold_is_in_the_help)
+{
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        char gesture[64];
+        bool found = !parameter_rows[p].letter;
+        if (!found) snprintf(gesture, sizeof gesture, "Hold %s, press ↑ ↓", parameter_rows[p].letter);
+        for (int c = 0; c < command_count && !found; c++) {
+            found = commands[c].gesture && strcmp(commands[c].gesture, gesture) == 0 &&
+                    strcasecmp(commands[c].name, parameter_rows[p].name) == 0;
+        }
+        if (!found) fail_msg("the help lacks “%s” for %s", gesture, parameter_rows[p].name);
+    }
+}
+
+static const char *missing(const struct session *s, int key, unsigned mods)
+{
+    return command_missing(&s->editor->core, keys_command(key, mods));
+}
+
+/// Whether a command can be done now follows the scene and the selection.
+SESSION_TEST(test_what_can_be_done_now, session_open(s, scene))
+{
+    assert_string_equal(missing(s, 'Z', MOD_CTRL), "There is nothing to undo.");
+    assert_string_equal(missing(s, 'T', 0), "Select a knot first.");
+    assert_string_equal(missing(s, 'J', 0), "Click a bone of an imported character first.");
+    assert_string_equal(missing(s, 'K', 0), "Select a soft character first.");
+    assert_string_equal(missing(s, KEY_PAGE_UP, MOD_ALT), "Select a pin first.");
+    assert_null(missing(s, 'A', MOD_CTRL));
+    assert_null(missing(s, 'S', MOD_CTRL));
+    session_key(s, 'A', MOD_CTRL);
+    assert_null(missing(s, 'T', 0));
+    session_key(s, KEY_DELETE, 0);
+    assert_null(missing(s, 'Z', MOD_CTRL));
+    assert_string_equal(missing(s, 'A', MOD_CTRL), "Insert a knot first.");
+    assert_string_equal(missing(s, 'Y', MOD_CTRL), "There is nothing to redo.");
+    session_key(s, 'Z', MOD_CTRL);
+    assert_null(missing(s, 'Y', MOD_CTRL));
+}
 
 enum { MAX_CHORDS = 256 };
 
@@ -188,23 +218,6 @@ static void read_row(const char *text, struct chords *chords)
     }
 }
 
-/// What the help says in words only, or elsewhere.
-static void add_words(struct chords *chords)
-{
-    add(chords, 'Z', MOD_CTRL | MOD_SHIFT);
-    add(chords, KEY_UP, 0); // "Hold and press ↑ ↓"
-    add(chords, KEY_DOWN, 0);
-    add(chords, '=', 0); // "(also =)"
-    for (unsigned shift = 0; shift <= MOD_SHIFT; shift += MOD_SHIFT) {
-        add(chords, '+', MOD_CTRL | shift);         // is where = is
-        add(chords, KEY_PAGE_UP, MOD_CTRL | shift); // "(or PgUp, PgDn)"
-        add(chords, KEY_PAGE_DOWN, MOD_CTRL | shift);
-    }
-    for (int k = KEY_LEFT; k <= KEY_DOWN; k++) { // "nudge (Shift, Ctrl)"
-        for (unsigned mods = 0; mods < 4; mods++) add(chords, k, MOD_ALT | mods);
-    }
-}
-
 /// Whether the editor does something for a chord, or for the character that a key without modifiers is named after. A session in
 /// which nothing was done serves for the next one, too.
 static bool try_chord(int key, unsigned mods)
@@ -240,18 +253,6 @@ static void assert_has_every_key(const struct chords *chords, const char *where)
     assert_true(bound > 80);
 }
 
-TEST(test_every_key_is_in_the_help)
-{
-    struct chords chords = {.count = 0};
-    for (int g = 0; g < HELP_GROUPS; g++) {
-        for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
-            read_row(help_row(&help_groups[g], i).keys, &chords);
-        }
-    }
-    add_words(&chords);
-    assert_has_every_key(&chords, "the help");
-}
-
 /// Keys that somebody else than keys.c answers: the inspector, a drag, a held letter.
 static bool is_answered_elsewhere(int key)
 {
@@ -271,15 +272,6 @@ static void assert_does_something(const char *keys)
         any |= is_bound(chords.list[k].key, chords.list[k].mods) || is_answered_elsewhere(chords.list[k].key);
     }
     if (chords.count > 0 && !any) fail_msg("%s does nothing", keys);
-}
-
-TEST(test_the_help_names_no_other_keys)
-{
-    for (int g = 0; g < HELP_GROUPS; g++) {
-        for (int i = 0; help_row(&help_groups[g], i).keys; i++) {
-            assert_does_something(help_row(&help_groups[g], i).keys);
-        }
-    }
 }
 
 // --- docs/keys.md against the keys ----------------------------------------------------------------------------------------
@@ -313,7 +305,6 @@ TEST(test_every_key_is_in_the_page_of_keys)
     char cell[256];
     while (next_page_row(page, cell, sizeof cell)) read_row(cell, &chords);
     fclose(page);
-    for (int k = KEY_LEFT; k <= KEY_DOWN; k++) add(&chords, k, MOD_CTRL | MOD_SHIFT | MOD_ALT); // Shift wins
     assert_has_every_key(&chords, "docs/keys.md");
 }
 

@@ -1,6 +1,7 @@
 /// The editor's public functions: who gets an event, and what happens once a frame.
 #include "editor/editor.h"
 #include "base/need.h"
+#include "editor/commands.h"
 #include "editor/curves/curves.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
@@ -19,7 +20,7 @@ struct editor *editor_create(void)
     editor->curves = curves_create();
     editor->stage = stage_create(&editor->core);
     editor->inspector = inspector_create(&editor->core);
-    editor->dialogs = dialogs_create();
+    editor->dialogs = dialogs_create(commands, command_count);
     editor->core.layout.stage_share = 400.0f / (720 - THEME_STATUS_HEIGHT);
     editor->core.layout.inspector_width = THEME_INSPECTOR_WIDTH;
     editor->core.visible = 2;

@@ -134,7 +134,7 @@ void editor_event(struct editor *editor, const struct event *event)
     if (is_interruption(event)) tooltip_dismiss(&editor->tooltip);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
     dialogs_note(editor->dialogs, event);
-    bool used = dialogs_event(editor->dialogs, &editor->core, event, inspector_is_dragging(editor->inspector)) ||
+    bool used = dialogs_event(editor->dialogs, &editor->core, event) || keys_first(editor, event) ||
                 drag_event(&editor->core, event) ||
                 (!inspector_ui(editor->inspector)->typing && presenter_event(&editor->core, event)) ||
                 (!editor->core.drag.owner && inspector_event(editor->inspector, event));

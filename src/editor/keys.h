@@ -1,31 +1,16 @@
-/// What each key and each typed character does, as tables. Private to src/editor.
+/// The keyboard: from keys and typed characters to commands. Private to src/editor.
 #ifndef EDITOR_KEYS_H
 #define EDITOR_KEYS_H
 
 #include "editor/editor.h"
 
-/// What a key does: one of these, with its argument.
-struct binding {
-    int key;       ///< or character
-    unsigned mods; ///< exactly these
-    bool repeats;  ///< also while the key is kept down
-    bool any_time; ///< also while a drag holds a step of the history open
-    void (*run)(struct editor *editor, int argument);
-    void (*core)(struct core *core, int argument);
-    void (*curves)(struct curves *curves, struct core *core, int argument);
-    void (*inspector)(struct inspector *inspector);
-    const struct knot *(*knot)(struct core *core, int argument); ///< which is to be seen then
-    bool pins;                                                   ///< goes from pin to pin where one is selected
-    enum request_kind request;                                   ///< its number is the argument
-    int argument;
-};
+struct command;
 
-/// Up to one that does nothing. Letters are what is printed on a key, digits a place.
-extern const struct binding key_bindings[];
-/// Punctuation, by the character typed: every layout has it on other keys. What AZERTY, QWERTZ or Nordic layouts type only with
-/// AltGr has a key as well.
-extern const struct binding character_bindings[];
-
+/// The command of a key with exactly these modifiers, or with CHORD_TYPED of a typed character: every layout has punctuation on other keys,
+/// and what AZERTY, QWERTZ or Nordic layouts type only with AltGr has a key as well. NULL: there is none.
+const struct command *keys_command(int key, unsigned mods);
+/// Keys that mean the same whoever has the keyboard; true where the event is used up.
+bool keys_first(struct editor *editor, const struct event *event);
 /// Keys and characters; true where the event is used up.
 bool keys_event(struct editor *editor, const struct event *event);
 

@@ -411,17 +411,22 @@ static void dialog_show(struct dialogs *dialogs, struct core *core)
     ui_end(&dialog->ui);
 }
 
-struct dialogs *dialogs_create(void) { return need_zeroed(1, sizeof(struct dialogs)); }
+struct dialogs *dialogs_create(const struct command *commands, int count)
+{
+    struct dialogs *dialogs = need_zeroed(1, sizeof *dialogs);
+    dialogs->commands = (struct command_list){commands, count};
+    return dialogs;
+}
 
 void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
 
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
 
-bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event, bool busy)
+bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event)
 {
     const bool calm = event->kind == EVENT_POINTER && dialogs->dialog.kind == DIALOG_NONE;
-    return !calm && (dialog_event(dialogs, core, event) || help_event(dialogs, core, event, busy) ||
-                     welcome_event(dialogs, event));
+    return !calm &&
+           (dialog_event(dialogs, core, event) || help_event(dialogs, core, event) || welcome_event(dialogs, event));
 }
 
 void dialogs_show(struct dialogs *dialogs, struct core *core)

@@ -56,7 +56,10 @@ struct export_memory {
 
 struct dialogs;
 
-struct dialogs *dialogs_create(void);
+struct command;
+
+/// `commands`: what F1 shows.
+struct dialogs *dialogs_create(const struct command *commands, int count);
 void dialogs_destroy(struct dialogs *dialogs);
 /// Gives the dialogs access to folders; copied.
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files);
@@ -85,8 +88,10 @@ bool dialogs_ask(struct dialogs *dialogs, struct core *core);
 bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, const char *name, bool saving);
 /// Asks what to do with unsaved work of an earlier run: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet.
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer);
-/// true where an open dialog, the help or the card for new users takes the event; `busy`: no help now.
-bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event, bool busy);
+/// true where an open dialog, the help or the card for new users takes the event.
+bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event);
+/// Shows all keys.
+void dialogs_help(struct dialogs *dialogs);
 /// Whether something lies over the panels.
 bool dialogs_cover(const struct dialogs *dialogs);
 /// The same, and what the pointer is over there.

@@ -1,7 +1,6 @@
 /// The overlay with all keys (F1): as many columns as the window has room for, rows closer together where it is low, and
 /// scrolled where that is not enough.
 #include "editor/dialogs/state.h"
-#include "scene/parameter.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
@@ -9,8 +8,8 @@
 
 enum {
     MAX_COLUMNS = 4,
-    COLUMN_LEAST = 270,
-    COLUMN_MOST = 320,
+    COLUMN_LEAST = 340,
+    COLUMN_MOST = 400,
     ROW = 20,
     ROW_LEAST = 15,
     HEADER = 22,
@@ -27,26 +26,34 @@ struct flow {
     float row, height; ///< of a row, of the highest column
 };
 
-static int row_count(const struct help_group *group)
+/// The first command under a heading; they stand together.
+static const struct command *first_of(const struct command_list *list, int about)
 {
-    int count = 0;
-    while (help_row(group, count).keys) count++;
-    return count;
+    const struct command *command = list->commands;
+    while (command < list->commands + list->count && (int)command->about != about) command++;
+    return command;
 }
 
-static float group_height(int group, float row)
+static int row_count(const struct command_list *list, int about)
 {
-    return HEADER + row * (float)row_count(&help_groups[group]) + GROUP_GAP;
+    const struct command *first = first_of(list, about), *command = first;
+    while (command < list->commands + list->count && (int)command->about == about) command++;
+    return (int)(command - first);
+}
+
+static float group_height(const struct command_list *list, int about, float row)
+{
+    return HEADER + row * (float)row_count(list, about) + GROUP_GAP;
 }
 
 /// Fills column after column up to a height; false where that takes more columns than there are.
-static bool fill(struct flow *flow, float limit)
+static bool fill(const struct command_list *list, struct flow *flow, float limit)
 {
     int column = 0;
     float height = 0;
     flow->first[0] = 0;
-    for (int g = 0; g < HELP_GROUPS; g++) {
-        float more = group_height(g, flow->row);
+    for (int g = 0; g < ABOUT_COUNT; g++) {
+        float more = group_height(list, g, flow->row);
         if (height > 0 && height + more > limit) {
             if (++column == flow->columns) return false;
             flow->first[column] = g;
@@ -54,20 +61,20 @@ static bool fill(struct flow *flow, float limit)
         }
         height += more;
     }
-    for (int c = column + 1; c <= flow->columns; c++) flow->first[c] = HELP_GROUPS;
+    for (int c = column + 1; c <= flow->columns; c++) flow->first[c] = ABOUT_COUNT;
     flow->height = limit - GROUP_GAP;
     return true;
 }
 
 /// The lowest columns that hold all groups in their order.
-static struct flow flow_of(int columns, float row)
+static struct flow flow_of(const struct command_list *list, int columns, float row)
 {
     const float step = 4;
     struct flow flow = {.columns = columns, .row = row};
     float limit = 0;
-    for (int g = 0; g < HELP_GROUPS; g++) limit += group_height(g, row) / (float)columns;
+    for (int g = 0; g < ABOUT_COUNT; g++) limit += group_height(list, g, row) / (float)columns;
     limit = ceilf(limit); // whole pixels, so that what just fits does not seem to need scrolling
-    while (!fill(&flow, limit)) limit += step;
+    while (!fill(list, &flow, limit)) limit += step;
     return flow;
 }
 
@@ -77,15 +84,15 @@ struct page {
     struct flow flow;
 };
 
-static struct page page_of(struct rect window)
+static struct page page_of(const struct command_list *list, struct rect window)
 {
     struct page page;
     float room_x = fmaxf(window.w - 32, 1), room_y = fmaxf(window.h - 16, 1);
     int columns = (int)((room_x - MARGIN) / (COLUMN_LEAST + MARGIN));
     columns = columns < 1 ? 1 : columns > MAX_COLUMNS ? MAX_COLUMNS : columns;
     float row = ROW;
-    while ((page.flow = flow_of(columns, row)).height + TITLE + MARGIN > room_y && row > ROW_LEAST) row--;
-    if (page.flow.height + TITLE + MARGIN > room_y) page.flow = flow_of(columns, ROW);
+    while ((page.flow = flow_of(list, columns, row)).height + TITLE + MARGIN > room_y && row > ROW_LEAST) row--;
+    if (page.flow.height + TITLE + MARGIN > room_y) page.flow = flow_of(list, columns, ROW);
     float w = fminf(room_x, (float)(columns * (COLUMN_MOST + MARGIN) + MARGIN));
     float h = fminf(room_y, page.flow.height + TITLE + MARGIN);
     page.box = (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 2), w, h};
@@ -118,19 +125,18 @@ static float scroll_of(const struct event *event, const struct page *page)
     }
 }
 
-bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event, bool busy)
+void dialogs_help(struct dialogs *dialogs)
+{
+    dialogs->help = (struct help){.open = true};
+    dialogs->welcome = false;
+}
+
+bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
 {
     bool press = (event->kind == EVENT_KEY || event->kind == EVENT_BUTTON) && event->action == ACTION_PRESS;
     struct help *help = &dialogs->help;
-    if (!help->open) {
-        bool opens = press && event->kind == EVENT_KEY && event->key == KEY_F1;
-        if (opens && !busy) {
-            *help = (struct help){.open = true};
-            dialogs->welcome = false;
-        }
-        return opens;
-    }
-    const struct page page = page_of(core->layout.window);
+    if (!help->open) return false;
+    const struct page page = page_of(&dialogs->commands, core->layout.window);
     float by = scroll_of(event, &page);
     if (by != 0) {
         help->offset = scrolled(&page, help->offset + by);
@@ -149,15 +155,18 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
 }
 
 /// One group at `r`, whose height is that of a row, with its keys in a column `keys` wide; returns the group's height.
-static float show_group(struct drawlist *list, struct rect r, float keys, const struct help_group *group)
+static float show_group(struct drawlist *list, struct rect r, float keys, const struct command_list *commands,
+                        int about)
 {
-    paint_line(list, (struct rect){r.x, r.y, r.w, HEADER}, FONT_LABEL_BOLD, theme()->accent, group->title);
+    const struct command *command = first_of(commands, about);
+    paint_line(list, (struct rect){r.x, r.y, r.w, HEADER}, FONT_LABEL_BOLD, theme()->accent, about_titles[about]);
     float y = r.y + HEADER;
-    for (int i = 0; i < row_count(group); i++, y += r.h) {
-        struct help_row row = help_row(group, i);
-        paint_line(list, (struct rect){r.x, y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, row.keys);
+    for (int i = 0; i < row_count(commands, about); i++, y += r.h, command++) {
+        char text[COMMAND_KEYS];
+        command_keys(command, text);
+        paint_line(list, (struct rect){r.x, y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, text);
         struct rect what = {r.x + keys, y, r.w - keys, r.h};
-        paint_line(list, what, FONT_LABEL, theme()->text_dim, row.what);
+        paint_line(list, what, FONT_LABEL, theme()->text_dim, command->name);
     }
     return y + GROUP_GAP - r.y;
 }
@@ -177,27 +186,28 @@ static void show_title(struct drawlist *list, const struct page *page)
 }
 
 /// Width of the keys in a column, with a gap.
-static float keys_width(const struct flow *flow, int column)
+static float keys_width(const struct command_list *list, const struct flow *flow, int column)
 {
     float widest = 0;
-    for (int g = flow->first[column]; g < flow->first[column + 1]; g++) {
-        for (int i = 0; i < row_count(&help_groups[g]); i++) {
-            widest = fmaxf(widest, font_width(FONT_LABEL, THEME_TEXT_NORMAL, help_row(&help_groups[g], i).keys));
-        }
+    for (int i = 0; i < list->count; i++) {
+        const int about = (int)list->commands[i].about;
+        char text[COMMAND_KEYS];
+        if (about < flow->first[column] || about >= flow->first[column + 1]) continue;
+        command_keys(&list->commands[i], text);
+        widest = fmaxf(widest, font_width(FONT_LABEL, THEME_TEXT_NORMAL, text));
     }
     return ceilf(widest) + KEYS_GAP;
 }
 
-static void show_columns(struct drawlist *list, const struct page *page, float offset)
+static void show_columns(struct drawlist *list, const struct command_list *commands, const struct page *page,
+                         float offset)
 {
     const struct flow *flow = &page->flow;
     float width = (page->box.w - (float)(MARGIN * (flow->columns + 1))) / (float)flow->columns;
     for (int c = 0; c < flow->columns; c++) {
         struct rect r = {page->box.x + MARGIN + (width + MARGIN) * (float)c, page->body.y - offset, width, flow->row};
-        float keys = fminf(keys_width(flow, c), floorf(0.6f * width));
-        for (int g = flow->first[c]; g < flow->first[c + 1]; g++) {
-            r.y += show_group(list, r, keys, &help_groups[g]);
-        }
+        float keys = fminf(keys_width(commands, flow, c), floorf(0.5f * width));
+        for (int g = flow->first[c]; g < flow->first[c + 1]; g++) r.y += show_group(list, r, keys, commands, g);
     }
 }
 
@@ -214,113 +224,14 @@ void help_show(const struct dialogs *dialogs, struct core *core)
 {
     if (!dialogs->help.open) return;
     struct drawlist *list = &core->list;
-    const struct page page = page_of(core->layout.window);
+    const struct page page = page_of(&dialogs->commands, core->layout.window);
     const float offset = scrolled(&page, dialogs->help.offset);
     drawlist_rect(list, core->layout.window, theme()->veil);
     drawlist_rounded(list, page.box, 8, theme()->panel);
     drawlist_rounded_line(list, page.box, 8, 1, theme()->zero);
     show_title(list, &page);
     struct rect clip = drawlist_push_clip(list, page.body);
-    show_columns(list, &page, offset);
+    show_columns(list, &dialogs->commands, &page, offset);
     drawlist_set_clip(list, clip);
     show_bar(list, &page, offset);
-}
-
-const struct help_group help_groups[HELP_GROUPS] = {
-    {"Knots",
-     {{"Double-click", "insert a knot"},
-      {"I, Shift+I", "at playhead (sloped)"},
-      {"Del, Backspace", "delete"},
-      {"Click, Shift+click", "select, add to it"},
-      {"Drag a box", "select its knots"},
-      {"Ctrl+A, Ctrl+Shift+A", "all; of all splines"},
-      {",  .", "previous, next knot"},
-      {"Alt+.  ,  Home, End", "go there"},
-      {"<  >", "extend to that one"},
-      {"Shift+PgUp, PgDn", "the same"},
-      {"Alt+arrows", "nudge (Shift, Ctrl)"},
-      {"Ctrl+C, X, V, D", "copy, cut, paste, clone"},
-      {"S, Shift+S", "scale; the swing"},
-      {"Drag their box", "scale (Alt: the swing)"}}},
-    {"While dragging",
-     {{"X, Y", "only time, only value"},
-      {"R", "move later knots too"},
-      {"Shift", "fine"},
-      {"Ctrl", "between the frames"},
-      {"Esc", "cancel"}}},
-    {"Slopes",
-     {{"T; Shift+T; Ctrl+T", "on or off; flat; smooth"},
-      {"P; Shift+P", "pose; still (a knot)"},
-      {"D, E", "turn it down, up"},
-      {"Shift+D, Shift+E", "softer, firmer"}}},
-    {"Inspector",
-     {{"Tab, Shift+Tab", "next, previous field"},
-      {"Arrows", "change it (Shift: ×10)"},
-      {"Enter, double-click", "type a number"},
-      {"Del, right-click", "restore the default"},
-      {"Type in a list", "search it"},
-      {"A, Shift+Del", "add, remove a rig"}}},
-    {"Spline",
-     {{"PgUp, PgDn", "previous, next spline"},
-      {"F2", "rename it"},
-      {"M; Shift+M", "mode; oscillator, filter"},
-      {"V", "wiggly, stiff, cubic look"},
-      {"Shift+F", "find its frequency"},
-      {"W", "fix a warning"}}},
-    [HELP_HELD] = {"Hold and press ↑ ↓", {{"L", "lag of the tail"}}},
-    {"Playback",
-     {{"Space", "play, pause"},
-      {"←  →", "step a frame"},
-      {"Shift+←, Shift+→", "to the start, the end"},
-      {"Drag the ruler", "scrub"},
-      {"Shift+drag it", "play a part"},
-      {"Ctrl+L", "loop on or off"},
-      {"[  ]", "play from, to here"},
-      {"Ctrl+Home, End", "the same"},
-      {"-  +", "slower, faster (also =)"}}},
-    {"Curves",
-     {{"Wheel", "zoom"},
-      {"Ctrl, Shift+wheel", "zoom time, value"},
-      {"Middle drag", "pan (also Space+drag)"},
-      {"Ctrl+arrows", "pan"},
-      {"Ctrl+=, Ctrl+-", "zoom (or PgUp, PgDn)"},
-      {"Home, End", "show all, the selection"},
-      {"N", "normalise"},
-      {"F3", "dope sheet"},
-      {"U", "frames or seconds"},
-      {"G", "snap to frames or not"}}},
-    {"Stage",
-     {{"Drag the tail", "bend it"},
-      {"Drag a surface", "pin it (X, Y, Z; Shift)"},
-      {"Ctrl+drag a tail", "pin a joint"},
-      {"H, Alt+PgUp, PgDn", "pin as it is, its frame"},
-      {"Drag a floor's edge", "raise, lower it"},
-      {"Drag the body", "tail follows (R records)"},
-      {"Ctrl+drag it, Shift+A", "lift it, auto-key"},
-      {"Right drag, wheel", "orbit, zoom"},
-      {"Ctrl+Shift+arrows", "orbit (PgUp: zoom)"},
-      {"Shift+Home", "show everything"},
-      {"O, Shift+O; F4", "onion skin, arc; ghost"},
-      {"K; J, Shift+J", "paint; chain of bones"}}},
-    {"File and window",
-     {{"Ctrl+Z, Ctrl+Y", "undo, redo (or Shift+Z)"},
-      {"Ctrl+O, N, E", "open, new, export"},
-      {"Ctrl+S, Ctrl+Shift+S", "save, save as"},
-      {"Ctrl+1 … 9, Ctrl+0", "figures, scenes"},
-      {"F6, Shift+F6", "resize the panels"},
-      {"Ctrl+Shift+=, -, 0", "larger, smaller, reset"},
-      {"F8, Shift+F8", "larger, smaller"},
-      {"F5, Tab", "present; panels"},
-      {"F10", "light or dark"},
-      {"F11, F12", "full screen, screenshot"},
-      {"Ctrl+Q", "quit"}}},
-};
-
-struct help_row help_row(const struct help_group *group, int index)
-{
-    for (enum parameter p = 0; group == &help_groups[HELP_HELD] && p < PARAMETER_COUNT; p++) {
-        const struct parameter_row *row = &parameter_rows[p];
-        if (row->letter && index-- == 0) return (struct help_row){row->letter, row->name};
-    }
-    return index < HELP_MAX_ROWS ? group->rows[index] : (struct help_row){0};
 }

@@ -1,5 +1,6 @@
 /// What an audience sees of a user's hands: keys and buttons as they are pressed, in a pill that fades; in a demo a pointer and a
 /// caption as well.
+#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
@@ -12,20 +13,6 @@ static const double HOLD = 1.4, FADE = 0.35; ///< seconds after the release
 static const double GLIDE = 0.08;            ///< seconds that the demo's pointer is behind
 static const float DRAG_FROM = 3;            ///< logical pixels; less is a click
 enum { HEIGHT = 36, PAD = 18, MARGIN = 14, GAP = 8 };
-
-/// As docs/keys.md writes it.
-static const char *name_of(int key)
-{
-    static const struct {
-        int key;
-        const char *name;
-    } names[] = {{KEY_ESCAPE, "Esc"}, {KEY_DELETE, "Del"}, {KEY_PAGE_UP, "PgUp"}, {KEY_PAGE_DOWN, "PgDn"},
-                 {KEY_LEFT, "←"},     {KEY_RIGHT, "→"},    {KEY_UP, "↑"},         {KEY_DOWN, "↓"}};
-    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        if (names[i].key == key) return names[i].name;
-    }
-    return key_name(key);
-}
 
 /// Shows a word with the modifiers before it. The same again counts.
 static void tell(struct pressed *pressed, unsigned mods, const char *word, bool counts)
@@ -66,7 +53,7 @@ void dialogs_note(struct dialogs *dialogs, const struct event *event)
 {
     struct pressed *pressed = &dialogs->pressed;
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE)
-        tell(pressed, event->mods, name_of(event->key), true);
+        tell(pressed, event->mods, command_key_name(event->key), true);
     if (event->kind == EVENT_WHEEL) tell(pressed, event->mods, "wheel", false);
     if (event->kind == EVENT_BUTTON) note_button(pressed, event);
     if (event->kind == EVENT_POINTER) note_pointer(pressed, event);

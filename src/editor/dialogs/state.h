@@ -3,6 +3,7 @@
 #ifndef EDITOR_DIALOGS_STATE_H
 #define EDITOR_DIALOGS_STATE_H
 
+#include "editor/core/command.h"
 #include "editor/dialogs/dialogs.h"
 
 struct help {
@@ -70,7 +71,14 @@ struct pressed {
     bool is_demo;     ///< nobody's hands: the pointer is shown as well
 };
 
+/// The table of editor/commands.c.
+struct command_list {
+    const struct command *commands;
+    int count;
+};
+
 struct dialogs {
+    struct command_list commands;
     struct dialog dialog;
     struct exporting exporting;
     struct help help;
@@ -101,28 +109,11 @@ int question_build(struct dialog *dialog);
 /// What a key does: an answer, QUESTION_OPEN where it moved the choice, or QUESTION_UNUSED.
 int question_key(struct dialog *dialog, int key);
 
-/// F1 opens it; wheel, ↑ ↓ and PgUp PgDn scroll it; any other key or a click closes it. While it is open help_event() is true
-/// for keys, text, buttons and the wheel.
-bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event, bool busy);
+/// Wheel, ↑ ↓ and PgUp PgDn scroll it; any other key or a click closes it. While it is open help_event() is true for keys, text, buttons
+/// and the wheel.
+bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
 /// Draws it, where it is open.
 void help_show(const struct dialogs *dialogs, struct core *core);
-
-enum { HELP_MAX_ROWS = 14, HELP_GROUPS = 10, HELP_HELD = 5 };
-
-/// Keys are separated by ", ", "; " or two spaces; one without Ctrl+ or Shift+ may share that of the key before it.
-struct help_row {
-    const char *keys, *what;
-};
-
-struct help_group {
-    const char *title;
-    struct help_row rows[HELP_MAX_ROWS]; ///< up to the first without keys
-};
-
-extern const struct help_group help_groups[HELP_GROUPS];
-
-/// A row of a group, from 0; without keys beyond the last one. HELP_HELD begins with the letters of the parameters.
-struct help_row help_row(const struct help_group *group, int index);
 
 /// A press on the card takes it away and is used up; so do Esc, an edit and the help.
 bool welcome_event(struct dialogs *dialogs, const struct event *event);

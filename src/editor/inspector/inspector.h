@@ -10,7 +10,7 @@ struct inspector;
 struct inspector *inspector_create(struct core *core);
 void inspector_destroy(struct inspector *in);
 /// F2: the active spline's name can be typed.
-void inspector_rename(struct inspector *in);
+void inspector_rename(struct inspector *in, int unused);
 /// Opens a section, with all of it in sight where there is room.
 void inspector_unfold(struct inspector *in, const char *name);
 /// Shows a rig, with what it feels like.
@@ -18,9 +18,9 @@ void inspector_show_rig(struct inspector *in, int rig);
 /// Shows what a spline bends or drives: of the rig that is shown, if it is one of these.
 void inspector_show_spline(struct inspector *in, int spline);
 /// A: the menu of what can be added, at the pointer over stage and curves, else on top of the inspector. And on something of the inspector.
-void inspector_add_menu(struct inspector *in);
+void inspector_add_menu(struct inspector *in, int unused);
 /// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
-void inspector_remove_rig(struct inspector *in);
+void inspector_remove_rig(struct inspector *in, int unused);
 /// Its widgets: what the pointer is over, what has the keyboard, what is typed.
 const struct ui *inspector_ui(const struct inspector *in);
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.

@@ -135,7 +135,11 @@ static void build_buttons(struct inspector *in)
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
-void inspector_remove_rig(struct inspector *in) { rigs_ask_remove(in->core, in->selected); }
+void inspector_remove_rig(struct inspector *in, int unused)
+{
+    (void)unused;
+    rigs_ask_remove(in->core, in->selected);
+}
 
 void inspector_rigs(struct inspector *in)
 {
@@ -227,12 +231,13 @@ static void choose_added(struct inspector *in, const struct dropdown *list)
 
 const struct dropdown inspector_add_list = {.name = "add", .build = choose_added};
 
-void inspector_add_menu(struct inspector *in)
+void inspector_add_menu(struct inspector *in, int unused)
 {
     const struct layout *layout = &in->core->layout;
     const float x = in->core->pointer_x, y = in->core->pointer_y;
     const bool beside = rect_contains(layout->stage, x, y) || rect_contains(layout->curves, x, y);
     const struct rect panel = layout->inspector;
+    (void)unused;
     open_add(in, beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
     if (beside) in->ui.popup.room = (struct rect){0, 0, panel.x, layout->status.y};
     in->ui.focus = ui_id("item.tail");

@@ -80,9 +80,10 @@ static void build_palette(struct inspector *in, const struct dropdown *list)
 
 static const struct dropdown palette = {"palette", "Colour of this spline", build_palette};
 
-void inspector_rename(struct inspector *in)
+void inspector_rename(struct inspector *in, int unused)
 {
     const struct spline *spline = core_active_spline(in->core);
+    (void)unused;
     if (!spline) return;
     inspector_unfold(in, "section.splines");
     in->scroll.offset = 0; // the list is near the top
@@ -147,7 +148,7 @@ static bool build_row(struct inspector *in, int s, struct rect r)
         if (event == UI_ROW_PRESSED) core_activate(in->core, s);
         if (event == UI_ROW_TWICE) {
             core_activate(in->core, s);
-            inspector_rename(in);
+            inspector_rename(in, 0);
         }
         dropped = event == UI_ROW_DROPPED;
     }

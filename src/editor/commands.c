@@ -1,0 +1,442 @@
+/// Everything that can be done: one table, from which keys are dispatched, F1 is drawn and the palette is filled. docs/keys.md lists it.
+#include "editor/commands.h"
+#include "editor/core/bones.h"
+#include "editor/core/characters.h"
+#include "editor/core/core.h"
+#include "editor/core/drag.h"
+#include "editor/core/knots.h"
+#include "editor/core/pins.h"
+#include "editor/core/selection.h"
+#include "editor/curves/curves.h"
+#include "editor/dialogs/dialogs.h"
+#include "editor/editor.h"
+#include "editor/inspector/inspector.h"
+#include "editor/stage/stage.h"
+#include "ui/theme.h"
+#include <math.h>
+
+/// Asks the app, or first the user, where to or whether work may be lost.
+static void ask_for(struct editor *editor, enum request_kind kind, int number)
+{
+    const struct request request = {.kind = kind, .number = number};
+    const bool has_path = editor->core.path[0] != '\0';
+    if (kind == REQUEST_NEW || kind == REQUEST_OPEN || kind == REQUEST_FIGURE || kind == REQUEST_QUIT) {
+        editor_leave(editor, &request);
+    } else if (kind == REQUEST_SAVE_AS || (kind == REQUEST_SAVE && !has_path)) {
+        dialogs_save_as(editor->dialogs, &editor->core);
+    } else if (kind == REQUEST_EXPORT) {
+        dialogs_export(editor->dialogs, &editor->core);
+    } else {
+        editor->core.request = request;
+    }
+}
+
+static void run_help(struct editor *e, int argument)
+{
+    (void)argument;
+    dialogs_help(e->dialogs);
+}
+
+static void run_insert(struct editor *e, int argument)
+{
+    core_insert_on_curve(&e->core, core_frame(&e->core), true, argument);
+}
+
+static bool has_pin(const struct editor *editor)
+{
+    int rig;
+    return pins_selected(&editor->core, &rig) != NULL;
+}
+
+/// Puts the brush away; without one, stops to pick a bone, ends presenting, lets go of the bone or pin that is selected, or clears the selection.
+static void run_select_none(struct editor *e, int argument)
+{
+    (void)argument;
+    if (e->core.brush.on) {
+        characters_set_brush(&e->core, false);
+    } else if (e->core.pick.use != BONE_SELECTED) {
+        e->core.pick = (struct bone_pick){0};
+    } else if (e->core.presenter.on) {
+        presenter_toggle(&e->core, 0);
+    } else if (e->core.bone.any) {
+        bones_clear(&e->core);
+    } else if (has_pin(e)) {
+        pins_clear(&e->core);
+    } else {
+        selection_clear(&e->core.selection);
+    }
+}
+
+static void run_hold(struct editor *e, int argument)
+{
+    (void)argument;
+    stage_hold_point(e->stage, &e->core);
+}
+
+static void run_frame(struct editor *e, int argument)
+{
+    if (!argument && core_panel_at(&e->core, e->core.pointer_x, e->core.pointer_y) == PANEL_STAGE) {
+        stage_fit(e->stage, &e->core);
+    } else if (argument) {
+        curves_frame_selection(e->curves, &e->core);
+    } else {
+        curves_frame_all(e->curves, &e->core);
+    }
+}
+
+enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_DUPLICATE };
+
+/// Not while a value is typed: knots are not what is meant then.
+static void run_clipboard(struct editor *e, int argument)
+{
+    if (inspector_ui(e->inspector)->typing) return;
+    if (argument == CLIPBOARD_DUPLICATE) {
+        core_duplicate_knots(&e->core);
+    } else if (argument == CLIPBOARD_PASTE) {
+        core_request(&e->core, REQUEST_PASTE, NULL);
+    } else if (core_copy_knots(&e->core, argument == CLIPBOARD_CUT)) {
+        core_request(&e->core, REQUEST_COPY, NULL);
+    }
+}
+
+static void run_brush(struct editor *e, int argument)
+{
+    (void)argument;
+    characters_set_brush(&e->core, !e->core.brush.on);
+    if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
+}
+
+static void run_theme(struct editor *e, int argument)
+{
+    (void)e;
+    (void)argument;
+    theme_use((theme_in_use() + 1) % THEME_COUNT);
+}
+
+/// Arguments of run_pan(), run_orbit() and run_nudge().
+enum way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };
+
+static const double PAN = 0.1;  ///< of the panel's size
+static const double ZOOM = 0.8; ///< of what is seen, a step
+static const float TURN = 0.1f; ///< radians
+static const int way_sign[][2] = {
+    [WAY_LEFT] = {-1, 0}, [WAY_RIGHT] = {1, 0}, [WAY_UP] = {0, -1}, [WAY_DOWN] = {0, 1}};
+
+static void run_pan(struct editor *editor, int way)
+{
+    const struct rect *plot = &editor->core.layout.plot;
+    curves_pan(editor->curves, &editor->core, -PAN * way_sign[way][0] * plot->w, -PAN * way_sign[way][1] * plot->h);
+}
+
+static void run_zoom(struct editor *editor, int direction)
+{
+    const struct rect *plot = &editor->core.layout.plot;
+    double factor = direction > 0 ? ZOOM : 1 / ZOOM;
+    curves_zoom(editor->curves, &editor->core, plot->x + plot->w / 2, plot->y + plot->h / 2, factor, factor);
+}
+
+static void run_orbit(struct editor *editor, int way)
+{
+    stage_orbit(editor->stage, TURN * (float)way_sign[way][0], -TURN * (float)way_sign[way][1]);
+}
+
+static void run_approach(struct editor *editor, int direction)
+{
+    stage_approach(editor->stage, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
+}
+
+static void run_fit_stage(struct editor *editor, int argument)
+{
+    (void)argument;
+    stage_fit(editor->stage, &editor->core);
+}
+
+/// By a frame or 1 % of the visible values, a pin by 1 % of what is seen; with Shift ten times that, with Ctrl a tenth.
+static void run_nudge(struct editor *editor, int way)
+{
+    const unsigned mods = editor->core.mods;
+    const double size = mods & MOD_SHIFT ? 10 : mods & MOD_CTRL ? 0.1 : 1;
+    const double across = size * way_sign[way][0], up = -size * way_sign[way][1];
+    if (has_pin(editor)) {
+        stage_nudge_pin(editor->stage, &editor->core, across, up);
+    } else {
+        curves_nudge(editor->curves, &editor->core, across, up);
+    }
+}
+
+static void play(struct core *core, int unused)
+{
+    (void)unused;
+    playback_toggle(core);
+}
+
+enum list_change { LIST_ADD, LIST_COPY, LIST_REMOVE, LIST_UP, LIST_DOWN };
+
+static void change_list(struct core *core, int change)
+{
+    if (change == LIST_ADD) spline_list_add(core);
+    if (change == LIST_COPY) spline_list_copy(core);
+    if (change == LIST_REMOVE) spline_list_remove(core);
+    if (change >= LIST_UP) spline_list_move(core, core->active, core->active + (change == LIST_UP ? -1 : 1));
+}
+
+/// The first of the sizes that is clearly larger than the present one, round the end.
+static double next_size(const double sizes[3], double present)
+{
+    int next = 0;
+    while (next < 3 && sizes[next] <= present * 1.01) next++;
+    return sizes[next % 3];
+}
+
+static void run_panel(struct editor *editor, int inspector)
+{
+    static const double shares[3] = {0.35, 0.575, 0.75}, widths[3] = {280, 360, 440};
+    double share = (double)editor->core.layout.stage_share, width = (double)editor->core.layout.inspector_width;
+    if (inspector) {
+        width = next_size(widths, width);
+    } else {
+        share = next_size(shares, share);
+    }
+    core_set_panels(&editor->core, share, width);
+}
+
+enum {
+    CTRL = MOD_CTRL,
+    SHIFT = MOD_SHIFT,
+    ALT = MOD_ALT,
+    CTRL_SHIFT = MOD_CTRL | MOD_SHIFT,
+    ALT_SHIFT = MOD_ALT | MOD_SHIFT,
+    ALT_CTRL = MOD_ALT | MOD_CTRL,
+    TYPED = CHORD_TYPED
+};
+
+/// A row: its name, heading and places; what it needs and when its keys work; its function with its argument; its keys.
+#define COMMAND(named, heading, places, need, works, function, number, ...)                                          \
+    {                                                                                                                \
+        .name = (named), .about = ABOUT_##heading, .at = (places), .needs = NEEDS_##need, .when = (works), function, \
+        .argument = (number), .chords = {                                                                            \
+            __VA_ARGS__                                                                                              \
+        }                                                                                                            \
+    }
+/// A row that F1 alone shows: what to do with the mouse or a held key, and what that does.
+#define GESTURE(gestured, named, heading, places)                                                                    \
+    {                                                                                                                \
+        .name = (named), .about = ABOUT_##heading, .at = (places), .gesture = (gestured)                             \
+    }
+
+const struct command commands[] = {
+    GESTURE("Double-click", "Insert a knot at the pointer", KNOTS, ON_CURVES),
+    COMMAND("Insert a knot at the playhead", KNOTS, ON_CURVES, SPLINE, 0, .run = run_insert, 0, {'I', 0}),
+    COMMAND("Insert a knot with its slope", KNOTS, 0, SPLINE, 0, .run = run_insert, true, {'I', SHIFT}),
+    GESTURE("Drag it", "Move a knot", KNOTS, ON_KNOT),
+    GESTURE("Click, Shift+click", "Select a knot, add one", KNOTS, ON_KNOT),
+    GESTURE("Drag on empty", "Select the knots in a box", KNOTS, ON_CURVES),
+    COMMAND("Select all knots of the spline", KNOTS, ON_KNOT, KNOTS, 0, .core = core_select_all, 0, {'A', CTRL}),
+    COMMAND("Select all knots in sight", KNOTS, 0, KNOTS, 0, .core = core_select_all, true, {'A', CTRL_SHIFT}),
+    COMMAND("Deselect, or stop what goes on", KNOTS, 0, NOTHING, 0, .run = run_select_none, 0, {KEY_ESCAPE, 0}),
+    COMMAND("Delete the selection", KNOTS, ON_KNOT | ON_PIN, CHOSEN, 0, .core = core_delete, 0, {KEY_DELETE, 0},
+            {KEY_BACKSPACE, 0}),
+    COMMAND("Next knot or pin", KNOTS, ON_KNOT | ON_PIN, KNOTS, REPEATS | PINS, .knot = core_select_neighbour, 1,
+            {'.', TYPED}),
+    COMMAND("Previous knot or pin", KNOTS, ON_PIN, KNOTS, REPEATS | PINS, .knot = core_select_neighbour, -1,
+            {',', TYPED}),
+    COMMAND("Go to the next knot or pin", KNOTS, 0, KNOTS, REPEATS | PINS, .knot = core_visit_neighbour, 1,
+            {'.', ALT}, {KEY_END, ALT}),
+    COMMAND("Go to the previous knot or pin", KNOTS, 0, KNOTS, REPEATS | PINS, .knot = core_visit_neighbour, -1,
+            {',', ALT}, {KEY_HOME, ALT}),
+    COMMAND("Also select the next knot", KNOTS, 0, KNOTS, REPEATS, .knot = core_extend_selection, 1, {'>', TYPED},
+            {KEY_PAGE_DOWN, SHIFT}),
+    COMMAND("Also select the previous knot", KNOTS, 0, KNOTS, REPEATS, .knot = core_extend_selection, -1,
+            {'<', TYPED}, {KEY_PAGE_UP, SHIFT}),
+    COMMAND("Nudge right (Shift: ×10)", KNOTS, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_RIGHT, {KEY_RIGHT, ALT},
+            {KEY_RIGHT, ALT_SHIFT}, {KEY_RIGHT, ALT_CTRL}),
+    COMMAND("Nudge left (Shift: ×10)", KNOTS, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_LEFT, {KEY_LEFT, ALT},
+            {KEY_LEFT, ALT_SHIFT}, {KEY_LEFT, ALT_CTRL}),
+    COMMAND("Nudge up (Shift: ×10)", KNOTS, ON_KNOT | ON_PIN, CHOSEN, REPEATS, .run = run_nudge, WAY_UP,
+            {KEY_UP, ALT}, {KEY_UP, ALT_SHIFT}, {KEY_UP, ALT_CTRL}),
+    COMMAND("Nudge down (Shift: ×10)", KNOTS, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_DOWN, {KEY_DOWN, ALT},
+            {KEY_DOWN, ALT_SHIFT}, {KEY_DOWN, ALT_CTRL}),
+    COMMAND("Copy", KNOTS, ON_KNOT, SELECTED, 0, .run = run_clipboard, CLIPBOARD_COPY, {'C', CTRL}),
+    COMMAND("Cut", KNOTS, 0, SELECTED, 0, .run = run_clipboard, CLIPBOARD_CUT, {'X', CTRL}),
+    COMMAND("Paste at the playhead", KNOTS, 0, SPLINE, 0, .run = run_clipboard, CLIPBOARD_PASTE, {'V', CTRL}),
+    COMMAND("Duplicate after the selection", KNOTS, 0, SELECTED, 0, .run = run_clipboard, CLIPBOARD_DUPLICATE,
+            {'D', CTRL}),
+    COMMAND("Scale the selection", KNOTS, ON_KNOT, SELECTED, 0, .curves = curves_scale, 0, {'S', 0}),
+    COMMAND("Scale the swing of the selection", KNOTS, 0, SELECTED, 0, .curves = curves_scale, true, {'S', SHIFT}),
+    GESTURE("Drag their box", "Scale (Alt: the swing)", KNOTS, 0),
+
+    GESTURE("X, Y", "Only time, only value", DRAG, 0),
+    GESTURE("R", "Move all later knots too", DRAG, 0),
+    GESTURE("Shift", "In finer steps", DRAG, 0),
+    GESTURE("Ctrl", "Between the frames", DRAG, 0),
+    GESTURE("Esc", "Cancel", DRAG, 0),
+
+    COMMAND("Slope on or off", SLOPES, ON_KNOT, SELECTED, 0, .core = slopes_set, SLOPES_TOGGLE, {'T', 0}),
+    COMMAND("Flat slope", SLOPES, 0, SELECTED, 0, .core = slopes_set, SLOPES_FLAT, {'T', SHIFT}),
+    COMMAND("Smooth slope", SLOPES, 0, SELECTED, 0, .core = slopes_set, SLOPES_SMOOTH, {'T', CTRL}),
+    COMMAND("Turn the slope up", SLOPES, 0, SELECTED, REPEATS, .core = slopes_turn, 1, {'E', 0}),
+    COMMAND("Turn the slope down", SLOPES, 0, SELECTED, REPEATS, .core = slopes_turn, -1, {'D', 0}),
+    COMMAND("Firmer slope", SLOPES, 0, SELECTED, REPEATS, .core = slopes_stiffen, 1, {'E', SHIFT}),
+    COMMAND("Softer slope", SLOPES, 0, SELECTED, REPEATS, .core = slopes_stiffen, -1, {'D', SHIFT}),
+    COMMAND("Pose: hold every part as it is", SLOPES, ON_KNOT, SELECTED, 0, .core = core_set_hold, HOLDS_POSE,
+            {'P', 0}),
+    COMMAND("Still: come to rest at the knot", SLOPES, ON_KNOT, SELECTED, 0, .core = core_set_hold, HOLDS_STILL,
+            {'P', SHIFT}),
+
+    COMMAND("Next spline", SPLINE, ON_CURVES, SPLINE, REPEATS, .core = core_activate_neighbour, 1,
+            {KEY_PAGE_DOWN, 0}),
+    COMMAND("Previous spline", SPLINE, 0, SPLINE, REPEATS, .core = core_activate_neighbour, -1, {KEY_PAGE_UP, 0}),
+    COMMAND("Add a spline", SPLINE, 0, NOTHING, 0, .core = change_list, LIST_ADD, {0}),
+    COMMAND("Duplicate the spline", SPLINE, 0, SPLINE, 0, .core = change_list, LIST_COPY, {0}),
+    COMMAND("Delete the spline", SPLINE, 0, SPLINE, 0, .core = change_list, LIST_REMOVE, {0}),
+    COMMAND("Move the spline up in the list", SPLINE, 0, SPLINE, 0, .core = change_list, LIST_UP, {0}),
+    COMMAND("Move the spline down in the list", SPLINE, 0, SPLINE, 0, .core = change_list, LIST_DOWN, {0}),
+    COMMAND("Rename the spline", SPLINE, ON_INSPECTOR, SPLINE, 0, .inspector = inspector_rename, 0, {KEY_F2, 0}),
+    COMMAND("Next kind: wiggly, spring, cubic", SPLINE, ON_INSPECTOR, SPLINE, 0, .core = core_cycle_choice,
+            PARAMETER_MODE, {'M', 0}),
+    COMMAND("Oscillator or filter", SPLINE, 0, SPLINE, 0, .core = core_cycle_choice, PARAMETER_PASSIVE, {'M', SHIFT}),
+    COMMAND("Find the frequency of the knots", SPLINE, ON_INSPECTOR, SWING, 0, .core = core_find_frequency, 0,
+            {'F', SHIFT}),
+    COMMAND("Compare: wiggly, stiff, cubic", SPLINE, ON_CURVES, NOTHING, ANY_TIME, .core = core_turn_look, 0,
+            {'V', 0}),
+    COMMAND("Fix the first warning", SPLINE, ON_CURVES, SPLINE, 0, .curves = curves_remedy_first, 0, {'W', 0}),
+    GESTURE("Hold F, press ↑ ↓", "Frequency", SPLINE, 0),
+    GESTURE("Hold Z, press ↑ ↓", "Damping", SPLINE, 0),
+    GESTURE("Hold B, press ↑ ↓", "Bandwidth", SPLINE, 0),
+    GESTURE("Hold C, press ↑ ↓", "Calm", SPLINE, 0),
+    GESTURE("Hold L, press ↑ ↓", "Lag of the tail", SPLINE, 0),
+
+    COMMAND("Play or pause", PLAYBACK, ON_CURVES | ON_TIME, NOTHING, 0, .core = play, 0, {KEY_SPACE, 0}),
+    COMMAND("Next frame", PLAYBACK, ON_TIME, NOTHING, REPEATS, .core = playback_step, 1, {KEY_RIGHT, 0}),
+    COMMAND("Previous frame", PLAYBACK, ON_TIME, NOTHING, REPEATS, .core = playback_step, -1, {KEY_LEFT, 0}),
+    COMMAND("Go to the start", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_end, -1, {KEY_LEFT, SHIFT}),
+    COMMAND("Go to the end", PLAYBACK, 0, NOTHING, 0, .core = playback_end, 1, {KEY_RIGHT, SHIFT}),
+    GESTURE("Drag the ruler", "Scrub", PLAYBACK, ON_TIME),
+    GESTURE("Shift+drag it", "Play a part", PLAYBACK, ON_TIME),
+    COMMAND("Play from here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 0, {'[', TYPED},
+            {KEY_HOME, CTRL}),
+    COMMAND("Play up to here", PLAYBACK, ON_TIME, NOTHING, 0, .core = playback_mark, 1, {']', TYPED},
+            {KEY_END, CTRL}),
+    COMMAND("Loop on or off", PLAYBACK, ON_TIME, NOTHING, 0, .core = core_flip, SWITCH_LOOP, {'L', CTRL}),
+    COMMAND("Play faster", PLAYBACK, 0, NOTHING, ANY_TIME, .core = playback_change_speed, 1, {'+', TYPED},
+            {'=', TYPED}),
+    COMMAND("Play slower", PLAYBACK, 0, NOTHING, ANY_TIME, .core = playback_change_speed, -1, {'-', TYPED}),
+
+    GESTURE("Wheel", "Zoom (Ctrl: time, Shift: values)", CURVES, ON_CURVES),
+    COMMAND("Zoom in", CURVES, 0, NOTHING, REPEATS, .run = run_zoom, 1, {'+', CTRL}, {'=', CTRL},
+            {KEY_PAGE_UP, CTRL}),
+    COMMAND("Zoom out", CURVES, 0, NOTHING, REPEATS, .run = run_zoom, -1, {'-', CTRL}, {KEY_PAGE_DOWN, CTRL}),
+    GESTURE("Middle drag", "Pan", CURVES, ON_CURVES),
+    COMMAND("Pan left", CURVES, 0, NOTHING, REPEATS, .run = run_pan, WAY_LEFT, {KEY_LEFT, CTRL}),
+    COMMAND("Pan right", CURVES, 0, NOTHING, REPEATS, .run = run_pan, WAY_RIGHT, {KEY_RIGHT, CTRL}),
+    COMMAND("Pan up", CURVES, 0, NOTHING, REPEATS, .run = run_pan, WAY_UP, {KEY_UP, CTRL}),
+    COMMAND("Pan down", CURVES, 0, NOTHING, REPEATS, .run = run_pan, WAY_DOWN, {KEY_DOWN, CTRL}),
+    COMMAND("Show all (over the stage: all of it)", CURVES, ON_CURVES, NOTHING, 0, .run = run_frame, 0,
+            {KEY_HOME, 0}),
+    COMMAND("Show the selection", CURVES, 0, NOTHING, 0, .run = run_frame, 1, {KEY_END, 0}),
+    COMMAND("Normalise: all curves equally high", CURVES, 0, NOTHING, 0, .core = core_flip, SWITCH_NORMALISE,
+            {'N', 0}),
+    COMMAND("Dope sheet", CURVES, ON_TIME, NOTHING, 0, .core = core_flip, SWITCH_SHEET, {KEY_F3, 0}),
+    COMMAND("Frames or seconds", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SECONDS, {'U', 0}),
+    COMMAND("Snap to frames or not", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SNAP, {'G', 0}),
+
+    GESTURE("Drag the tail, a chain", "Bend it", STAGE, ON_STAGE),
+    GESTURE("Drag the body", "Move it (R records)", STAGE, ON_STAGE),
+    GESTURE("Ctrl+drag the body", "Lift it", STAGE, 0),
+    COMMAND("Auto-key: a drag sets knots", STAGE, 0, NOTHING, 0, .core = core_flip, SWITCH_AUTO_KEY, {'A', SHIFT}),
+    GESTURE("Click it", "Select a bone", STAGE, ON_STAGE),
+    COMMAND("Chain of the bone", STAGE, 0, BONE, 0, .core = bones_make_chain, 0, {'J', 0}),
+    COMMAND("Chain of the bone, over the clip", STAGE, ON_STAGE, BONE, 0, .core = bones_make_chain, true,
+            {'J', SHIFT}),
+    COMMAND("Paint phase and amplitude", STAGE, 0, PAINT, 0, .run = run_brush, 0, {'K', 0}),
+    GESTURE("Right drag", "Orbit", STAGE, ON_STAGE),
+    COMMAND("Orbit left", STAGE, 0, NOTHING, REPEATS, .run = run_orbit, WAY_LEFT, {KEY_LEFT, CTRL_SHIFT}),
+    COMMAND("Orbit right", STAGE, 0, NOTHING, REPEATS, .run = run_orbit, WAY_RIGHT, {KEY_RIGHT, CTRL_SHIFT}),
+    COMMAND("Orbit up", STAGE, 0, NOTHING, REPEATS, .run = run_orbit, WAY_UP, {KEY_UP, CTRL_SHIFT}),
+    COMMAND("Orbit down", STAGE, 0, NOTHING, REPEATS, .run = run_orbit, WAY_DOWN, {KEY_DOWN, CTRL_SHIFT}),
+    GESTURE("Wheel", "Come nearer, go away", STAGE, ON_STAGE),
+    COMMAND("Come nearer", STAGE, 0, NOTHING, REPEATS, .run = run_approach, 1, {KEY_PAGE_UP, CTRL_SHIFT}),
+    COMMAND("Go away", STAGE, 0, NOTHING, REPEATS, .run = run_approach, -1, {KEY_PAGE_DOWN, CTRL_SHIFT}),
+    COMMAND("Show all of the stage", STAGE, ON_STAGE, NOTHING, 0, .run = run_fit_stage, 0, {KEY_HOME, SHIFT}),
+    COMMAND("Onion skin", STAGE, ON_STAGE, NOTHING, ANY_TIME, .core = core_flip, SWITCH_ONION, {'O', 0}),
+    COMMAND("Motion arc", STAGE, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_TRAIL, {'O', SHIFT}),
+    COMMAND("Ghost of the dragged knot", STAGE, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_GHOST, {KEY_F4, 0}),
+    GESTURE("Drag a floor's edge", "Raise or lower the floor", STAGE, 0),
+
+    GESTURE("Drag a surface", "Pin a point (X, Y, Z, Shift)", PINS, ON_STAGE),
+    GESTURE("Ctrl+drag a tail", "Pin a joint", PINS, 0),
+    COMMAND("Pin as it is", PINS, ON_STAGE | ON_PIN, RIG, 0, .run = run_hold, 0, {'H', 0}),
+    GESTURE("Click its marker", "Select a pin and go to its frame", PINS, ON_PIN),
+    GESTURE("Drag its marker", "Move a pin", PINS, ON_PIN),
+    GESTURE("Drag its ruler mark", "Move a pin in time", PINS, ON_PIN),
+    COMMAND("Pin to the next frame", PINS, ON_PIN, PIN, REPEATS, .core = pins_retime, 1, {KEY_PAGE_DOWN, ALT}),
+    COMMAND("Pin to the previous frame", PINS, ON_PIN, PIN, REPEATS, .core = pins_retime, -1, {KEY_PAGE_UP, ALT}),
+
+    GESTURE("Tab, Shift+Tab", "Next, previous field", INSPECTOR, ON_INSPECTOR),
+    GESTURE("Arrows", "Change it (Shift: ×10)", INSPECTOR, ON_INSPECTOR),
+    GESTURE("Enter, double-click", "Type a number", INSPECTOR, ON_INSPECTOR),
+    GESTURE("Del, right-click", "Restore the default", INSPECTOR, ON_INSPECTOR),
+    GESTURE("Type in a list", "Search it", INSPECTOR, ON_INSPECTOR),
+    COMMAND("Add a tail, a character, a chain …", INSPECTOR, ON_INSPECTOR, NOTHING, 0,
+            .inspector = inspector_add_menu, 0, {'A', 0}),
+    COMMAND("Remove the tail or character", INSPECTOR, ON_INSPECTOR, RIG, 0, .inspector = inspector_remove_rig, 0,
+            {KEY_DELETE, SHIFT}),
+
+    COMMAND("Undo", FILE, 0, UNDO, REPEATS, .core = core_undo, -1, {'Z', CTRL}),
+    COMMAND("Redo", FILE, 0, REDO, REPEATS, .core = core_undo, 1, {'Y', CTRL}, {'Z', CTRL_SHIFT}),
+    COMMAND("Open a scene or character", FILE, 0, NOTHING, 0, .request = REQUEST_OPEN, 0, {'O', CTRL}),
+    COMMAND("New scene", FILE, 0, NOTHING, 0, .request = REQUEST_NEW, 0, {'N', CTRL}),
+    COMMAND("Save", FILE, 0, NOTHING, 0, .request = REQUEST_SAVE, 0, {'S', CTRL}),
+    COMMAND("Save as", FILE, 0, NOTHING, 0, .request = REQUEST_SAVE_AS, 0, {'S', CTRL_SHIFT}),
+    COMMAND("Export: Blender, film, table", FILE, 0, NOTHING, 0, .request = REQUEST_EXPORT, 0, {'E', CTRL}),
+    COMMAND("Quit", FILE, 0, NOTHING, 0, .request = REQUEST_QUIT, 0, {'Q', CTRL}),
+
+    COMMAND("All keys", WINDOW, 0, NOTHING, ANY_TIME | FIRST, .run = run_help, 0, {KEY_F1, 0}),
+    COMMAND("Present: the stage alone", WINDOW, 0, NOTHING, 0, .core = presenter_toggle, 0, {KEY_F5, 0}),
+    GESTURE("Tab", "Panels, while presenting", WINDOW, 0),
+    COMMAND("Resize the stage", WINDOW, 0, NOTHING, 0, .run = run_panel, 0, {KEY_F6, 0}),
+    COMMAND("Resize the inspector", WINDOW, 0, NOTHING, 0, .run = run_panel, 1, {KEY_F6, SHIFT}),
+    COMMAND("Everything larger", WINDOW, 0, NOTHING, REPEATS, .request = REQUEST_UI_SCALE, 1, {KEY_F8, 0},
+            {'+', CTRL_SHIFT}, {'=', CTRL_SHIFT}),
+    COMMAND("Everything smaller", WINDOW, 0, NOTHING, REPEATS, .request = REQUEST_UI_SCALE, -1, {KEY_F8, SHIFT},
+            {'-', CTRL_SHIFT}),
+    COMMAND("Everything at the display's size", WINDOW, 0, NOTHING, 0, .request = REQUEST_UI_SCALE, 0,
+            {'0', CTRL_SHIFT}),
+    COMMAND("Light or dark", WINDOW, 0, NOTHING, ANY_TIME, .run = run_theme, 0, {KEY_F10, 0}),
+    COMMAND("Full screen", WINDOW, 0, NOTHING, ANY_TIME, .request = REQUEST_FULLSCREEN, 0, {KEY_F11, 0}),
+    COMMAND("Screenshot", WINDOW, 0, NOTHING, ANY_TIME, .request = REQUEST_SCREENSHOT, 0, {KEY_F12, 0}),
+
+    COMMAND("Figure 1: resonance as a spline", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 1, {'1', CTRL}),
+    COMMAND("Figure 2: poles and response", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 2, {'2', CTRL}),
+    COMMAND("Figure 3: a complex spline", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 3, {'3', CTRL}),
+    COMMAND("Figure 4: it stretches", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 4, {'4', CTRL}),
+    COMMAND("Figure 5: editable at any point", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 5, {'5', CTRL}),
+    COMMAND("Figure 6: a tail from four knots", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 6, {'6', CTRL}),
+    COMMAND("Figure 7: phases of a coordinate", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 7, {'7', CTRL}),
+    COMMAND("A dog: tail and ears follow its walk", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 8, {'8', CTRL}),
+    COMMAND("A creature held by its hands", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 9, {'9', CTRL}),
+    COMMAND("A fox in a meadow", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 10, {'0', CTRL}),
+
+    // Not listed: what a held letter turns these into is.
+    COMMAND("More of what a held letter means", COUNT, 0, NOTHING, REPEATS, .core = core_nudge_parameter, 1,
+            {KEY_UP, 0}),
+    COMMAND("Less of what a held letter means", COUNT, 0, NOTHING, REPEATS, .core = core_nudge_parameter, -1,
+            {KEY_DOWN, 0}),
+};
+
+const int command_count = sizeof commands / sizeof commands[0];
+
+void command_run(struct editor *editor, const struct command *command)
+{
+    struct core *core = &editor->core;
+    const int argument = command->argument;
+    if (command->run) command->run(editor, argument);
+    if (command->core) command->core(core, argument);
+    if (command->curves) command->curves(editor->curves, core, argument);
+    if (command->inspector) command->inspector(editor->inspector, argument);
+    if (command->request) ask_for(editor, command->request, argument);
+    const bool pins = command->when & PINS && has_pin(editor);
+    if (pins) pins_select_neighbour(core, argument);
+    const struct knot *knot = command->knot && !pins ? command->knot(core, argument) : NULL;
+    if (knot) curves_reveal(editor->curves, core, knot->frame, core_knot_value(core, core->active, knot));
+}

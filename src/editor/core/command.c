@@ -1,0 +1,116 @@
+/// What a command needs, and what its keys are called.
+#include "editor/core/command.h"
+#include "editor/core/bones.h"
+#include "editor/core/characters.h"
+#include "editor/core/core.h"
+#include "editor/core/pins.h"
+#include "editor/core/selection.h"
+#include <stdio.h>
+#include <string.h>
+
+const char *const about_titles[ABOUT_COUNT] = {
+    [ABOUT_KNOTS] = "Knots",         [ABOUT_DRAG] = "While dragging", [ABOUT_SLOPES] = "Slopes and poses",
+    [ABOUT_SPLINE] = "Splines",      [ABOUT_PLAYBACK] = "Playback",   [ABOUT_CURVES] = "Curves",
+    [ABOUT_STAGE] = "Stage",         [ABOUT_PINS] = "Pins",           [ABOUT_INSPECTOR] = "Inspector",
+    [ABOUT_FILE] = "File and edits", [ABOUT_WINDOW] = "Window",       [ABOUT_SCENES] = "Scenes to try",
+};
+
+static bool can_undo(const struct core *core) { return history_done(core->history) > 0; }
+
+static bool can_redo(const struct core *core) { return history_done(core->history) < history_count(core->history); }
+
+static bool has_spline(const struct core *core) { return core_active_spline(core) != NULL; }
+
+static bool has_swing(const struct core *core)
+{
+    return has_spline(core) && spline_mode(core_active_spline(core)) != WIGGLY_CUBIC;
+}
+
+static bool has_knots(const struct core *core)
+{
+    return has_spline(core) && core_active_spline(core)->knot_count > 0;
+}
+
+static bool has_selected(const struct core *core) { return selected_count(core) > 0; }
+
+static bool has_pin(const struct core *core)
+{
+    int rig;
+    return pins_selected(core, &rig) != NULL;
+}
+
+static bool has_chosen(const struct core *core) { return has_selected(core) || has_pin(core); }
+
+static bool has_bone(const struct core *core)
+{
+    int model;
+    return bones_selected(core, &model) >= 0;
+}
+
+static bool has_rig(const struct core *core) { return core->document->rig_count > 0; }
+
+static bool has_coordinate(const struct core *core) { return characters_coordinate(core) != NULL; }
+
+static const struct {
+    bool (*met)(const struct core *core);
+    const char *missing;
+} needs[] = {
+    [NEEDS_UNDO] = {can_undo, "There is nothing to undo."},
+    [NEEDS_REDO] = {can_redo, "There is nothing to redo."},
+    [NEEDS_SPLINE] = {has_spline, "Add a spline first."},
+    [NEEDS_SWING] = {has_swing, "Choose a spline that swings first: a cubic does not."},
+    [NEEDS_KNOTS] = {has_knots, "Insert a knot first."},
+    [NEEDS_SELECTED] = {has_selected, "Select a knot first."},
+    [NEEDS_CHOSEN] = {has_chosen, "Select a knot or a pin first."},
+    [NEEDS_PIN] = {has_pin, "Select a pin first."},
+    [NEEDS_BONE] = {has_bone, "Click a bone of an imported character first."},
+    [NEEDS_RIG] = {has_rig, "Add a tail or a character first."},
+    [NEEDS_PAINT] = {has_coordinate, "Select a soft character first."},
+};
+
+bool command_runs(const struct command *command)
+{
+    return command->run || command->core || command->curves || command->inspector || command->knot ||
+           command->request;
+}
+
+const char *command_missing(const struct core *core, const struct command *command)
+{
+    const bool met = command->needs == NEEDS_NOTHING || needs[command->needs].met(core);
+    return met ? NULL : needs[command->needs].missing;
+}
+
+const char *command_key_name(int key)
+{
+    static const struct {
+        int key;
+        const char *name;
+    } names[] = {{KEY_ESCAPE, "Esc"}, {KEY_DELETE, "Del"}, {KEY_PAGE_UP, "PgUp"}, {KEY_PAGE_DOWN, "PgDn"},
+                 {KEY_LEFT, "←"},     {KEY_RIGHT, "→"},    {KEY_UP, "↑"},         {KEY_DOWN, "↓"}};
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        if (names[i].key == key) return names[i].name;
+    }
+    return key_name(key);
+}
+
+static size_t add(char text[COMMAND_KEYS], size_t length, const char *word)
+{
+    const int more = snprintf(text + length, COMMAND_KEYS - length, "%s", word);
+    return length + (size_t)more < COMMAND_KEYS ? length + (size_t)more : COMMAND_KEYS - 1;
+}
+
+void command_keys(const struct command *command, char text[COMMAND_KEYS])
+{
+    size_t length = 0;
+    text[0] = '\0';
+    if (command->gesture) add(text, 0, command->gesture);
+    const struct chord *end = command->chords + COMMAND_SHOWN;
+    for (const struct chord *chord = command->chords; !command->gesture && chord < end && chord->key; chord++) {
+        const char typed[2] = {(char)chord->key, '\0'};
+        if (chord != command->chords) length = add(text, length, " or ");
+        if (chord->mods & MOD_CTRL) length = add(text, length, "Ctrl+");
+        if (chord->mods & MOD_SHIFT) length = add(text, length, "Shift+");
+        if (chord->mods & MOD_ALT) length = add(text, length, "Alt+");
+        length = add(text, length, chord->mods & CHORD_TYPED ? typed : command_key_name(chord->key));
+    }
+}

@@ -1,0 +1,104 @@
+/// What can be done, for keys, F1 and the palette alike. The table is in editor/commands.c.
+#ifndef EDITOR_CORE_COMMAND_H
+#define EDITOR_CORE_COMMAND_H
+
+#include "editor/core/state.h"
+
+struct editor;
+struct curves;
+struct inspector;
+
+/// Under which heading F1 lists a command.
+enum about {
+    ABOUT_KNOTS,
+    ABOUT_DRAG,
+    ABOUT_SLOPES,
+    ABOUT_SPLINE,
+    ABOUT_PLAYBACK,
+    ABOUT_CURVES,
+    ABOUT_STAGE,
+    ABOUT_PINS,
+    ABOUT_INSPECTOR,
+    ABOUT_FILE,
+    ABOUT_WINDOW,
+    ABOUT_SCENES,
+    ABOUT_COUNT
+};
+extern const char *const about_titles[ABOUT_COUNT];
+
+/// What the pointer is over, one bit each: F1 begins with ten rows about it.
+enum place {
+    ON_CURVES = 1,
+    ON_KNOT = 2,
+    ON_TIME = 4, ///< ruler, dope sheet, status line
+    ON_STAGE = 8,
+    ON_PIN = 16,
+    ON_INSPECTOR = 32
+};
+
+/// What a command needs, so that it can be done now.
+enum need {
+    NEEDS_NOTHING,
+    NEEDS_UNDO,
+    NEEDS_REDO,
+    NEEDS_SPLINE,
+    NEEDS_SWING,    ///< a spline that is no cubic
+    NEEDS_KNOTS,    ///< a spline with knots
+    NEEDS_SELECTED, ///< a selected knot
+    NEEDS_CHOSEN,   ///< a selected knot or pin
+    NEEDS_PIN,
+    NEEDS_BONE,
+    NEEDS_RIG,
+    NEEDS_PAINT ///< a character with a coordinate
+};
+
+/// When its keys work.
+enum when {
+    REPEATS = 1,  ///< also while the key is kept down
+    ANY_TIME = 2, ///< also while a drag holds a step of the history open
+    FIRST = 4,    ///< before a drag, the inspector or a popup get the key
+    PINS = 8      ///< goes from pin to pin where one is selected
+};
+
+enum { CHORD_TYPED = 1 << 8 /* among `mods`: it is the typed character, wherever a keyboard has it */ };
+
+/// A key with exactly these modifiers.
+struct chord {
+    int key; ///< or character; 0: none
+    unsigned mods;
+};
+
+enum {
+    COMMAND_CHORDS = 5,
+    COMMAND_SHOWN = 2, ///< of them, in F1 and the palette; docs/keys.md has all
+    COMMAND_KEYS = 96  ///< bytes of their names
+};
+
+/// A row of the table: what it is called and who does it. A row without a function is a gesture, which only F1 shows.
+struct command {
+    const char *name; ///< in plain words
+    enum about about;
+    unsigned at;                         ///< of enum place
+    struct chord chords[COMMAND_CHORDS]; ///< up to one without a key
+    enum need needs;
+    unsigned when;       ///< of enum when
+    const char *gesture; ///< what to do with the mouse or a held key; in place of the chords
+    void (*run)(struct editor *editor, int argument);
+    void (*core)(struct core *core, int argument);
+    void (*curves)(struct curves *curves, struct core *core, int argument);
+    void (*inspector)(struct inspector *inspector, int argument);
+    const struct knot *(*knot)(struct core *core, int argument); ///< which is to be seen then
+    enum request_kind request;                                   ///< its number is the argument
+    int argument;
+};
+
+/// Whether it is more than a gesture.
+bool command_runs(const struct command *command);
+/// What is missing for it, as in "Select a knot first."; NULL: it can be done now.
+const char *command_missing(const struct core *core, const struct command *command);
+/// Its first keys, "Ctrl+Y or Ctrl+Shift+Z", or its gesture; "" for a command without a key.
+void command_keys(const struct command *command, char text[COMMAND_KEYS]);
+/// What a key is called: "Esc", "PgUp", "←". NULL: it has no name.
+const char *command_key_name(int key);
+
+#endif
