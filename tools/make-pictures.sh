@@ -44,6 +44,19 @@ drag_events() {
     echo "268 pointer @stage(0.02,0.95)"
 }
 
+# What a job of tests/replays comes to, at some frames, side by side.
+row() { # <name> <job> <part of a picture of 480x320> <frame>...
+    name=$1 job=$2 part=$3
+    shift 3
+    "$wiggly" live --no-draw --replay "tests/replays/$job.replay" --result "$scratch/$job.json" "tests/replays/$job.json" >"$scratch/log"
+    for frame; do
+        "$wiggly" export "$scratch/$job.json" -o "$scratch/$job-$(printf %04d "$frame").png" --frames "$frame:$frame" --size 480x320 --quiet
+    done
+    convert "$scratch/$job"-*.png -alpha off -crop "$part" +repage +append -strip -define png:compression-level=9 \
+        -define png:compression-filter=1 "$out/$name"
+    echo "$out/$name, $(($(wc -c <"$out/$name") / 1000)) kB"
+}
+
 animation() { # <name>: every fourth of 300 frames, 15 a second
     "$wiggly" live --headless --frames 1 --size 960x600 --record "$scratch/loop.replay" >/dev/null 2>&1
     sed -i 's/^frames .*/frames 300/' "$scratch/loop.replay"
@@ -75,4 +88,6 @@ END
 picture bones.png 60 --replay "$scratch/bones.replay" assets/models/dog.glb
 picture dog.png 130 assets/scenes/dog.json
 picture swing.png 100 --replay "$scratch/swing.replay"
+row flick.png idle 215x250+155+15 29 33 35 44 60
+row held.png held 345x250+75+15 0 46 52 58 66 140
 picture figure7.png 60 assets/scenes/figure7.json

@@ -1,0 +1,70 @@
+# Two jobs of an animator, done by events in the real app: an ear flicks once in an idle whose tail hits a pose, and a tail is held up and
+# let go. What counts is the motion: degrees of every joint, a row a frame.
+. tests/check.sh
+unset DISPLAY WAYLAND_DISPLAY
+: >"$scratch/none.csv"
+
+play() { # <job> <name> [option]...
+    local job=$1 name=$2
+    shift 2
+    "$WIGGLY" live --no-draw --replay tests/replays/$job.replay --result "$scratch/$name.json" "$@" tests/replays/$job.json &&
+        motion "$name"
+}
+motion() { "$WIGGLY" export "$scratch/$1.json" -o "$scratch/$1.csv"; } # <name>
+
+# The largest difference of joints, those whose column begins so, in frames from … to: from those of another motion, all from one frame
+# of it if that is named; without one, from rest.
+off() { # <name> <columns> <from> <to> [other name] [frame]
+    awk -F, -v columns="$2" -v from="$3" -v to="$4" -v frame="${6-}" '
+        FNR == 1 { for (i = 2; i <= NF; i++) counts[i] = index($i, columns) == 1; next }
+        reads == "other" { for (i in counts) if (frame == "" || $1 == frame) at[frame == "" ? $1 : frame, i] = $i; next }
+        $1 >= from && $1 <= to { for (i in counts) if (counts[i]) {
+            seen++; d = $i - at[frame == "" ? $1 : frame, i]; d = d < 0 ? -d : d; most = d > most ? d : most } }
+        END { print seen ? most + 0 : "nothing" }' reads=other "$scratch/${5:-none}.csv" reads=own "$scratch/$1.csv"
+}
+below() { awk -v value="$1" -v most="$2" 'BEGIN { exit !(value ~ /^[0-9.e-]+$/ && value <= most) }'; } # <value> <most>
+above() { awk -v value="$1" -v least="$2" 'BEGIN { exit !(value ~ /^[0-9.e-]+$/ && value >= least) }'; }
+
+# --- an idle, 120 frames around: still ears that flick once, and the tail in a pose at frame 60
+
+expect 0 "an ear flicks and the tail is put in a pose" play idle posed --frames 125
+holds "still knots stand before and after the flick" [ "$(grep -c '"still": true' "$scratch/posed.json")" = 2 ]
+holds "both splines of the tail have a pose at frame 60" [ "$(grep -c '"frame": 60, .*"im"' "$scratch/posed.json")" = 2 ]
+for ear in left right; do
+    holds "the $ear ear is still until frame 30" below "$(off posed "$ear ear." 0 30)" 1e-6
+    holds "flicks" above "$(off posed "$ear ear." 31 43)" 10
+    holds "and is still again from frame 44 on" below "$(off posed "$ear ear." 44 120)" 1e-6
+done
+holds "the loop closes" below "$(off posed tail. 0 0 posed 120)" 1e-9
+
+expect 0 "then other knots move and go, and the frequency rises" play idle changed
+holds "by which the tail moves otherwise" above "$(off changed tail. 0 120 posed)" 5
+holds "but at frame 60 each joint is where it was put" below "$(off changed tail. 60 60 posed)" 1e-9
+holds "and the ears are as they were" below "$(off changed "left ear." 0 120 posed)" 1e-9
+sed 's/"damping": 0.12/"damping": 0.4/; s/"bandwidth": 0.1/"bandwidth": 0.3/; s/"frame": 30, "value": 0.15/"frame": 57, "value": -0.5/' \
+    "$scratch/changed.json" >"$scratch/more.json"
+expect 0 "damping, bandwidth and a knot close by change, too" motion more
+holds "which moves the tail elsewhere" above "$(off more tail. 0 120 changed)" 5
+holds "not at frame 60" below "$(off more tail. 60 60 posed)" 1e-9
+
+# --- a tail, held up until frame 48
+
+expect 0 "a tail is pulled up, held and let go" play held held
+holds "both ways that it bends have a pose at frames 0 and 48" [ "$(grep -cE '"frame": (0|48), .*"im"' "$scratch/held.json")" = 4 ]
+holds "it is up" above "$(off held tail.up. 0 0)" 2.5
+holds "no joint moves until frame 48" below "$(off held tail. 0 48 held 0)" 1e-9
+holds "then it falls" above "$(off held tail. 60 60 held 0)" 3
+holds "beyond its rest" awk -F, '$1 == 60 { exit !($2 < -0.4) }' "$scratch/held.csv"
+holds "swings less each time" below "$(off held tail.up. 100 144)" 1
+holds "and settles" below "$(off held tail.up. 126 144)" 0.3
+
+if "$WIGGLY" live --headless --frames 1 >/dev/null 2>&1; then
+    picture() { "$WIGGLY" export "$scratch/held.json" -o "$scratch/$1.png" --frames "$1:$1" --size 160x90 --quiet; } # <frame>
+    expect 0 "a picture of the start" picture 0
+    expect 0 "one of a frame before 48" picture 40
+    expect 0 "and one of the fall" picture 66
+    holds "the first two are the same" cmp -s "$scratch/0.png" "$scratch/40.png"
+    holds "the third is not" not cmp -s "$scratch/0.png" "$scratch/66.png"
+else
+    echo "skip - nothing is drawn here"
+fi
