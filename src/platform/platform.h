@@ -12,7 +12,7 @@ struct platform;
 void platform_debug_gl(void);
 int platform_gl_complaints(void);
 
-/// A window (GLX under X11) with a current 3.3 core context. Swap interval `vsync` 0 or 1.
+/// A window (GLX under X11) with a current 3.3 core context, shown from the first swap on. Swap interval `vsync` 0 or 1.
 /// NULL with a sentence: no display takes us in, no GLX, version.
 struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error);
 
@@ -31,7 +31,7 @@ const struct event *platform_events(struct platform *platform, double seconds, i
 /// Framebuffer size in device pixels, and device pixels a logical pixel.
 void platform_size(const struct platform *platform, int *width, int *height, float *scale);
 
-/// Whether the framebuffer keeps the last frame after a swap (offscreen, and software GLX; never assumed: probed once).
+/// Whether the framebuffer keeps the last frame after a swap (offscreen, and software GLX; never assumed: the first swap tells).
 bool platform_keeps(const struct platform *platform);
 
 /// Shows the frame; offscreen: glFinish. Not without a surface.

@@ -8,6 +8,7 @@
 #include <GLFW/glfw3.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 static const double DOUBLE_CLICK_SECONDS = 0.35;
 static const float DOUBLE_CLICK_PIXELS = 4.0f;
@@ -24,6 +25,7 @@ struct window {
     double click_time; ///< of the last press that may become a double click; -1 where there is none
     float click_x, click_y;
     enum event_button click_button;
+    bool is_shown; ///< from the first picture on
     bool is_fullscreen;
     int x, y, width, height; ///< where it was before it filled the screen
 };
@@ -228,6 +230,7 @@ static GLFWwindow *open_handle(int width, int height, const char *title)
     glfwWindowHint(GLFW_SAMPLES, 0);
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+    glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
     // A desktop finds wiggly.desktop and its icon by these names.
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "wiggly");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "wiggly");
@@ -326,12 +329,39 @@ void platform_size(const struct platform *platform, int *width, int *height, flo
     *scale = size.scale;
 }
 
+static bool is_software(void)
+{
+    const char *renderer = (const char *)glGetString(GL_RENDERER);
+    return renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe"));
+}
+
+/// Shows the window with its first picture, and finds out by that whether a swap keeps the back buffer: before the first one
+/// nothing like this picture's middle row was in any buffer.
+static bool swap_first(struct window *window)
+{
+    const int width = window->size.width, y = window->size.height / 2;
+    const size_t bytes = 4 * (size_t)width;
+    // On a GPU the standard leaves the content undefined, whatever one trial shows.
+    unsigned char *before = is_software() ? need(2, bytes) : NULL, *after = before ? before + bytes : NULL;
+    if (before) glReadPixels(0, y, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, before);
+    glfwShowWindow(window->handle);
+    glfwSwapBuffers(window->handle);
+    if (before) glReadPixels(0, y, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, after);
+    const bool keeps = before && memcmp(before, after, bytes) == 0;
+    free(before);
+    return keeps;
+}
+
 void platform_swap(struct platform *platform)
 {
-    if (platform->window) {
-        glfwSwapBuffers(platform->window->handle);
-    } else {
+    struct window *window = platform->window;
+    if (!window) {
         glFinish();
+    } else if (window->is_shown) {
+        glfwSwapBuffers(window->handle);
+    } else {
+        platform->keeps = swap_first(window);
+        window->is_shown = true;
     }
 }
 
