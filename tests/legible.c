@@ -67,8 +67,11 @@ static float contrast_of(const struct drawlist *list, const struct text *text, c
     const struct rect r = text->ink;
     const struct stage_colors *stage = &theme()->stage;
     if (!rect_contains(ground->stage, r.x + r.w / 2, r.y + r.h / 2)) return contrast_over(list, text, theme()->panel);
-    float least = fminf(contrast_over(list, text, stage->top), contrast_over(list, text, stage->bottom));
-    return fminf(least, contrast_over(list, text, stage->ground));
+    const uint32_t fur[] = {0xF2D3ACFF, 0x14100CFF}; // the brightest and the darkest of a character
+    const uint32_t below[] = {stage->top, stage->bottom, stage->ground, fur[0], fur[1]};
+    float least = INFINITY;
+    for (int i = 0; i < 5; i++) least = fminf(least, contrast_over(list, text, below[i]));
+    return least;
 }
 
 static int check_place(const struct drawlist *list, const struct draw_command *c, const struct legible_ground *ground,

@@ -411,7 +411,7 @@ static void show_state(const struct stage *stage, struct core *core, const struc
     if (painting->covers && paint) describe_spot(stage, paint, coordinate, text, sizeof text);
     if (!painting->covers)
         snprintf(text, sizeof text, "radius %.0f %%, strength %.0f %%", 100 * brush->radius, 100 * brush->strength);
-    drawlist_rounded(&core->list, box, 6, (theme()->panel & 0xFFFFFF00u) | 0xD8u);
+    stage_scrim(core, box);
     drawlist_text_fit(&core->list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
                       theme()->text, label);
     drawlist_text_fit(&core->list, box.x + 10, box.y + 35, box.w - 20, FONT_LABEL, THEME_TEXT_SMALL,

@@ -171,7 +171,7 @@ static void show_legend(struct core *core, const struct coordinate *coordinate)
     const float x = box.x + box.w / 2, y = box.y + 80;
     char title[96];
     snprintf(title, sizeof title, "%.40s: %s", coordinate->name, directions[core->characters.axis]);
-    drawlist_rounded(list, box, 6, (theme()->panel & 0xFFFFFF00u) | 0xD8u);
+    stage_scrim(core, box);
     drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
     show_wheel(list, x, y);
     show_spokes(list, x, y);

@@ -134,8 +134,7 @@ static void show_height(struct core *core, const struct shown_floor *floor, doub
     const float width = font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
     const float x = fmaxf(fminf(floor->xy[right][0] + 8, r.x + r.w - width - 8), r.x + 8);
     const float y = floor->xy[right][1] + 4;
-    drawlist_rounded(&core->list, (struct rect){x - 4, y - 12, width + 8, 16}, 4, theme_fade(theme()->panel, 0.8f));
-    drawlist_text(&core->list, x, y, FONT_LABEL, THEME_TEXT_SMALL, color, text);
+    stage_note(core, x, y, FONT_LABEL, color, text);
 }
 
 /// The edges at the nearest corner, and the beginnings of the other two, so that no line crosses the character.

@@ -12,6 +12,17 @@ enum { BELOW = 14, HEIGHT = 20, PAD = 6, DOT = 8 }; ///< pixels; the first: of a
 
 static const float FEET = -0.5f; ///< z of the paws from where the tail begins, metres, bind size
 
+void stage_scrim(struct core *core, struct rect box)
+{
+    drawlist_rounded(&core->list, box, fminf(6, box.h / 4), theme_fade(theme()->panel, 0.9f));
+}
+
+void stage_note(struct core *core, float x, float y, enum font font, uint32_t color, const char *text)
+{
+    stage_scrim(core, (struct rect){x - 4, y - 12, font_width(font, THEME_TEXT_SMALL, text) + 8, 16});
+    drawlist_text(&core->list, x, y, font, THEME_TEXT_SMALL, color, text);
+}
+
 /// Where the name of a tail goes; false where its feet are behind the eye.
 static bool place_name(const struct stage *stage, const struct core *core, int tail, const char *name,
                        struct rect *place)
@@ -60,59 +71,52 @@ void names_show(const struct stage *stage, struct core *core)
     }
 }
 
-enum { MARGIN = 16, TOP = 10, WIDEST = 960, LINE = 18, MAX_LINES = 4, MAX_TITLE = 256 };
+enum { MARGIN = 16, AROUND = 8, TOP = 10, WIDEST = 960, LINE = 18, MAX_LINES = 4, MAX_TITLE = 256 };
 
-/// A description in two: up to the first full stop, and the rest.
+/// A description in lines: the title, which goes up to the first full stop, and the rest below it.
 struct caption {
-    char title[MAX_TITLE + 1];
-    const char *rest;
+    char line[MAX_LINES][MAX_TITLE + 1];
+    int count;
+    float width; ///< of the widest
 };
 
-static struct caption caption_of(const struct document *document)
+static struct caption caption_of(struct rect place, const struct document *document)
 {
-    struct caption caption;
-    const char *stop = strstr(document->about, ". ");
-    size_t length = stop ? (size_t)(stop - document->about) : strlen(document->about);
-    if (length > MAX_TITLE) length = MAX_TITLE;
-    memcpy(caption.title, document->about, length);
-    caption.title[length] = '\0';
-    caption.rest = stop ? stop + 2 : "";
+    struct caption caption = {.count = 1};
+    const float room = fminf(WIDEST, place.w - 2 * MARGIN);
+    const char *stop = strstr(document->about, ". "), *rest = stop ? stop + 2 : "";
+    const size_t length = stop ? (size_t)(stop - document->about) : strlen(document->about);
+    snprintf(caption.line[0], sizeof caption.line[0], "%.*s", (int)length, document->about);
+    caption.width = fminf(font_width(FONT_LABEL_BOLD, THEME_TEXT_NORMAL, caption.line[0]), room);
+    while (caption.count < MAX_LINES && *rest) {
+        char *line = caption.line[caption.count++];
+        const char *from = rest;
+        const size_t taken = font_take_line(FONT_LABEL, THEME_TEXT_NORMAL, room, &rest);
+        snprintf(line, sizeof caption.line[0], "%.*s", (int)taken, from);
+        caption.width = fmaxf(caption.width, font_width(FONT_LABEL, THEME_TEXT_NORMAL, line));
+    }
     return caption;
 }
 
-static float caption_width(struct rect place) { return fminf(WIDEST, place.w - 2 * MARGIN); }
-
 float caption_height(struct rect place, const struct document *document)
 {
-    if (!document->about) return 0;
-    const struct caption caption = caption_of(document);
-    const char *rest = caption.rest;
-    int lines = 1;
-    while (lines < MAX_LINES && *rest) {
-        font_take_line(FONT_LABEL, THEME_TEXT_NORMAL, caption_width(place), &rest);
-        lines++;
-    }
-    return (float)(MARGIN + lines * LINE);
+    return document->about ? (float)(MARGIN + LINE * caption_of(place, document).count) : 0;
 }
 
 void stage_show_caption(struct core *core, float bottom)
 {
-    if (!core->document->about || core->layout.stage.y + MARGIN + TOP >= bottom) return;
     const struct rect place = core->layout.stage;
-    const float width = caption_width(place);
-    const struct caption caption = caption_of(core->document);
+    const float x = place.x + MARGIN, y = place.y + MARGIN + TOP;
+    if (!core->document->about || y >= bottom) return;
+    const struct caption caption = caption_of(place, core->document);
+    const int count = (int)fminf((float)caption.count, ceilf((bottom - y) / LINE));
+    const struct rect box = {x - AROUND, y - TOP - AROUND, caption.width + 2 * AROUND, LINE * (float)count + AROUND};
     struct rect clip = drawlist_push_clip(&core->list, place);
-    const char *rest = caption.rest;
-    float y = place.y + MARGIN + TOP;
-    drawlist_text_fit(&core->list, place.x + MARGIN, y, width, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, theme()->text,
-                      caption.title);
-    for (int line = 1; line < MAX_LINES && *rest && y + LINE < bottom; line++) {
-        char text[MAX_TITLE + 1];
-        const char *from = rest;
-        const size_t length = font_take_line(FONT_LABEL, THEME_TEXT_NORMAL, width, &rest);
-        y += LINE;
-        snprintf(text, sizeof text, "%.*s", (int)length, from);
-        drawlist_text(&core->list, place.x + MARGIN, y, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
-    }
+    stage_scrim(core, box);
+    drawlist_text_fit(&core->list, x, y, caption.width, FONT_LABEL_BOLD, THEME_TEXT_NORMAL, theme()->text,
+                      caption.line[0]);
+    for (int i = 1; i < count; i++)
+        drawlist_text(&core->list, x, y + LINE * (float)i, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim,
+                      caption.line[i]);
     drawlist_set_clip(&core->list, clip);
 }

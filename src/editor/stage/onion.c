@@ -257,6 +257,5 @@ void ghost_show(struct stage *stage, struct core *core)
     if (!proxy_show(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
     char text[32];
     snprintf(text, sizeof text, "%.4g", knot->frame);
-    drawlist_text(&core->list, roundf(tip[0] + 8), roundf(tip[1] + 4), FONT_NUMBER, THEME_TEXT_SMALL,
-                  theme_fade(theme()->text_dim, (float)left), text);
+    stage_note(core, roundf(tip[0] + 8), roundf(tip[1] + 4), FONT_NUMBER, theme()->text_dim, text);
 }

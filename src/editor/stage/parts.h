@@ -29,6 +29,10 @@ struct posing stage_posing(const struct core *core);
 /// Where a point of the world is on the screen, the stage being drawn in `r`; false where it is behind the eye.
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
 
+/// Darkens the stage below texts, or lightens it, so that they can be read over any character.
+void stage_scrim(struct core *core, struct rect box);
+/// A small text from (x, y) on its baseline, with a scrim of its own.
+void stage_note(struct core *core, float x, float y, enum font font, uint32_t color, const char *text);
 /// A ring where a tail or chain is held, or can be taken hold of.
 void stage_ring(struct core *core, const float xy[2]);
 /// The end of a drag that never moved: a click, on a bone or beside all.

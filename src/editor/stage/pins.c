@@ -256,7 +256,7 @@ static void show_frame(struct core *core, const float xy[2], double frame)
 {
     char text[32];
     snprintf(text, sizeof text, "%.6g", frame);
-    drawlist_text(&core->list, xy[0] + RING + 4, xy[1] + 4, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text, text);
+    stage_note(core, xy[0] + RING + 8, xy[1] + 4, FONT_NUMBER, theme()->text, text);
 }
 
 /// Where its point should be, and a line to where it is on its frame as far as that is known.
