@@ -33,6 +33,13 @@ static const char POSED[] =
     "\"knots\": [{\"frame\": 10, \"value\": 0.2, \"im\": 1},"
     "{\"frame\": 20, \"value\": 0.3, \"im\": 0}]}]}";
 
+/// Two poses two periods apart, the later one against the swing; before them a third that is in step.
+static const char FORCED[] =
+    "{\"wiggly\": 2, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.05,"
+    "\"bandwidth\": 0.03, \"knots\": [{\"frame\": 0, \"value\": 1, \"im\": 0}, {\"frame\": 36, \"value\": -1, "
+    "\"im\": 0},"
+    "{\"frame\": 84, \"value\": 1, \"im\": 0.1}]}]}";
+
 /// Opens a scene that has a warning, clicks it, and finds it gone by one step that undo takes back byte by byte.
 static void assert_remedied(struct session *s, const char *scene, enum warning_kind kind)
 {
@@ -64,7 +71,7 @@ TEST(test_a_swing_is_tamed_by_what_helps)
     assert_int_equal(sway->knot_count, 4); // there is calm enough: a knot holds it
     assert_near(sway->knots[2].value, 1, 1e-9);
     session_close(&s);
-    assert_remedied(&s, UNCALM, WARNING_SWING);
+    assert_remedied(&s, UNCALM, WARNING_FAR);
     assert_int_equal(s.document->splines[0]->knot_count, 2); // no knot where calm does it
     assert_near(s.document->splines[0]->parameter[PARAMETER_CALM].value, 1, 0);
     session_close(&s);
@@ -86,6 +93,28 @@ SESSION_TEST(test_poses_outside_complex_mode_are_freed, assert_remedied(s, POSED
     for (int k = 0; k < 2; k++) assert_false(s->document->splines[0]->knots[k].has_phase);
 }
 
+SESSION_TEST(test_a_pose_against_the_swing_is_freed, assert_remedied(s, FORCED, WARNING_FORCED))
+{
+    assert_true(s->document->splines[0]->knots[1].has_phase);
+    assert_false(s->document->splines[0]->knots[2].has_phase);
+}
+
+/// Poses as they are seen where they are set force nothing, whatever their order.
+TEST(test_poses_on_a_curve_force_nothing)
+{
+    struct session s;
+    session_open(&s, FORCED);
+    session_click(&s, "warning(0)");
+    for (int frame = 12; frame < 120; frame += 24) {
+        s.editor->core.playback.position = frame;
+        session_key(&s, 'I', 0);
+    }
+    assert_int_equal(s.document->splines[0]->knot_count, 6);
+    for (int i = 0; i < s.editor->curves->warnings.count; i++)
+        assert_int_not_equal(s.editor->curves->warnings.list[i].kind, WARNING_FORCED);
+    session_close(&s);
+}
+
 SESSION_TEST(test_a_wide_band_is_narrowed_to_what_the_knots_hold, assert_remedied(s, WIDE, WARNING_DRIFT))
 {
     assert_near(s->document->splines[0]->parameter[PARAMETER_BANDWIDTH].value, 0.12, 1e-9); // 0.3 over 2.5 periods
@@ -103,7 +132,8 @@ TEST(test_the_scenes_of_the_program_are_quiet)
         assert_done(file_read(paths[i], 1 << 20, &text, &size, &error));
         session_open(&s, text);
         for (int spline = 0; spline < s.document->spline_count; spline++) {
-            warnings_find(s.document, &s.table.evaluation, spline, &found);
+            found.count = 0;
+            warnings_add(s.document, &s.table.evaluation, spline, &found);
             assert_int_equal(found.count, 0);
         }
         session_close(&s);

@@ -7,6 +7,7 @@
 #include "rig/posing.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
+#include "scene/warnings.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -38,12 +39,27 @@ static bool jumps(const struct document *document, const struct evaluation *eval
     return !(fabs(y[0] - y[evaluation->samples - 1]) <= slack);
 }
 
+/// Warns where poses force a spline's swing, or send it far beyond its knots.
+static void check_swing(const char *path, const struct document *document, const struct evaluation *evaluation,
+                        int index)
+{
+    struct warnings found = {0};
+    char text[WARNING_SENTENCE];
+    warnings_add_far(document, evaluation, index, &found);
+    warnings_add_forced(document, evaluation, index, &found);
+    for (int i = 0; i < found.count; i++) {
+        warning_say(&found.list[i], text);
+        print_line(stdout, "warning: %s: splines[%d]: \"%s\": %s", path, index, document->splines[index]->name, text);
+    }
+}
+
 /// Checks what only a solve can show.
 static void check_solution(const char *path, const struct document *document, struct models *models)
 {
     struct evaluation evaluation = {.models = models_source(models)};
     evaluation_update(&evaluation, document, false);
     for (int i = 0; i < evaluation.count; i++) {
+        check_swing(path, document, &evaluation, i);
         if (!jumps(document, &evaluation, i)) continue;
         print_line(stdout,
                    "warning: %s: splines[%d]: \"%s\": the equilibrium of this loop does not end where it starts",

@@ -404,11 +404,9 @@ void curves_show(struct curves *curves, struct core *core)
         knots_show(curves, core, curves->cache.other_spline[i], NAN);
     }
     show_knots(curves, core);
-    if (!core->drag.owner) { // else all that would change with every step
-        scale_box_show(curves, core, true);
-        warnings_update(curves, core);
-        warnings_show(curves, core);
-    }
+    if (!core->drag.owner) scale_box_show(curves, core, true); // else it would change with every step
+    warnings_update(curves, core);
+    warnings_show(curves, core);
     show_empty(core);
     drawlist_set_clip(&core->list, panel);
     sheet_show(curves, core);
@@ -417,6 +415,7 @@ void curves_show(struct curves *curves, struct core *core)
     show_playhead(curves, core);
     ruler_pins_show(curves, core);
     drag_show(curves, core);
+    warnings_try(curves, core);
     warnings_show_words(curves, core);
     drawlist_set_clip(&core->list, clip);
 }

@@ -3,6 +3,7 @@
 #define EDITOR_CURVES_STATE_H
 
 #include "editor/curves/curves.h"
+#include "scene/warnings.h"
 
 enum {
     EDITOR_MAX_COLUMNS = 4096, ///< vertices of one drawn curve
@@ -95,32 +96,8 @@ struct scaling {
     char sentence[400];
 };
 
-enum warning_kind {
-    WARNING_SWING, ///< the curve swings more than twice as far as its knots
-    WARNING_RATE,  ///< a frequency near half the sample rate
-    WARNING_DRIFT, ///< bandwidth times the periods between two knots
-    WARNING_SLOPE, ///< a slope that has no effect
-    WARNING_PHASE, ///< poses outside complex mode
-};
-
-/// A problem of the active spline.
-struct warning {
-    enum warning_kind kind;
-    double frame, value; ///< the place (not of a rate)
-    double from, to;     ///< frames of the knots around it
-    double amount;       ///< swing in heights of the knots; Hz; periods
-    double limit;        ///< Hz that would be fine; bandwidth as it is
-    double remedy;       ///< value of a knot at the place; substeps; bandwidth
-    const char *why;     ///< a slope has no effect
-};
-
-enum { WARNINGS_MAX = 16 };
-
-struct warnings {
-    uint64_t key; ///< of what they were found in
-    int count;
-    struct warning list[WARNINGS_MAX];
-};
+/// What helps against a curve that swings far: calm, where it lacks some and that is enough, else what leaves the smallest swing.
+enum far_remedy { FAR_UNTRIED, FAR_CALM, FAR_LIMITS, FAR_POSE, FAR_NOTHING };
 
 /// A curve in logical pixels, a vertex for each column of the cache.
 typedef float polyline[EDITOR_MAX_COLUMNS][2];
@@ -162,6 +139,8 @@ struct curves {
     struct ghost ghost;
     struct curve_cache cache;
     struct warnings warnings;
+    uint64_t warnings_key;                 ///< of what they were found in
+    enum far_remedy far[WARNINGS_MAX];     ///< what helps against each that swings far, once it was pointed at
     float scratch[2 * EDITOR_MAX_COLUMNS]; ///< points of a line that is made while it is drawn
 };
 
@@ -261,16 +240,15 @@ struct rect ruler_corner(const struct core *core);
 /// Grids, numbers and ruler; part of curves_show().
 void grid_show(const struct curves *curves, struct core *core);
 
-/// Finds what is wrong with a solved spline. At most WARNINGS_MAX, spans in the order of time.
-void warnings_find(const struct document *document, const struct evaluation *evaluation, int of,
-                   struct warnings *found);
-/// The same for the active spline where document or look have changed since; allocates nothing.
+/// Finds them where document or look have changed since; allocates nothing.
 void warnings_update(struct curves *curves, const struct core *core);
 
 /// Where a warning's marker is, in logical pixels; false where it is out of sight.
 bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning, float xy[2]);
 /// The markers.
 void warnings_show(const struct curves *curves, struct core *core);
+/// Tries what helps against the one under the pointer, so that its words can say it. No drag runs.
+void warnings_try(struct curves *curves, const struct core *core);
 /// Words under the pointer; after everything else, so that nothing lies over them.
 void warnings_show_words(const struct curves *curves, struct core *core);
 

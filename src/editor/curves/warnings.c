@@ -1,4 +1,4 @@
-/// Warnings on the active curve: what is found, what a click does about it, and the marks.
+/// Warnings on the curves: what a click does about them, and the marks.
 #include "scene/warnings.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
@@ -10,166 +10,32 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double MOST_SWING = 2;      ///< of a span, in heights of its knots
-static const double LEAST_HEIGHT = 0.75; ///< of a span's knots, as a share of the highest: small ones may ring
-static const double MOST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
-static const double MOST_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
-
-static void add(struct warnings *found, const struct warning *warning)
-{
-    if (found->count < WARNINGS_MAX) found->list[found->count++] = *warning;
-}
-
-/// The highest frequency of a spline in Hz.
-static double frequency_of(const struct evaluation *evaluation, const struct spline *spline)
-{
-    const struct param *param = &spline->parameter[PARAMETER_FREQUENCY];
-    if (param->track < 0) return param->value;
-    int highest = evaluation_extreme(evaluation, param->track, 0, evaluation->samples - 1, true);
-    return fmax(evaluation->curves[param->track].total[highest], 0);
-}
-
-static double bandwidth_of(const struct spline *spline)
-{
-    const struct param *bandwidth = &spline->parameter[PARAMETER_BANDWIDTH];
-    return spline_mode(spline) == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
-}
-
-static void find_rate(const struct document *document, const struct evaluation *evaluation,
-                      const struct spline *spline, struct warnings *found)
-{
-    double edge = frequency_of(evaluation, spline) * (1 + bandwidth_of(spline));
-    double rate = document->fps * document->substeps;
-    if (edge <= MOST_RATE * rate) return;
-    add(found, &(struct warning){.kind = WARNING_RATE,
-                                 .amount = edge,
-                                 .limit = MOST_RATE * rate,
-                                 .remedy = ceil(edge / (MOST_RATE * document->fps))});
-}
-
-/// Samples from one knot to the next one, around the end of a loop.
-struct knot_span {
-    int first, length;
-    const struct knot *from, *to;
-};
-
-static bool take_span(const struct document *document, const struct spline *spline, int k, struct knot_span *span)
-{
-    bool loop = spline_start(spline) == WIGGLY_LOOP;
-    int next = k + 1;
-    if (next == spline->knot_count && (!loop || next < 2)) return false;
-    next %= spline->knot_count;
-    span->from = &spline->knots[k];
-    span->to = &spline->knots[next];
-    span->first = document_sample(document, span->from->frame);
-    span->length = document_sample(document, span->to->frame) - span->first;
-    if (span->length <= 0) span->length += document_samples(document) - 1;
-    return true;
-}
-
-static double height(const wiggly_curve *curve, int sample) { return fabs(curve->total[sample] - curve->y[sample]); }
-
-/// The sample of a span that is furthest from the equilibrium.
-static int furthest(const wiggly_curve *curve, const struct knot_span *span)
-{
-    int best = span->first, period = curve->samples - 1;
-    for (int i = 1; i <= span->length; i++) {
-        int sample = span->first + i <= period ? span->first + i : span->first + i - period;
-        if (height(curve, sample) > height(curve, best)) best = sample;
-    }
-    return best;
-}
-
-static void find_swing(const struct document *document, const wiggly_curve *curve, const struct knot_span *span,
-                       double highest, struct warnings *found)
-{
-    int last = document_sample(document, span->to->frame), peak = furthest(curve, span);
-    double knots = fmax(height(curve, span->first), height(curve, last));
-    double limit = fmax(knots, LEAST_HEIGHT * highest);
-    if (height(curve, peak) <= MOST_SWING * limit || limit <= 0) return;
-    add(found, &(struct warning){.kind = WARNING_SWING,
-                                 .frame = document_frame(document, peak),
-                                 .value = curve->total[peak],
-                                 .from = span->from->frame,
-                                 .to = span->to->frame,
-                                 .amount = height(curve, peak) / limit,
-                                 .remedy = curve->y[peak] + copysign(limit, curve->total[peak] - curve->y[peak])});
-}
-
-static void find_idle(const struct document *document, int of, int k, struct warnings *found)
-{
-    const struct knot *knot = &document->splines[of]->knots[k];
-    const char *why = knot_idle_slope(document, of, k);
-    if (!why) return;
-    add(found, &(struct warning){.kind = WARNING_SLOPE, .frame = knot->frame, .value = knot->value, .why = why});
-}
-
-/// Poses outside complex mode: the first one stands for all.
-static void find_idle_poses(const struct spline *spline, struct warnings *found)
-{
-    const int pose = spline_idle_pose(spline);
-    if (pose < 0) return;
-    const struct knot *knot = &spline->knots[pose];
-    add(found, &(struct warning){.kind = WARNING_PHASE, .frame = knot->frame, .value = knot->value});
-}
-
-/// The worst drift alone is kept: its remedy is the others' too.
-static void find_drift(const struct document *document, const wiggly_curve *curve, const struct knot_span *span,
-                       double frequency, double bandwidth, struct warning *drift)
-{
-    double periods = frequency * span->length * document_step(document);
-    if (bandwidth * periods <= MOST_TURN * (1 + 1e-9)) return; /* at the limit is within it, rounding or not */
-    if (periods <= drift->amount) return;
-    int period = curve->samples - 1, middle = span->first + span->length / 2;
-    if (middle > period) middle -= period;
-    *drift = (struct warning){.kind = WARNING_DRIFT,
-                              .frame = document_frame(document, middle),
-                              .value = curve->total[middle],
-                              .from = span->from->frame,
-                              .to = span->to->frame,
-                              .amount = periods,
-                              .limit = bandwidth,
-                              .remedy = floor(1000 * MOST_TURN / periods) / 1000};
-}
-
-void warnings_find(const struct document *document, const struct evaluation *evaluation, int of,
-                   struct warnings *found)
-{
-    const struct spline *spline = document->splines[of];
-    found->count = 0;
-    if (of >= evaluation->count || evaluation->cubic) return;
-    find_idle_poses(spline, found);
-    for (int k = 0; k < spline->knot_count; k++) find_idle(document, of, k, found);
-    if (spline_mode(spline) == WIGGLY_CUBIC) return;
-    const double frequency = frequency_of(evaluation, spline), bandwidth = bandwidth_of(spline);
-    double highest = 0;
-    struct warning drift = {0};
-    find_rate(document, evaluation, spline, found);
-    for (int k = 0; k < spline->knot_count; k++) {
-        highest = fmax(highest, height(&evaluation->curves[of], document_sample(document, spline->knots[k].frame)));
-    }
-    for (int k = 0; k < spline->knot_count; k++) {
-        struct knot_span span;
-        if (!take_span(document, spline, k, &span)) continue;
-        find_swing(document, &evaluation->curves[of], &span, highest, found);
-        find_drift(document, &evaluation->curves[of], &span, frequency, bandwidth, &drift);
-    }
-    if (drift.amount > 0) add(found, &drift);
-}
-
+/// Of the other curves in sight only that one swings far beyond its knots, as an edit elsewhere may make it. While a drag runs nothing else is
+/// said, because it would change with every step.
 void warnings_update(struct curves *curves, const struct core *core)
 {
     struct warnings *warnings = &curves->warnings;
     const struct spline *spline = spline_list_seen(core);
     const struct evaluation *evaluation = core->evaluation;
-    bool solved = spline && evaluation && evaluation->samples == document_samples(core->document);
-    const uint64_t state[] = {history_revision(core->history), (uint64_t)(core->active + 1), (uint64_t)core->look,
-                              solved, evaluation ? evaluation->revision : 0};
-    uint64_t key = hash_bytes(HASH_START, state, sizeof state);
-    if (key == warnings->key) return;
+    const struct document *document = core->document;
+    const bool solved = evaluation && evaluation->samples == document_samples(document), drags = core->drag.owner;
+    const uint64_t state[] = {history_revision(core->history),
+                              (uint64_t)(core->active + 1),
+                              (uint64_t)core->look,
+                              solved,
+                              solved ? evaluation->revision : 0,
+                              drags,
+                              curves->cache.key};
+    const uint64_t key = hash_bytes(HASH_START, state, sizeof state);
+    if (key == curves->warnings_key) return;
     warnings->count = 0;
-    warnings->key = key;
-    if (solved) warnings_find(core->document, evaluation, core->active, warnings);
+    curves->warnings_key = key;
+    if (!solved) return;
+    memset(curves->far, 0, sizeof curves->far);
+    if (spline && drags) warnings_add_far(document, evaluation, core->active, warnings);
+    if (spline && !drags) warnings_add(document, evaluation, core->active, warnings);
+    for (int i = 0; i < curves->cache.other_count; i++)
+        warnings_add_far(document, evaluation, curves_other(curves, document, i), warnings);
 }
 
 enum { LOWER_STEPS = 8 };
@@ -183,9 +49,10 @@ static int count_swings(const struct core *core)
     struct evaluation trial = {.solver = core->evaluation->solver, .models = core->evaluation->models};
     struct warnings found = {0};
     evaluation_update(&trial, document, false);
-    warnings_find(document, &trial, core->active, &found);
+    warnings_add(document, &trial, core->active, &found);
     int count = 0;
-    for (int i = 0; i < found.count; i++) count += found.list[i].kind == WARNING_SWING;
+    for (int i = 0; i < found.count; i++)
+        count += found.list[i].kind == WARNING_SWING || found.list[i].kind == WARNING_FAR;
     evaluation_free(&trial);
     return count;
 }
@@ -260,16 +127,87 @@ static bool resolve_rate(struct core *core, const struct warning *warning, char 
     return core_set_parameter(core, core->active, PARAMETER_FREQUENCY, lower);
 }
 
-static bool free_phases(struct core *core, char text[96])
+/// Makes the edit in the document, which need not be the one on the table.
+static bool apply_far(struct document *document, const struct warning *warning, enum far_remedy remedy,
+                      struct error *error)
+{
+    const int of = warning->spline;
+    const struct param low = {.value = warning->low, .track = -1}, high = {.value = warning->high, .track = -1};
+    const struct knot pose = {.frame = warning->frame,
+                              .value = warning->remedy,
+                              .has_phase = spline_mode(document->splines[of]) == WIGGLY_COMPLEX,
+                              .phase = warning->phase,
+                              .stiffness = KNOT_DEFAULT_STIFFNESS};
+    const struct param calm = {.value = 1, .track = -1};
+    if (remedy == FAR_CALM) return edit_parameter(document, of, PARAMETER_CALM, &calm, error);
+    if (remedy == FAR_POSE) return edit_knot_insert(document, of, &pose, error);
+    return remedy == FAR_LIMITS && edit_parameter(document, of, PARAMETER_LOW, &low, error) &&
+           edit_parameter(document, of, PARAMETER_HIGH, &high, error);
+}
+
+/// How far the curve goes from its equilibrium with a remedy; infinitely where that cannot be had.
+static double swing_with(const struct core *core, const struct warning *warning, enum far_remedy remedy)
+{
+    struct error error;
+    struct document *document = document_copy(core->document);
+    struct evaluation trial = {.solver = core->evaluation->solver, .models = core->evaluation->models};
+    double farthest = INFINITY;
+    if (apply_far(document, warning, remedy, &error)) {
+        evaluation_update(&trial, document, false);
+        const wiggly_curve *curve = &trial.curves[warning->spline];
+        farthest = 0;
+        for (int i = 0; i < curve->samples; i++) farthest = fmax(farthest, fabs(curve->total[i] - curve->y[i]));
+        evaluation_free(&trial);
+    }
+    document_destroy(document);
+    return farthest;
+}
+
+static enum far_remedy choose_far(const struct core *core, const struct warning *warning)
+{
+    const double calm = core->document->splines[warning->spline]->parameter[PARAMETER_CALM].value;
+    if (calm < 1 && swing_with(core, warning, FAR_CALM) <= warning->most) return FAR_CALM;
+    const double limits = swing_with(core, warning, FAR_LIMITS), pose = swing_with(core, warning, FAR_POSE);
+    if (fmin(limits, pose) >= warning->amount * warning->limit) return FAR_NOTHING;
+    return pose < limits ? FAR_POSE : FAR_LIMITS;
+}
+
+static bool tame_far(struct core *core, const struct warning *warning, char text[96])
+{
+    const enum far_remedy remedy = choose_far(core, warning);
+    if (remedy == FAR_CALM) snprintf(text, 96, "Raised calm to 1 to tame the swing.");
+    if (remedy == FAR_LIMITS)
+        snprintf(text, 96, "Set limits from %.6g to %.6g to tame the swing.", warning->low, warning->high);
+    if (remedy == FAR_POSE) snprintf(text, 96, "Added a pose at frame %.6g to tame the swing.", warning->frame);
+    return apply_far(core->document, warning, remedy, &core->error);
+}
+
+/// The knot of the active spline at a frame.
+static bool find_knot(const struct core *core, double frame, struct knot *knot)
 {
     const struct spline *spline = core_active_spline(core);
+    const int k = spline_find_knot(core->document, spline, document_sample(core->document, frame));
+    if (k >= 0) *knot = spline->knots[k];
+    return k >= 0;
+}
+
+static bool free_phase(struct core *core, double frame, char text[96])
+{
+    struct knot knot;
+    if (!find_knot(core, frame, &knot)) return false;
+    knot.has_phase = false;
+    knot.phase = 0;
+    snprintf(text, 96, "The phase at frame %.6g is free.", frame);
+    return core_put_knot(core, core->active, &knot);
+}
+
+static bool free_phases(struct core *core, char text[96])
+{
+    char unused[96];
     bool good = true;
-    for (int k = 0; k < spline->knot_count && good; k++) {
-        struct knot knot = spline->knots[k];
-        knot.has_phase = false;
-        knot.phase = 0;
-        good = core_put_knot(core, core->active, &knot);
-        spline = core_active_spline(core);
+    for (int k = 0; k < core_active_spline(core)->knot_count && good; k++) {
+        const struct knot *knot = &core_active_spline(core)->knots[k];
+        good = !knot->has_phase || free_phase(core, knot->frame, unused);
     }
     snprintf(text, 96, "The knots hold their values alone.");
     return good;
@@ -277,10 +215,8 @@ static bool free_phases(struct core *core, char text[96])
 
 static bool switch_off(struct core *core, const struct warning *warning, char text[96])
 {
-    const struct spline *spline = core_active_spline(core);
-    int k = spline_find_knot(core->document, spline, document_sample(core->document, warning->frame));
-    if (k < 0) return false;
-    struct knot knot = spline->knots[k];
+    struct knot knot;
+    if (!find_knot(core, warning->frame, &knot)) return false;
     knot.has_slope = false;
     snprintf(text, 96, "The slope at frame %.6g is off.", warning->frame);
     return core_put_knot(core, core->active, &knot);
@@ -299,25 +235,29 @@ void curves_remedy_first(struct curves *curves, struct core *core, int unused)
 
 void warning_remedy(const struct curves *curves, struct core *core, const struct warning *warning)
 {
-    static const char *const labels[] = {[WARNING_SWING] = "Tame swing",
-                                         [WARNING_RATE] = "Add substeps",
-                                         [WARNING_DRIFT] = "Narrow bandwidth",
-                                         [WARNING_SLOPE] = "Slope off",
-                                         [WARNING_PHASE] = "Free the phase"};
+    static const char *const labels[] = {
+        [WARNING_SWING] = "Tame swing",    [WARNING_RATE] = "Add substeps",     [WARNING_DRIFT] = "Narrow bandwidth",
+        [WARNING_FAR] = "Tame swing",      [WARNING_FORCED] = "Free the phase", [WARNING_SLOPE] = "Slope off",
+        [WARNING_PHASE] = "Free the phase"};
     const struct warning chosen = *warning;
     char text[96] = "";
     bool good = false;
+    core_activate(core, chosen.spline);
     if (!core_active_spline(core) || !core_begin(core, labels[chosen.kind], 0)) return;
+    if (chosen.kind == WARNING_FAR) good = tame_far(core, &chosen, text);
     if (chosen.kind == WARNING_SWING) good = tame(curves, core, &chosen, text);
     if (chosen.kind == WARNING_RATE) good = resolve_rate(core, &chosen, text);
     if (chosen.kind == WARNING_DRIFT) {
         good = core_set_parameter(core, core->active, PARAMETER_BANDWIDTH, chosen.remedy);
         snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
     }
+    if (chosen.kind == WARNING_FORCED) good = free_phase(core, chosen.remedy, text);
     if (chosen.kind == WARNING_SLOPE) good = switch_off(core, &chosen, text);
     if (chosen.kind == WARNING_PHASE) good = free_phases(core, text);
     if (core_end(core, good)) {
         core_message(core, false, text);
+    } else if (chosen.kind == WARNING_FAR) {
+        core_message(core, false, "Neither limits nor a pose would help here. Move the knots.");
     } else if (chosen.kind == WARNING_SWING) {
         core_message(core, false, "Calm, a limit, a knot or a lower frequency would not help here. Move the knots.");
     }
@@ -332,7 +272,8 @@ bool warning_place(const struct curves *curves, const struct core *core, const s
     xy[1] = plot.y + EDGE;
     if (warning->kind == WARNING_RATE) return true;
     xy[0] = curves_x(curves, core, warning->frame);
-    xy[1] = fminf(fmaxf(curves_y(curves, core, warning->value) - LIFT, plot.y + EDGE), plot.y + plot.h - EDGE);
+    xy[1] = fminf(fmaxf(curves_y_of(curves, core, warning->spline, warning->value) - LIFT, plot.y + EDGE),
+                  plot.y + plot.h - EDGE);
     return xy[0] >= plot.x && xy[0] <= plot.x + plot.w;
 }
 
@@ -342,34 +283,35 @@ bool curves_warning(const struct curves *curves, const struct core *core, double
     return there && warning_place(curves, core, &curves->warnings.list[(int)number], xy);
 }
 
-/// What is wrong, and what a click does about it.
-static void put_words(const struct warning *warning, char what[160], char remedy[96])
+/// What a click does about it.
+static void put_remedy(const struct warning *warning, enum far_remedy far, char remedy[96])
 {
     switch (warning->kind) {
+    case WARNING_FAR:
+        if (far == FAR_CALM) snprintf(remedy, 96, "Click to raise calm to 1.");
+        if (far == FAR_LIMITS)
+            snprintf(remedy, 96, "Click to set limits from %.6g to %.6g: so it swings least.", warning->low,
+                     warning->high);
+        if (far == FAR_POSE)
+            snprintf(remedy, 96, "Click to add a pose at frame %.6g: so it swings least.", warning->frame);
+        if (far == FAR_NOTHING) snprintf(remedy, 96, "Neither limits nor a pose would help. Move the knots.");
+        break;
     case WARNING_SWING:
-        snprintf(what, 160, "Frames %.6g to %.6g: the curve swings %.1f times as far as its knots.", warning->from,
-                 warning->to, warning->amount);
         snprintf(remedy, 96, "Click to tame it with more calm, a knot at the peak or a lower frequency.");
         break;
     case WARNING_RATE:
-        snprintf(what, 160, "%.3g Hz is too close to half the sample rate to keep its shape (the limit is %.3g Hz).",
-                 warning->amount, warning->limit);
         snprintf(remedy, 96, "Click to use %.0f substeps per frame.", warning->remedy);
         break;
     case WARNING_DRIFT:
-        snprintf(what, 160,
-                 "Bandwidth %.3g is too wide for the %.1f periods between frames %.6g and %.6g: the swing drifts out "
-                 "of phase.",
-                 warning->limit, warning->amount, warning->from, warning->to);
         snprintf(remedy, 96, "Click to narrow it to %.3g.", warning->remedy);
         break;
+    case WARNING_FORCED:
+        snprintf(remedy, 96, "Click to free the phase of the pose at frame %.6g.", warning->remedy);
+        break;
     case WARNING_SLOPE:
-        snprintf(what, 160, "Frame %.6g: the slope has no effect: %s.", warning->frame, warning->why);
         snprintf(remedy, 96, "Click to switch it off.");
         break;
     case WARNING_PHASE:
-        snprintf(what, 160, "Frame %.6g: the pose holds its value alone, as only complex mode has a phase.",
-                 warning->frame);
         snprintf(remedy, 96, "Click to free the phases of the spline's knots.");
         break;
     }
@@ -381,6 +323,14 @@ static const struct warning *hovered_warning(const struct curves *curves, const 
     int index = core->hover.handle;
     if (core->hover.kind != HOVER_WARNING || index >= curves->warnings.count) return NULL;
     return &curves->warnings.list[index];
+}
+
+void warnings_try(struct curves *curves, const struct core *core)
+{
+    const struct warning *warning = hovered_warning(curves, core);
+    if (!warning || warning->kind != WARNING_FAR || core->drag.owner) return;
+    enum far_remedy *far = &curves->far[warning - curves->warnings.list];
+    if (*far == FAR_UNTRIED) *far = choose_far(core, warning);
 }
 
 static void show_marker(struct drawlist *list, const float xy[2], bool hovered)
@@ -408,8 +358,9 @@ void warnings_show_words(const struct curves *curves, struct core *core)
     const struct warning *warning = hovered_warning(curves, core);
     float xy[2];
     if (!warning || !warning_place(curves, core, warning, xy)) return;
-    char what[160], remedy[96];
-    put_words(warning, what, remedy);
+    char what[WARNING_SENTENCE], remedy[96] = "";
+    warning_say(warning, what);
+    put_remedy(warning, curves->far[warning - curves->warnings.list], remedy);
     const struct rect panel = core->layout.curves;
     float width =
         fmaxf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, what), font_width(FONT_LABEL, THEME_TEXT_NORMAL, remedy));

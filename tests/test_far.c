@@ -1,0 +1,132 @@
+/// A curve that one pose sends far beyond its knots: said at once, also while it is dragged on the stage, and held by one click.
+#include "base/file.h"
+#include "panel_session.h"
+
+static void open_start_scene(struct session *s)
+{
+    char *text;
+    size_t size;
+    assert_done(file_read("assets/scenes/tail.json", 1 << 20, &text, &size, &error));
+    session_open(s, text);
+    free(text);
+}
+
+/// A jump within a frame, in a scene of that last frame; with more in the spline, and before it in the list.
+static void print_jump(int last, const char *more, const char *before, char text[1024])
+{
+    snprintf(
+        text, 1024,
+        "{\"wiggly\": 2, \"frames\": [0, %d], \"splines\": [%s{\"name\": \"sway\", \"frequency\": 1, \"damping\": "
+        "0.05, \"bandwidth\": 0.05%s, \"knots\": [{\"frame\": 10, \"value\": 0},"
+        "{\"frame\": 11, \"value\": 1}, {\"frame\": 24, \"value\": 1}]}]}",
+        last, before, more);
+}
+
+static struct document *jump(int last, const char *more, const char *before)
+{
+    char text[1024];
+    print_jump(last, more, before, text);
+    return document_of_text(text);
+}
+
+/// How far a spline's curve and its knots are from 0 at most.
+static double farthest(const struct session *s, int spline, double *knot)
+{
+    double most = 0;
+    const struct spline *of = s->document->splines[spline];
+    for (int i = 0; i < s->table.evaluation.samples; i++)
+        most = fmax(most, fabs(s->table.evaluation.curves[spline].total[i]));
+    *knot = 0;
+    for (int k = 0; k < of->knot_count; k++) *knot = fmax(*knot, fabs(of->knots[k].value));
+    return most;
+}
+
+/// The tail dragged far up just behind a knot: the sway is sent to six times its other knots.
+static void drag_far(struct session *s)
+{
+    s->editor->core.playback.position = 84;
+    session_frame(s);
+    session_pull(s, "tail(tail,0.3)", 0, -300, 12);
+    for (int i = 0; i < 60; i++) session_frame(s);
+}
+
+TEST_OF(struct session, s, open_start_scene(s), session_close(s),
+        test_a_drag_on_the_stage_says_that_the_curve_swings_far)
+{
+    double knot;
+    assert_int_equal(s->editor->curves->warnings.count, 0);
+    drag_far(s);
+    assert_non_null(s->editor->core.drag.owner);
+    assert_true(farthest(s, 0, &knot) > 2.5 * knot);
+    assert_int_equal(s->editor->curves->warnings.count, 1);
+    assert_int_equal(s->editor->curves->warnings.list[0].kind, WARNING_FAR);
+}
+
+/// One click leaves what swings least, as one step.
+TEST_OF(struct session, s, open_start_scene(s), session_close(s), test_one_click_holds_what_swings_far)
+{
+    double knot;
+    drag_far(s);
+    session_release(s, BUTTON_LEFT);
+    const char *dragged = session_saved(s);
+    session_hover(s, "warning(0)");
+    session_frame(s);
+    assert_int_equal(s->editor->core.hover.kind, HOVER_WARNING);
+    assert_int_equal(s->editor->curves->far[0], FAR_LIMITS);
+    session_click(s, "warning(0)");
+    session_frame(s);
+    assert_true(farthest(s, 0, &knot) < 1.3 * knot);
+    session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, dragged);
+}
+
+/// A scene too long for limits: W adds a pose at the peak.
+TEST(test_a_pose_at_the_peak_holds_where_limits_cannot)
+{
+    char scene[1024];
+    double knot;
+    struct session s;
+    print_jump(25000, "", "", scene);
+    session_open(&s, scene);
+    const char *original = session_saved(&s);
+    const double before = farthest(&s, 0, &knot);
+    session_key(&s, 'W', 0);
+    const struct spline *sway = s.document->splines[0];
+    assert_int_equal(sway->knot_count, 4);
+    assert_true(sway->knots[2].has_phase && sway->knots[2].phase != 0);
+    assert_near(fabs(sway->knots[2].value), 1, 1e-12);
+    assert_true(farthest(&s, 0, &knot) < before);
+    session_key(&s, 'Z', MOD_CTRL);
+    assert_saved(&s, original);
+    session_close(&s);
+}
+
+/// What is said of the last spline of a scene, which then ends.
+static struct warnings found_far(struct document *document)
+{
+    struct evaluation evaluation = {0};
+    struct warnings found = {0};
+    evaluation_update(&evaluation, document, false);
+    warnings_add_far(document, &evaluation, document->spline_count - 1, &found);
+    evaluation_free(&evaluation);
+    document_destroy(document);
+    return found;
+}
+
+TEST(test_limits_and_moving_equilibria_are_not_far)
+{
+    static const char *const moving = "{\"name\": \"base\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, "
+                                      "\"value\": 0}, {\"frame\": 60, \"value\": 3}]},";
+    assert_int_equal(found_far(jump(72, "", "")).count, 1);
+    assert_int_equal(found_far(jump(72, ", \"limits\": [null, 9]", "")).count, 0);
+    assert_int_equal(found_far(jump(72, ", \"equilibrium\": {\"spline\": \"base\"}", moving)).count, 0);
+    assert_int_equal(found_far(jump(72, ", \"mode\": \"cubic\"", "")).count, 0);
+}
+
+TEST(test_the_largest_knot_is_measured_from_the_equilibrium)
+{
+    const struct warnings found = found_far(jump(72, ", \"equilibrium\": -0.2", ""));
+    assert_int_equal(found.count, 1);
+    assert_near(found.list[0].limit, 1.2, 1e-12);
+    assert_true(found.list[0].low < -1.4 && found.list[0].low > -2);
+}
