@@ -26,7 +26,7 @@ int main(void)
         return EXIT_FAILURE;
     }
     static double total[SAMPLES], y[SAMPLES], re[SAMPLES], im[SAMPLES], omega[SAMPLES];
-    wiggly_curve curve = {.total = total, .y = y, .re = re, .im = im, .omega = omega};
+    wiggly_curve curve = {.size = sizeof curve, .total = total, .y = y, .re = re, .im = im, .omega = omega};
     status = wiggly_solve(solver, &desc, &curve);
     wiggly_destroy(solver);
     if (status != WIGGLY_OK) fprintf(stderr, "%s\n", wiggly_status_text(status));

@@ -24,7 +24,7 @@ int main(void)
 
     size_t bytes = wiggly_memsize(SAMPLES, KNOTS);
     wiggly_solver *solver;
-    wiggly_curve curve = {.total = total, .y = y, .re = re, .im = im, .omega = omega};
+    wiggly_curve curve = {.size = sizeof curve, .total = total, .y = y, .re = re, .im = im, .omega = omega};
     wiggly_status status = wiggly_create_at(arena, sizeof arena, SAMPLES, KNOTS, &solver);
     if (status == WIGGLY_OK) status = wiggly_solve(solver, &desc, &curve);
     if (status != WIGGLY_OK) {

@@ -67,6 +67,7 @@ class Spline
   private:
     void attach()
     {
+        curve.size = sizeof curve;
         double **const columns[] = {&curve.total, &curve.y, &curve.re, &curve.im, &curve.omega};
         double *column = arrays.data();
         for (double **to : columns) {

@@ -17,7 +17,7 @@ int main(void)
     desc.knot_count = sizeof knots / sizeof knots[0];
 
     static double total[SAMPLES], y[SAMPLES], re[SAMPLES], im[SAMPLES], omega[SAMPLES];
-    wiggly_curve curve = {.total = total, .y = y, .re = re, .im = im, .omega = omega};
+    wiggly_curve curve = {.size = sizeof curve, .total = total, .y = y, .re = re, .im = im, .omega = omega};
     wiggly_solver *solver;
     wiggly_status status = wiggly_create(SAMPLES, desc.knot_count, &solver);
     if (status != WIGGLY_OK) return EXIT_FAILURE;

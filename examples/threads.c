@@ -38,7 +38,7 @@ static void *solve_share(void *argument)
     mine->worst = wiggly_create(SAMPLES, KNOTS, &solver);
     if (mine->worst != WIGGLY_OK) return NULL;
     for (int i = mine->first; i < SPLINES; i += THREADS) {
-        wiggly_curve curve = {.total = alone[i]};
+        wiggly_curve curve = {.size = sizeof curve, .total = alone[i]};
         wiggly_status status = wiggly_solve(solver, &descs[i], &curve);
         if (status > mine->worst) mine->worst = status;
     }
@@ -65,8 +65,7 @@ static wiggly_status solve_by_batch(void)
 {
     wiggly_batch *batch;
     wiggly_curve curves[SPLINES];
-    memset(curves, 0, sizeof curves);
-    for (int i = 0; i < SPLINES; i++) curves[i].total = together[i];
+    for (int i = 0; i < SPLINES; i++) curves[i] = (wiggly_curve){.size = sizeof(wiggly_curve), .total = together[i]};
     wiggly_status status = wiggly_batch_create(SAMPLES, KNOTS, THREADS, &batch);
     if (status != WIGGLY_OK) return status;
     for (int frame = 0; frame < 3 && status == WIGGLY_OK; frame++) {

@@ -118,7 +118,7 @@ static const char *find_fault(const struct adversary_problem *p, struct adversar
 void adversary_judge(wiggly_solver *solver, const struct adversary_problem *p, struct adversary_verdict *v)
 {
     static struct answer got, exact;
-    wiggly_curve curve = {.total = got.total, .re = got.re, .im = got.im};
+    wiggly_curve curve = {.size = sizeof curve, .total = got.total, .re = got.re, .im = got.im};
     *v = (struct adversary_verdict){.said = wiggly_solve(solver, &p->desc, &curve), .estimate = curve.error};
     v->estimate = curve.error;
     find_exact(p, v, &exact);

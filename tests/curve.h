@@ -10,8 +10,12 @@ static inline wiggly_curve curve_create(int samples)
 {
     double *numbers = calloc(5 * (size_t)samples, sizeof *numbers);
     size_t n = (size_t)samples;
-    return (wiggly_curve){
-        .total = numbers, .y = numbers + n, .re = numbers + 2 * n, .im = numbers + 3 * n, .omega = numbers + 4 * n};
+    return (wiggly_curve){.size = sizeof(wiggly_curve),
+                          .total = numbers,
+                          .y = numbers + n,
+                          .re = numbers + 2 * n,
+                          .im = numbers + 3 * n,
+                          .omega = numbers + 4 * n};
 }
 
 /// Solves into it with a solver of its own.

@@ -38,7 +38,8 @@ static void make_group(struct random_group *g, unsigned which, int missing)
         desc->knot_count = missing > s ? KNOTS - missing + s : KNOTS;
         for (int k = 0; k < KNOTS; k++) g->knots[s][k] = (wiggly_knot){.sample = 40 * k, .value = 2 * uniform() - 1};
         g->weight[s] = 0.5 + uniform();
-        g->curve[s] = (wiggly_curve){.total = g->total[s], .re = g->re[s], .im = g->im[s]};
+        g->curve[s] =
+            (wiggly_curve){.size = sizeof(wiggly_curve), .total = g->total[s], .re = g->re[s], .im = g->im[s]};
     }
     for (int b = 0; b < BOUNDS; b++) {
         for (int i = 0; i < 2 * SPLINES; i++) g->c[b][i / 2][i % 2] = 2 * uniform() - 1;

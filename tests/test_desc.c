@@ -21,7 +21,8 @@ static int set_up(void **state)
 
 static wiggly_desc describe(wiggly_mode mode, wiggly_start start)
 {
-    return (wiggly_desc){.samples = SAMPLES - 1,
+    return (wiggly_desc){.size = sizeof(wiggly_desc),
+                         .samples = SAMPLES - 1,
                          .step = 1.0 / 24,
                          .mode = mode,
                          .start = start,
@@ -31,6 +32,9 @@ static wiggly_desc describe(wiggly_mode mode, wiggly_start start)
                          .equilibrium.value = 0.25,
                          .calm = 0.5,
                          .low = -20,
+                         .has_calm = true,
+                         .has_low = true,
+                         .has_high = true,
                          .high = 20,
                          .knots = knots,
                          .knot_count = KNOTS};

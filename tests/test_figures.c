@@ -211,7 +211,8 @@ static double cubic_error(int substeps, double stiffness, const double *expected
     desc.step = 1.0 / (24 * substeps);
     desc.knots = knots;
     desc.knot_count = KNOTS;
-    wiggly_curve solved = {.total = rows, .y = rows + n, .re = rows + 2 * n, .im = rows + 3 * n};
+    wiggly_curve solved = {
+        .size = sizeof solved, .total = rows, .y = rows + n, .re = rows + 2 * n, .im = rows + 3 * n};
     assert_non_null(rows);
     assert_int_equal(wiggly_create((int)n, KNOTS, &solver), WIGGLY_OK);
     assert_int_equal(wiggly_solve(solver, &desc, &solved), WIGGLY_OK);

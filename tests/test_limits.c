@@ -9,7 +9,8 @@ enum { SAMPLES = 241, MOST_KNOTS = 6, LAYOUTS = 200 };
 
 static struct textbook book;
 static double total[SAMPLES], y[SAMPLES], re[SAMPLES], im[SAMPLES], omega[SAMPLES], track[SAMPLES];
-static wiggly_curve curve = {.total = total, .y = y, .re = re, .im = im, .omega = omega};
+static wiggly_curve curve = {
+    .size = sizeof(wiggly_curve), .total = total, .y = y, .re = re, .im = im, .omega = omega};
 static wiggly_solver *solver;
 static unsigned seed;
 
@@ -53,6 +54,7 @@ static void limit(struct layout *l, double by)
 {
     l->desc.high = by * l->largest;
     l->desc.low = -l->desc.high;
+    l->desc.has_low = l->desc.has_high = true;
 }
 
 static bool is_keyed(const wiggly_desc *desc, int sample)
@@ -128,7 +130,7 @@ static void check_conditions(const struct layout *l)
     static double unused[3][SAMPLES];
     static real pull[2 * SAMPLES], behind[SAMPLES];
     wiggly_desc unlimited = l->desc;
-    unlimited.low = -INFINITY, unlimited.high = INFINITY;
+    unlimited.has_low = unlimited.has_high = false;
     assert_true(textbook_as(&unlimited, WIGGLY_OK, &book, unused[0], unused[1], unused[2]));
     check_feasible(&l->desc);
     const bool tail = book.tied && book.is_complex;
@@ -211,10 +213,11 @@ static void limit_any(struct layout *l)
     }
     desc->low = low - room * (high - low) - (high == low);
     desc->high = high + room * (high - low);
+    desc->has_low = desc->has_high = true;
     if (uniform() < 0.2)
-        desc->low = -INFINITY;
+        desc->low = -INFINITY, desc->has_low = false;
     else if (uniform() < 0.2)
-        desc->high = INFINITY;
+        desc->high = INFINITY, desc->has_high = false;
 }
 
 /// Whatever the sliders allow, on short ranges; loops without knots too.
@@ -328,7 +331,7 @@ TEST(bits_do_not_depend_on_the_way)
         l.knots[1].value = value;
     }
     assert_memory_equal(total, dragged, 240 * sizeof *total);
-    wiggly_curve only = {.total = alone};
+    wiggly_curve only = {.size = sizeof only, .total = alone};
     assert_int_equal(wiggly_solve(solver, &l.desc, &only), WIGGLY_OK);
     assert_memory_equal(alone, dragged, 240 * sizeof *total);
 }
@@ -345,7 +348,7 @@ TEST(knots_need_no_order)
         l.desc.frequency.value *= 0.04;
         l.desc.equilibrium.value = 20;
         for (int k = 0; k < l.desc.knot_count; k++) l.knots[k].has_slope = true, l.knots[k].stiffness = 1000;
-        l.desc.high = 1.3 * l.largest;
+        l.desc.high = 1.3 * l.largest, l.desc.has_high = true;
         wiggly_status status = wiggly_solve(solver, &l.desc, &curve);
         memcpy(ordered, total, sizeof ordered);
         again += curve.refinements > 0;
@@ -369,7 +372,7 @@ TEST(what_moves_by_itself_is_limited_too)
         l.desc.damping.value = 0.05;
         solve(&l);
         assert_true(largest_total(&l) * l.largest > 1.5);
-        l.desc.high = 1.2, l.desc.low = -0.1;
+        l.desc.high = 1.2, l.desc.low = -0.1, l.desc.has_low = l.desc.has_high = true;
         solve(&l);
         int touched = 0;
         for (int i = 0; i < 240; i++) touched += total[i] == 1.2;
@@ -386,7 +389,7 @@ TEST(what_leaves_a_limit_swings_whole)
     desc.samples = 160;
     desc.frequency.value = 1, desc.damping.value = 0.05;
     desc.knots = knots, desc.knot_count = 2;
-    desc.low = -0.6, desc.high = 1.05;
+    desc.low = -0.6, desc.high = 1.05, desc.has_low = desc.has_high = true;
     assert_int_equal(wiggly_solve(solver, &desc, &curve), WIGGLY_OK);
     int left = 0;
     for (int i = 0; i < desc.samples; i++) left = total[i] <= desc.low || total[i] >= desc.high ? i : left;
@@ -404,12 +407,13 @@ TEST(what_cannot_be_is_an_error)
     struct layout l;
     wiggly_solver *narrow;
     make_layout(&l, 5, WIGGLY_CUBIC, 240, 1.0 / 24);
-    l.desc.high = 0.9 * l.largest, l.desc.low = -l.desc.high;
-    assert_int_equal(wiggly_solve(solver, &l.desc, &curve), WIGGLY_ERROR_LIMIT);
+    limit(&l, 0.9);
+    assert_int_equal(wiggly_solve(solver, &l.desc, &curve), WIGGLY_ERROR_KNOT_LIMIT);
+    assert_true(fabs(l.knots[curve.knot].value) > l.desc.high);
     l.desc.high = l.desc.low = l.knots[0].value;
-    assert_int_equal(wiggly_solve(solver, &l.desc, &curve), WIGGLY_ERROR_LIMIT);
-    l.desc.high = NAN, l.desc.low = -INFINITY;
-    assert_int_equal(wiggly_solve(solver, &l.desc, &curve), WIGGLY_ERROR_LIMIT);
+    assert_int_equal(wiggly_solve(solver, &l.desc, &curve), WIGGLY_ERROR_LIMITS);
+    l.desc.high = NAN, l.desc.has_low = false;
+    assert_int_equal(wiggly_solve(solver, &l.desc, &curve), WIGGLY_ERROR_LIMITS);
     make_swinging(&l);
     assert_int_equal(wiggly_create(240, l.desc.knot_count, &narrow), WIGGLY_OK);
     assert_int_equal(wiggly_solve(narrow, &l.desc, &curve), WIGGLY_ERROR_CAPACITY);
@@ -424,7 +428,7 @@ TEST(a_search_that_tires_says_so)
     double *const now = room[0] + 1;
     wiggly_solver *large;
     const wiggly_knot knot = {.sample = 10};
-    wiggly_curve within = {.total = now, .y = room[1] + 1, .re = room[2] + 1};
+    wiggly_curve within = {.size = sizeof within, .total = now, .y = room[1] + 1, .re = room[2] + 1};
     wiggly_desc desc = wiggly_default_desc();
     seed = 1;
     for (int i = 0; i < LONG; i++) wild[i] = 200 * uniform() - 100;
@@ -436,7 +440,7 @@ TEST(a_search_that_tires_says_so)
     desc.equilibrium.track = wild;
     desc.knots = &knot;
     desc.knot_count = 1;
-    desc.high = 0.01, desc.low = -0.01;
+    desc.high = 0.01, desc.low = -0.01, desc.has_low = desc.has_high = true;
     assert_int_equal(wiggly_create(LONG, LONG, &large), WIGGLY_OK);
     assert_int_equal(wiggly_solve(large, &desc, &within), WIGGLY_INEXACT);
     for (int i = 0; i < LONG; i++) assert_true(now[i] >= desc.low && now[i] <= desc.high);

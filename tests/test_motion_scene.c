@@ -92,7 +92,8 @@ static void assert_solved(struct stand *stand, int index, double gain)
         knot.sample = document_sample(document, spline->knots[0].frame);
         knot.value = spline->knots[0].value;
     }
-    wiggly_curve curve = {.total = rows, .y = rows + count, .re = rows + 2 * count, .im = rows + 3 * count};
+    wiggly_curve curve = {
+        .size = sizeof curve, .total = rows, .y = rows + count, .re = rows + 2 * count, .im = rows + 3 * count};
     wiggly_solver *solver;
     assert_int_equal(wiggly_create(count, 1, &solver), WIGGLY_OK);
     wiggly_set_method(solver, evaluation_method(&stand->evaluation));

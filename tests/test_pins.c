@@ -65,7 +65,8 @@ static struct document *document_of(const json_t *file)
 
 static wiggly_curve curve_of(double *memory, int samples)
 {
-    return (wiggly_curve){.total = memory,
+    return (wiggly_curve){.size = sizeof(wiggly_curve),
+                          .total = memory,
                           .y = memory + samples,
                           .re = memory + 2 * samples,
                           .im = memory + 3 * samples,

@@ -456,13 +456,16 @@ SOLVED_TEST(test_a_value_beyond_reach_is_flat,
             "{\"frames\": [0, 40], \"splines\": [{\"name\": \"a\", \"knots\": [{\"frame\": 0, \"value\": 1}, "
             "{\"frame\": 30, \"value\": -1.7e308}]}]}")
 {
-    assert_int_equal(s->evaluation.status[0], WIGGLY_ERROR_NUMBER);
+    char sentence[EVALUATION_SENTENCE];
+    assert_int_equal(s->evaluation.status[0], WIGGLY_ERROR_KNOT_NUMBER);
+    assert_true(evaluation_sentence(&s->evaluation, 0, sentence));
+    assert_non_null(strstr(sentence, "the knot at frame 30: "));
     document_own_spline(s->document, 0)->knots[1].value = -1;
     evaluation_update(&s->evaluation, s->document, false);
     assert_near(s->evaluation.curves[0].total[30], -1, 0);
     document_own_spline(s->document, 0)->knots[1].value = -1.7e308;
     evaluation_update(&s->evaluation, s->document, false);
-    assert_int_equal(s->evaluation.status[0], WIGGLY_ERROR_NUMBER);
+    assert_int_equal(s->evaluation.status[0], WIGGLY_ERROR_KNOT_NUMBER);
     wiggly_value value = wiggly_evaluate(&s->evaluation.curves[0], 12.5);
     assert_near(value.y + value.re, 0, 0);
 }

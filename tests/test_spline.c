@@ -166,7 +166,7 @@ TEST(a_thrown_cubic_is_said)
         wiggly_knot knots[] = {{.sample = 0, .value = 0}, {.sample = 1, .value = 1}};
         wiggly_desc desc = wiggly_default_desc();
         double *total = malloc(sizeof *total * (size_t)samples);
-        wiggly_curve thrown = {.total = total};
+        wiggly_curve thrown = {.size = sizeof thrown, .total = total};
         wiggly_solver *own;
         desc.samples = samples;
         desc.mode = WIGGLY_CUBIC;
@@ -227,40 +227,113 @@ TEST(between_samples_a_free_oscillation_is_followed)
 
 TEST(wrong_descriptions_are_named_and_leave_the_curve_alone)
 {
-    const wiggly_knot good = {.sample = 1, .value = 1}, twice[] = {good, good}, outside = {.sample = 50, .value = 1};
-    const wiggly_knot seam = {.sample = 49, .value = 1}, nan = {.sample = 1, .value = NAN};
-    const wiggly_knot slack = {.sample = 1, .has_slope = true, .stiffness = 0};
-    wiggly_desc ok = describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, &good, 1);
+    const wiggly_knot good = {.sample = 1, .value = 1}, twice[] = {{.sample = 9}, good, good},
+                      outside = {.sample = 50, .value = 1}, before = {.sample = -1},
+                      seam = {.sample = 49, .value = 1};
+    const wiggly_knot nan[] = {good, {.sample = 2, .value = NAN}}, steep = {.has_slope = true, .slope = INFINITY},
+                      slack = {.has_slope = true, .stiffness = -1}, lost = {.has_phase = true, .phase = NAN},
+                      both = {.still = true, .has_phase = true};
     double broken_track[50] = {[7] = NAN};
-    struct {
-        wiggly_desc desc;
+    const struct {
         wiggly_status expected;
+        int knot;
+        wiggly_start start;
+        const wiggly_knot *knots;
+        int count, samples;
+        const double *track;
+        double step, calm, low, high;
+        size_t size; ///< less than its own
     } cases[] = {
-        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, twice, 2), WIGGLY_ERROR_KNOT},
-        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, &outside, 1), WIGGLY_ERROR_KNOT},
-        {describe(50, WIGGLY_COMPLEX, WIGGLY_LOOP, &seam, 1), WIGGLY_ERROR_KNOT},
-        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, &nan, 1), WIGGLY_ERROR_NUMBER},
-        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, &slack, 1), WIGGLY_ERROR_NUMBER},
-        {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, NULL, 1), WIGGLY_ERROR_ARGUMENT},
-        {describe(0, WIGGLY_COMPLEX, WIGGLY_FREE, &good, 1), WIGGLY_ERROR_ARGUMENT},
-        {describe(MAX + 1, WIGGLY_COMPLEX, WIGGLY_FREE, &good, 1), WIGGLY_ERROR_CAPACITY},
-        {describe(1, WIGGLY_COMPLEX, WIGGLY_LOOP, NULL, 0), WIGGLY_ERROR_LOOP},
-        {ok, WIGGLY_ERROR_NUMBER},
-        {ok, WIGGLY_ERROR_NUMBER},
-        {ok, WIGGLY_ERROR_NUMBER},
+        {WIGGLY_ERROR_KNOT_TWICE, 2, .knots = twice, .count = 3},
+        {WIGGLY_ERROR_KNOT_OUTSIDE, 0, .knots = &outside, .count = 1},
+        {WIGGLY_ERROR_KNOT_OUTSIDE, 0, .knots = &before, .count = 1},
+        {WIGGLY_ERROR_KNOT_OUTSIDE, 0, WIGGLY_LOOP, .knots = &seam, .count = 1},
+        {WIGGLY_ERROR_KNOT_OUTSIDE, 0, .knots = &good, .count = 1, .samples = -50},
+        {WIGGLY_ERROR_KNOT_NUMBER, 1, .knots = nan, .count = 2},
+        {WIGGLY_ERROR_KNOT_NUMBER, 0, .knots = &steep, .count = 1},
+        {WIGGLY_ERROR_KNOT_NUMBER, 0, .knots = &slack, .count = 1},
+        {WIGGLY_ERROR_KNOT_NUMBER, 0, .knots = &lost, .count = 1},
+        {WIGGLY_ERROR_KNOT_STILL, 0, .knots = &both, .count = 1},
+        {WIGGLY_ERROR_KNOT_LIMIT, 0, .knots = &good, .count = 1, .low = -1, .high = 0.5},
+        {WIGGLY_ERROR_LIMITS, -1, .low = 1, .high = -1},
+        {WIGGLY_ERROR_LIMITS, -1, .low = -1, .high = INFINITY},
+        {WIGGLY_ERROR_ARGUMENT, -1, .count = 1},
+        {WIGGLY_ERROR_ARGUMENT, -1, .samples = -51},
+        {WIGGLY_ERROR_CAPACITY, -1, .samples = MAX + 1},
+        {WIGGLY_ERROR_LOOP, -1, WIGGLY_LOOP, .samples = -49},
+        {WIGGLY_ERROR_NUMBER, -1, .step = -1},
+        {WIGGLY_ERROR_NUMBER, -1, .calm = 1.5},
+        {WIGGLY_ERROR_NUMBER, -1, .track = broken_track},
+        {WIGGLY_ERROR_SIZE, -1, .size = sizeof(wiggly_desc)},
+        {WIGGLY_ERROR_SIZE, -1, .size = 1},
     };
-    cases[9].desc.step = 0;
-    cases[10].desc.calm = 1.5;
-    cases[11].desc.damping.track = broken_track;
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        wiggly_desc desc =
+            describe(50 + cases[c].samples, WIGGLY_COMPLEX, cases[c].start, cases[c].knots, cases[c].count);
+        desc.size -= cases[c].size;
+        desc.damping.track = cases[c].track;
+        if (cases[c].step != 0) desc.step = cases[c].step;
+        if (cases[c].calm != 0) desc.calm = cases[c].calm;
+        desc.low = cases[c].low, desc.high = cases[c].high;
+        desc.has_low = desc.has_high = desc.low != 0;
         memset(curve.total, 0x5A, sizeof(double) * MAX);
-        wiggly_curve before = curve;
-        wiggly_status status = wiggly_solve(solver, &cases[c].desc, &curve);
+        wiggly_curve before_it = curve;
+        wiggly_status status = wiggly_solve(solver, &desc, &curve);
         if (status != cases[c].expected) fail_msg("case %zu: %s", c, wiggly_status_text(status));
-        assert_memory_equal(&before, &curve, sizeof curve);
+        if (curve.knot != cases[c].knot) fail_msg("case %zu: knot %d", c, curve.knot);
+        before_it.knot = curve.knot;
+        assert_memory_equal(&before_it, &curve, sizeof curve);
         for (size_t b = 0; b < sizeof(double) * MAX; b++) assert_int_equal(((unsigned char *)curve.total)[b], 0x5A);
     }
+    wiggly_desc ok = describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, &good, 1);
+    wiggly_curve unsized = {0};
     assert_int_equal(wiggly_solve(NULL, &ok, &curve), WIGGLY_ERROR_ARGUMENT);
+    assert_int_equal(wiggly_solve(solver, NULL, &curve), WIGGLY_ERROR_ARGUMENT);
+    assert_int_equal(wiggly_solve(solver, &ok, &unsized), WIGGLY_ERROR_SIZE);
+}
+
+/// What a caller of a later version hands over is understood as long as it asks for nothing that this one lacks.
+TEST(a_later_description_counts_where_its_new_members_are_0)
+{
+    const wiggly_knot knots[] = {{.sample = 3, .value = 1}, {.sample = 30, .value = -1}};
+    struct later {
+        wiggly_desc desc;
+        double more;
+    } later = {describe(50, WIGGLY_COMPLEX, WIGGLY_FREE, knots, 2), 0};
+    static double total[50];
+    wiggly_curve own = {.size = sizeof own, .total = total};
+    assert_int_equal(wiggly_solve(solver, &later.desc, &curve), WIGGLY_OK);
+    later.desc.size = sizeof later;
+    assert_int_equal(wiggly_solve(solver, &later.desc, &own), WIGGLY_OK);
+    assert_memory_equal(total, curve.total, sizeof total);
+    later.more = 1;
+    assert_int_equal(wiggly_solve(solver, &later.desc, &own), WIGGLY_ERROR_SIZE);
+}
+
+/// What zeroes mean is what the numbers beside them in the header mean.
+TEST(a_description_of_zeroes_is_valid)
+{
+    const wiggly_knot knots[] = {{.sample = 3, .value = 1}, {.sample = 30, .value = -1, .has_slope = true}},
+                      said[] = {knots[0], {.sample = 30, .value = -1, .has_slope = true, .stiffness = 1000}};
+    static double total[2][50];
+    wiggly_curve own = {.size = sizeof own, .total = total[0]}, same = {.size = sizeof same, .total = total[1]};
+    wiggly_desc zero = {.size = sizeof zero}, full = wiggly_default_desc();
+    assert_int_equal(wiggly_solve(solver, &zero, &own), WIGGLY_OK);
+    assert_int_equal(own.samples, 0);
+    zero.samples = full.samples = 50;
+    zero.frequency.value = full.frequency.value = 1.5;
+    zero.knots = knots, full.knots = said;
+    zero.knot_count = full.knot_count = 2;
+    full.bandwidth.value = 0;
+    assert_int_equal(wiggly_solve(solver, &zero, &own), WIGGLY_OK);
+    assert_int_equal(wiggly_solve(solver, &full, &same), WIGGLY_OK);
+    assert_memory_equal(total[0], total[1], sizeof total[0]);
+    assert_true(own.step == 1.0 / 24 && own.knot == -1);
+    full.calm = 0.3, full.has_calm = false; // a number says itself that it is one
+    zero.calm = 0.3, zero.has_calm = true;
+    wiggly_solve(solver, &zero, &own);
+    wiggly_solve(solver, &full, &same);
+    assert_memory_equal(total[0], total[1], sizeof total[0]);
 }
 
 TEST(every_status_has_a_text_of_its_own)
@@ -286,7 +359,8 @@ TEST(the_total_comes_as_floats)
         if (n / 9 % 2) desc.equilibrium.track = wave, desc.frequency.track = slow;
         float out[SAMPLES * STRIDE], close[SAMPLES];
         for (int i = 0; i < SAMPLES * STRIDE; i++) out[i] = -77;
-        wiggly_curve strided = {.floats = out, .stride = STRIDE}, plain = {.floats = close};
+        wiggly_curve strided = {.size = sizeof strided, .floats = out, .stride = STRIDE},
+                     plain = {.size = sizeof plain, .floats = close};
         wiggly_status status = wiggly_solve(solver, &desc, &curve);
         assert_true(status < WIGGLY_ERROR_ARGUMENT);
         assert_int_equal(wiggly_solve(solver, &desc, &strided), status);

@@ -43,7 +43,7 @@ static double y[SAMPLES], re[SAMPLES], im[SAMPLES], total[SAMPLES], omega[SAMPLE
 static wiggly_value solved(const struct spline *spline)
 {
     wiggly_desc desc = wiggly_default_desc();
-    wiggly_curve curve = {.total = total, .y = y, .re = re, .im = im, .omega = omega};
+    wiggly_curve curve = {.size = sizeof curve, .total = total, .y = y, .re = re, .im = im, .omega = omega};
     for (int i = 0; i < SAMPLES; i++) track[i] = base_at((double)i / RATE);
     desc.samples = SAMPLES;
     desc.step = 1.0 / RATE;

@@ -110,7 +110,7 @@ static void check_spline(const struct scene *scene, const char *name, int s)
     wiggly_status status;
     double total[TEXTBOOK_MAX], re[TEXTBOOK_MAX], im[TEXTBOOK_MAX];
     if (!textbook_curve(&desc, &book, &status, total, re, im)) fail_msg("%s, spline %d: singular", name, s);
-    const wiggly_curve curve = {.samples = scene->samples, .total = total, .re = re, .im = im};
+    const wiggly_curve curve = {.size = sizeof curve, .samples = scene->samples, .total = total, .re = re, .im = im};
     const double worst = vectors_error(&curve, scene->table, 1 + 3 * scene->count, s);
     if (!(worst <= 1e-12)) fail_msg("%s, spline %d: off by %g of its range", name, s, worst);
     bool resonant = strcmp(name, "loop_resonant") == 0 && s == 1; // its swing has no answer at calm 0

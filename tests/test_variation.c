@@ -27,7 +27,8 @@ static wiggly_desc varied(int seed, double amount)
 
 static wiggly_curve rows_of(struct solved *s)
 {
-    return (wiggly_curve){.total = s->total, .re = s->re, .im = s->im, .y = s->y, .omega = s->omega};
+    return (wiggly_curve){
+        .size = sizeof(wiggly_curve), .total = s->total, .re = s->re, .im = s->im, .y = s->y, .omega = s->omega};
 }
 
 static struct solved *solve(struct solved *s, const wiggly_desc *desc, wiggly_method method)
@@ -176,7 +177,7 @@ TEST(limits_hold)
     struct solved s;
     for (int seed = 0; seed < 20; seed++) {
         wiggly_desc desc = varied(seed, 1);
-        desc.low = -0.6, desc.high = 1.02;
+        desc.low = -0.6, desc.high = 1.02, desc.has_low = desc.has_high = true;
         solve(&s, &desc, WIGGLY_CHAIN);
         for (int i = 0; i < 241; i++) assert_true(s.total[i] >= -0.6 && s.total[i] <= 1.02);
         for (int k = 0; k < KEYS; k++) assert_true(s.total[keys[k].sample] == keys[k].value);

@@ -70,8 +70,11 @@ static void solve_way(wiggly_solver *solver, const struct layout *l, enum way wa
     own.desc.knots = own.knots;
     if (way == FILTER) own.desc.passive = WIGGLY_FILTER;
     if (way == CUBIC) own.desc.mode = WIGGLY_CUBIC;
-    if (way == LIMITED) own.desc.high = limit * l->largest, own.desc.low = -own.desc.high;
-    wiggly_curve curve = {.total = out->total, .im = out->im};
+    if (way == LIMITED) {
+        own.desc.high = limit * l->largest, own.desc.low = -own.desc.high;
+        own.desc.has_low = own.desc.has_high = true;
+    }
+    wiggly_curve curve = {.size = sizeof curve, .total = out->total, .im = out->im};
     wiggly_status status = wiggly_solve(solver, &own.desc, &curve);
     if (status >= WIGGLY_ERROR_ARGUMENT) fprintf(stderr, "%s\n", wiggly_status_text(status));
 }

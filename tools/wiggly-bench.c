@@ -72,7 +72,7 @@ static void run_large(struct bench *bench)
     struct bench_input input;
     wiggly_solver *solver = NULL;
     struct rusage usage;
-    wiggly_curve curve = {.total = need_zeroed(SAMPLES, sizeof(double))};
+    wiggly_curve curve = {.size = sizeof curve, .total = need_zeroed(SAMPLES, sizeof(double))};
     struct bench_result result = bench_blank(WIGGLY_COMPLEX, SAMPLES);
     snprintf(result.name, sizeof result.name, "loop/complex/%d", SAMPLES);
     bench_input_create(&input, BENCH_LOOP, WIGGLY_COMPLEX, SAMPLES);

@@ -24,21 +24,26 @@ extern "C" {
 /// Of the library that is linked, "major.minor.patch": a shared one may be newer than the header.
 const char *wiggly_version(void);
 
-/// What a call returns. From WIGGLY_ERROR_ARGUMENT on nothing was solved and the curve was not touched.
+/// What a call returns. From WIGGLY_ERROR_ARGUMENT on nothing was solved, and of the curve only `knot` was touched.
 typedef enum wiggly_status {
     WIGGLY_OK = 0,
     WIGGLY_CALMED,         ///< singular as asked: solved with calm 0.05 in place of 0
     WIGGLY_LEVELLED,       ///< singular as asked: solved with a level slope at the earliest knot
-    WIGGLY_INEXACT,        ///< solved, but the error estimate is above the tolerance (see wiggly_curve.error)
+    WIGGLY_INEXACT,        ///< solved, but the error estimate is above the tolerance (wiggly_curve.error)
     WIGGLY_SINGULAR,       ///< singular whatever was tried: knots joined by straight lines
     WIGGLY_ERROR_ARGUMENT, ///< a pointer is missing or a count is out of range
-    WIGGLY_ERROR_CAPACITY, ///< more samples or knots than the solver was created for
-    WIGGLY_ERROR_NUMBER, ///< a number is NaN or infinite, a value beyond 1e300, a stiffness not above 0, or calm outside 0 … 1
-    WIGGLY_ERROR_KNOT, ///< two knots on one sample, a knot outside the domain (a loop's last sample is outside), or a still one that has more
-    WIGGLY_ERROR_LOOP, ///< a loop of one sample
+    WIGGLY_ERROR_SIZE,   ///< a structure's `size` is not set, too small, or of a version with more than this one has
     WIGGLY_ERROR_MEMORY, ///< out of memory
-    WIGGLY_ERROR_PIN,    ///< a pin outside the domain, or on a spline that has no motion of its own
-    WIGGLY_ERROR_LIMIT,  ///< a knot beyond a limit, or a low limit that is not below the high one
+    WIGGLY_ERROR_CAPACITY,     ///< more samples or knots than the solver was created for
+    WIGGLY_ERROR_NUMBER,       ///< a number that is no knot's is NaN, infinite or out of its range
+    WIGGLY_ERROR_LOOP,         ///< a loop of one sample
+    WIGGLY_ERROR_LIMITS,       ///< a limit is not finite, or the low one is not below the high one
+    WIGGLY_ERROR_KNOT_NUMBER,  ///< a knot's number is NaN, infinite or beyond 1e300, or its stiffness below 0
+    WIGGLY_ERROR_KNOT_OUTSIDE, ///< a knot is outside the samples; a loop's last one is its first
+    WIGGLY_ERROR_KNOT_TWICE,   ///< two knots are on one sample
+    WIGGLY_ERROR_KNOT_STILL,   ///< a still knot has a slope or a phase
+    WIGGLY_ERROR_KNOT_LIMIT,   ///< a knot is beyond a limit
+    WIGGLY_ERROR_PIN,          ///< a pin is outside the samples, or on a spline that has no motion of its own
     WIGGLY_STATUS_COUNT
 } wiggly_status;
 
@@ -72,43 +77,46 @@ typedef struct wiggly_param {
 } wiggly_param;
 
 /// A knot fixes the total at its sample, and leaves the phase, Im x, free. One that has a phase is a pose: it fixes both, and with
-/// them every part that lags. A still one is where the motion comes to rest and begins from rest.
+/// them every part that lags. A still one is where the motion comes to rest and begins from rest. What a later version adds to
+/// knots comes in arrays of its own: this structure stays as it is.
 typedef struct wiggly_knot {
     int sample;
-    bool has_slope;
-    double value;     ///< of the total; a still knot's is not read
-    double slope;     ///< value per second (eq. 9); read where has_slope
-    double stiffness; ///< > 0, 1/s: what missing the slope costs; 1000 is firm
-    double phase;     ///< Im x; read where has_phase, in complex mode
-    bool has_phase;
-    bool still; ///< has neither a slope nor a phase
+    bool has_slope, has_phase, still; ///< a still one has neither
+    double value;                     ///< of the total; a still knot's is not read
+    double slope;                     ///< value per second (eq. 9); read where has_slope
+    double stiffness;                 ///< 1/s: what missing the slope costs; 0: 1000, which is firm
+    double phase;                     ///< Im x; read where has_phase, in complex mode
 } wiggly_knot;
 
-/// What to solve. Start from wiggly_default_desc().
+/// What to solve. Zeroes with `size` set are a valid description: what a 0 means is said beside each member. In an array, all have the
+/// size of the first.
 typedef struct wiggly_desc {
-    int samples; ///< N, at least 1
-    double step; ///< h, seconds between samples, > 0
+    size_t size;              ///< sizeof(wiggly_desc), by which a later version knows which members there are
+    const wiggly_knot *knots; ///< in any order
+    int knot_count;
+    int samples; ///< N; 0: nothing to solve
+    double step; ///< h, seconds between samples; 0: 1/24
     wiggly_mode mode;
     wiggly_start start;
+    wiggly_passive passive;
     wiggly_param frequency;   ///< Hz, undamped natural frequency; 0 is the cubic
     wiggly_param damping;     ///< ratio; 1 is critical, above 1 (real mode only) overdamped
     wiggly_param bandwidth;   ///< fraction of the frequency, 0 … 1; complex mode only
     wiggly_param equilibrium; ///< y (eq. 25)
-    double calm;              ///< 0 … 1; 0 is the paper's formula to the letter
-    wiggly_passive passive;   ///< the oscillator, unless it says the filter
-    double low, high;   ///< what the total stays within wherever it is solved for; -INFINITY and INFINITY: no limit
-    double variation;   ///< how far another motion through the same knots strays (docs/mathematics.md); 0: not at all
+    double calm;              ///< 0 … 1; 0: 1, but where has_calm, the paper's formula to the letter
+    double low, high;         ///< what the total stays within wherever it is solved for; read where has_low, has_high
+    double variation;         ///< how far another motion through the same knots strays (wiggly/more.h); 0: not at all
+    bool has_calm, has_low, has_high;
     int variation_seed; ///< which one
-    const wiggly_knot *knots; ///< any order
-    int knot_count;
 } wiggly_desc;
 
-/// Bandwidth 0.1, calm 1, complex, free, step 1/24, no limits; everything else 0.
+/// Size set, one sample, step 1/24, bandwidth 0.1, calm 1 (has_calm); everything else 0.
 wiggly_desc wiggly_default_desc(void);
 
 /// A solved spline: the caller's arrays of N numbers each, filled by wiggly_solve(). Arrays that are NULL are not filled;
-/// wiggly_evaluate() needs all but total.
+/// wiggly_evaluate() needs all but total. In an array, all have the size of the first.
 typedef struct wiggly_curve {
+    size_t size;   ///< sizeof(wiggly_curve)
     double *total; ///< y + Re x; at knots exactly the knot's value
     double *y;     ///< equilibrium
     double *re;    ///< Re x
@@ -117,13 +125,14 @@ typedef struct wiggly_curve {
     float *floats; ///< the total once more, for graphics: `stride` floats apart (0: 1); beyond 3.4e38 infinite
     size_t stride;
     int samples; ///< N of the last solve
-    double step; ///< h, seconds
     int first;   ///< before this sample no knot moves x: it is constant but for what the equilibrium's motion adds
+    double step; ///< h, seconds
     double before[2]; ///< that constant, re and im
     wiggly_mode mode;
     wiggly_start start;
     double error;    ///< estimated largest error, relative to the larger of the total's range and magnitude
     int refinements; ///< sweeps of iterative refinement that were taken
+    int knot;        ///< of an error: index of the knot that it is about; -1: of none
 } wiggly_curve;
 
 /// A solver's memory: factors and right-hand sides. Reusable for any number of splines.

@@ -32,7 +32,7 @@ static bool solve(const struct search *s, const struct knots *k, double complex 
 {
     wiggly_knot knots[KNOTS_MOST];
     wiggly_desc desc = wiggly_default_desc();
-    wiggly_curve curve = {.re = s->re, .im = s->im};
+    wiggly_curve curve = {.size = sizeof curve, .re = s->re, .im = s->im};
     for (int i = 0; i < k->count; i++) {
         knots[i] = (wiggly_knot){.sample = k->frame[i],
                                  .value = k->value[i],

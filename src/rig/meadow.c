@@ -93,8 +93,11 @@ static void describe(struct meadow *m, const struct meadow_rig *rig, const wiggl
     m->count = rig->count;
     for (int r = 0; r < rig->count; r++) {
         double *row = m->numbers + (size_t)r * ROWS * samples;
-        m->curves[r] =
-            (wiggly_curve){.re = row, .im = row + samples, .y = row + 2 * samples, .omega = row + 3 * samples};
+        m->curves[r] = (wiggly_curve){.size = sizeof(wiggly_curve),
+                                      .re = row,
+                                      .im = row + samples,
+                                      .y = row + 2 * samples,
+                                      .omega = row + 3 * samples};
         m->descs[r] = *desc;
         m->descs[r].variation = rig->variation;
         m->descs[r].variation_seed = rig->seed * MEADOW_MAX_REEDS + r;

@@ -15,8 +15,13 @@ bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *
 {
     const wiggly_status status = evaluation->status[spline];
     const double error = evaluation->curves[spline].error;
+    const int knot = evaluation->curves[spline].knot;
     if (status == WIGGLY_OK) return false;
-    if (status != WIGGLY_INEXACT) {
+    if (status >= WIGGLY_ERROR_ARGUMENT && knot >= 0) {
+        const struct spline *of = evaluation->storage->state[spline].held;
+        snprintf(text, EVALUATION_SENTENCE, "the knot at frame %.6g: %s", of->knots[knot].frame,
+                 wiggly_status_text(status));
+    } else if (status != WIGGLY_INEXACT) {
         snprintf(text, EVALUATION_SENTENCE, "%s", wiggly_status_text(status));
     } else if (error > 1) {
         snprintf(text, EVALUATION_SENTENCE, "%s: no digit of it is certain", wiggly_status_text(status));
@@ -58,7 +63,8 @@ static void create_storage(struct evaluation *evaluation, int splines, int sampl
     storage->solver_knots = knots;
     storage->is_new = true;
     for (int i = 0; i < splines; i++, numbers += ROWS * n) {
-        evaluation->curves[i] = (wiggly_curve){.total = numbers,
+        evaluation->curves[i] = (wiggly_curve){.size = sizeof(wiggly_curve),
+                                               .total = numbers,
                                                .y = numbers + n,
                                                .re = numbers + 2 * n,
                                                .im = numbers + 3 * n,

@@ -424,7 +424,7 @@ bool pinned_solve(struct pinned *pinned, wiggly_status *status)
     wiggly_group_set_method(pinned->solver, pinned->evaluation->solver == SOLVER_BAND ? WIGGLY_BAND : WIGGLY_CHAIN);
     find_members(pinned);
     for (int i = 0; has_floor && i < pinned->count; i++) { // as where pins pull: they are passed over, pressed or not
-        pinned->descs[i].low = -INFINITY, pinned->descs[i].high = INFINITY;
+        pinned->descs[i].has_low = pinned->descs[i].has_high = false;
     }
     still_bases(pinned);
     find_held(pinned);

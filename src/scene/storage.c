@@ -1,6 +1,7 @@
 /// An evaluation's memory, and how a spline is described to the solver.
 #include "scene/storage.h"
 #include "base/need.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,6 +43,8 @@ wiggly_desc storage_describe(const struct evaluation *evaluation, const struct d
         parameter_describe(p, document->splines[spline]->parameter[p].value,
                            track_of(evaluation, document, spline, p), &desc);
     }
+    desc.has_low = desc.low > -INFINITY;
+    desc.has_high = desc.high < INFINITY;
     if (cubic && desc.mode != WIGGLY_CUBIC) {
         desc.mode = WIGGLY_CUBIC;
         desc.passive = WIGGLY_OSCILLATOR; // its last value is held: a tail does not wind through its body

@@ -46,7 +46,7 @@ static void work(worker *w)
         int from = atomic_fetch_add(&batch->next, AT_A_TIME), to = from + AT_A_TIME;
         if (from >= now->count) return;
         for (int i = from; i < to && i < now->count; i++) {
-            wiggly_status status = wiggly_solve(w->solver, &now->desc[i], &now->curve[i]);
+            wiggly_status status = wiggly_solve(w->solver, desc_at(now->desc, i), curve_at(now->curve, i));
             if (now->status) now->status[i] = status;
             if (status > w->worst) w->worst = status;
         }
@@ -137,6 +137,7 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
                                  wiggly_status *status, int count)
 {
     if (!batch || count < 0 || (count > 0 && (!desc || !curve))) return WIGGLY_ERROR_ARGUMENT;
+    if (count > 0 && !(desc_fits(desc) && curve_fits(curve))) return WIGGLY_ERROR_SIZE;
     thread_acquire(&batch->lock);
     batch->job = (job){desc, curve, status, count};
     atomic_store(&batch->next, 0);

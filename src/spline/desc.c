@@ -1,5 +1,7 @@
-/// The table of the members of a description.
+/// A caller's description as this version reads it, and the table of its members.
 #include "spline/desc.h"
+#include <math.h>
+#include <string.h>
 
 /// X(name, kind, filters), in the order of wiggly_desc.
 #define SETTINGS(X)                                                                                                  \
@@ -7,15 +9,18 @@
     X(step, NUMBER, true)                                                                                            \
     X(mode, CHOICE, true)                                                                                            \
     X(start, CHOICE, false)                                                                                          \
+    X(passive, CHOICE, true)                                                                                         \
     X(frequency, PARAM, true)                                                                                        \
     X(damping, PARAM, true)                                                                                          \
     X(bandwidth, PARAM, true)                                                                                        \
     X(equilibrium, PARAM, false)                                                                                     \
     X(calm, NUMBER, false)                                                                                           \
-    X(passive, CHOICE, true)                                                                                         \
     X(low, NUMBER, false)                                                                                            \
     X(high, NUMBER, false)                                                                                           \
     X(variation, NUMBER, false)                                                                                      \
+    X(has_calm, CHOICE, false)                                                                                       \
+    X(has_low, CHOICE, false)                                                                                        \
+    X(has_high, CHOICE, false)                                                                                       \
     X(variation_seed, COUNT, false)
 
 #define ROW(member, kind, filters)                                                                                   \
@@ -25,7 +30,47 @@
 const desc_member desc_members[] = {SETTINGS(ROW){0}};
 
 /// By position: a member of wiggly_desc that the list lacks is a warning here (-Wmissing-field-initializers).
-wiggly_desc desc_settings(const wiggly_desc *desc) { return (wiggly_desc){SETTINGS(VALUE) NULL, 0}; }
+wiggly_desc desc_settings(const wiggly_desc *desc)
+{
+    return (wiggly_desc){sizeof(wiggly_desc), NULL, 0, SETTINGS(VALUE)};
+}
+
+/// A member that a later version adds must not lie in what is padding today.
+_Static_assert(offsetof(wiggly_desc, variation_seed) + sizeof(int) == sizeof(wiggly_desc), "padding at the end");
+_Static_assert(offsetof(wiggly_curve, knot) + sizeof(int) == sizeof(wiggly_curve), "padding at the end");
+
+/// The size that a structure had in version 1.0: what is added later has an offset from there on.
+enum { FIRST_DESC = sizeof(wiggly_desc), FIRST_CURVE = sizeof(wiggly_curve), WIDEST_SIZE = 4096 };
+
+bool size_fits(const void *of, size_t first, size_t own)
+{
+    const unsigned char *bytes = of;
+    size_t size;
+    memcpy(&size, of, sizeof size);
+    if (size < first || size > WIDEST_SIZE) return false;
+    for (size_t i = own; i < size; i++) {
+        if (bytes[i]) return false;
+    }
+    return true;
+}
+
+bool desc_fits(const wiggly_desc *desc) { return size_fits(desc, FIRST_DESC, sizeof *desc); }
+
+bool curve_fits(const wiggly_curve *curve) { return curve->size >= FIRST_CURVE && curve->size <= WIDEST_SIZE; }
+
+wiggly_status desc_read(const wiggly_desc *from, wiggly_desc *to)
+{
+    if (!from) return WIGGLY_ERROR_ARGUMENT;
+    if (!desc_fits(from)) return WIGGLY_ERROR_SIZE;
+    memset(to, 0, sizeof *to);
+    memcpy(to, from, from->size < sizeof *to ? from->size : sizeof *to);
+    if ((to->has_low && !isfinite(to->low)) || (to->has_high && !isfinite(to->high))) return WIGGLY_ERROR_LIMITS;
+    if (to->step == 0) to->step = 1.0 / 24;
+    if (to->calm == 0 && !to->has_calm) to->calm = 1;
+    if (!to->has_low) to->low = -INFINITY;
+    if (!to->has_high) to->high = INFINITY;
+    return WIGGLY_OK;
+}
 
 #define SAME_COUNT(member) (a->member == b->member)
 #define SAME_CHOICE(member) (a->member == b->member)

@@ -1,4 +1,5 @@
-/// The members of a description, listed once: who looks at all of them goes by this list. Private to the project.
+/// A description as the solver reads it, and its members, listed once: who looks at all of them goes by this list. Private to the
+/// project.
 #ifndef SPLINE_DESC_H
 #define SPLINE_DESC_H
 
@@ -21,6 +22,26 @@ typedef struct desc_member {
 
 /// All but the knots, to one without a name. One that is missing does not compile without a warning (desc.c).
 extern const desc_member desc_members[];
+
+/// A copy in which everything that is 0 by default is what it means: a step, calm, and without limits infinite ones. What is only
+/// read by the solver is always such a copy. WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_SIZE, WIGGLY_ERROR_LIMITS.
+wiggly_status desc_read(const wiggly_desc *from, wiggly_desc *to);
+
+/// Whether a structure that begins with its size has at least the members of version 1.0, and asks for nothing beyond its `own` size.
+bool size_fits(const void *of, size_t first, size_t own);
+bool desc_fits(const wiggly_desc *desc);
+bool curve_fits(const wiggly_curve *curve);
+
+/// Element i of a caller's array.
+static inline const wiggly_desc *desc_at(const wiggly_desc *descs, int i)
+{
+    return (const wiggly_desc *)(const void *)((const char *)descs + (size_t)i * descs->size);
+}
+
+static inline wiggly_curve *curve_at(wiggly_curve *curves, int i)
+{
+    return (wiggly_curve *)(void *)((char *)curves + (size_t)i * curves->size);
+}
 
 /// A description without its knots.
 wiggly_desc desc_settings(const wiggly_desc *desc);

@@ -1,8 +1,8 @@
 /// The frequency and damping that explain knots best (docs/mathematics.md, Frequency).
+#include "spline/desc.h"
 #include "spline/symmetric.h"
 #include <math.h>
 #include <string.h>
-#include <wiggly/more.h>
 
 enum { MOST = 48, PITCHES = 96, DAMPINGS = 10, REFINEMENTS = 24 };
 
@@ -108,8 +108,9 @@ static wiggly_explanation refine(const sight *s, wiggly_explanation at, double r
 
 int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2])
 {
-    if (!desc || !best) return 0;
-    const sight s = sight_of(desc);
+    wiggly_desc own;
+    if (!best || desc_read(desc, &own) != WIGGLY_OK) return 0;
+    const sight s = sight_of(&own);
     if (s.count < WIGGLY_FEWEST_EXPLAINED) return 0;
     const double lowest = 0.5 / (s.mean * (s.count - 1)), highest = fmax(headroom * 0.5 / s.smallest, 2 * lowest);
     const double ratio = pow(highest / lowest, 1.0 / (PITCHES - 1));

@@ -63,7 +63,7 @@ static void add_slope(const limits_work *w, wiggly_knot *last, const double on_t
     if (!(stiffness > 0 && stiffness < INFINITY)) return;
     double speed = pole.re * w_re + pole.im * on_turn[0] / on_turn[1];
     if (p->response.speed) speed += forced_response_speed(p->desc, p->y, &p->response, p->latest);
-    double own = last->has_slope ? last->stiffness : 0;
+    double own = last->has_slope ? knot_stiffness(last) : 0;
     last->slope = (own * (last->has_slope ? last->slope : 0) + stiffness * speed) / (own + stiffness);
     last->stiffness = own + stiffness;
     last->has_slope = true;

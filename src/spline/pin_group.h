@@ -9,6 +9,8 @@
 /// One spline of a group.
 typedef struct pulled {
     wiggly_solver *solver;
+    wiggly_desc desc;    ///< the caller's as it was read
+    wiggly_curve *curve; ///< the caller's
     problem problem;
     system_pulls pulls;
     double scale;    ///< of the system's compliance, to that of its weighted energy

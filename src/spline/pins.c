@@ -20,19 +20,20 @@ static const double near_enough = 1e-10;
 
 static bool is_finite3(const double *v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
 
-static wiggly_status check_bounds(const wiggly_group *g, const wiggly_desc *descs, const wiggly_curve *curves,
-                                  int spline_count, const wiggly_bound *bounds, int bound_count)
+static wiggly_status check_bounds(const wiggly_group *g, int spline_count, const wiggly_bound *bounds,
+                                  int bound_count)
 {
     if (bound_count < 0 || (bound_count > 0 && !bounds)) return WIGGLY_ERROR_ARGUMENT;
     if (bound_count > g->bounds) return WIGGLY_ERROR_CAPACITY;
     for (int s = 0; s < spline_count && bound_count > 0; s++) {
-        if (!curves[s].total || !curves[s].re || !curves[s].im) return WIGGLY_ERROR_ARGUMENT;
+        const wiggly_curve *curve = g->pulled[s].curve;
+        if (!curve->total || !curve->re || !curve->im) return WIGGLY_ERROR_ARGUMENT;
     }
     for (int b = 0; b < bound_count; b++) {
         if (!bounds[b].c) return WIGGLY_ERROR_ARGUMENT;
         if (!isfinite(bounds[b].least)) return WIGGLY_ERROR_NUMBER;
         for (int s = 0; s < spline_count; s++) {
-            if (bounds[b].sample < 0 || bounds[b].sample >= descs[s].samples) return WIGGLY_ERROR_PIN;
+            if (bounds[b].sample < 0 || bounds[b].sample >= g->pulled[s].desc.samples) return WIGGLY_ERROR_PIN;
             if (!isfinite(bounds[b].c[s][0]) || !isfinite(bounds[b].c[s][1])) return WIGGLY_ERROR_NUMBER;
         }
     }
@@ -53,21 +54,36 @@ static wiggly_status check_pin(const wiggly_pin *pin, int spline_count)
     return WIGGLY_OK;
 }
 
-static wiggly_status check(const wiggly_group *g, const wiggly_desc *descs, const double *weights,
-                           const wiggly_curve *curves, int spline_count, const wiggly_pin *pins, int pin_count)
+/// Takes the caller's descriptions and curves over.
+static wiggly_status read_splines(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves, int spline_count)
+{
+    for (int s = 0; s < spline_count; s++) {
+        pulled *of = &g->pulled[s];
+        of->curve = curve_at(curves, s);
+        if (!curve_fits(of->curve)) return WIGGLY_ERROR_SIZE;
+        of->curve->knot = -1;
+        wiggly_status status = desc_read(desc_at(descs, s), &of->desc);
+        if (status != WIGGLY_OK) return status;
+        if (of->desc.samples < 1) return WIGGLY_ERROR_ARGUMENT;
+        if (of->desc.knot_count > g->knots) return WIGGLY_ERROR_CAPACITY;
+    }
+    return WIGGLY_OK;
+}
+
+static wiggly_status check(wiggly_group *g, const wiggly_desc *descs, const double *weights, wiggly_curve *curves,
+                           int spline_count, const wiggly_pin *pins, int pin_count)
 {
     if (!g || !descs || !weights || !curves || spline_count < 1 || pin_count < 0 || (pin_count > 0 && !pins))
         return WIGGLY_ERROR_ARGUMENT;
     if (spline_count > g->splines || pin_count > g->pins) return WIGGLY_ERROR_CAPACITY;
     for (int s = 0; s < spline_count; s++) {
-        if (descs[s].knot_count > g->knots) return WIGGLY_ERROR_CAPACITY;
         if (!(weights[s] > 0 && weights[s] < INFINITY)) return WIGGLY_ERROR_NUMBER;
     }
     for (int i = 0; i < pin_count; i++) {
         wiggly_status status = check_pin(&pins[i], spline_count);
         if (status != WIGGLY_OK) return status;
     }
-    return WIGGLY_OK;
+    return read_splines(g, descs, curves, spline_count);
 }
 
 /// By sample; pins of one sample stay in their order.
@@ -125,9 +141,10 @@ static bool are_inside(const system_pulls *pulls, const wiggly_desc *desc)
     return pulls->count == 0 || (pulls->sample[0] >= 0 && pulls->sample[pulls->count - 1] < end);
 }
 
-static wiggly_status pose_spline(pulled *of, const wiggly_desc *desc, double weight)
+static wiggly_status pose_spline(pulled *of, double weight)
 {
     wiggly_solver *solver = of->solver;
+    const wiggly_desc *desc = &of->desc;
     if (!are_inside(&of->pulls, desc)) return WIGGLY_ERROR_PIN;
     solver->pulls = of->pulls.count > 0 ? &of->pulls : NULL;
     wiggly_status status = problem_pose(solver, desc, solver->y, &of->problem);
@@ -136,6 +153,7 @@ static wiggly_status pose_spline(pulled *of, const wiggly_desc *desc, double wei
         solver->pulls = NULL;
         status = problem_pose(solver, desc, solver->y, &of->problem);
     }
+    if (status != WIGGLY_OK) of->curve->knot = of->problem.knot;
     if (status != WIGGLY_OK) return status;
     if (of->pulls.count > 0 && !can_be_pulled(of)) return WIGGLY_ERROR_PIN;
     of->tail = bound_tail_of(&of->problem, weight);
@@ -143,12 +161,12 @@ static wiggly_status pose_spline(pulled *of, const wiggly_desc *desc, double wei
     return WIGGLY_OK;
 }
 
-static wiggly_status pose(wiggly_group *g, const wiggly_desc *descs, const double *weights, int spline_count,
-                          const wiggly_pin *pins, int pin_count)
+static wiggly_status pose(wiggly_group *g, const double *weights, int spline_count, const wiggly_pin *pins,
+                          int pin_count)
 {
     for (int s = 0; s < spline_count; s++) {
         find_pulls(g, s, pins, pin_count);
-        wiggly_status status = pose_spline(&g->pulled[s], &descs[s], weights[s]);
+        wiggly_status status = pose_spline(&g->pulled[s], weights[s]);
         if (status != WIGGLY_OK) return status;
     }
     return WIGGLY_OK;
@@ -398,42 +416,46 @@ static void press_tail(wiggly_group *g, int spline, wiggly_curve *curve)
     }
 }
 
-static wiggly_status solve_splines(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves, int spline_count)
+static wiggly_status solve_splines(wiggly_group *g)
 {
     wiggly_status worst = WIGGLY_OK;
-    for (int s = 0; s < spline_count; s++) {
+    for (int s = 0; s < g->rows.splines; s++) {
         pulled *of = &g->pulled[s];
         set_pulls(g, s);
-        const wiggly_status status = wiggly_solve(of->solver, &descs[s], &curves[s]);
-        press_tail(g, s, &curves[s]);
+        const wiggly_status status = solver_solve(of->solver, &of->desc, of->curve);
+        press_tail(g, s, of->curve);
         worst = status > worst ? status : worst;
     }
     return worst;
 }
 
 /// x of a spline that has been solved: in the caller's arrays, else where the solver has them meanwhile.
-static cplx solved_x(const wiggly_solver *solver, const wiggly_curve *curve, int sample)
+static cplx solved_x(const pulled *of, int sample)
 {
+    const wiggly_solver *solver = of->solver;
+    const wiggly_curve *curve = of->curve;
     return (cplx){(curve->re ? curve->re : solver->rows.gradient)[sample],
                   (curve->im ? curve->im : solver->rows.gradient + solver->samples)[sample]};
 }
 
 /// Re(c x) of a bound's point.
-static double see_bound(const wiggly_bound *bound, const wiggly_curve *curves, int spline_count)
+static double see_bound(const wiggly_group *g, const wiggly_bound *bound)
 {
     double sum = 0;
-    for (int s = 0; s < spline_count; s++)
-        sum += bound->c[s][0] * curves[s].re[bound->sample] - bound->c[s][1] * curves[s].im[bound->sample];
+    for (int s = 0; s < g->rows.splines; s++) {
+        const wiggly_curve *curve = g->pulled[s].curve;
+        sum += bound->c[s][0] * curve->re[bound->sample] - bound->c[s][1] * curve->im[bound->sample];
+    }
     return sum;
 }
 
 /// What the rows miss; true where that is next to nothing beside what they want.
-static bool find_miss(wiggly_group *g, const wiggly_curve *curves)
+static bool find_miss(wiggly_group *g)
 {
     const pin_rows *rows = &g->rows;
     double most = 0, size = 0;
     for (int r = rows->fixed; r < rows->count; r++) {
-        const double seen = see_bound(rows->row[r].bound, curves, rows->splines);
+        const double seen = see_bound(g, rows->row[r].bound);
         g->miss[r] = rows->row[r].want - seen - g->soft[r] * g->lambda[r];
         size = fmax(size, fmax(fabs(rows->row[r].want), fabs(seen)));
         if (g->lambda[r] > 0 || g->miss[r] > 0) most = fmax(most, fabs(g->miss[r]));
@@ -444,7 +466,7 @@ static bool find_miss(wiggly_group *g, const wiggly_curve *curves)
         size = fmax(size, fabs(rows->row[r].want));
         for (int s = 0; s < rows->splines; s++) {
             if (on[2 * s] == 0 && on[2 * s + 1] == 0) continue;
-            cplx x = solved_x(g->pulled[s].solver, &curves[s], rows->row[r].sample);
+            cplx x = solved_x(&g->pulled[s], rows->row[r].sample);
             double seen = on[2 * s] * x.re + on[2 * s + 1] * x.im;
             miss -= seen;
             size = fmax(size, fabs(seen));
@@ -456,7 +478,7 @@ static bool find_miss(wiggly_group *g, const wiggly_curve *curves)
 }
 
 /// λ and the curves of rows that are all met.
-static wiggly_status pull(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves)
+static wiggly_status pull(wiggly_group *g)
 {
     const int n = g->rows.count;
     wiggly_status status = WIGGLY_OK;
@@ -464,8 +486,8 @@ static wiggly_status pull(wiggly_group *g, const wiggly_desc *descs, wiggly_curv
     for (int round = 0; round < MAX_ROUNDS; round++) {
         symmetric_solve(n, g->system, g->miss);
         for (int r = 0; r < n; r++) g->lambda[r] += g->miss[r];
-        status = solve_splines(g, descs, curves, g->rows.splines);
-        if (find_miss(g, curves)) break;
+        status = solve_splines(g);
+        if (find_miss(g)) break;
     }
     return status;
 }
@@ -481,23 +503,21 @@ static void find_want(wiggly_group *g)
 }
 
 /// λ and the curves of rows some of which are bounds'.
-static wiggly_status press(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves)
+static wiggly_status press(wiggly_group *g)
 {
-    wiggly_status status = solve_splines(g, descs, curves, g->rows.splines);
-    for (int round = 0; round < MAX_ROUNDS && !find_miss(g, curves); round++) {
+    wiggly_status status = solve_splines(g);
+    for (int round = 0; round < MAX_ROUNDS && !find_miss(g); round++) {
         find_want(g);
         const bool found = bounds_find_pushes(g, near_enough);
-        status = solve_splines(g, descs, curves, g->rows.splines);
+        status = solve_splines(g);
         if (!found && status < WIGGLY_INEXACT) status = WIGGLY_INEXACT;
     }
     return status;
 }
 
-static void tell_bounds(const wiggly_group *g, const wiggly_curve *curves, int spline_count, wiggly_bound *bounds,
-                        int bound_count)
+static void tell_bounds(const wiggly_group *g, wiggly_bound *bounds, int bound_count)
 {
-    for (int b = 0; b < bound_count; b++)
-        bounds[b].left = bounds[b].least - see_bound(&bounds[b], curves, spline_count);
+    for (int b = 0; b < bound_count; b++) bounds[b].left = bounds[b].least - see_bound(g, &bounds[b]);
     for (int r = g->rows.fixed; r < g->rows.count; r++) g->rows.row[r].bound->push = g->lambda[r];
 }
 
@@ -506,7 +526,7 @@ double wiggly_group_reach(const wiggly_group *g, const wiggly_bound *bound)
     return pin_rows_reach(&g->rows, g->pulled, bound);
 }
 
-static void tell_left(const wiggly_group *g, const wiggly_curve *curves, wiggly_pin *pins, int pin_count)
+static void tell_left(const wiggly_group *g, wiggly_pin *pins, int pin_count)
 {
     for (int i = 0; i < pin_count; i++) {
         wiggly_pin *pin = &pins[i];
@@ -514,7 +534,7 @@ static void tell_left(const wiggly_group *g, const wiggly_curve *curves, wiggly_
         for (int k = 0; k < pin->pull_count; k++) {
             const wiggly_pull *pull = &pin->pulls[k];
             if (!moves(pin, pull->spline)) continue;
-            cplx x = solved_x(g->pulled[pull->spline].solver, &curves[pull->spline], pin->sample);
+            cplx x = solved_x(&g->pulled[pull->spline], pin->sample);
             for (int axis = 0; axis < 3; axis++) pin->left[axis] -= pull->c[axis][0] * x.re - pull->c[axis][1] * x.im;
         }
     }
@@ -532,10 +552,10 @@ wiggly_status wiggly_group_solve_bounded(wiggly_group *g, const wiggly_desc *des
 {
     wiggly_status status = check(g, descs, weights, curves, spline_count, pins, pin_count);
     if (status != WIGGLY_OK) return status;
-    status = check_bounds(g, descs, curves, spline_count, bounds, bound_count);
+    status = check_bounds(g, spline_count, bounds, bound_count);
     if (status != WIGGLY_OK) return status;
     order_pins(g, pins, pin_count);
-    status = pose(g, descs, weights, spline_count, pins, pin_count);
+    status = pose(g, weights, spline_count, pins, pin_count);
     for (int s = 0; s < spline_count && status == WIGGLY_OK && bound_count > 0; s++)
         status = pose_bounds(g, s, bounds, bound_count);
     if (status != WIGGLY_OK) return status;
@@ -546,8 +566,8 @@ wiggly_status wiggly_group_solve_bounded(wiggly_group *g, const wiggly_desc *des
     const int n = g->rows.count;
     soften(g);
     memset(g->lambda, 0, sizeof *g->lambda * (size_t)n);
-    status = n > g->rows.fixed ? press(g, descs, curves) : pull(g, descs, curves);
-    tell_left(g, curves, pins, pin_count);
-    if (bound_count > 0) tell_bounds(g, curves, spline_count, bounds, bound_count);
+    status = n > g->rows.fixed ? press(g) : pull(g);
+    tell_left(g, pins, pin_count);
+    if (bound_count > 0) tell_bounds(g, bounds, bound_count);
     return all ? status : WIGGLY_SINGULAR;
 }

@@ -1,6 +1,7 @@
 /// From parameters to poles, coefficients and the cost of the start: of one sample, and of a block of them.
 #include "spline/poles.h"
 #include "spline/dd.h"
+#include "spline/desc.h"
 #include "spline/wide.h"
 #include <float.h>
 #include <math.h>
@@ -244,10 +245,12 @@ void wiggly_from_spring(double k, double gamma, double *frequency, double *dampi
 
 wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)
 {
-    poles at = poles_at(desc, sample, 0);
-    wiggly_poles out;
+    wiggly_desc own;
+    wiggly_poles out = {{{0}}, {{0}}};
+    if (desc_read(desc, &own) != WIGGLY_OK) return out;
+    const poles at = poles_at(&own, sample, 0);
     for (int k = 0; k < 2; k++) {
-        double size = exp(at.s[k].re * desc->step), angle = at.s[k].im * desc->step;
+        double size = exp(at.s[k].re * own.step), angle = at.s[k].im * own.step;
         out.s[k][0] = at.s[k].re;
         out.s[k][1] = at.s[k].im;
         out.z[k][0] = size * cos(angle);

@@ -27,8 +27,7 @@ static bool is_part(double x) { return x >= 0 && x <= 1; }
 
 static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *desc)
 {
-    if (!solver || !desc) return WIGGLY_ERROR_ARGUMENT;
-    if (desc->samples < 1 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
+    if (desc->samples < 0 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
         return WIGGLY_ERROR_ARGUMENT;
     if (desc->samples > solver->samples || desc->knot_count > solver->knots) return WIGGLY_ERROR_CAPACITY;
     if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
@@ -40,35 +39,39 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
         double most = param == &desc->equilibrium ? LARGEST_VALUE : DBL_MAX;
         if (!param_is_within(*param, desc->samples, most)) return WIGGLY_ERROR_NUMBER;
     }
-    for (int k = 0; k < desc->knot_count; k++) {
-        const wiggly_knot *knot = &desc->knots[k];
-        if (knot->still && (knot->has_slope || knot->has_phase)) return WIGGLY_ERROR_KNOT;
-        if (knot->still) continue;
-        if (!(fabs(knot->value) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
-        if (knot->has_phase && !(fabs(knot->phase) <= LARGEST_VALUE)) return WIGGLY_ERROR_NUMBER;
-        if (knot->has_slope && !(isfinite(knot->slope) && knot->stiffness > 0 && knot->stiffness < INFINITY)) {
-            return WIGGLY_ERROR_NUMBER;
-        }
-        if (knot->value < desc->low || knot->value > desc->high) return WIGGLY_ERROR_LIMIT;
-    }
-    return desc->low < desc->high ? WIGGLY_OK : WIGGLY_ERROR_LIMIT;
+    return desc->low < desc->high ? WIGGLY_OK : WIGGLY_ERROR_LIMITS;
 }
 
-/// Fills `order`; knots that are in order already, as a document's are, cost one look each.
-static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc)
+static wiggly_status check_knot(const wiggly_desc *desc, const wiggly_knot *knot)
 {
-    int end = desc->samples - (desc->start == WIGGLY_LOOP ? 1 : 0);
+    const int end = desc->samples - (desc->start == WIGGLY_LOOP ? 1 : 0);
+    if (knot->sample < 0 || knot->sample >= end) return WIGGLY_ERROR_KNOT_OUTSIDE;
+    if (knot->still) return knot->has_slope || knot->has_phase ? WIGGLY_ERROR_KNOT_STILL : WIGGLY_OK;
+    if (!(fabs(knot->value) <= LARGEST_VALUE)) return WIGGLY_ERROR_KNOT_NUMBER;
+    if (knot->has_phase && !(fabs(knot->phase) <= LARGEST_VALUE)) return WIGGLY_ERROR_KNOT_NUMBER;
+    if (knot->has_slope && !(isfinite(knot->slope) && knot->stiffness >= 0 && knot->stiffness < INFINITY))
+        return WIGGLY_ERROR_KNOT_NUMBER;
+    return knot->value < desc->low || knot->value > desc->high ? WIGGLY_ERROR_KNOT_LIMIT : WIGGLY_OK;
+}
+
+/// Checks the knots and fills `order`; `knot` receives the one that is wrong. Knots that are in order already, as a document's are,
+/// cost one look each.
+static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
+{
     bool ordered = true;
     for (int k = 0; k < desc->knot_count; k++) {
-        int sample = desc->knots[k].sample;
-        if (sample < 0 || sample >= end) return WIGGLY_ERROR_KNOT;
+        const int sample = desc->knots[k].sample;
+        const wiggly_status status = check_knot(desc, &desc->knots[k]);
+        *knot = k;
+        if (status != WIGGLY_OK) return status;
         ordered = ordered && (k == 0 || sample > desc->knots[k - 1].sample);
         solver->order[k] = k;
     }
     if (ordered) return WIGGLY_OK;
     for (int i = 0; i < desc->samples; i++) solver->knot_at[i] = -1;
     for (int k = 0; k < desc->knot_count; k++) {
-        if (solver->knot_at[desc->knots[k].sample] >= 0) return WIGGLY_ERROR_KNOT;
+        *knot = k;
+        if (solver->knot_at[desc->knots[k].sample] >= 0) return WIGGLY_ERROR_KNOT_TWICE;
         solver->knot_at[desc->knots[k].sample] = k;
     }
     for (int i = 0, n = 0; i < desc->samples; i++) {
@@ -180,8 +183,9 @@ static void fill(double *x, double value, int count)
 
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
 {
+    p->knot = -1;
     wiggly_status status = check_desc(solver, desc);
-    if (status == WIGGLY_OK) status = order_knots(solver, desc);
+    if (status == WIGGLY_OK) status = order_knots(solver, desc, &p->knot);
     if (status != WIGGLY_OK) return status;
     *p = (problem){.desc = desc, .calm = desc->calm, .pulls = solver->pulls};
     if (desc->equilibrium.track) {

@@ -161,7 +161,7 @@ static bool put_knot(const problem *p, chain_node *node, const wiggly_knot *knot
     slope_row slope = {0};
     const bool inside =
         pair && !problem_oscillates(p); // of two knots: what it asks of them is met to rounding, or not at all
-    if (knot->has_slope && !inside) slope = problem_slope(p, knot->sample, knot->slope, knot->stiffness);
+    if (knot->has_slope && !inside) slope = problem_slope(p, knot->sample, knot->slope, knot_stiffness(knot));
     const unsigned fixed = known_of(p, knot, pair);
     node->value = problem_knot_re(p, knot);
     node->im = fixed & NODE_POSE ? problem_knot_im(p, knot) : 0;

@@ -18,6 +18,14 @@
 /// What a singular document is solved with in place of calm 0.
 #define FALLBACK_CALM 0.05
 
+/// What missing a slope costs where nothing says so, 1/s.
+#define USUAL_STIFFNESS 1000
+
+static inline double knot_stiffness(const wiggly_knot *knot)
+{
+    return knot->stiffness > 0 ? knot->stiffness : USUAL_STIFFNESS;
+}
+
 /// One solve in progress: the description with the rules of start and end applied. x = u + w: u is what moves by itself as the
 /// equilibrium does, w what is solved for. A cubic on a moving equilibrium is solved for its total.
 typedef struct problem {
@@ -39,6 +47,7 @@ typedef struct problem {
     bool level_slope;          ///< a level slope is implied at the earliest knot
     bool free_end;             ///< c·H = 0
     int still;                 ///< sample of the earliest still knot, or -1
+    int knot;                  ///< of what problem_pose() refuses: index of the knot that it is about, or -1
     double unit;     ///< what weights are times that are not jets': the oscillator's |g|² at `first`, else 1
     start_cost cost; ///< of the start's swing, times calm; weights 0 where it is free
 } problem;

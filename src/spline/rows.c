@@ -8,7 +8,6 @@ static const double little = 1e-3;
 
 /// Of a start, in jets of its first sample: what is beside it has no digit left.
 static const double heaviest_start = 1e26;
-static const double implied_stiffness = 1000;
 
 /// ln of how many times as much one jet may weigh as another: beyond, of a light one too few digits are left beside it.
 static const double unlike_jets = 16;
@@ -298,7 +297,7 @@ static void set_constraints(wiggly_solver *solver, const problem *p)
     memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
     memset(rows->fixed, rows->is_complex ? 0 : FIXED_IM, (size_t)rows->count);
     if (p->start == WIGGLY_REST) set_rest(solver, p);
-    if (problem_implies_slope(p)) add_slope(rows, p, p->earliest, 0, implied_stiffness);
+    if (problem_implies_slope(p)) add_slope(rows, p, p->earliest, 0, USUAL_STIFFNESS);
     for (int n = 0; n < p->desc->knot_count; n++) {
         const wiggly_knot *knot = &p->desc->knots[solver->order[n]];
         int k = knot->sample - p->first;
@@ -309,7 +308,7 @@ static void set_constraints(wiggly_solver *solver, const problem *p)
             rows->fixed[k] |= FIXED_IM;
             rows->x[2 * k + 1] = problem_knot_im(p, knot);
         }
-        if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot->stiffness);
+        if (knot->has_slope) add_slope(rows, p, knot->sample, knot->slope, knot_stiffness(knot));
     }
 }
 

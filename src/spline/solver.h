@@ -94,6 +94,9 @@ minimum solver_minimise(wiggly_solver *solver);
 factorisation solver_factor(wiggly_solver *solver);
 minimum solver_refine(wiggly_solver *solver, factorisation *factor);
 
+/// wiggly_solve() of a description that was read (desc_read()).
+wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
+
 /// The rows of a description, with knots fixed in x, as solver_minimise() would find them, and its matrix: for comparisons with
 /// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.
 wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y);

@@ -10,8 +10,12 @@ const char *wiggly_version(void) { return WIGGLY_VERSION; }
 
 wiggly_desc wiggly_default_desc(void)
 {
-    return (wiggly_desc){
-        .samples = 1, .step = 1.0 / 24, .bandwidth.value = 0.1, .calm = 1, .low = -INFINITY, .high = INFINITY};
+    return (wiggly_desc){.size = sizeof(wiggly_desc),
+                         .samples = 1,
+                         .step = 1.0 / 24,
+                         .bandwidth.value = 0.1,
+                         .calm = 1,
+                         .has_calm = true};
 }
 
 static double tolerance(wiggly_mode mode) { return mode == WIGGLY_CUBIC ? 1e-9 : 1e-8; }
@@ -164,7 +168,9 @@ static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_st
 wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y)
 {
     problem p;
-    wiggly_status status = problem_pose(solver, desc, y, &p);
+    wiggly_desc own;
+    wiggly_status status = desc_read(desc, &own);
+    if (status == WIGGLY_OK) status = problem_pose(solver, &own, y, &p);
     if (status != WIGGLY_OK) return status;
     for (int i = 0; i < desc->samples; i++) y[i] = problem_about(&p, i);
     problem_set_rows(solver, &p);
@@ -172,10 +178,23 @@ wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, do
     return WIGGLY_OK;
 }
 
+/// The caller's curve has as many members as its version knows.
+static size_t shared_size(const wiggly_curve *curve)
+{
+    return curve->size < sizeof *curve ? curve->size : sizeof *curve;
+}
+
+static wiggly_curve read_curve(const wiggly_curve *curve)
+{
+    wiggly_curve own = {0};
+    memcpy(&own, curve, shared_size(curve));
+    return own;
+}
+
 /// The curve with the solver's own arrays in place of missing ones: they are free once x is found.
 static wiggly_curve with_arrays(const wiggly_solver *solver, const wiggly_curve *curve)
 {
-    wiggly_curve all = *curve;
+    wiggly_curve all = read_curve(curve);
     if (!all.re) all.re = solver->rows.gradient;
     if (!all.im) all.im = solver->rows.gradient + solver->samples;
     if (!all.total) all.total = solver->rows.jet;
@@ -186,7 +205,8 @@ static wiggly_curve with_arrays(const wiggly_solver *solver, const wiggly_curve 
 static void keep_asked(wiggly_curve *curve, wiggly_curve all)
 {
     all.total = curve->total, all.re = curve->re, all.im = curve->im;
-    *curve = all;
+    all.knot = -1;
+    memcpy(curve, &all, shared_size(curve));
 }
 
 /// Whether nothing is to be minimised: too short, nothing moves, or nothing constrains.
@@ -214,12 +234,34 @@ wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curv
     return p->status;
 }
 
+/// No sample at all.
+static wiggly_status solve_nothing(const wiggly_desc *desc, wiggly_curve *curve)
+{
+    wiggly_curve all = read_curve(curve);
+    all.samples = all.first = all.refinements = 0;
+    all.error = all.before[0] = all.before[1] = 0;
+    all.step = desc->step, all.mode = desc->mode, all.start = desc->start;
+    keep_asked(curve, all);
+    return WIGGLY_OK;
+}
+
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
 {
-    if (!solver || !curve) return WIGGLY_ERROR_ARGUMENT;
+    if (!solver || !curve || !desc) return WIGGLY_ERROR_ARGUMENT;
+    if (!curve_fits(curve)) return WIGGLY_ERROR_SIZE;
+    wiggly_desc own;
+    curve->knot = -1;
+    wiggly_status status = desc_read(desc, &own);
+    return status == WIGGLY_OK ? solver_solve(solver, &own, curve) : status;
+}
+
+wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
+{
+    if (desc->samples == 0 && desc->knot_count == 0) return solve_nothing(desc, curve);
     problem p;
     wiggly_curve all = with_arrays(solver, curve);
     wiggly_status status = problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
+    if (status != WIGGLY_OK) curve->knot = p.knot;
     if (status != WIGGLY_OK) return status;
     const bool limited = limits_are_set(desc) && !solver->pulls; // pins come first
     wiggly_desc ordered;

@@ -24,7 +24,7 @@ struct work {
 
 enum { MOST_BAND = 5 };
 
-static bool is_limited(const wiggly_desc *desc) { return desc->high < INFINITY; }
+static bool is_limited(const wiggly_desc *desc) { return desc->has_high; }
 
 /// Limits, the mean of several and noise are no system for LAPACK: such a case is timed alone.
 static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->variation > 0; }
@@ -34,8 +34,12 @@ static void work_create(struct work *w, const wiggly_desc *desc, const char *nam
     const size_t n = (size_t)desc->samples, band = 2 * n * (MOST_BAND + 1);
     double *total = need_zeroed(6 * n + 2 * (band + 2 * n), sizeof *total);
     *w = (struct work){.desc = *desc, .about = total + 5 * n, .band = total + 6 * n};
-    w->curve = (wiggly_curve){
-        .total = total, .y = total + n, .re = total + 2 * n, .im = total + 3 * n, .omega = total + 4 * n};
+    w->curve = (wiggly_curve){.size = sizeof(wiggly_curve),
+                              .total = total,
+                              .y = total + n,
+                              .re = total + 2 * n,
+                              .im = total + 3 * n,
+                              .omega = total + 4 * n};
     w->right = w->band + band;
     w->solved_band = w->right + 2 * n;
     w->solved = w->solved_band + band;

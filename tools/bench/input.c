@@ -45,6 +45,7 @@ static void set_limits(struct bench_input *input, double by)
     for (int k = 0; k < input->desc.knot_count; k++) largest = fmax(largest, fabs(input->knots[k].value));
     input->desc.high = by * largest;
     input->desc.low = -input->desc.high;
+    input->desc.has_low = input->desc.has_high = true;
 }
 
 /// Up and down about every 15 seconds; a loop's would close.

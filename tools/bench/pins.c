@@ -46,7 +46,8 @@ static void describe(struct pinned *p, int s)
         p->knots[s * knots + k] = (wiggly_knot){.sample = GAP * k + (5 * s + 7 * k) % 11, .value = sin(s + 2.0 * k)};
     p->weight[s] = 1 + 0.1 * s;
     double *at = p->numbers + (size_t)s * 3 * (size_t)p->samples;
-    p->curve[s] = (wiggly_curve){.total = at, .re = at + p->samples, .im = at + 2 * p->samples};
+    p->curve[s] =
+        (wiggly_curve){.size = sizeof(wiggly_curve), .total = at, .re = at + p->samples, .im = at + 2 * p->samples};
 }
 
 static void place(struct pinned *p, int i)

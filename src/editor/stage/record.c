@@ -51,7 +51,7 @@ static bool solve_through(wiggly_solver *solver, const double *values, int count
                           wiggly_knot *buffer, double *total)
 {
     wiggly_desc desc = wiggly_default_desc();
-    wiggly_curve curve = {.total = total};
+    wiggly_curve curve = {.size = sizeof curve, .total = total};
     desc.samples = count;
     desc.mode = WIGGLY_CUBIC;
     for (int i = 0; i < knot_count; i++) {
