@@ -3,7 +3,8 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double FAR = 2.5;           ///< of a curve, in heights of its highest knot
+static const double FAR = 3;             ///< of a curve, in heights of its knots
+static const double LEAST_OTHER = 0.25;  ///< of the other knots' height, as a share of the largest knot's
 static const double MOST_SWING = 2;      ///< of a span, in heights of its knots
 static const double LEAST_HEIGHT = 0.75; ///< of a span's knots, as a share of the highest: small ones may ring
 static const double MOST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
@@ -47,49 +48,119 @@ static double highest_knot(const struct look *look)
     return highest;
 }
 
-/// Its sample furthest from the equilibrium, and from where to where that moves.
-static int peak_of(const wiggly_curve *curve, double range[2])
+static bool look_at(const struct document *document, const struct evaluation *evaluation, int of,
+                    struct warnings *found, struct look *look)
+{
+    if (of < 0 || of >= evaluation->count || evaluation->cubic) return false;
+    *look = (struct look){.document = document,
+                          .evaluation = evaluation,
+                          .of = of,
+                          .spline = document->splines[of],
+                          .curve = &evaluation->curves[of],
+                          .found = found};
+    return true;
+}
+
+/// How far a curve may swing: beside its largest knot, up to the knots on either side, more than elsewhere.
+struct reach {
+    int from, to; ///< samples beside the largest knot; across a loop's seam if `from` is behind `to`
+    double largest, other, most[2];
+    double range[2]; ///< of the equilibrium
+};
+
+static bool is_beside(const struct reach *reach, int sample)
+{
+    if (reach->from <= reach->to) return sample >= reach->from && sample <= reach->to;
+    return sample >= reach->from || sample <= reach->to;
+}
+
+/// From the knot before one to the knot after it; a domain's end, or all of a loop, where there is none.
+static void set_sides(const struct look *look, int knot, struct reach *reach)
+{
+    const struct spline *spline = look->spline;
+    const int count = spline->knot_count;
+    const bool loop = spline_start(spline) == WIGGLY_LOOP && count > 2;
+    const bool begins = knot == 0 && !loop, ends = knot + 1 == count && !loop;
+    reach->from = begins ? 0 : sample_of(look, &spline->knots[(knot + count - 1) % count]);
+    reach->to = ends ? look->curve->samples - 1 : sample_of(look, &spline->knots[(knot + 1) % count]);
+}
+
+/// A moving equilibrium swings the curve, too, without any knot.
+static struct reach reach_of(const struct look *look)
+{
+    struct reach reach = {.range = {INFINITY, -INFINITY}};
+    int knot = 0;
+    for (int k = 0; k < look->spline->knot_count; k++) {
+        const struct knot *at = &look->spline->knots[k];
+        const double here = at->still ? 0 : height(look->curve, sample_of(look, at));
+        reach.other = fmax(reach.other, fmin(here, reach.largest));
+        if (here > reach.largest) reach.largest = here, knot = k;
+    }
+    set_sides(look, knot, &reach);
+    for (int i = 0; i < look->curve->samples; i++) {
+        const double y = look->curve->y[i];
+        reach.range[0] = y < reach.range[0] ? y : reach.range[0];
+        reach.range[1] = y > reach.range[1] ? y : reach.range[1];
+    }
+    const double moves = reach.range[1] - reach.range[0];
+    reach.most[true] = FAR * fmax(reach.largest, moves);
+    reach.most[false] = FAR * fmax(fmax(reach.other, LEAST_OTHER * reach.largest), moves);
+    return reach;
+}
+
+/// The sample that is furthest beyond what it may, or least within, and how many times as far as it may.
+static int farthest(const wiggly_curve *curve, const struct reach *reach, double *times)
 {
     int peak = 0;
-    range[0] = range[1] = curve->y[0];
-    for (int i = 1; i < curve->samples; i++) {
-        const double y = curve->y[i];
-        range[0] = y < range[0] ? y : range[0];
-        range[1] = y > range[1] ? y : range[1];
-        if (height(curve, i) > height(curve, peak)) peak = i;
+    *times = 0;
+    for (int i = 0; i < curve->samples; i++) {
+        const double here = height(curve, i) / reach->most[is_beside(reach, i)];
+        if (here > *times) *times = here, peak = i;
     }
     return peak;
 }
 
-/// Limits beyond where the equilibrium moves by the highest knot and a little more, in numbers of few digits.
-static void set_limits(struct warning *warning, const double range[2], double highest)
+/// Limits beyond where the equilibrium moves by the largest knot and a little more, in numbers of few digits.
+static void set_limits(struct warning *warning, const struct reach *reach)
 {
-    const double room = 1.15 * highest, digits = pow(10, 1 - floor(log10(room)));
-    warning->low = floor((range[0] - room) * digits) / digits;
-    warning->high = ceil((range[1] + room) * digits) / digits;
+    const double room = 1.15 * reach->largest, digits = pow(10, 1 - floor(log10(room)));
+    warning->low = floor((reach->range[0] - room) * digits) / digits;
+    warning->high = ceil((reach->range[1] + room) * digits) / digits;
 }
 
-/// The sample of the peak, or -1. A moving equilibrium swings the curve, too, without any knot.
+/// The sample of the peak, or -1.
 static int find_far(const struct look *look)
 {
-    double range[2];
+    double times;
     const wiggly_curve *curve = look->curve;
     if (look->spline->knot_count == 0 || spline_is_limited(look->spline)) return -1;
-    const int peak = peak_of(curve, range);
-    const double highest = highest_knot(look), farthest = height(curve, peak);
-    const double most = FAR * fmax(highest, range[1] - range[0]);
-    if (highest <= 0 || farthest <= most) return -1;
+    const struct reach reach = reach_of(look);
+    if (reach.largest <= 0) return -1;
+    const int peak = farthest(curve, &reach, &times);
+    const bool beside = is_beside(&reach, peak);
+    const double limit = reach.most[beside] / FAR;
+    if (times <= 1) return -1;
     struct warning warning = {.kind = WARNING_FAR,
                               .frame = document_frame(look->document, peak),
                               .value = curve->total[peak],
-                              .amount = farthest / highest,
-                              .limit = highest,
-                              .remedy = curve->y[peak] + copysign(highest, curve->total[peak] - curve->y[peak]),
-                              .most = most,
-                              .phase = curve->im[peak] * highest / farthest};
-    set_limits(&warning, range, highest);
+                              .amount = times,
+                              .remedy = curve->y[peak] + copysign(limit, curve->total[peak] - curve->y[peak]),
+                              .phase = curve->im[peak] * limit / height(curve, peak),
+                              .why = beside ? "its largest knot" : "its other knots"};
+    set_limits(&warning, &reach);
     add(look, warning);
     return peak;
+}
+
+double warning_times_far(const struct document *document, const struct evaluation *before,
+                         const struct evaluation *after, int of)
+{
+    double times;
+    struct look look;
+    if (!look_at(document, before, of, NULL, &look)) return 0;
+    const struct reach reach = reach_of(&look);
+    farthest(&after->curves[of], &reach, &times);
+    return times;
 }
 
 /// The highest frequency of the spline in Hz.
@@ -270,19 +341,6 @@ static void find_idle(const struct look *look)
     }
 }
 
-static bool look_at(const struct document *document, const struct evaluation *evaluation, int of,
-                    struct warnings *found, struct look *look)
-{
-    if (of < 0 || of >= evaluation->count || evaluation->cubic) return false;
-    *look = (struct look){.document = document,
-                          .evaluation = evaluation,
-                          .of = of,
-                          .spline = document->splines[of],
-                          .curve = &evaluation->curves[of],
-                          .found = found};
-    return true;
-}
-
 void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
                       struct warnings *found)
 {
@@ -326,8 +384,8 @@ void warning_say(const struct warning *warning, char text[WARNING_SENTENCE])
 {
     switch (warning->kind) {
     case WARNING_FAR:
-        snprintf(text, WARNING_SENTENCE, "Frame %.6g: the curve swings %.1f times as far as its largest knot.",
-                 warning->frame, warning->amount);
+        snprintf(text, WARNING_SENTENCE, "Frame %.6g: the curve swings to %.3g, far beyond %s.", warning->frame,
+                 warning->value, warning->why);
         break;
     case WARNING_SWING:
         snprintf(text, WARNING_SENTENCE, "Frames %.6g to %.6g: the curve swings %.1f times as far as its knots.",

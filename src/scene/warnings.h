@@ -12,7 +12,7 @@ const char *knot_idle_slope(const struct document *document, int of, int knot);
 int spline_idle_pose(const struct spline *spline);
 
 enum warning_kind {
-    WARNING_FAR,    ///< the curve swings more than 2.5 times as far as any of its knots
+    WARNING_FAR,    ///< the curve swings far beyond its knots
     WARNING_SWING,  ///< it swings more than twice as far as the knots around it
     WARNING_RATE,   ///< a frequency near half the sample rate
     WARNING_DRIFT,  ///< bandwidth times the periods between two knots
@@ -27,11 +27,11 @@ struct warning {
     int spline;
     double frame, value; ///< the place (not of a rate)
     double from, to;     ///< frames of the knots around it
-    double amount;       ///< swing in heights of the knots; Hz; periods; degrees out of step
-    double limit;        ///< height of the knots; Hz that would be fine; bandwidth as it is
+    double amount;       ///< swing in heights of the knots, or in how far it may; Hz; periods; degrees out of step
+    double limit;        ///< Hz that would be fine; bandwidth as it is
     double remedy;       ///< value of a knot at the place; substeps; bandwidth; frame of the pose to free
-    const char *why;     ///< a slope has no effect
-    double phase, most;  ///< Im x of a pose at the place; how far the curve may swing
+    const char *why;     ///< a slope has no effect; which knots are exceeded
+    double phase;        ///< Im x of a pose at the place
     double low, high;    ///< limits a little beyond the knots
 };
 
@@ -45,6 +45,10 @@ struct warnings {
 /// Adds where a solved spline swings far beyond its knots, if it does. Allocates nothing.
 void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
                       struct warnings *found);
+/// How many times as far as its knots in one solution allow a spline swings at most in another one. 3 times its largest knot beside that, and
+/// elsewhere 3 times the next largest, are allowed.
+double warning_times_far(const struct document *document, const struct evaluation *before,
+                         const struct evaluation *after, int of);
 /// And where its poses force the swing.
 void warnings_add_forced(const struct document *document, const struct evaluation *evaluation, int of,
                          struct warnings *found);

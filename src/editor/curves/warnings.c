@@ -145,7 +145,7 @@ static bool apply_far(struct document *document, const struct warning *warning, 
            edit_parameter(document, of, PARAMETER_HIGH, &high, error);
 }
 
-/// How far the curve goes from its equilibrium with a remedy; infinitely where that cannot be had.
+/// How many times as far as it may the curve swings with a remedy; infinitely where that cannot be had.
 static double swing_with(const struct core *core, const struct warning *warning, enum far_remedy remedy)
 {
     struct error error;
@@ -154,9 +154,7 @@ static double swing_with(const struct core *core, const struct warning *warning,
     double farthest = INFINITY;
     if (apply_far(document, warning, remedy, &error)) {
         evaluation_update(&trial, document, false);
-        const wiggly_curve *curve = &trial.curves[warning->spline];
-        farthest = 0;
-        for (int i = 0; i < curve->samples; i++) farthest = fmax(farthest, fabs(curve->total[i] - curve->y[i]));
+        farthest = warning_times_far(core->document, core->evaluation, &trial, warning->spline);
         evaluation_free(&trial);
     }
     document_destroy(document);
@@ -166,9 +164,9 @@ static double swing_with(const struct core *core, const struct warning *warning,
 static enum far_remedy choose_far(const struct core *core, const struct warning *warning)
 {
     const double calm = core->document->splines[warning->spline]->parameter[PARAMETER_CALM].value;
-    if (calm < 1 && swing_with(core, warning, FAR_CALM) <= warning->most) return FAR_CALM;
+    if (calm < 1 && swing_with(core, warning, FAR_CALM) <= 1) return FAR_CALM;
     const double limits = swing_with(core, warning, FAR_LIMITS), pose = swing_with(core, warning, FAR_POSE);
-    if (fmin(limits, pose) >= warning->amount * warning->limit) return FAR_NOTHING;
+    if (fmin(limits, pose) >= warning->amount) return FAR_NOTHING;
     return pose < limits ? FAR_POSE : FAR_LIMITS;
 }
 
