@@ -36,7 +36,7 @@ static bool find_knot(struct editor *editor, const struct target *target, float 
 {
     const struct document *document = editor->core.document;
     return in_plot(editor, document_frame(document, document_sample(document, target->knot->frame)),
-                   target->knot->value, xy);
+                   core_knot_value(&editor->core, target->spline, target->knot), xy);
 }
 
 /// A knot's mark on the dope sheet: mark(sway,2).

@@ -20,29 +20,32 @@ static double slope_at(const struct core *core, int spline, const struct knot *k
 }
 
 /// A slope for one knot of a spline, in values a second.
-typedef double slope_rule(const struct document *document, const struct spline *spline, int k);
+typedef double slope_rule(const struct core *core, struct knot_place at);
 
-static double flat(const struct document *document, const struct spline *spline, int k)
+static double flat(const struct core *core, struct knot_place at)
 {
-    (void)document;
-    (void)spline;
-    (void)k;
+    (void)core;
+    (void)at;
     return 0;
 }
 
 /// Catmull and Rom: the slope of the chord from the knot before to the knot after; at an end of the curve to the only one
 /// beside it, in a loop around its end.
-static double catmull_rom(const struct document *document, const struct spline *spline, int k)
+static double catmull_rom(const struct core *core, struct knot_place at)
 {
+    const struct document *document = core->document;
+    const struct spline *spline = document->splines[at.spline];
     const struct knot *knots = spline->knots;
-    int count = spline->knot_count;
+    int count = spline->knot_count, k = at.knot;
     bool loop = spline_start(spline) == WIGGLY_LOOP && count > 1;
     double period = document->last_frame - document->first_frame;
     int before = k > 0 ? k - 1 : loop ? count - 1 : 0, after = k + 1 < count ? k + 1 : loop ? 0 : count - 1;
     double frames = knots[after].frame - knots[before].frame;
     if (loop && (k == 0 || k == count - 1)) frames += period;
     if (loop && count == 2) return 0; /* the same knot on both sides */
-    return frames > 0 ? (knots[after].value - knots[before].value) / frames * document->fps : 0;
+    const double rise =
+        core_knot_value(core, at.spline, &knots[after]) - core_knot_value(core, at.spline, &knots[before]);
+    return frames > 0 ? rise / frames * document->fps : 0;
 }
 
 /// Calls for a change of every selected knot as one step.
@@ -68,7 +71,7 @@ static void change_knots(struct core *core, const struct knot_change *change)
         if (fresh) knot.slope = slope_at(core, at.spline, before);
         if (!(before->stiffness > 0)) knot.stiffness = FIRM;
         knot.has_slope = change->on;
-        if (change->rule) knot.slope = change->rule(document, document->splines[at.spline], at.knot);
+        if (change->rule) knot.slope = change->rule(core, at);
         if (change->rule || change->slope != 0 || fresh)
             knot.slope = core_round(knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
         knot.stiffness = fmin(fmax(knot.stiffness * change->stiffness, 1e-3), 1e9);
@@ -95,11 +98,13 @@ void slopes_stiffen(struct core *core, int direction)
     change_knots(core, &change);
 }
 
+/// Whether all selected knots but still ones, which cannot, have a slope.
 static bool all_sloped(const struct core *core)
 {
     bool all = true;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
-        all &= knot_at(core->document, at)->has_slope;
+        const struct knot *knot = knot_at(core->document, at);
+        all &= knot->has_slope || knot->still;
     }
     return all;
 }

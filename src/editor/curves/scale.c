@@ -210,7 +210,8 @@ static struct knot scaled(const void *how, const struct original *original)
     const double frame = pivot + by.time * (original->knot.frame - pivot);
     struct knot to = original->knot;
     if (by.time != 1) to.frame = core->drag.snap ? round(frame) : frame;
-    if (by.value != 1) to.value = scaled_value(curves, core, original, by.value), to.phase *= by.value;
+    if (by.value != 1) to.value = scaled_value(curves, core, original, by.value);
+    to.phase *= by.time < 0 ? -by.value : by.value; // turned round, the swing goes the other way
     if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * core->visible);
     return to;
 }

@@ -110,7 +110,7 @@ static bool all_sloped(const struct inspector *in)
 {
     bool sloped = true;
     for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);)
-        sloped &= knot_at(in->core->document, at)->has_slope;
+        sloped &= knot_at(in->core->document, at)->has_slope || knot_at(in->core->document, at)->still;
     return sloped;
 }
 
