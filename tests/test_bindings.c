@@ -133,12 +133,11 @@ TEST(test_a_key_kept_down_goes_on_through_the_splines)
     }
 }
 
-SESSION_TEST(test_a_key_that_closes_something_types_nothing, session_open(s, scene))
+SESSION_TEST(test_a_key_that_opens_something_types_nothing, session_open(s, scene))
 {
-    session_key(s, KEY_F1, 0);
-    session_type(s, ".");
-    assert_false(s->editor->dialogs->help.open);
-    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 0);
-    session_type(s, ".");
-    assert_int_equal(selection_count(&s->editor->core.selection, s->document->splines[0]), 1);
+    session_type(s, "a"); // the menu of what can be added
+    assert_int_equal(inspector_ui(s->editor->inspector)->popup.filter.typed[0], '\0');
+    session_type(s, "mea");
+    session_key(s, KEY_ENTER, 0);
+    assert_int_equal(s->document->rigs[s->document->rig_count - 1]->kind, RIG_MEADOW);
 }

@@ -24,7 +24,7 @@ static float frames(const struct session *s, double count)
 static void open_sheet(struct session *s, const char *scene)
 {
     session_open(s, scene);
-    session_key(s, KEY_F3, 0);
+    session_key(s, KEY_F7, 0);
 }
 
 SESSION_TEST(test_it_takes_its_room_from_the_curves, session_open(s, TWO))
@@ -32,7 +32,7 @@ SESSION_TEST(test_it_takes_its_room_from_the_curves, session_open(s, TWO))
     const struct layout *layout = &s->editor->core.layout;
     const struct rect plot = layout->plot;
     assert_near(layout->sheet.h, 0, 0);
-    session_key(s, KEY_F3, 0);
+    session_key(s, KEY_F7, 0);
     assert_true(layout->sheet.h > 20);
     assert_near(layout->plot.h, plot.h - layout->sheet.h, 0.01);
     assert_near(layout->sheet.y, layout->ruler.y + layout->ruler.h, 0.01);

@@ -118,3 +118,12 @@ void print_field(FILE *stream, const char *name, const char *suffix)
     fputs(suffix, stream);
     if (quotes) fputc('"', stream);
 }
+
+int utf8_encode(uint32_t codepoint, char bytes[4])
+{
+    static const unsigned leads[] = {0, 0, 0xC0, 0xE0, 0xF0};
+    const int n = codepoint < 0x80 ? 1 : codepoint < 0x800 ? 2 : codepoint < 0x10000 ? 3 : 4;
+    for (int i = n - 1; i > 0; i--, codepoint >>= 6) bytes[i] = (char)(0x80 | (codepoint & 0x3F));
+    bytes[0] = (char)(leads[n] | codepoint);
+    return n;
+}

@@ -34,6 +34,8 @@ bool fail_no_memory(struct error *error, const char *what);
 
 /// Decodes one UTF-8 character and moves on; 0xFFFD for a broken byte, 0 at the end.
 uint32_t utf8_next(const char **text);
+/// Writes a character as UTF-8, without an end; returns how many bytes.
+int utf8_encode(uint32_t codepoint, char bytes[4]);
 
 /// Copies a text, with control characters and bytes that are no UTF-8 as \n or \x1b; what does not fit is cut at a whole character and
 /// ends in "…".

@@ -34,7 +34,13 @@ static void ask_for(struct editor *editor, enum request_kind kind, int number)
 static void run_help(struct editor *e, int argument)
 {
     (void)argument;
-    dialogs_help(e->dialogs);
+    dialogs_help(e->dialogs, &e->core);
+}
+
+static void run_palette(struct editor *e, int argument)
+{
+    (void)argument;
+    dialogs_palette(e->dialogs);
 }
 
 static void run_insert(struct editor *e, int argument)
@@ -228,10 +234,10 @@ const struct command commands[] = {
     GESTURE("Double-click", "Insert a knot at the pointer", KNOTS, ON_CURVES),
     COMMAND("Insert a knot at the playhead", KNOTS, ON_CURVES, SPLINE, 0, .run = run_insert, 0, {'I', 0}),
     COMMAND("Insert a knot with its slope", KNOTS, 0, SPLINE, 0, .run = run_insert, true, {'I', SHIFT}),
-    GESTURE("Drag it", "Move a knot", KNOTS, ON_KNOT),
-    GESTURE("Click, Shift+click", "Select a knot, add one", KNOTS, ON_KNOT),
+    GESTURE("Drag a knot", "Move it", KNOTS, ON_KNOT),
+    GESTURE("Click, Shift+click", "Select a knot, or add it", KNOTS, ON_KNOT),
     GESTURE("Drag on empty", "Select the knots in a box", KNOTS, ON_CURVES),
-    COMMAND("Select all knots of the spline", KNOTS, ON_KNOT, KNOTS, 0, .core = core_select_all, 0, {'A', CTRL}),
+    COMMAND("Select all knots of the spline", KNOTS, 0, KNOTS, 0, .core = core_select_all, 0, {'A', CTRL}),
     COMMAND("Select all knots in sight", KNOTS, 0, KNOTS, 0, .core = core_select_all, true, {'A', CTRL_SHIFT}),
     COMMAND("Deselect, or stop what goes on", KNOTS, 0, NOTHING, 0, .run = run_select_none, 0, {KEY_ESCAPE, 0}),
     COMMAND("Delete the selection", KNOTS, ON_KNOT | ON_PIN, CHOSEN, 0, .core = core_delete, 0, {KEY_DELETE, 0},
@@ -248,14 +254,7 @@ const struct command commands[] = {
             {KEY_PAGE_DOWN, SHIFT}),
     COMMAND("Also select the previous knot", KNOTS, 0, KNOTS, REPEATS, .knot = core_extend_selection, -1,
             {'<', TYPED}, {KEY_PAGE_UP, SHIFT}),
-    COMMAND("Nudge right (Shift: ×10)", KNOTS, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_RIGHT, {KEY_RIGHT, ALT},
-            {KEY_RIGHT, ALT_SHIFT}, {KEY_RIGHT, ALT_CTRL}),
-    COMMAND("Nudge left (Shift: ×10)", KNOTS, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_LEFT, {KEY_LEFT, ALT},
-            {KEY_LEFT, ALT_SHIFT}, {KEY_LEFT, ALT_CTRL}),
-    COMMAND("Nudge up (Shift: ×10)", KNOTS, ON_KNOT | ON_PIN, CHOSEN, REPEATS, .run = run_nudge, WAY_UP,
-            {KEY_UP, ALT}, {KEY_UP, ALT_SHIFT}, {KEY_UP, ALT_CTRL}),
-    COMMAND("Nudge down (Shift: ×10)", KNOTS, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_DOWN, {KEY_DOWN, ALT},
-            {KEY_DOWN, ALT_SHIFT}, {KEY_DOWN, ALT_CTRL}),
+    GESTURE("Alt+arrows", "Nudge (Shift: ×10, Ctrl: ×0.1)", KNOTS, ON_KNOT | ON_PIN),
     COMMAND("Copy", KNOTS, ON_KNOT, SELECTED, 0, .run = run_clipboard, CLIPBOARD_COPY, {'C', CTRL}),
     COMMAND("Cut", KNOTS, 0, SELECTED, 0, .run = run_clipboard, CLIPBOARD_CUT, {'X', CTRL}),
     COMMAND("Paste at the playhead", KNOTS, 0, SPLINE, 0, .run = run_clipboard, CLIPBOARD_PASTE, {'V', CTRL}),
@@ -286,11 +285,6 @@ const struct command commands[] = {
     COMMAND("Next spline", SPLINE, ON_CURVES, SPLINE, REPEATS, .core = core_activate_neighbour, 1,
             {KEY_PAGE_DOWN, 0}),
     COMMAND("Previous spline", SPLINE, 0, SPLINE, REPEATS, .core = core_activate_neighbour, -1, {KEY_PAGE_UP, 0}),
-    COMMAND("Add a spline", SPLINE, 0, NOTHING, 0, .core = change_list, LIST_ADD, {0}),
-    COMMAND("Duplicate the spline", SPLINE, 0, SPLINE, 0, .core = change_list, LIST_COPY, {0}),
-    COMMAND("Delete the spline", SPLINE, 0, SPLINE, 0, .core = change_list, LIST_REMOVE, {0}),
-    COMMAND("Move the spline up in the list", SPLINE, 0, SPLINE, 0, .core = change_list, LIST_UP, {0}),
-    COMMAND("Move the spline down in the list", SPLINE, 0, SPLINE, 0, .core = change_list, LIST_DOWN, {0}),
     COMMAND("Rename the spline", SPLINE, ON_INSPECTOR, SPLINE, 0, .inspector = inspector_rename, 0, {KEY_F2, 0}),
     COMMAND("Next kind: wiggly, spring, cubic", SPLINE, ON_INSPECTOR, SPLINE, 0, .core = core_cycle_choice,
             PARAMETER_MODE, {'M', 0}),
@@ -327,16 +321,12 @@ const struct command commands[] = {
             {KEY_PAGE_UP, CTRL}),
     COMMAND("Zoom out", CURVES, 0, NOTHING, REPEATS, .run = run_zoom, -1, {'-', CTRL}, {KEY_PAGE_DOWN, CTRL}),
     GESTURE("Middle drag", "Pan", CURVES, ON_CURVES),
-    COMMAND("Pan left", CURVES, 0, NOTHING, REPEATS, .run = run_pan, WAY_LEFT, {KEY_LEFT, CTRL}),
-    COMMAND("Pan right", CURVES, 0, NOTHING, REPEATS, .run = run_pan, WAY_RIGHT, {KEY_RIGHT, CTRL}),
-    COMMAND("Pan up", CURVES, 0, NOTHING, REPEATS, .run = run_pan, WAY_UP, {KEY_UP, CTRL}),
-    COMMAND("Pan down", CURVES, 0, NOTHING, REPEATS, .run = run_pan, WAY_DOWN, {KEY_DOWN, CTRL}),
-    COMMAND("Show all (over the stage: all of it)", CURVES, ON_CURVES, NOTHING, 0, .run = run_frame, 0,
-            {KEY_HOME, 0}),
+    GESTURE("Ctrl+arrows", "Pan", CURVES, 0),
+    COMMAND("Show all", CURVES, ON_CURVES, NOTHING, 0, .run = run_frame, 0, {KEY_HOME, 0}),
     COMMAND("Show the selection", CURVES, 0, NOTHING, 0, .run = run_frame, 1, {KEY_END, 0}),
     COMMAND("Normalise: all curves equally high", CURVES, 0, NOTHING, 0, .core = core_flip, SWITCH_NORMALISE,
             {'N', 0}),
-    COMMAND("Dope sheet", CURVES, ON_TIME, NOTHING, 0, .core = core_flip, SWITCH_SHEET, {KEY_F3, 0}),
+    COMMAND("Dope sheet", CURVES, ON_TIME, NOTHING, 0, .core = core_flip, SWITCH_SHEET, {KEY_F7, 0}),
     COMMAND("Frames or seconds", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SECONDS, {'U', 0}),
     COMMAND("Snap to frames or not", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SNAP, {'G', 0}),
 
@@ -344,19 +334,16 @@ const struct command commands[] = {
     GESTURE("Drag the body", "Move it (R records)", STAGE, ON_STAGE),
     GESTURE("Ctrl+drag the body", "Lift it", STAGE, 0),
     COMMAND("Auto-key: a drag sets knots", STAGE, 0, NOTHING, 0, .core = core_flip, SWITCH_AUTO_KEY, {'A', SHIFT}),
-    GESTURE("Click it", "Select a bone", STAGE, ON_STAGE),
-    COMMAND("Chain of the bone", STAGE, 0, BONE, 0, .core = bones_make_chain, 0, {'J', 0}),
-    COMMAND("Chain of the bone, over the clip", STAGE, ON_STAGE, BONE, 0, .core = bones_make_chain, true,
-            {'J', SHIFT}),
+    GESTURE("Click a bone", "Select it", STAGE, ON_STAGE),
+    COMMAND("Make the bone a chain", STAGE, 0, BONE, 0, .core = bones_make_chain, 0, {'J', 0}),
+    COMMAND("Make a chain over the clip", STAGE, ON_STAGE, BONE, 0, .core = bones_make_chain, true, {'J', SHIFT}),
     COMMAND("Paint phase and amplitude", STAGE, 0, PAINT, 0, .run = run_brush, 0, {'K', 0}),
     GESTURE("Right drag", "Orbit", STAGE, ON_STAGE),
-    COMMAND("Orbit left", STAGE, 0, NOTHING, REPEATS, .run = run_orbit, WAY_LEFT, {KEY_LEFT, CTRL_SHIFT}),
-    COMMAND("Orbit right", STAGE, 0, NOTHING, REPEATS, .run = run_orbit, WAY_RIGHT, {KEY_RIGHT, CTRL_SHIFT}),
-    COMMAND("Orbit up", STAGE, 0, NOTHING, REPEATS, .run = run_orbit, WAY_UP, {KEY_UP, CTRL_SHIFT}),
-    COMMAND("Orbit down", STAGE, 0, NOTHING, REPEATS, .run = run_orbit, WAY_DOWN, {KEY_DOWN, CTRL_SHIFT}),
-    GESTURE("Wheel", "Come nearer, go away", STAGE, ON_STAGE),
-    COMMAND("Come nearer", STAGE, 0, NOTHING, REPEATS, .run = run_approach, 1, {KEY_PAGE_UP, CTRL_SHIFT}),
-    COMMAND("Go away", STAGE, 0, NOTHING, REPEATS, .run = run_approach, -1, {KEY_PAGE_DOWN, CTRL_SHIFT}),
+    GESTURE("Ctrl+Shift+arrows", "Orbit", STAGE, 0),
+    GESTURE("Wheel", "Zoom", STAGE, ON_STAGE),
+    COMMAND("Zoom in on the stage", STAGE, 0, NOTHING, REPEATS, .run = run_approach, 1, {KEY_PAGE_UP, CTRL_SHIFT}),
+    COMMAND("Zoom out on the stage", STAGE, 0, NOTHING, REPEATS, .run = run_approach, -1,
+            {KEY_PAGE_DOWN, CTRL_SHIFT}),
     COMMAND("Show all of the stage", STAGE, ON_STAGE, NOTHING, 0, .run = run_fit_stage, 0, {KEY_HOME, SHIFT}),
     COMMAND("Onion skin", STAGE, ON_STAGE, NOTHING, ANY_TIME, .core = core_flip, SWITCH_ONION, {'O', 0}),
     COMMAND("Motion arc", STAGE, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_TRAIL, {'O', SHIFT}),
@@ -365,7 +352,7 @@ const struct command commands[] = {
 
     GESTURE("Drag a surface", "Pin a point (X, Y, Z, Shift)", PINS, ON_STAGE),
     GESTURE("Ctrl+drag a tail", "Pin a joint", PINS, 0),
-    COMMAND("Pin as it is", PINS, ON_STAGE | ON_PIN, RIG, 0, .run = run_hold, 0, {'H', 0}),
+    COMMAND("Pin the point where it is", PINS, ON_STAGE | ON_PIN, RIG, 0, .run = run_hold, 0, {'H', 0}),
     GESTURE("Click its marker", "Select a pin and go to its frame", PINS, ON_PIN),
     GESTURE("Drag its marker", "Move a pin", PINS, ON_PIN),
     GESTURE("Drag its ruler mark", "Move a pin in time", PINS, ON_PIN),
@@ -392,6 +379,7 @@ const struct command commands[] = {
     COMMAND("Quit", FILE, 0, NOTHING, 0, .request = REQUEST_QUIT, 0, {'Q', CTRL}),
 
     COMMAND("All keys", WINDOW, 0, NOTHING, ANY_TIME | FIRST, .run = run_help, 0, {KEY_F1, 0}),
+    COMMAND("Any command, by typing", WINDOW, 0, NOTHING, FIRST | ANY_TIME, .run = run_palette, 0, {KEY_F3, 0}),
     COMMAND("Present: the stage alone", WINDOW, 0, NOTHING, 0, .core = presenter_toggle, 0, {KEY_F5, 0}),
     GESTURE("Tab", "Panels, while presenting", WINDOW, 0),
     COMMAND("Resize the stage", WINDOW, 0, NOTHING, 0, .run = run_panel, 0, {KEY_F6, 0}),
@@ -417,11 +405,31 @@ const struct command commands[] = {
     COMMAND("A creature held by its hands", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 9, {'9', CTRL}),
     COMMAND("A fox in a meadow", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 10, {'0', CTRL}),
 
-    // Not listed: what a held letter turns these into is.
-    COMMAND("More of what a held letter means", COUNT, 0, NOTHING, REPEATS, .core = core_nudge_parameter, 1,
-            {KEY_UP, 0}),
-    COMMAND("Less of what a held letter means", COUNT, 0, NOTHING, REPEATS, .core = core_nudge_parameter, -1,
-            {KEY_DOWN, 0}),
+    // Without a line in F1.
+    COMMAND("Add a spline", NOTHING, 0, NOTHING, 0, .core = change_list, LIST_ADD, {0}),
+    COMMAND("Duplicate the spline", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_COPY, {0}),
+    COMMAND("Delete the spline", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_REMOVE, {0}),
+    COMMAND("Move the spline up in the list", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_UP, {0}),
+    COMMAND("Move the spline down in the list", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_DOWN, {0}),
+    COMMAND("Nudge right", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_RIGHT, {KEY_RIGHT, ALT},
+            {KEY_RIGHT, ALT_SHIFT}, {KEY_RIGHT, ALT_CTRL}),
+    COMMAND("Nudge left", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_LEFT, {KEY_LEFT, ALT},
+            {KEY_LEFT, ALT_SHIFT}, {KEY_LEFT, ALT_CTRL}),
+    COMMAND("Nudge up", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_UP, {KEY_UP, ALT}, {KEY_UP, ALT_SHIFT},
+            {KEY_UP, ALT_CTRL}),
+    COMMAND("Nudge down", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_DOWN, {KEY_DOWN, ALT},
+            {KEY_DOWN, ALT_SHIFT}, {KEY_DOWN, ALT_CTRL}),
+    COMMAND("Pan left", NOTHING, 0, NOTHING, REPEATS, .run = run_pan, WAY_LEFT, {KEY_LEFT, CTRL}),
+    COMMAND("Pan right", NOTHING, 0, NOTHING, REPEATS, .run = run_pan, WAY_RIGHT, {KEY_RIGHT, CTRL}),
+    COMMAND("Pan up", NOTHING, 0, NOTHING, REPEATS, .run = run_pan, WAY_UP, {KEY_UP, CTRL}),
+    COMMAND("Pan down", NOTHING, 0, NOTHING, REPEATS, .run = run_pan, WAY_DOWN, {KEY_DOWN, CTRL}),
+    COMMAND("Orbit left", NOTHING, 0, NOTHING, REPEATS, .run = run_orbit, WAY_LEFT, {KEY_LEFT, CTRL_SHIFT}),
+    COMMAND("Orbit right", NOTHING, 0, NOTHING, REPEATS, .run = run_orbit, WAY_RIGHT, {KEY_RIGHT, CTRL_SHIFT}),
+    COMMAND("Orbit up", NOTHING, 0, NOTHING, REPEATS, .run = run_orbit, WAY_UP, {KEY_UP, CTRL_SHIFT}),
+    COMMAND("Orbit down", NOTHING, 0, NOTHING, REPEATS, .run = run_orbit, WAY_DOWN, {KEY_DOWN, CTRL_SHIFT}),
+    COMMAND(NULL, NOTHING, 0, NOTHING, REPEATS, .core = core_nudge_parameter, 1,
+            {KEY_UP, 0}), // of what a held letter means
+    COMMAND(NULL, NOTHING, 0, NOTHING, REPEATS, .core = core_nudge_parameter, -1, {KEY_DOWN, 0}),
 };
 
 const int command_count = sizeof commands / sizeof commands[0];

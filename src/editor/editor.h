@@ -10,6 +10,7 @@
 struct press {
     bool used;     ///< a dialog, a drag or a field has used it
     bool repeated; ///< it is kept down
+    bool opened;   ///< it opened something over the panels, which does not get the character
 };
 
 /// What the panels share, and each panel's own state.

@@ -1,4 +1,5 @@
 /// One frame of the editor: events go to whoever wants them, time passes, everything is shown.
+#include "editor/commands.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
@@ -134,14 +135,17 @@ void editor_event(struct editor *editor, const struct event *event)
     if (is_interruption(event)) tooltip_dismiss(&editor->tooltip);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
     dialogs_note(editor->dialogs, event);
-    bool used = dialogs_event(editor->dialogs, &editor->core, event) || keys_first(editor, event) ||
-                drag_event(&editor->core, event) ||
+    if (event->kind == EVENT_TEXT && editor->press.opened) return;
+    bool used = (!dialogs_are_asking(editor->dialogs) && keys_first(editor, event)) ||
+                dialogs_event(editor->dialogs, &editor->core, event) || drag_event(&editor->core, event) ||
                 (!inspector_ui(editor->inspector)->typing && presenter_event(&editor->core, event)) ||
                 (!editor->core.drag.owner && inspector_event(editor->inspector, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
     }
     if (!used) dispatch(editor, event);
+    const struct command *chosen = dialogs_take_command(editor->dialogs);
+    if (chosen) command_run(editor, chosen);
     editor_settle(editor);
     ask(editor);
 }

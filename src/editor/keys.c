@@ -71,6 +71,7 @@ bool keys_event(struct editor *editor, const struct event *event)
     }
     if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->core.held_key = event->key;
     const bool bound = run(editor, event->key, mods, event->action == ACTION_REPEAT);
+    editor->press.opened = inspector_ui(editor->inspector)->popup.id != 0;
     editor->press.used |= bound && mods & MOD_ALT; // some systems still send the character of such a key
     return bound;
 }

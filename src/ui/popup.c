@@ -147,32 +147,28 @@ static const char *row_name(char name[ROW_NAME], const struct ui_item *item)
     return name;
 }
 
-/// Whether a label holds what is typed, small letters and large ones being the same.
-static bool passes(const struct ui *ui, const char *label)
+/// The least fit of a row to be shown.
+static enum fit least_fit(const struct ui *ui, const struct ui_item *items, int count)
 {
-    return !ui->popup.filter[0] || strcasestr(label, ui->popup.filter);
+    enum fit best = FIT_NOT;
+    for (int i = 0; i < count; i++) {
+        const enum fit fit = ui_filter_fit(&ui->popup.filter, items[i].label);
+        if (fit > best) best = fit;
+    }
+    return ui_filter_least(best);
 }
 
-/// What is typed changes the filter, and the first row that it leaves gets the focus.
-static void filter_event(struct ui *ui, const struct ui_item *items, int count)
+/// What is typed changes the filter, and the first row that it leaves gets the focus. Space is for that row.
+static void type_filter(struct ui *ui, const struct ui_item *items, int count)
 {
     const struct event *event = ui->event;
-    char *filter = ui->popup.filter;
-    const size_t length = strlen(filter);
-    const bool erases = event->kind == EVENT_KEY && event->key == KEY_BACKSPACE && event->action != ACTION_RELEASE;
-    const bool types = event->kind == EVENT_TEXT && event->codepoint > ' ' && event->codepoint < 0x7F;
-    if (erases && length > 0) {
-        filter[length - 1] = '\0';
-    } else if (types && length + 1 < sizeof ui->popup.filter) {
-        filter[length] = (char)event->codepoint;
-    } else {
-        return;
-    }
+    if ((event->kind == EVENT_TEXT && event->codepoint == ' ') || !ui_filter_event(&ui->popup.filter, event)) return;
+    const enum fit least = least_fit(ui, items, count);
     ui->used = true;
     ui->popup.scroll.offset = 0;
     for (int i = 0; i < count; i++) {
         char row[ROW_NAME];
-        if (!passes(ui, items[i].label)) continue;
+        if (ui_filter_fit(&ui->popup.filter, items[i].label) < least) continue;
         ui->focus = ui_id(row_name(row, &items[i]));
         ui_keep(ui, ui->focus);
         return;
@@ -182,9 +178,9 @@ static void filter_event(struct ui *ui, const struct ui_item *items, int count)
 /// Above the rows: what is typed, or that one can.
 static void show_filter(struct ui *ui, struct rect area)
 {
-    const char *filter = ui->popup.filter;
+    const char *typed = ui->popup.filter.typed;
     const struct rect r = {area.x + 12, ui->y, area.w - 24, UI_ROW};
-    ui_label(ui, r, *filter ? filter : "Type to search", *filter ? theme()->accent : theme()->text_dim);
+    ui_label(ui, r, *typed ? typed : "Type to search", *typed ? theme()->accent : theme()->text_dim);
     ui_space(ui, UI_ROW);
 }
 
@@ -192,20 +188,21 @@ int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, 
 {
     int picked = -1;
     if (!ui_popup_is_open(ui, name)) return -1;
-    const bool is_long = count > MAX_ROWS;
-    ui_popup_begin(ui, ui->popup.anchor.w, (float)(UI_ROW * (is_long ? MAX_ROWS + 1 : count)));
+    const bool is_long = count > MAX_ROWS, searches = is_long || ui->popup.filter.typed[0];
+    const enum fit least = least_fit(ui, items, count);
+    ui_popup_begin(ui, ui->popup.anchor.w, (float)(UI_ROW * ((is_long ? MAX_ROWS : count) + searches)));
     struct rect area = ui->scroll_area;
-    if (is_long) show_filter(ui, area);
+    if (searches) show_filter(ui, area);
     for (int i = 0; i < count; i++) {
         char row[ROW_NAME];
-        if (!passes(ui, items[i].label)) continue;
+        if (ui_filter_fit(&ui->popup.filter, items[i].label) < least) continue;
         row_name(row, &items[i]);
         if (ui->popup.fresh && i == chosen) ui->popup.focus = ui_id(row);
         struct rect r = {area.x + 6, ui->y, area.w - 12, UI_ROW};
         ui_space(ui, UI_ROW);
         if (ui_list_row(ui, r, row, items[i].label, items[i].color, i == chosen)) picked = i;
     }
-    if (is_long && ui->pass == UI_PASS_EVENT && !ui->used) filter_event(ui, items, count);
+    if (ui->pass == UI_PASS_EVENT && !ui->used) type_filter(ui, items, count);
     ui_popup_end(ui);
     if (picked >= 0) ui_popup_close(ui);
     return picked;

@@ -13,6 +13,7 @@
 #include "base/file.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"
+#include "ui/filter.h"
 
 enum {
     UI_ROW = 24,        ///< height of a row
@@ -46,8 +47,6 @@ struct ui_stop {
     struct rect rect;
 };
 
-enum { UI_FILTER_SIZE = 32 };
-
 /// What opened over the panel: while open, it alone gets events.
 struct ui_popup {
     uint32_t id;        ///< of its name; 0: none
@@ -55,11 +54,11 @@ struct ui_popup {
     struct rect anchor; ///< what it hangs on
     struct rect room;   ///< where it may be; nothing: in the panel
     struct ui_scroll scroll;
-    uint32_t focus;              ///< what begins with the focus; 0: its first widget
-    uint32_t opener;             ///< what gets the focus back; 0 where the pointer opened it
-    bool fresh;                  ///< opened in the running event
-    bool built;                  ///< in the running pass
-    char filter[UI_FILTER_SIZE]; ///< typed over a long list: rows without it are left out
+    uint32_t focus;          ///< what begins with the focus; 0: its first widget
+    uint32_t opener;         ///< what gets the focus back; 0 where the pointer opened it
+    bool fresh;              ///< opened in the running event
+    bool built;              ///< in the running pass
+    struct ui_filter filter; ///< typed over a list: rows that do not fit it are left out
 };
 
 /// One panel's widgets; zero is a valid start.
@@ -218,7 +217,7 @@ struct ui_item {
     const char *name, *label; ///< its row is found as "item.<name>"
     uint32_t color;           ///< of a swatch; 0: none
 };
-/// The popup of a drop-down: its rows, one of them chosen (-1: none); what is typed filters a long list. Built as ui_popup_begin() says.
+/// The popup of a drop-down: its rows, one of them chosen (-1: none); what is typed filters them. Built as ui_popup_begin() says.
 /// Returns the one picked, which closes it; -1: none.
 int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, int count, int chosen);
 

@@ -1,4 +1,5 @@
 /// Editing a line of text, and the fields that hold one.
+#include "base/error.h"
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>
@@ -34,15 +35,6 @@ static void erase(struct ui_text *text, int from, int to)
     memmove(text->bytes + from, text->bytes + to, (size_t)(text->length - to) + 1);
     text->length -= to - from;
     text->caret = from;
-}
-
-static int utf8_encode(uint32_t c, char out[4])
-{
-    static const unsigned leads[] = {0, 0, 0xC0, 0xE0, 0xF0};
-    const int n = c < 0x80 ? 1 : c < 0x800 ? 2 : c < 0x10000 ? 3 : 4;
-    for (int i = n - 1; i > 0; i--, c >>= 6) out[i] = (char)(0x80 | (c & 0x3F));
-    out[0] = (char)(leads[n] | c);
-    return n;
 }
 
 static bool insert(struct ui_text *text, uint32_t codepoint)

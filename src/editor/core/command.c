@@ -74,10 +74,14 @@ bool command_runs(const struct command *command)
            command->request;
 }
 
+const char *need_missing(const struct core *core, enum need need)
+{
+    return need == NEEDS_NOTHING || needs[need].met(core) ? NULL : needs[need].missing;
+}
+
 const char *command_missing(const struct core *core, const struct command *command)
 {
-    const bool met = command->needs == NEEDS_NOTHING || needs[command->needs].met(core);
-    return met ? NULL : needs[command->needs].missing;
+    return need_missing(core, command->needs);
 }
 
 const char *command_key_name(int key)

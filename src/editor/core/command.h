@@ -22,7 +22,8 @@ enum about {
     ABOUT_FILE,
     ABOUT_WINDOW,
     ABOUT_SCENES,
-    ABOUT_COUNT
+    ABOUT_COUNT,
+    ABOUT_NOTHING = ABOUT_COUNT ///< F1 does not list it
 };
 extern const char *const about_titles[ABOUT_COUNT];
 
@@ -49,7 +50,8 @@ enum need {
     NEEDS_PIN,
     NEEDS_BONE,
     NEEDS_RIG,
-    NEEDS_PAINT ///< a character with a coordinate
+    NEEDS_PAINT, ///< a character with a coordinate
+    NEEDS_COUNT
 };
 
 /// When its keys work.
@@ -76,7 +78,7 @@ enum {
 
 /// A row of the table: what it is called and who does it. A row without a function is a gesture, which only F1 shows.
 struct command {
-    const char *name; ///< in plain words
+    const char *name; ///< in plain words; NULL: neither F1 nor the palette lists it
     enum about about;
     unsigned at;                         ///< of enum place
     struct chord chords[COMMAND_CHORDS]; ///< up to one without a key
@@ -96,6 +98,8 @@ struct command {
 bool command_runs(const struct command *command);
 /// What is missing for it, as in "Select a knot first."; NULL: it can be done now.
 const char *command_missing(const struct core *core, const struct command *command);
+/// The same of what it needs.
+const char *need_missing(const struct core *core, enum need need);
 /// Its first keys, "Ctrl+Y or Ctrl+Shift+Z", or its gesture; "" for a command without a key.
 void command_keys(const struct command *command, char text[COMMAND_KEYS]);
 /// What a key is called: "Esc", "PgUp", "←". NULL: it has no name.

@@ -224,7 +224,7 @@ void core_flip(struct core *core, int which)
                           {"Motion arc off.",
                            "Motion arc on: the path of the tip or liveliest point, one mark per frame (Shift+O)."}},
         [SWITCH_SHEET] = {&core->curves.sheet,
-                          {"Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F3)."}},
+                          {"Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F7)."}},
         [SWITCH_SECONDS] = {&core->curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},
         [SWITCH_NORMALISE] = {&core->curves.normalise,
                               {"All curves share one axis again.",

@@ -1,4 +1,4 @@
-/// The dope sheet (F3): a row a spline between the ruler and the curves, with its knots as marks that are dragged in time.
+/// The dope sheet (F7): a row a spline between the ruler and the curves, with its knots as marks that are dragged in time.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"

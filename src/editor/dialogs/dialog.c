@@ -425,19 +425,22 @@ void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event)
 {
     const bool calm = event->kind == EVENT_POINTER && dialogs->dialog.kind == DIALOG_NONE;
-    return !calm &&
-           (dialog_event(dialogs, core, event) || help_event(dialogs, core, event) || welcome_event(dialogs, event));
+    return !calm && (dialog_event(dialogs, core, event) || palette_event(dialogs, core, event) ||
+                     help_event(dialogs, core, event) || welcome_event(dialogs, event));
 }
 
 void dialogs_show(struct dialogs *dialogs, struct core *core)
 {
     help_show(dialogs, core);
+    palette_show(dialogs, core);
     dialog_show(dialogs, core);
 }
 
+bool dialogs_are_asking(const struct dialogs *dialogs) { return dialogs->dialog.kind != DIALOG_NONE; }
+
 bool dialogs_cover(const struct dialogs *dialogs)
 {
-    return dialogs->dialog.kind != DIALOG_NONE || dialogs->help.open;
+    return dialogs_are_asking(dialogs) || dialogs->help.open || dialogs->palette.open;
 }
 
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over)

@@ -90,8 +90,14 @@ bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, const
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer);
 /// true where an open dialog, the help or the card for new users takes the event.
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event);
-/// Shows all keys.
-void dialogs_help(struct dialogs *dialogs);
+/// Whether a dialog is open, which takes every key.
+bool dialogs_are_asking(const struct dialogs *dialogs);
+/// Shows all keys, or no longer.
+void dialogs_help(struct dialogs *dialogs, const struct core *core);
+/// Shows all commands, or no longer.
+void dialogs_palette(struct dialogs *dialogs);
+/// The command that was chosen of them; NULL: none.
+const struct command *dialogs_take_command(struct dialogs *dialogs);
 /// Whether something lies over the panels.
 bool dialogs_cover(const struct dialogs *dialogs);
 /// The same, and what the pointer is over there.

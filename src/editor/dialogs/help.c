@@ -1,5 +1,6 @@
-/// The overlay with all keys (F1): as many columns as the window has room for, rows closer together where it is low, and
-/// scrolled where that is not enough.
+/// The overlay with all keys (F1): ten about what the pointer is over, then all, or those that typing finds; in as many columns as the
+/// window has room for, scrolled where it is low.
+#include "editor/core/core.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -11,10 +12,12 @@ enum {
     COLUMN_LEAST = 340,
     COLUMN_MOST = 400,
     ROW = 20,
-    ROW_LEAST = 15,
     HEADER = 22,
     GROUP_GAP = 10,
-    TITLE = 78,
+    TITLE = 66,
+    FIELD = 32,
+    FIELD_WIDTH = 300,
+    HERE = 10, ///< rows about what the pointer is over
     MARGIN = 24,
     KEYS_GAP = 12,
     WHEEL = 48 ///< pixels a notch
@@ -82,26 +85,32 @@ static struct flow flow_of(const struct command_list *list, int columns, float r
 struct page {
     struct rect box, body;
     struct flow flow;
+    float here;   ///< height of the rows about what the pointer is over, with the gap below
+    float height; ///< of all that is in the body
 };
 
-static struct page page_of(const struct command_list *list, struct rect window)
+/// Rows that are laid out evenly in columns.
+static int grid_rows(int count, int columns) { return (count + columns - 1) / columns; }
+
+static struct page page_of(const struct dialogs *dialogs, const struct commands_found *found, struct rect window)
 {
     struct page page;
-    float room_x = fmaxf(window.w - 32, 1), room_y = fmaxf(window.h - 16, 1);
+    const float room_x = fmaxf(window.w - 32, 1), room_y = fmaxf(window.h - 16, 1);
     int columns = (int)((room_x - MARGIN) / (COLUMN_LEAST + MARGIN));
     columns = columns < 1 ? 1 : columns > MAX_COLUMNS ? MAX_COLUMNS : columns;
-    float row = ROW;
-    while ((page.flow = flow_of(list, columns, row)).height + TITLE + MARGIN > room_y && row > ROW_LEAST) row--;
-    if (page.flow.height + TITLE + MARGIN > room_y) page.flow = flow_of(list, columns, ROW);
-    float w = fminf(room_x, (float)(columns * (COLUMN_MOST + MARGIN) + MARGIN));
-    float h = fminf(room_y, page.flow.height + TITLE + MARGIN);
+    page.flow = flow_of(&dialogs->commands, columns, ROW);
+    page.here = HEADER + (float)(ROW * grid_rows(HERE, columns)) + 3 * GROUP_GAP;
+    page.height = dialogs->help.filter.typed[0] ? (float)(ROW * grid_rows(found->count, columns))
+                                                : page.here + page.flow.height;
+    const float w = fminf(room_x, (float)(columns * (COLUMN_MOST + MARGIN) + MARGIN));
+    const float h = fminf(room_y, page.here + page.flow.height + TITLE + MARGIN);
     page.box = (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 2), w, h};
     page.body = (struct rect){page.box.x, page.box.y + TITLE, w, fmaxf(h - TITLE - MARGIN / 2, 0)};
     return page;
 }
 
 /// How far it can be scrolled.
-static float range_of(const struct page *page) { return fmaxf(page->flow.height + MARGIN / 2 - page->body.h, 0); }
+static float range_of(const struct page *page) { return fmaxf(page->height + MARGIN / 2 - page->body.h, 0); }
 
 static float scrolled(const struct page *page, float offset) { return fmaxf(0, fminf(offset, range_of(page))); }
 
@@ -125,27 +134,62 @@ static float scroll_of(const struct event *event, const struct page *page)
     }
 }
 
-void dialogs_help(struct dialogs *dialogs)
+/// What the pointer is over.
+static enum place place_of(const struct core *core)
 {
-    dialogs->help = (struct help){.open = true};
-    dialogs->welcome = false;
+    const enum panel panel = core_panel_at(core, core->pointer_x, core->pointer_y);
+    switch (core->hover.kind) {
+    case HOVER_KNOT:
+    case HOVER_SLOPE:
+    case HOVER_BOX:
+        return ON_KNOT;
+    case HOVER_PIN:
+        return ON_PIN;
+    case HOVER_RULER:
+    case HOVER_UNITS:
+    case HOVER_SHEET:
+    case HOVER_ROW:
+        return ON_TIME;
+    default:
+        return panel == PANEL_CURVES      ? ON_CURVES
+               : panel == PANEL_INSPECTOR ? ON_INSPECTOR
+               : panel == PANEL_STATUS    ? ON_TIME
+                                          : ON_STAGE;
+    }
+}
+
+void dialogs_help(struct dialogs *dialogs, const struct core *core)
+{
+    const bool open = !dialogs->help.open;
+    dialogs->help = (struct help){.open = open, .at = place_of(core)};
+    dialogs->palette.open = false;
+    dialogs->welcome &= !open;
+}
+
+static void find(const struct dialogs *dialogs, struct commands_found *found)
+{
+    commands_find(&dialogs->commands, NULL, &dialogs->help.filter, found);
 }
 
 bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
 {
-    bool press = (event->kind == EVENT_KEY || event->kind == EVENT_BUTTON) && event->action == ACTION_PRESS;
     struct help *help = &dialogs->help;
-    if (!help->open) return false;
-    const struct page page = page_of(&dialogs->commands, core->layout.window);
-    float by = scroll_of(event, &page);
+    const bool release =
+        event->kind == EVENT_KEY && event->action == ACTION_RELEASE; // of a key that was pressed before
+    if (!help->open || release || event->kind == EVENT_POINTER || event->kind > EVENT_WHEEL) return false;
+    struct commands_found found;
+    find(dialogs, &found);
+    const struct page page = page_of(dialogs, &found, core->layout.window);
+    const bool press = event->action == ACTION_PRESS;
+    const float by = scroll_of(event, &page);
     if (by != 0) {
         help->offset = scrolled(&page, help->offset + by);
-    } else if (press) {
+    } else if (ui_filter_event(&help->filter, event)) {
+        help->offset = 0;
+    } else if (press && (event->kind == EVENT_BUTTON || event->key == KEY_ESCAPE || event->key == KEY_ENTER)) {
         help->open = false;
     }
-    bool release = event->kind == EVENT_KEY && event->action == ACTION_RELEASE; // of a key that was pressed before
-    return !release && (event->kind == EVENT_KEY || event->kind == EVENT_TEXT || event->kind == EVENT_BUTTON ||
-                        event->kind == EVENT_WHEEL);
+    return true;
 }
 
 static void paint_line(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
@@ -154,59 +198,106 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
     drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
 }
 
-/// One group at `r`, whose height is that of a row, with its keys in a column `keys` wide; returns the group's height.
+/// A row at `r`, its keys in a column `keys` wide.
+static void show_row(struct drawlist *list, struct rect r, float keys, const struct command *command)
+{
+    char text[COMMAND_KEYS];
+    command_keys(command, text);
+    paint_line(list, (struct rect){r.x, r.y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, text);
+    paint_line(list, (struct rect){r.x + keys, r.y, r.w - keys, r.h}, FONT_LABEL, theme()->text_dim, command->name);
+}
+
+/// One group at `r`, whose height is that of a row; returns the group's height.
 static float show_group(struct drawlist *list, struct rect r, float keys, const struct command_list *commands,
                         int about)
 {
     const struct command *command = first_of(commands, about);
+    const float top = r.y;
     paint_line(list, (struct rect){r.x, r.y, r.w, HEADER}, FONT_LABEL_BOLD, theme()->accent, about_titles[about]);
-    float y = r.y + HEADER;
-    for (int i = 0; i < row_count(commands, about); i++, y += r.h, command++) {
-        char text[COMMAND_KEYS];
-        command_keys(command, text);
-        paint_line(list, (struct rect){r.x, y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, text);
-        struct rect what = {r.x + keys, y, r.w - keys, r.h};
-        paint_line(list, what, FONT_LABEL, theme()->text_dim, command->name);
-    }
-    return y + GROUP_GAP - r.y;
+    r.y += HEADER;
+    for (int i = 0; i < row_count(commands, about); i++, r.y += r.h) show_row(list, r, keys, command++);
+    return r.y + GROUP_GAP - top;
 }
 
-static void show_title(struct drawlist *list, const struct page *page)
+static void show_title(struct drawlist *list, const struct page *page, const struct help *help)
 {
-    const char *closing = range_of(page) > 0 ? "↑ ↓ to scroll, any other key to close" : "Press any key to close";
     const struct rect *box = &page->box;
-    float left = box->x + MARGIN, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, closing);
-    float right = fmaxf(box->x + box->w - MARGIN - width, left + 90);
-    drawlist_text(list, left, box->y + 36, FONT_LABEL_BOLD, THEME_TEXT_TITLE, theme()->text, "wiggly");
-    drawlist_text_fit(list, right, box->y + 36, box->x + box->w - right, FONT_LABEL, THEME_TEXT_NORMAL,
-                      theme()->text_dim, closing);
-    paint_line(
-        list, (struct rect){left, box->y + 44, box->w - 2 * MARGIN, ROW}, FONT_LABEL, theme()->text_dim,
-        "Curves that hit every knot exactly and still swing, overshoot and follow through like something with mass.");
+    const float left = box->x + MARGIN, width = fminf(FIELD_WIDTH, box->w / 2 - MARGIN);
+    const struct rect field = {box->x + box->w - MARGIN - width, box->y + 18, width, FIELD};
+    drawlist_text_fit(list, left, box->y + 40, field.x - left - 8, FONT_LABEL_BOLD, THEME_TEXT_TITLE, theme()->text,
+                      "Keys");
+    commands_show_field(list, field, &help->filter, "Type to search");
 }
 
-/// Width of the keys in a column, with a gap.
-static float keys_width(const struct command_list *list, const struct flow *flow, int column)
+/// Widest keys of some rows, with a gap; at most half of a column.
+static float keys_width(const struct command *const *rows, int count, float column)
 {
     float widest = 0;
-    for (int i = 0; i < list->count; i++) {
-        const int about = (int)list->commands[i].about;
+    for (int i = 0; i < count; i++) {
         char text[COMMAND_KEYS];
-        if (about < flow->first[column] || about >= flow->first[column + 1]) continue;
-        command_keys(&list->commands[i], text);
+        command_keys(rows[i], text);
         widest = fmaxf(widest, font_width(FONT_LABEL, THEME_TEXT_NORMAL, text));
     }
-    return ceilf(widest) + KEYS_GAP;
+    return fminf(ceilf(widest) + KEYS_GAP, floorf(0.5f * column));
 }
 
-static void show_columns(struct drawlist *list, const struct command_list *commands, const struct page *page,
-                         float offset)
+static float column_width(const struct page *page)
+{
+    return (page->box.w - (float)(MARGIN * (page->flow.columns + 1))) / (float)page->flow.columns;
+}
+
+/// Rows evenly in columns, column after column, from `y` on.
+static void show_grid(struct drawlist *list, const struct page *page, float y, const struct command *const *rows,
+                      int count)
+{
+    const float width = column_width(page);
+    const int high = grid_rows(count, page->flow.columns);
+    for (int first = 0, c = 0; first < count; first += high, c++) {
+        const int end = first + high < count ? first + high : count;
+        const float keys = keys_width(rows + first, end - first, width);
+        struct rect r = {page->box.x + MARGIN + (width + MARGIN) * (float)c, y, width, ROW};
+        for (int i = first; i < end; i++, r.y += ROW) show_row(list, r, keys, rows[i]);
+    }
+}
+
+/// The rows about what the pointer is over.
+static void show_here(struct drawlist *list, const struct dialogs *dialogs, const struct page *page, float y)
+{
+    static const struct {
+        enum place place;
+        const char *title;
+    } titles[] = {
+        {ON_CURVES, "Over the curves"}, {ON_KNOT, "Over a knot"}, {ON_TIME, "Over the ruler and the status line"},
+        {ON_STAGE, "Over the stage"},   {ON_PIN, "Over a pin"},   {ON_INSPECTOR, "In the inspector"}};
+    const struct command *rows[HERE];
+    int count = 0;
+    for (int i = 0; i < dialogs->commands.count && count < HERE; i++) {
+        if (dialogs->commands.commands[i].at & dialogs->help.at) rows[count++] = &dialogs->commands.commands[i];
+    }
+    const struct rect box = {page->box.x + MARGIN / 2, y - GROUP_GAP / 2, page->box.w - MARGIN,
+                             page->here - GROUP_GAP};
+    drawlist_rounded(list, box, 6, theme()->raised);
+    for (size_t i = 0; i < sizeof titles / sizeof titles[0]; i++) {
+        const struct rect title = {page->box.x + MARGIN, y, page->box.w - 2 * MARGIN, HEADER};
+        if (titles[i].place == dialogs->help.at)
+            paint_line(list, title, FONT_LABEL_BOLD, theme()->accent, titles[i].title);
+    }
+    show_grid(list, page, y + HEADER, rows, count);
+}
+
+static void show_columns(struct drawlist *list, const struct command_list *commands, const struct page *page, float y)
 {
     const struct flow *flow = &page->flow;
-    float width = (page->box.w - (float)(MARGIN * (flow->columns + 1))) / (float)flow->columns;
+    const float width = column_width(page);
     for (int c = 0; c < flow->columns; c++) {
-        struct rect r = {page->box.x + MARGIN + (width + MARGIN) * (float)c, page->body.y - offset, width, flow->row};
-        float keys = fminf(keys_width(commands, flow, c), floorf(0.5f * width));
+        const struct command *rows[COMMANDS_MOST];
+        int count = 0;
+        for (int i = 0; i < commands->count; i++) {
+            const int about = (int)commands->commands[i].about;
+            if (about >= flow->first[c] && about < flow->first[c + 1]) rows[count++] = &commands->commands[i];
+        }
+        struct rect r = {page->box.x + MARGIN + (width + MARGIN) * (float)c, y, width, flow->row};
+        const float keys = keys_width(rows, count, width);
         for (int g = flow->first[c]; g < flow->first[c + 1]; g++) r.y += show_group(list, r, keys, commands, g);
     }
 }
@@ -220,18 +311,32 @@ static void show_bar(struct drawlist *list, const struct page *page, float offse
     drawlist_rounded(list, (struct rect){page->box.x + page->box.w - 8, y, 4, length}, 2, theme()->control);
 }
 
+static void show_found(struct drawlist *list, const struct page *page, const struct commands_found *found, float y)
+{
+    const struct rect r = {page->box.x + MARGIN, y, page->box.w - 2 * MARGIN, ROW};
+    show_grid(list, page, y, found->list, found->count);
+    if (found->count == 0) paint_line(list, r, FONT_LABEL, theme()->text_dim, "Nothing is called so.");
+}
+
 void help_show(const struct dialogs *dialogs, struct core *core)
 {
     if (!dialogs->help.open) return;
     struct drawlist *list = &core->list;
-    const struct page page = page_of(&dialogs->commands, core->layout.window);
-    const float offset = scrolled(&page, dialogs->help.offset);
+    struct commands_found found;
+    find(dialogs, &found);
+    const struct page page = page_of(dialogs, &found, core->layout.window);
+    const float offset = scrolled(&page, dialogs->help.offset), y = page.body.y - offset;
     drawlist_rect(list, core->layout.window, theme()->veil);
     drawlist_rounded(list, page.box, 8, theme()->panel);
     drawlist_rounded_line(list, page.box, 8, 1, theme()->zero);
-    show_title(list, &page);
+    show_title(list, &page, &dialogs->help);
     struct rect clip = drawlist_push_clip(list, page.body);
-    show_columns(list, &dialogs->commands, &page, offset);
+    if (dialogs->help.filter.typed[0]) {
+        show_found(list, &page, &found, y);
+    } else {
+        show_here(list, dialogs, &page, y + GROUP_GAP / 2);
+        show_columns(list, &dialogs->commands, &page, y + page.here);
+    }
     drawlist_set_clip(list, clip);
     show_bar(list, &page, offset);
 }

@@ -6,9 +6,35 @@
 #include "editor/core/command.h"
 #include "editor/dialogs/dialogs.h"
 
+/// The table of editor/commands.c.
+struct command_list {
+    const struct command *commands;
+    int count;
+};
+
+enum { COMMANDS_MOST = 256 };
+
+/// The commands that fit what is typed, the best ones first.
+struct commands_found {
+    const struct command *list[COMMANDS_MOST];
+    const char *missing[COMMANDS_MOST]; ///< as command_missing() says
+    int count;
+};
+
+/// All keys (F1).
 struct help {
     bool open;
     float offset; ///< pixels that it is scrolled by, where the window is too low for all of it
+    unsigned at;  ///< what the pointer was over when it opened, of enum place
+    struct ui_filter filter;
+};
+
+/// All commands (F3).
+struct palette {
+    bool open;
+    struct ui_filter filter;
+    int choice, first;            ///< the row that Enter runs, the first in sight
+    const struct command *chosen; ///< to be run; NULL: none
 };
 
 enum dialog_kind {
@@ -71,17 +97,12 @@ struct pressed {
     bool is_demo;     ///< nobody's hands: the pointer is shown as well
 };
 
-/// The table of editor/commands.c.
-struct command_list {
-    const struct command *commands;
-    int count;
-};
-
 struct dialogs {
     struct command_list commands;
     struct dialog dialog;
     struct exporting exporting;
     struct help help;
+    struct palette palette;
     struct pressed pressed;
     char caption[160]; ///< of a demo
     bool welcome;      ///< the card for newcomers is shown
@@ -109,11 +130,23 @@ int question_build(struct dialog *dialog);
 /// What a key does: an answer, QUESTION_OPEN where it moved the choice, or QUESTION_UNUSED.
 int question_key(struct dialog *dialog, int key);
 
-/// Wheel, ↑ ↓ and PgUp PgDn scroll it; any other key or a click closes it. While it is open help_event() is true for keys, text, buttons
-/// and the wheel.
+/// The commands that fit, those that can be done now before others that fit as well. Without `core`: all rows of F1, in their order.
+void commands_find(const struct command_list *commands, const struct core *core, const struct ui_filter *filter,
+                   struct commands_found *found);
+/// A field with what is typed, or with what typing does.
+void commands_show_field(struct drawlist *list, struct rect r, const struct ui_filter *filter, const char *empty);
+
+/// Typing searches; wheel, ↑ ↓ and PgUp PgDn scroll; Esc, Enter or a click closes it. While it is open help_event() is true for keys,
+/// text, buttons and the wheel.
 bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
 /// Draws it, where it is open.
 void help_show(const struct dialogs *dialogs, struct core *core);
+
+/// Typing searches; ↑ ↓ and the wheel choose; Enter or a click runs a command; Esc closes it. While it is open palette_event() is true for
+/// keys, text, buttons and the wheel.
+bool palette_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
+/// Draws it, where it is open.
+void palette_show(const struct dialogs *dialogs, struct core *core);
 
 /// A press on the card takes it away and is used up; so do Esc, an edit and the help.
 bool welcome_event(struct dialogs *dialogs, const struct event *event);
