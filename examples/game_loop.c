@@ -33,9 +33,9 @@ int main(void)
     }
 
     const double cycle = (SAMPLES - 1) * desc.step, frame = 1.0 / 144;
-    double previous = wiggly_lagged(wiggly_evaluate(&curve, 0), 0), largest_step = 0;
+    double previous = wiggly_lagged(wiggly_evaluate_at(&curve, 0, NULL), 0), largest_step = 0;
     for (double time = frame; time < 3 * cycle; time += frame) {
-        double value = wiggly_lagged(wiggly_evaluate(&curve, time / desc.step), 0);
+        double value = wiggly_lagged(wiggly_evaluate_at(&curve, time, NULL), 0);
         largest_step = fmax(largest_step, fabs(value - previous));
         previous = value;
     }

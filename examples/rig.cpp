@@ -61,7 +61,7 @@ class Spline
     /// At a time in seconds, `lag` radians late.
     double at(double seconds, double lag = 0) const
     {
-        return wiggly_lagged(wiggly_evaluate(&curve, seconds / curve.step), lag);
+        return wiggly_lagged(wiggly_evaluate_at(&curve, seconds, nullptr), lag);
     }
 
   private:

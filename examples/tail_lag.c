@@ -27,8 +27,8 @@ int main(void)
         fprintf(stderr, "%s\n", wiggly_status_text(status));
         return EXIT_FAILURE;
     }
-    for (double sample = 0; sample <= SAMPLES - 1; sample += 0.4) { // 60 frames a second
-        wiggly_value value = wiggly_evaluate(&curve, sample);
+    for (int frame = 0; frame <= 240; frame++) { // four seconds, 60 frames each
+        wiggly_value value = wiggly_evaluate_at(&curve, frame / 60.0, NULL);
         for (int joint = 0; joint < JOINTS; joint++) {
             printf("%s%.5f", joint ? "," : "", wiggly_lagged(value, joint * lag));
         }

@@ -140,3 +140,120 @@ TEST(a_curve_that_was_never_solved_is_0)
     wiggly_evaluate_float(&curve, 3, 1, 2, out, 1);
     assert_true(out[0] == 0 && out[1] == 0);
 }
+
+// --- in seconds, with what changes ---------------------------------------------------------------------------------------
+
+/// What a hand-made curve is of: x of a swing e^{(−decay + jω)t}, or a parabola, on an equilibrium that is a parabola.
+static const struct motion {
+    const char *what;
+    wiggly_mode mode;
+    double decay, omega, near; ///< near: how close a value comes; its change ten times as far in a second
+} motions[] = {
+    {"a parabola", WIGGLY_REAL, 0, 0, 1e-12},           {"a cubic's parabola", WIGGLY_CUBIC, 0, 0, 1e-12},
+    {"an undamped swing", WIGGLY_COMPLEX, 0, 9, 1e-12}, {"a fast one", WIGGLY_COMPLEX, 0, 140, 1e-12},
+    {"a damped one", WIGGLY_COMPLEX, 0.8, 7.5, 1e-5},
+};
+
+static wiggly_value motion_at(const struct motion *m, double t, wiggly_value *rate)
+{
+    const double y = 0.5 - t + 0.25 * t * t, dy = -1 + 0.5 * t;
+    if (m->mode != WIGGLY_COMPLEX) {
+        *rate = (wiggly_value){dy, 2 - 0.6 * t, 0};
+        return (wiggly_value){y, 1 + 2 * t - 0.3 * t * t, 0};
+    }
+    const double size = exp(-m->decay * t), re = size * cos(m->omega * t), im = size * sin(m->omega * t);
+    *rate = (wiggly_value){dy, -m->decay * re - m->omega * im, -m->decay * im + m->omega * re};
+    return (wiggly_value){y, re, im};
+}
+
+static void assert_value(wiggly_value got, wiggly_value expected, double near, const char *what, double t)
+{
+    const double off = fmax(fabs(got.y - expected.y), fmax(fabs(got.re - expected.re), fabs(got.im - expected.im)));
+    if (!(off <= near)) fail_msg("%s, at %g s: off by %g", what, t, off);
+}
+
+TEST(values_and_changes_are_those_of_the_motion)
+{
+    for (size_t m = 0; m < sizeof motions / sizeof *motions; m++) {
+        wiggly_curve curve = curve_create(SAMPLES);
+        wiggly_value rate, own;
+        curve.samples = SAMPLES, curve.step = 1.0 / 24, curve.mode = motions[m].mode, curve.start = WIGGLY_FREE;
+        for (int i = 0; i < SAMPLES; i++) {
+            const wiggly_value at = motion_at(&motions[m], i / 24.0, &rate);
+            curve.y[i] = at.y, curve.re[i] = at.re, curve.im[i] = at.im, curve.omega[i] = motions[m].omega;
+        }
+        for (double t = 1.0 / 24; t < (SAMPLES - 2) / 24.0; t += 0.0137) {
+            const wiggly_value expected = motion_at(&motions[m], t, &rate);
+            assert_value(wiggly_evaluate_at(&curve, t, &own), expected, 20 * motions[m].near, motions[m].what, t);
+            assert_value(own, rate, 2000 * motions[m].near, motions[m].what, t);
+        }
+        curve_destroy(&curve);
+    }
+}
+
+/// Behind its last knot a solved spline turns by its pole: x there times e^{pt}.
+TEST(a_solved_swing_dies_away_as_its_pole_says)
+{
+    const wiggly_knot knots[] = {{.sample = 0}, {.sample = 40, .value = 1}};
+    wiggly_desc desc = {.size = sizeof desc, .samples = SAMPLES, .knots = knots, .knot_count = 2};
+    desc.frequency.value = 1.2, desc.damping.value = 0.08;
+    wiggly_curve curve = curve_create(SAMPLES);
+    curve_solve(&curve, &desc);
+    const wiggly_poles poles = wiggly_poles_at(&desc, 0);
+    const double d = poles.s[0][0], w = poles.s[0][1], x[2] = {curve.re[40], curve.im[40]};
+    for (double t = 0.05; t < 8; t += 0.0113) {
+        const double size = exp(d * t), c = size * cos(w * t), s = size * sin(w * t);
+        const double re = c * x[0] - s * x[1], im = s * x[0] + c * x[1];
+        wiggly_value rate, value = wiggly_evaluate_at(&curve, 40 / 24.0 + t, &rate);
+        assert_value(value, (wiggly_value){0, re, im}, 1e-5, "the swing", t);
+        assert_value(rate, (wiggly_value){0, d * re - w * im, d * im + w * re}, 1e-3, "its speed", t);
+    }
+    curve_destroy(&curve);
+}
+
+/// In every mode and start: exact at samples whatever the step, the change that of the values, still beyond the ends, round in loops.
+TEST(time_is_position_times_the_step)
+{
+    static const double steps[] = {1.0 / 24, 1.0 / 30, 0.1, 1001.0 / 30000, 1e-4 / 3};
+    for (int n = 0; n < 9 * 5; n++) {
+        wiggly_curve curve = solved((wiggly_mode)(n % 3), (wiggly_start)(n / 3 % 3), NULL, SAMPLES);
+        const double step = curve.step = steps[n / 9], end = (SAMPLES - 1) * step;
+        const bool is_loop = curve.start == WIGGLY_LOOP;
+        wiggly_value rate;
+        for (int i = 0; i < curve.samples - is_loop; i++) {
+            const wiggly_value value = wiggly_evaluate_at(&curve, i * step, NULL);
+            assert_true(value.y == curve.y[i] && value.re == curve.re[i] && value.im == curve.im[i]);
+        }
+        for (double at = 0.3; at < SAMPLES - 1; at += 0.577) {
+            const double t = at * step, little = 1e-5 * step, over = is_loop ? t + 3 * end : t;
+            const wiggly_value a = wiggly_evaluate_at(&curve, t - little, NULL),
+                               b = wiggly_evaluate_at(&curve, t + little, NULL);
+            const double slope = (b.re - a.re) / (2 * little), size = fmax(1, fabs(slope)) + 10 / step;
+            wiggly_evaluate_at(&curve, over, &rate);
+            assert_near(rate.re, slope, 1e-5 * size);
+        }
+        for (int side = 0; side < 2 && !is_loop; side++) {
+            const wiggly_value out = wiggly_evaluate_at(&curve, side ? end + 1 : -1, &rate);
+            assert_true(out.re == curve.re[side ? SAMPLES - 1 : 0]);
+            assert_true(rate.y == 0 && rate.re == 0 && rate.im == 0);
+        }
+        if (is_loop) { // no kink at the seam
+            wiggly_value before;
+            wiggly_evaluate_at(&curve, end - 1e-7 * step, &before);
+            wiggly_evaluate_at(&curve, 0, &rate);
+            assert_near(before.re, rate.re, 1e-3 / step);
+        }
+        curve_destroy(&curve);
+    }
+}
+
+TEST(a_curve_without_what_it_takes_is_no_number)
+{
+    wiggly_curve curve = solved(WIGGLY_COMPLEX, WIGGLY_FREE, NULL, SAMPLES), lacking = curve,
+                 none = {.size = sizeof none};
+    wiggly_value rate = {1, 1, 1};
+    lacking.omega = NULL;
+    assert_true(isnan(wiggly_evaluate_at(&lacking, 1, &rate).re) && isnan(rate.re));
+    assert_true(wiggly_evaluate_at(&none, 1, &rate).re == 0 && rate.re == 0);
+    curve_destroy(&curve);
+}

@@ -101,6 +101,9 @@ int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2]);
 /// damping beyond 10⁸: a friction without a spring is that of one so weak that it never shows.
 void wiggly_from_spring(double k, double gamma, double *frequency, double *damping);
 
+/// wiggly_evaluate_at() by position: a time in samples. Without the arrays that it needs it must not be called.
+wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position);
+
 /// Float view for graphics: total at `count` positions from `from` in steps of `by` samples, written `stride` floats apart.
 void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, int count, float *out, size_t stride);
 

@@ -114,7 +114,7 @@ typedef struct wiggly_desc {
 wiggly_desc wiggly_default_desc(void);
 
 /// A solved spline: the caller's arrays of N numbers each, filled by wiggly_solve(). Arrays that are NULL are not filled;
-/// wiggly_evaluate() needs all but total. In an array, all have the size of the first.
+/// wiggly_evaluate_at() needs all but total. In an array, all have the size of the first.
 typedef struct wiggly_curve {
     size_t size;   ///< sizeof(wiggly_curve)
     double *total; ///< y + Re x; at knots exactly the knot's value
@@ -177,15 +177,18 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
 /// Ends the threads and frees; NULL is fine.
 void wiggly_batch_destroy(wiggly_batch *batch);
 
-/// What a curve is at a time, in parts.
+/// What a curve is at a time, in parts: the total is y + re. Or what each part changes by in a second.
 typedef struct wiggly_value {
     double y, re, im;
 } wiggly_value;
 
-/// The curve at a real-valued sample position, clamped to the domain (a loop wraps). Exact at samples.
-wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position);
+/// The curve at a time in seconds; sample i is at i times its step. `per_second` receives how it changes there, or is NULL. Before the
+/// first sample and after the last the curve stands still; a loop goes round. At samples it is what was solved; from one to the next x
+/// turns by the band's centre. Needs y, re, im, and in complex mode omega: NaN where one is
+/// missing; 0 where nothing was solved.
+wiggly_value wiggly_evaluate_at(const wiggly_curve *curve, double seconds, wiggly_value *per_second);
 
-/// y + Re(e^{−j·lag} x): the value of a part that lags behind by `lag` radians (eq. 27).
+/// y + Re(e^{−j·lag} x): the value of a part that lags behind by `lag` radians (eq. 27), 0: the total. Of changes per second: its change.
 double wiggly_lagged(wiggly_value value, double lag);
 
 #ifdef __cplusplus

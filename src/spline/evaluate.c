@@ -2,6 +2,7 @@
 ///     x(t) = e^{jω_c t} · CatmullRom(e^{−jω_c t_i} x_i),
 /// so that a free oscillation is followed and not cut across; of x itself in cubic and real mode, and of y.
 #include "spline/poles.h"
+#include <float.h>
 #include <math.h>
 
 /// Index of a neighbour sample, at most two from one of the curve's: wrapped in a loop; -1 where there is none.
@@ -32,10 +33,16 @@ static int locate(const wiggly_curve *curve, double position, double *u)
     return i;
 }
 
-static double catmull_rom(double before, double from, double to, double after, double u)
+/// A value and how it changes in a sample.
+typedef struct bend {
+    double at, rate;
+} bend;
+
+static bend catmull_rom(double before, double from, double to, double after, double u)
 {
-    double c1 = 0.5 * (after - from), c0 = 0.5 * (to - before), step = to - from;
-    return from + u * (c0 + u * (3 * step - 2 * c0 - c1 + u * (c0 + c1 - 2 * step)));
+    const double c1 = 0.5 * (after - from), c0 = 0.5 * (to - before), step = to - from;
+    const double square = 3 * step - 2 * c0 - c1, cube = c0 + c1 - 2 * step;
+    return (bend){from + u * (c0 + u * (square + u * cube)), c0 + u * (2 * square + 3 * u * cube)};
 }
 
 /// The sample after the next; -1 where there is none, or where it is beyond a first knot that the interval is before: there x is
@@ -46,7 +53,7 @@ static int beyond(const wiggly_curve *curve, int i)
 }
 
 /// Interpolates array[i … i+1] at u with neighbours, extrapolated linearly where missing.
-static double interpolate(const wiggly_curve *curve, const double *array, int i, int a, double u)
+static bend interpolate(const wiggly_curve *curve, const double *array, int i, int a, double u)
 {
     int b = neighbour_of(curve, i - 1);
     double from = array[i], to = array[i + 1];
@@ -59,7 +66,7 @@ static cplx turned(const wiggly_curve *curve, int i, cplx base, double angle)
     return cplx_mul((cplx){cos(angle), sin(angle)}, (cplx){curve->re[i] - base.re, curve->im[i] - base.im});
 }
 
-static cplx interpolate_complex(const wiggly_curve *curve, int i, double u)
+static cplx interpolate_complex(const wiggly_curve *curve, int i, double u, cplx *rate)
 {
     int b = neighbour_of(curve, i - 1), a = beyond(curve, i);
     double turn = 0.5 * (curve->omega[i] + curve->omega[i + 1]) * curve->step;
@@ -68,22 +75,67 @@ static cplx interpolate_complex(const wiggly_curve *curve, int i, double u)
     cplx from = turned(curve, i, base, 0), to = turned(curve, i + 1, base, -turn);
     cplx before = b < 0 ? (cplx){2 * from.re - to.re, 2 * from.im - to.im} : turned(curve, b, base, turn);
     cplx after = a < 0 ? (cplx){2 * to.re - from.re, 2 * to.im - from.im} : turned(curve, a, base, -2 * turn);
-    cplx z = {catmull_rom(before.re, from.re, to.re, after.re, u),
-              catmull_rom(before.im, from.im, to.im, after.im, u)};
-    return cplx_add(base, cplx_mul((cplx){cos(turn * u), sin(turn * u)}, z));
+    const bend re = catmull_rom(before.re, from.re, to.re, after.re, u),
+               im = catmull_rom(before.im, from.im, to.im, after.im, u);
+    const cplx frame = {cos(turn * u), sin(turn * u)};
+    *rate = cplx_mul(frame, (cplx){re.rate - turn * im.at, im.rate + turn * re.at});
+    return cplx_add(base, cplx_mul(frame, (cplx){re.at, im.at}));
+}
+
+/// In the interval from sample i on; `rate` receives the change in a sample.
+static wiggly_value between(const wiggly_curve *curve, int i, double u, wiggly_value *rate)
+{
+    const bend y = interpolate(curve, curve->y, i, neighbour_of(curve, i + 2), u);
+    if (curve->mode != WIGGLY_COMPLEX) {
+        const bend re = interpolate(curve, curve->re, i, beyond(curve, i), u);
+        *rate = (wiggly_value){y.rate, re.rate, 0};
+        return (wiggly_value){y.at, re.at, 0};
+    }
+    cplx moving;
+    const cplx x = interpolate_complex(curve, i, u, &moving);
+    *rate = (wiggly_value){y.rate, moving.re, moving.im};
+    return (wiggly_value){y.at, x.re, x.im};
 }
 
 wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
 {
     if (curve->samples < 1) return (wiggly_value){0};
     double u;
+    wiggly_value rate;
     int i = locate(curve, position, &u);
     if (u == 0 || i >= curve->samples - 1) return (wiggly_value){curve->y[i], curve->re[i], curve->im[i]};
-    double y = interpolate(curve, curve->y, i, neighbour_of(curve, i + 2), u);
-    if (curve->mode != WIGGLY_COMPLEX)
-        return (wiggly_value){y, interpolate(curve, curve->re, i, beyond(curve, i), u), 0};
-    cplx x = interpolate_complex(curve, i, u);
-    return (wiggly_value){y, x.re, x.im};
+    return between(curve, i, u, &rate);
+}
+
+/// What changes in a second at a position: on a sample as from there on, on the last as up to there, beyond the ends nothing.
+static wiggly_value rate_at(const wiggly_curve *curve, double position)
+{
+    const int last = curve->samples - 1;
+    const bool outside = curve->start != WIGGLY_LOOP && !(position >= 0 && position <= last);
+    if (last < 1 || outside) return (wiggly_value){0};
+    double u;
+    wiggly_value rate;
+    const int i = locate(curve, position, &u);
+    between(curve, i < last ? i : last - 1, i < last ? u : 1, &rate);
+    return (wiggly_value){rate.y / curve->step, rate.re / curve->step, rate.im / curve->step};
+}
+
+/// Whether a curve has the arrays that values between samples come from.
+static bool has_arrays(const wiggly_curve *curve)
+{
+    return curve->y && curve->re && curve->im && (curve->mode != WIGGLY_COMPLEX || curve->omega);
+}
+
+wiggly_value wiggly_evaluate_at(const wiggly_curve *curve, double seconds, wiggly_value *per_second)
+{
+    wiggly_value nothing = {0};
+    if (curve->samples > 0 && !has_arrays(curve)) nothing = (wiggly_value){NAN, NAN, NAN};
+    if (per_second) *per_second = nothing;
+    if (curve->samples < 1 || !has_arrays(curve)) return nothing;
+    const double exact = seconds / curve->step, sample = round(exact);
+    const double position = fabs(exact - sample) <= 4 * DBL_EPSILON * fabs(sample) ? sample : exact;
+    if (per_second) *per_second = rate_at(curve, position);
+    return wiggly_evaluate(curve, position);
 }
 
 double wiggly_lagged(wiggly_value value, double lag) { return value.y + cos(lag) * value.re + sin(lag) * value.im; }
