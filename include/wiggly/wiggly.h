@@ -174,6 +174,40 @@ wiggly_status wiggly_batch_create_at(void *memory, size_t size, int samples, int
 wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,
                                  wiggly_status *status, int count);
 
+/// Numbers of many splines in one array: number k of spline i is at[i * by_spline + k * by_number]. A stride of 0 repeats: with
+/// by_spline 0 all splines have the same ones. at NULL: none.
+typedef struct wiggly_numbers {
+    const double *at;
+    ptrdiff_t by_spline, by_number;
+} wiggly_numbers;
+
+/// The same to be filled: no two splines on the same places.
+typedef struct wiggly_rows {
+    double *at;
+    ptrdiff_t by_spline, by_number;
+} wiggly_rows;
+
+/// Many splines of one kind: their knots, and what is filled. Zeroes with `size` set are none.
+typedef struct wiggly_many {
+    size_t size;           ///< sizeof(wiggly_many)
+    int count;             ///< splines
+    int knot_count;        ///< rows of knots: the most that a spline has
+    wiggly_numbers sample; ///< of each knot, rounded to a whole one; NaN where a spline has fewer knots
+    wiggly_numbers value;
+    wiggly_numbers slope;         ///< NaN: none
+    wiggly_numbers stiffness;     ///< 0: 1000
+    wiggly_numbers phase;         ///< NaN: free
+    wiggly_numbers still;         ///< above 0: a still knot
+    wiggly_rows total, y, re, im; ///< filled, `samples` numbers a spline, as in wiggly_curve
+    wiggly_status *status;        ///< filled, one a spline, or NULL: what wiggly_solve() would have said
+    int *knot; ///< filled, one a spline, or NULL: of an error, the row of the knot that it is about, else -1
+} wiggly_many;
+
+/// Solves many splines that differ in their knots alone; knots in `desc` are not read. The same bits as one by one, with nothing to fill in for
+/// each, and nothing allocated. The arrays of one with an error are not touched. Returns the largest status; at an
+/// error of `desc` or `many` themselves nothing is filled.
+wiggly_status wiggly_batch_solve_many(wiggly_batch *batch, const wiggly_desc *desc, const wiggly_many *many);
+
 /// Ends the threads and frees; NULL is fine.
 void wiggly_batch_destroy(wiggly_batch *batch);
 

@@ -1,6 +1,6 @@
 /// Many splines over threads: each thread has a solver of its own and takes the next few splines until none is left. Which thread
 /// solves which spline does not matter to the bits, because what a solver keeps does not.
-#include "spline/solver.h"
+#include "spline/many.h"
 #include "spline/thread.h"
 #include <stdatomic.h>
 #include <stdint.h>
@@ -9,9 +9,10 @@
 
 enum { MAX_THREADS = 256, AT_A_TIME = 16 };
 
-/// One call of wiggly_batch_solve().
+/// One call of wiggly_batch_solve(), or of wiggly_batch_solve_many().
 typedef struct job {
-    const wiggly_desc *desc;
+    const wiggly_many *many; ///< or NULL
+    const wiggly_desc *desc; ///< of the many, one that was read
     wiggly_curve *curve;
     wiggly_status *status;
     int count;
@@ -37,6 +38,12 @@ struct wiggly_batch {
     worker workers[]; ///< the first is the caller's
 };
 
+static wiggly_status solve_one(const job *now, wiggly_solver *solver, int i)
+{
+    if (now->many) return many_solve(solver, now->desc, now->many, i);
+    return wiggly_solve(solver, desc_at(now->desc, i), curve_at(now->curve, i));
+}
+
 static void work(worker *w)
 {
     wiggly_batch *batch = w->batch;
@@ -46,7 +53,7 @@ static void work(worker *w)
         int from = atomic_fetch_add(&batch->next, AT_A_TIME), to = from + AT_A_TIME;
         if (from >= now->count) return;
         for (int i = from; i < to && i < now->count; i++) {
-            wiggly_status status = wiggly_solve(w->solver, desc_at(now->desc, i), curve_at(now->curve, i));
+            wiggly_status status = solve_one(now, w->solver, i);
             if (now->status) now->status[i] = status;
             if (status > w->worst) w->worst = status;
         }
@@ -133,13 +140,11 @@ wiggly_status wiggly_batch_create_at(void *memory, size_t size, int samples, int
     return start(memory, samples, knots, threads, false, out);
 }
 
-wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,
-                                 wiggly_status *status, int count)
+/// Returns the largest status.
+static wiggly_status solve_all(wiggly_batch *batch, job given)
 {
-    if (!batch || count < 0 || (count > 0 && (!desc || !curve))) return WIGGLY_ERROR_ARGUMENT;
-    if (count > 0 && !(desc_fits(desc) && curve_fits(curve))) return WIGGLY_ERROR_SIZE;
     thread_acquire(&batch->lock);
-    batch->job = (job){desc, curve, status, count};
+    batch->job = given;
     atomic_store(&batch->next, 0);
     batch->busy = batch->threads - 1;
     batch->round++;
@@ -154,6 +159,29 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
         if (batch->workers[t].worst > worst) worst = batch->workers[t].worst;
     }
     return worst;
+}
+
+wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,
+                                 wiggly_status *status, int count)
+{
+    if (!batch || count < 0 || (count > 0 && (!desc || !curve))) return WIGGLY_ERROR_ARGUMENT;
+    if (count > 0 && !(desc_fits(desc) && curve_fits(curve))) return WIGGLY_ERROR_SIZE;
+    return solve_all(batch, (job){.desc = desc, .curve = curve, .status = status, .count = count});
+}
+
+wiggly_status wiggly_batch_solve_many(wiggly_batch *batch, const wiggly_desc *desc, const wiggly_many *many)
+{
+    enum { FIRST = sizeof(wiggly_many) }; // its size in version 1.0
+    wiggly_many own = {0};
+    wiggly_desc read;
+    if (!batch || !many) return WIGGLY_ERROR_ARGUMENT;
+    if (!size_fits(many, FIRST, sizeof own)) return WIGGLY_ERROR_SIZE;
+    memcpy(&own, many, many->size < sizeof own ? many->size : sizeof own);
+    if (own.count < 0 || own.knot_count < 0) return WIGGLY_ERROR_ARGUMENT;
+    if (own.count > 0 && own.knot_count > 0 && !(own.sample.at && own.value.at)) return WIGGLY_ERROR_ARGUMENT;
+    wiggly_status status = desc_read(desc, &read);
+    if (status != WIGGLY_OK) return status;
+    return solve_all(batch, (job){.many = &own, .desc = &read, .status = own.status, .count = own.count});
 }
 
 void wiggly_batch_destroy(wiggly_batch *batch)

@@ -98,6 +98,7 @@ static wiggly_solver *lay_out(arena *a, int samples, int knots)
     at->limits.own = arena_take(a, k, sizeof *at->limits.own);
     at->limits.all = arena_take(a, k, sizeof *at->limits.all);
     at->limits.held = arena_take(a, n, sizeof *at->limits.held);
+    at->filled = arena_take(a, k, sizeof *at->filled);
     at->order = arena_take(a, k, sizeof *at->order);
     at->knot_at = arena_take(a, n, sizeof *at->knot_at);
     return solver;

@@ -52,6 +52,7 @@ struct wiggly_solver {
     limit_memory limits;
     forced_response response; ///< what moves by itself as the equilibrium does
     double *y;                ///< equilibrium, where the curve has no array for it
+    wiggly_knot *filled;      ///< the knots of one of many
     int *order;               ///< indices of the description's knots by sample
     int *knot_at;             ///< scratch: index of the knot on each sample, or -1
 };
