@@ -117,7 +117,15 @@ static struct warnings found_far(struct document *document)
     return found;
 }
 
-TEST(test_limits_and_moving_equilibria_are_not_far)
+/// Poses at which the curve passes through 0 as fast as it swings.
+static struct document *passed_through_0(void)
+{
+    return document_of_text(
+        "{\"wiggly\": 2, \"frames\": [0, 72], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": "
+        "[{\"frame\": 12, \"value\": 0.1, \"im\": 1}, {\"frame\": 36, \"value\": 0.1, \"im\": 1}]}]}");
+}
+
+TEST(test_limits_moving_equilibria_and_poses_are_not_far)
 {
     static const char *const moving = "{\"name\": \"base\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, "
                                       "\"value\": 0}, {\"frame\": 60, \"value\": 3}]},";
@@ -125,6 +133,7 @@ TEST(test_limits_and_moving_equilibria_are_not_far)
     assert_int_equal(found_far(jump(72, ", \"limits\": [null, 9]", "")).count, 0);
     assert_int_equal(found_far(jump(72, ", \"equilibrium\": {\"spline\": \"base\"}", moving)).count, 0);
     assert_int_equal(found_far(jump(72, ", \"mode\": \"cubic\"", "")).count, 0);
+    assert_int_equal(found_far(passed_through_0()).count, 0);
 }
 
 TEST(test_the_largest_knot_is_measured_from_the_equilibrium)

@@ -9,8 +9,10 @@ static const double MOST_SWING = 2;      ///< of a span, in heights of its knots
 static const double LEAST_HEIGHT = 0.75; ///< of a span's knots, as a share of the highest: small ones may ring
 static const double MOST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
 static const double MOST_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
-static const double MOST_FORCED = 135;   ///< degrees of poses out of step: midway the swing is down to 0.38 of theirs
-static const double LEAST_FORCED = 0.4;  ///< magnitude of such poses, as a share of the largest
+static const double MOST_FORCED = 120;   ///< degrees of poses out of step: midway the swing is down to half of theirs
+static const double MOST_OF_VALUES =
+    30; ///< degrees by which their values alone may be out of step, or no free phase helps
+static const double LEAST_FORCED = 0.4; ///< magnitude of such poses, as a share of the largest
 
 /// A solved spline that is looked at, and what was found so far, of all splines.
 struct look {
@@ -37,14 +39,19 @@ static int sample_of(const struct look *look, const struct knot *knot)
 
 static double height(const wiggly_curve *curve, int sample) { return fabs(curve->total[sample] - curve->y[sample]); }
 
-/// How far the knots are from the equilibrium at most; a still one is not.
+/// How far a knot is from the equilibrium, a pose with its phase: so far it swings by itself. A still one is not.
+static double knot_height(const struct look *look, const struct knot *knot)
+{
+    const double height_of_value = knot->still ? 0 : height(look->curve, sample_of(look, knot));
+    const bool is_pose = knot->has_phase && spline_mode(look->spline) == WIGGLY_COMPLEX;
+    return is_pose ? hypot(height_of_value, knot->phase) : height_of_value;
+}
+
 static double highest_knot(const struct look *look)
 {
     double highest = 0;
-    for (int k = 0; k < look->spline->knot_count; k++) {
-        const struct knot *knot = &look->spline->knots[k];
-        if (!knot->still) highest = fmax(highest, height(look->curve, sample_of(look, knot)));
-    }
+    for (int k = 0; k < look->spline->knot_count; k++)
+        highest = fmax(highest, knot_height(look, &look->spline->knots[k]));
     return highest;
 }
 
@@ -64,7 +71,8 @@ static bool look_at(const struct document *document, const struct evaluation *ev
 /// How far a curve may swing: beside its largest knot, up to the knots on either side, more than elsewhere.
 struct reach {
     int from, to; ///< samples beside the largest knot; across a loop's seam if `from` is behind `to`
-    double largest, other, most[2];
+    double largest, other, value,
+        most[2];     ///< heights: of the largest knot, the next one, and of the largest value alone
     double range[2]; ///< of the equilibrium
 };
 
@@ -92,7 +100,8 @@ static struct reach reach_of(const struct look *look)
     int knot = 0;
     for (int k = 0; k < look->spline->knot_count; k++) {
         const struct knot *at = &look->spline->knots[k];
-        const double here = at->still ? 0 : height(look->curve, sample_of(look, at));
+        const double here = knot_height(look, at);
+        if (!at->still) reach.value = fmax(reach.value, height(look->curve, sample_of(look, at)));
         reach.other = fmax(reach.other, fmin(here, reach.largest));
         if (here > reach.largest) reach.largest = here, knot = k;
     }
@@ -120,10 +129,11 @@ static int farthest(const wiggly_curve *curve, const struct reach *reach, double
     return peak;
 }
 
-/// Limits beyond where the equilibrium moves by the largest knot and a little more, in numbers of few digits.
+/// Limits beyond where the equilibrium moves by the largest value and a little more, in numbers of few digits.
 static void set_limits(struct warning *warning, const struct reach *reach)
 {
-    const double room = 1.15 * reach->largest, digits = pow(10, 1 - floor(log10(room)));
+    const double room = 1.15 * (reach->value > 0 ? reach->value : reach->largest);
+    const double digits = pow(10, 1 - floor(log10(room)));
     warning->low = floor((reach->range[0] - room) * digits) / digits;
     warning->high = ceil((reach->range[1] + room) * digits) / digits;
 }
@@ -245,7 +255,7 @@ static void find_swing(const struct look *look, const struct knot_span *span, do
 {
     const wiggly_curve *curve = look->curve;
     const int peak = furthest(look, span);
-    const double knots = fmax(height(curve, span->first), height(curve, sample_of(look, span->to)));
+    const double knots = fmax(knot_height(look, span->from), knot_height(look, span->to));
     const double limit = fmax(knots, LEAST_HEIGHT * highest);
     if (height(curve, peak) <= MOST_SWING * limit || limit <= 0 || peak == far) return;
     add(look, (struct warning){.kind = WARNING_SWING,
@@ -270,39 +280,52 @@ static void find_drift(const struct look *look, const struct knot_span *span, st
     drift->remedy = floor(1000 * MOST_TURN / periods) / 1000;
 }
 
-static double magnitude(const struct look *look, const struct knot *knot)
-{
-    return hypot(knot->value - look->curve->y[sample_of(look, knot)], knot->phase);
-}
-
 static double largest_pose(const struct look *look)
 {
     double largest = 0;
     for (int k = 0; k < look->spline->knot_count; k++) {
         const struct knot *knot = &look->spline->knots[k];
-        if (knot->has_phase) largest = fmax(largest, magnitude(look, knot));
+        if (knot->has_phase) largest = fmax(largest, knot_height(look, knot));
     }
     return largest;
 }
 
-/// Degrees by which two neighbouring poses miss each other's swing, beyond what the bandwidth makes up for on the way: from one to the next
-/// x turns by ∫ω dt, give or take β of that. 0 within a period, where knots are keys and not yet a swing, and for small poses.
+static double degrees_between(double a, double b) { return fabs(remainder(a - b, 2 * M_PI)) * 180 / M_PI; }
+
+/// How far a free knot is out of step at least: its value says the side alone on which x is.
+static double degrees_if_free(double angle, const struct knot *knot, double y)
+{
+    return fmax(0, degrees_between(angle, knot->value < y ? M_PI : 0) - 90);
+}
+
+/// By what angle x turns from one knot to the next if it is left to itself, ∫ω dt.
+static double turn_of(const struct look *look, const struct knot_span *span)
+{
+    const double *omega = look->curve->omega;
+    double turn = 0;
+    for (int i = 0; i < span->length; i++)
+        turn += 0.5 * (omega[sample_in(look, span, i)] + omega[sample_in(look, span, i + 1)]) * look->curve->step;
+    return turn;
+}
+
+/// Degrees by which two neighbouring poses miss each other's swing, beyond the part β of the turn that the bandwidth makes up for. 0 where
+/// that is no matter of their phases: for small poses, within a period, where knots are keys and not yet a swing, and where their values alone
+/// are out of step as well.
 static double degrees_forced(const struct look *look, const struct knot_span *span, double largest)
 {
-    const wiggly_curve *curve = look->curve;
     const struct knot *const ends[] = {span->from, span->to};
-    double turn = 0, angle[2];
+    const double turn = turn_of(look, span);
+    double angle[2], y[2];
     for (int e = 0; e < 2; e++) {
-        if (!ends[e]->has_phase || magnitude(look, ends[e]) < LEAST_FORCED * largest) return 0;
-        angle[e] = atan2(ends[e]->phase, ends[e]->value - curve->y[sample_of(look, ends[e])]);
+        if (!ends[e]->has_phase || knot_height(look, ends[e]) < LEAST_FORCED * largest) return 0;
+        y[e] = look->curve->y[sample_of(look, ends[e])];
+        angle[e] = atan2(ends[e]->phase, ends[e]->value - y[e]);
     }
-    for (int i = 0; i < span->length; i++) {
-        const double here = curve->omega[sample_in(look, span, i)], next = curve->omega[sample_in(look, span, i + 1)];
-        turn += 0.5 * (here + next) * curve->step;
-    }
-    if (turn < 2 * M_PI) return 0;
-    const double miss = fabs(remainder(angle[1] - angle[0] - turn, 2 * M_PI));
-    return (miss - bandwidth_of(look->spline) * turn) * 180 / M_PI;
+    const double miss = degrees_between(angle[1] - angle[0], turn);
+    const double freed = fmin(degrees_if_free(angle[0] + turn, ends[1], y[1]), //
+                              degrees_if_free(angle[1] - turn, ends[0], y[0]));
+    if (turn < 2 * M_PI || freed > MOST_OF_VALUES) return 0;
+    return miss - bandwidth_of(look->spline) * turn * 180 / M_PI;
 }
 
 /// Whether poses can be out of step: not where tracks say what moves the curve and how far it adapts.
@@ -313,18 +336,31 @@ static bool has_step(const struct spline *spline)
            spline->parameter[PARAMETER_BANDWIDTH].track < 0;
 }
 
-/// The pose to free is the one that is out of step on both sides, else the later one.
 static void find_forced(const struct look *look, int k, double largest)
 {
-    struct knot_span span, before;
+    struct knot_span span;
     if (!take_span(look, k, &span)) return;
-    const double degrees = degrees_forced(look, &span, largest);
-    if (degrees <= MOST_FORCED) return;
-    const bool both = take_span(look, k - 1, &before) && degrees_forced(look, &before, largest) > MOST_FORCED;
     struct warning warning = in_middle(look, &span, WARNING_FORCED);
-    warning.amount = degrees;
-    warning.remedy = both ? span.from->frame : span.to->frame;
-    add(look, warning);
+    warning.amount = degrees_forced(look, &span, largest);
+    if (warning.amount > MOST_FORCED) add(look, warning);
+}
+
+double warning_swing_left(const struct warning *warning, const struct document *document,
+                          const struct evaluation *evaluation)
+{
+    struct look look;
+    struct knot_span span;
+    const int first = document_sample(document, warning->from);
+    if (!look_at(document, evaluation, warning->spline, NULL, &look)) return 0;
+    if (!take_span(&look, spline_find_knot(document, look.spline, first), &span)) return 0;
+    double least = INFINITY, ends = INFINITY;
+    for (int i = 0; i <= span.length; i++) {
+        const int sample = sample_in(&look, &span, i);
+        const double here = hypot(look.curve->re[sample], look.curve->im[sample]);
+        least = fmin(least, here);
+        if (i == 0 || i == span.length) ends = fmin(ends, here);
+    }
+    return ends > 0 ? least / ends : 0;
 }
 
 static void find_idle(const struct look *look)

@@ -29,7 +29,7 @@ struct warning {
     double from, to;     ///< frames of the knots around it
     double amount;       ///< swing in heights of the knots, or in how far it may; Hz; periods; degrees out of step
     double limit;        ///< Hz that would be fine; bandwidth as it is
-    double remedy;       ///< value of a knot at the place; substeps; bandwidth; frame of the pose to free
+    double remedy;       ///< value of a knot at the place; substeps; bandwidth
     const char *why;     ///< a slope has no effect; which knots are exceeded
     double phase;        ///< Im x of a pose at the place
     double low, high;    ///< limits a little beyond the knots
@@ -52,6 +52,9 @@ double warning_times_far(const struct document *document, const struct evaluatio
 /// And where its poses force the swing.
 void warnings_add_forced(const struct document *document, const struct evaluation *evaluation, int of,
                          struct warnings *found);
+/// What part of the swing of two poses that force it is left between them.
+double warning_swing_left(const struct warning *warning, const struct document *document,
+                          const struct evaluation *evaluation);
 /// Adds all that is wrong with a solved spline, up to WARNINGS_MAX, spans in the order of time. Allocates nothing.
 void warnings_add(const struct document *document, const struct evaluation *evaluation, int of,
                   struct warnings *found);

@@ -180,32 +180,71 @@ static bool tame_far(struct core *core, const struct warning *warning, char text
     return apply_far(core->document, warning, remedy, &core->error);
 }
 
-/// The knot of the active spline at a frame.
-static bool find_knot(const struct core *core, double frame, struct knot *knot)
+/// The knot of a spline at a frame.
+static bool find_knot(const struct document *document, int of, double frame, struct knot *knot)
 {
-    const struct spline *spline = core_active_spline(core);
-    const int k = spline_find_knot(core->document, spline, document_sample(core->document, frame));
+    const struct spline *spline = document->splines[of];
+    const int k = spline_find_knot(document, spline, document_sample(document, frame));
     if (k >= 0) *knot = spline->knots[k];
     return k >= 0;
 }
 
-static bool free_phase(struct core *core, double frame, char text[96])
+static bool free_phase(struct document *document, int of, double frame, struct error *error)
 {
     struct knot knot;
-    if (!find_knot(core, frame, &knot)) return false;
+    if (!find_knot(document, of, frame, &knot)) return false;
     knot.has_phase = false;
     knot.phase = 0;
-    snprintf(text, 96, "The phase at frame %.6g is free.", frame);
-    return core_put_knot(core, core->active, &knot);
+    return edit_knot_set(document, of, &knot, error);
+}
+
+/// Frees the later of two poses, the earlier one, or both.
+static bool free_ends(struct document *document, const struct warning *warning, unsigned ends, struct error *error)
+{
+    bool good = true;
+    if (ends & 1) good = free_phase(document, warning->spline, warning->to, error);
+    if (good && ends & 2) good = free_phase(document, warning->spline, warning->from, error);
+    return good;
+}
+
+static double swing_left(const struct core *core, const struct warning *warning, unsigned ends)
+{
+    struct error error;
+    struct document *document = document_copy(core->document);
+    struct evaluation trial = {.solver = core->evaluation->solver, .models = core->evaluation->models};
+    double left = 0;
+    if (free_ends(document, warning, ends, &error)) {
+        evaluation_update(&trial, document, false);
+        left = warning_swing_left(warning, document, &trial);
+        evaluation_free(&trial);
+    }
+    document_destroy(document);
+    return left;
+}
+
+static const double MORE_SWING = 1.25; ///< that a free phase has to leave
+
+/// Frees what leaves most of the swing, one pose rather than both.
+static bool free_forced(struct core *core, const struct warning *warning, char text[96])
+{
+    double best = MORE_SWING * warning_swing_left(warning, core->document, core->evaluation);
+    unsigned ends = 0;
+    for (unsigned tried = 1; tried <= 3; tried++) {
+        const double left = swing_left(core, warning, tried);
+        if (left > best) best = MORE_SWING * left, ends = tried;
+    }
+    if (ends == 3) snprintf(text, 96, "The phases at frames %.6g and %.6g are free.", warning->from, warning->to);
+    if (ends == 1 || ends == 2)
+        snprintf(text, 96, "The phase at frame %.6g is free.", ends == 1 ? warning->to : warning->from);
+    return ends > 0 && free_ends(core->document, warning, ends, &core->error);
 }
 
 static bool free_phases(struct core *core, char text[96])
 {
-    char unused[96];
     bool good = true;
     for (int k = 0; k < core_active_spline(core)->knot_count && good; k++) {
         const struct knot *knot = &core_active_spline(core)->knots[k];
-        good = !knot->has_phase || free_phase(core, knot->frame, unused);
+        good = !knot->has_phase || free_phase(core->document, core->active, knot->frame, &core->error);
     }
     snprintf(text, 96, "The knots hold their values alone.");
     return good;
@@ -214,7 +253,7 @@ static bool free_phases(struct core *core, char text[96])
 static bool switch_off(struct core *core, const struct warning *warning, char text[96])
 {
     struct knot knot;
-    if (!find_knot(core, warning->frame, &knot)) return false;
+    if (!find_knot(core->document, core->active, warning->frame, &knot)) return false;
     knot.has_slope = false;
     snprintf(text, 96, "The slope at frame %.6g is off.", warning->frame);
     return core_put_knot(core, core->active, &knot);
@@ -249,11 +288,13 @@ void warning_remedy(const struct curves *curves, struct core *core, const struct
         good = core_set_parameter(core, core->active, PARAMETER_BANDWIDTH, chosen.remedy);
         snprintf(text, sizeof text, "Bandwidth %.3g.", chosen.remedy);
     }
-    if (chosen.kind == WARNING_FORCED) good = free_phase(core, chosen.remedy, text);
+    if (chosen.kind == WARNING_FORCED) good = free_forced(core, &chosen, text);
     if (chosen.kind == WARNING_SLOPE) good = switch_off(core, &chosen, text);
     if (chosen.kind == WARNING_PHASE) good = free_phases(core, text);
     if (core_end(core, good)) {
         core_message(core, false, text);
+    } else if (chosen.kind == WARNING_FORCED) {
+        core_message(core, false, "Free phases would not help here. Move the knots, or change the frequency.");
     } else if (chosen.kind == WARNING_FAR) {
         core_message(core, false, "Neither limits nor a pose would help here. Move the knots.");
     } else if (chosen.kind == WARNING_SWING) {
@@ -304,7 +345,7 @@ static void put_remedy(const struct warning *warning, enum far_remedy far, char 
         snprintf(remedy, 96, "Click to narrow it to %.3g.", warning->remedy);
         break;
     case WARNING_FORCED:
-        snprintf(remedy, 96, "Click to free the phase of the pose at frame %.6g.", warning->remedy);
+        snprintf(remedy, 96, "Click to free the phase, of the pose where that leaves more of the swing.");
         break;
     case WARNING_SLOPE:
         snprintf(remedy, 96, "Click to switch it off.");
