@@ -14,34 +14,41 @@ static const struct command {
     const char *name;
     int (*run)(int argc, char **argv);
     const char *operands, *summary;
+    bool is_rare; ///< --help-all alone lists it
 } commands[] = {
-    {"live", command_live, "[scene.json]", "the app; without a scene, a swinging tail"},
-    {"solve", command_solve, "scene.json [-o out.csv]", "writes every spline at every sample as CSV"},
-    {"rig", command_rig, "in.glb --chain A:B -o scene.json", "gives a character's tail, ears or hair follow-through"},
-    {"export", command_export, "scene.json -o FILE", "writes the motion for other programs: .glb, .usda, .csv …"},
-    {"check", command_check, "scene.json", "prints every problem in a scene file, or what a .glb holds"},
-    {"simulate", command_simulate, "mesh.obj -o sim.npy",
-     "shakes a closed mesh as a soft body and records its motion"},
+    {"live", command_live, "[scene.json]", "the app; without a scene, a swinging tail", false},
+    {"solve", command_solve, "scene.json [-o out.csv]", "writes every spline at every sample as CSV", true},
+    {"rig", command_rig, "in.glb --chain A:B -o scene.json", "gives a character's tail, ears or hair follow-through",
+     false},
+    {"export", command_export, "scene.json -o FILE", "writes the motion for other programs: .glb, .usda, .csv …",
+     false},
+    {"check", command_check, "scene.json", "prints every problem in a scene file, or what a .glb holds", false},
+    {"simulate", command_simulate, "mesh.obj -o sim.npy", "shakes a mesh as a soft body and records its motion",
+     false},
     {"analyze", command_analyze, "up.npy --rest mesh.obj --fps N -o creature.glb",
-     "turns motions into a character that splines can drive"},
-    {"log", command_log, "FILE.csv [-o FILE.svg]", "summarises the frame times in a timing log"},
+     "turns motions into a character that splines can drive", false},
+    {"log", command_log, "FILE.csv [-o FILE.svg]", "summarises the frame times in a timing log", true},
 };
 
 enum { COMMAND_COUNT = sizeof commands / sizeof commands[0], SUMMARY_AT = 33 };
 
-static int print_help(void)
+/// `all`: also what few need.
+static int print_help(bool all)
 {
     printf("wiggly %s: splines that swing, overshoot and follow through\n\n", WIGGLY_VERSION);
     printf("Usage: wiggly [command] [options]\n\nCommands:\n");
     for (int i = 0; i < COMMAND_COUNT; i++) {
+        if (commands[i].is_rare && !all) continue;
         int length = printf("  %s %s", commands[i].name, commands[i].operands);
         if (length > SUMMARY_AT - 2) length = printf("\n") - 1;
         printf("%*s%s\n", SUMMARY_AT - length, "", commands[i].summary);
     }
-    printf("\n  --version                      print version and commit\n"
-           "  --licenses                     print the licences of wiggly and its built-in parts\n"
-           "  <command> --help               print a command's options\n\n"
-           "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 the environment failed.\n");
+    printf("\n  help [command], --help         print this, or the options of a command\n"
+           "  --help-all                     print everything, also after a command\n"
+           "  --version, -V                  print version and commit\n");
+    if (all)
+        printf("  --licenses                     print the licences of wiggly and its built-in parts\n\n"
+               "Exit status: 0 done, 1 bad input, 2 wrong usage, 3 the environment failed.\n");
     return 0;
 }
 
@@ -82,13 +89,25 @@ static int wrong_command(const char *word)
     return 2;
 }
 
+/// `wiggly help`, and `wiggly help export`, which is `wiggly export --help`.
+static int help_with(int argc, char **argv)
+{
+    static char help[] = "--help";
+    if (argc < 2) return print_help(false);
+    const struct command *command = find_command(argv[1]);
+    char *arguments[] = {argv[1], help, NULL};
+    return command ? command->run(2, arguments) : wrong_command(argv[1]);
+}
+
 static int run(int argc, char **argv)
 {
     static char live[] = "live";
     char *no_arguments[] = {live, NULL};
     if (argc < 2) return command_live(1, no_arguments);
-    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) return print_help();
-    if (strcmp(argv[1], "--version") == 0) {
+    if (strcmp(argv[1], "help") == 0) return help_with(argc - 1, argv + 1);
+    if (strcmp(argv[1], "--help") == 0 || strcmp(argv[1], "-h") == 0) return print_help(false);
+    if (strcmp(argv[1], "--help-all") == 0) return print_help(true);
+    if (strcmp(argv[1], "--version") == 0 || strcmp(argv[1], "-V") == 0) {
         printf("wiggly %s (%s)\n", WIGGLY_VERSION, build_commit);
         return 0;
     }

@@ -11,10 +11,30 @@ one_sentence() { # <what> <text>
 
 expect 0 "--version" "$WIGGLY" --version
 says "--version gives version and commit" "wiggly $(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h) (" "$out"
-expect 0 "--help" "$WIGGLY" --help
-for command in live solve export check simulate log; do
-    says "--help lists $command" "  $command " "$out"
+expect 0 "-V" "$WIGGLY" -V
+says "is --version" "wiggly " "$out"
+expect 0 "--help-all" "$WIGGLY" --help-all
+for command in live solve rig export check simulate analyze log; do
+    says "--help-all lists $command" "  $command " "$out"
 done
+expect 0 "--help" "$WIGGLY" --help
+few=$out
+says "--help lists export" "  export " "$few"
+[[ $few != *"  solve "* ]]
+ok "--help leaves out what few need" $?
+expect 0 "help" "$WIGGLY" help
+[ "$out" = "$few" ]
+ok "help is --help" $?
+expect 0 "help export" "$WIGGLY" help export
+says "is the help of export" "Usage: wiggly export" "$out"
+expect 2 "help of a command that there is none of" "$WIGGLY" help exprot
+says "names the nearest" "did you mean export?" "$err"
+expect 0 "live --help" "$WIGGLY" live --help
+says "lists what users need" "--ui-scale" "$out"
+[[ $out != *--replay* ]]
+ok "and no more" $?
+expect 0 "live --help-all" "$WIGGLY" live --help-all
+says "lists all" "--replay" "$out"
 for command in live solve export check simulate log; do
     expect 0 "$command --help" "$WIGGLY" $command --help
     says "$command --help says how it is called" "Usage: wiggly $command" "$out"

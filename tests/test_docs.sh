@@ -12,7 +12,7 @@ CC=${CC:-gcc}
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
 documents="README.md CONTRIBUTING.md docs/*.md"
-commands=$("$build/wiggly" --help | sed -nE 's/^  ([a-z]+) .*/\1/p' | tr '\n' ' ')
+commands=$("$build/wiggly" --help-all | sed -n '/^Commands:$/,/^$/s/^  \([a-z]*\) .*/\1/p' | tr '\n' ' ')
 unset DISPLAY WAYLAND_DISPLAY
 
 # --- what a command line finds, and how it is cut short where it would last
@@ -141,13 +141,13 @@ done
 # --- what is named in the text
 
 for command in $commands; do
-    "$build/wiggly" "$command" --help | sed -nE 's/^  ((-.), )?(--[a-z-]+).*/\3 \2/p' >"$scratch/$command.options"
+    "$build/wiggly" "$command" --help-all | sed -nE 's/^  ((-.), )?(--[a-z-]+).*/\3 \2/p' >"$scratch/$command.options"
 done
 # shellcheck disable=SC2086
 all=$(cat $documents)
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`[^`]*`' $documents | grep -oE -- '--[a-z][a-z-]*' | sort -u |
-    grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; grep -ohE -- '--[a-z-]+' tools/*.py tools/wiggly-bench.c; printf '%s\n' --help --version --cflags --libs))
+    grep -vxFf <(cut -d' ' -f1 "$scratch"/*.options; grep -ohE -- '--[a-z-]+' tools/*.py tools/wiggly-bench.c; printf '%s\n' --help --help-all --version --cflags --libs))
 [ -z "$unknown" ] || echo "  unknown option $unknown"
 holds "every option that is named is there" [ -z "$unknown" ]
 
@@ -157,7 +157,7 @@ missing=$(for command in $commands; do [[ $all =~ \`wiggly\ \[?$command[^a-z] ]]
 ok "every command is named" $?
 
 # shellcheck disable=SC2086
-unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep -vxFf <(tr ' ' '\n' <<<"$commands"))
+unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep -vxFf <(tr ' ' '\n' <<<"$commands help"))
 [ -z "$unknown" ] || echo "  unknown command $unknown"
 holds "every command that is named is there" [ -z "$unknown" ]
 

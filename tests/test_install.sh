@@ -23,7 +23,7 @@ if command -v man >/dev/null; then
     holds "without a warning" [ -z "$err" ]
 fi
 for command in live solve check simulate analyze log; do
-    missing=$("$root/bin/wiggly" $command --help | sed -nE 's/^  ((-., )?--[a-z-]+.*[^ ])  +.*/\1/p' | while IFS= read -r option; do
+    missing=$("$root/bin/wiggly" $command --help-all | sed -nE 's/^  ((-., )?--[a-z-]+.*[^ ])  +.*/\1/p' | while IFS= read -r option; do
         sed 's/\\-/-/g' "$page" | grep -qxF ".B $option" || echo "$option"
     done)
     [ -z "$missing" ] || echo "  not in wiggly.1: $missing"

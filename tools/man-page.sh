@@ -1,5 +1,5 @@
 #!/bin/sh
-# Prints wiggly(1): what the program's own --help says, command by command, as a page for man. So it has every option there is.
+# Prints wiggly(1): what the program's own --help-all says, command by command, as a page for man. So it has every option there is.
 # Usage: tools/man-page.sh <wiggly>
 set -eu
 wiggly=$1
@@ -27,10 +27,10 @@ as_roff() {
     { sub(/^ +/, ""); print roff($0) }'
 }
 
-help=$("$wiggly" --help)
+help=$("$wiggly" --help-all)
 commands=$(printf '%s\n' "$help" | sed -n '/^Commands:$/,/^$/s/^  \([a-z]*\) .*/\1/p')
 cat <<END
-.\\" Made by tools/man-page.sh from wiggly --help.
+.\\" Made by tools/man-page.sh from wiggly --help-all.
 .TH WIGGLY 1 "" "$("$wiggly" --version | sed 's/ (.*//')" "User Commands"
 .SH NAME
 wiggly \\- $(printf '%s\n' "$help" | sed -n '1s/^[^:]*: //p')
@@ -47,7 +47,7 @@ END
 printf '%s\n' "$help" | sed -n '/^Commands:$/,/^Exit/{/^Exit/d;p}' | as_roff
 for command in $commands; do
     printf '.SH WIGGLY %s\n' "$(printf '%s' "$command" | tr '[:lower:]' '[:upper:]')"
-    "$wiggly" "$command" --help | as_roff
+    "$wiggly" "$command" --help-all | as_roff
 done
 cat <<'END'
 .SH EXIT STATUS

@@ -108,6 +108,7 @@ static bool stop_demo(struct app *app, struct error *error)
 static void play_demo(struct app *app)
 {
     const double dt = app->frame == 0 ? 0 : app->fixed_clock ? replay_dt : app->frame_start - app->last_time;
+    history_mark_saved(app->table.history); // nobody's work: a figure takes its place without a question
     if (!demo_next(app, fmin(fmax(dt, 0), longest_step), &app->error)) app->failed = true;
 }
 

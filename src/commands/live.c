@@ -19,24 +19,27 @@ int command_live(int argc, char **argv)
 {
     struct app_options options = {0};
     int size[2] = {0, 0};
+    enum { COMMON = 5 };
     const struct option_spec specs[] = {
+        {"--size", NULL, "WxH", "size of the window in logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
+        {"--ui-scale", NULL, "S", "size of text and controls (default: as last chosen with F8, else 1)", OPTION_REAL,
+         &options.ui_scale, 0.75, 3},
+        OPTION_THEME(&options.theme, "colours (default: as last chosen with F10, else dark)"),
+        {"--demo", NULL, NULL,
+         "show what the app does, over and over; the first key or click ends it with the start scene", OPTION_FLAG,
+         &options.demo, 0, 0},
+        {"--welcome", NULL, NULL, "show what to try first, as on the first start in a window", OPTION_FLAG,
+         &options.welcome, 0, 0},
         {"--headless", NULL, NULL, "draw without a display", OPTION_FLAG, &options.headless, 0, 0},
         {"--no-draw", NULL, NULL,
          "headless, and nothing is drawn: for what a replay makes of the document (--result), without OpenGL",
          OPTION_FLAG, &options.no_draw, 0, 0},
         {"--frames", NULL, "N", "stop after N frames (default: the replay's length; headless 1200)", OPTION_INT,
          &options.frames, 1, 10000000},
-        {"--size", NULL, "WxH", "logical pixels (1280x720)", OPTION_SIZE, size, 320, 8192},
         {"--scale", NULL, "S", "device pixels per logical pixel, headless only", OPTION_REAL, &options.scale, 0.5, 4},
-        {"--ui-scale", NULL, "S",
-         "how large everything is, on top of that (default: as last chosen with Ctrl+Shift+= and -, else 1)",
-         OPTION_REAL, &options.ui_scale, 0.75, 3},
         {"--stage-scale", NULL, "S",
          "stage resolution while it moves: auto or 0.25 to 1 (default: auto in a window, else 1)", OPTION_TEXT,
          &options.stage_scale, 0, 0},
-        OPTION_THEME(&options.theme, "as last chosen with F10, else dark"),
-        {"--welcome", NULL, NULL, "show what to try first, as on the first start in a window", OPTION_FLAG,
-         &options.welcome, 0, 0},
         OPTION_SOLVER(&options.solver),
         {"--gl-debug", NULL, NULL, "print the OpenGL driver's messages; fail if it complains", OPTION_FLAG,
          &options.gl_debug, 0, 0},
@@ -44,9 +47,6 @@ int command_live(int argc, char **argv)
         {"--screenshot", NULL, "FILE.png", "save a picture of the last frame", OPTION_OUTPUT, &options.screenshot, 0,
          0},
         {"--frames-dir", NULL, "DIR", "save a PNG of every frame", OPTION_TEXT, &options.frames_dir, 0, 0},
-        {"--demo", NULL, NULL,
-         "show what the app does, over and over; the first key or click ends it with the start scene", OPTION_FLAG,
-         &options.demo, 0, 0},
         {"--replay", NULL, "FILE", "play recorded input", OPTION_TEXT, &options.replay, 0, 0},
         {"--record", NULL, "FILE", "record all input", OPTION_OUTPUT, &options.record, 0, 0},
         {"--turns", NULL, "first|second", "draw frames in turn with another program (docs/measuring.md)", OPTION_WORD,
@@ -59,6 +59,7 @@ int command_live(int argc, char **argv)
         .summary = "The app. Without a scene it opens a swinging tail.",
         .options = specs,
         .option_count = sizeof specs / sizeof *specs,
+        .common_count = COMMON,
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &options.scene);

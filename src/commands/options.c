@@ -197,18 +197,21 @@ static enum options_result read_option(const struct usage *usage, int argc, char
     return store(usage, option, argv[++*at]);
 }
 
-static void print_help(const struct usage *usage)
+/// `all`: not only the common options.
+static void print_help(const struct usage *usage, bool all)
 {
+    const int count = all || !usage->common_count ? usage->option_count : usage->common_count;
     printf("Usage: wiggly %s%s %s\n%s\n", usage->command, usage->option_count ? " [options]" : "", usage->operands,
            usage->summary);
     if (usage->option_count) printf("\nOptions:\n");
-    for (int i = 0; i < usage->option_count; i++) {
+    for (int i = 0; i < count; i++) {
         const struct option_spec *option = &usage->options[i];
         char left[WORD_MAX + 1];
         snprintf(left, sizeof left, "%s%s%s%s%s", option->alias ? option->alias : "", option->alias ? ", " : "",
                  option->name, option->argument ? " " : "", option->argument ? option->argument : "");
         printf("  %-26s %s\n", left, option->help);
     }
+    if (count < usage->option_count) printf("\nwiggly %s --help-all lists all options.\n", usage->command);
 }
 
 /// Whether two paths lead to one file; a device or a pipe takes what several write.
@@ -244,8 +247,9 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     bool only_operands = false;
     for (int i = 0; i < usage->operand_maximum; i++) operands[i] = NULL;
     for (int i = 1; i < argc; i++) {
-        if (!only_operands && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0)) {
-            print_help(usage);
+        const bool asks_all = !only_operands && strcmp(argv[i], "--help-all") == 0;
+        if (asks_all || (!only_operands && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0))) {
+            print_help(usage, asks_all);
             return OPTIONS_HELP;
         }
         if (!only_operands && strcmp(argv[i], "--") == 0) {

@@ -41,6 +41,7 @@ struct usage {
     const char *summary;  ///< one line
     const struct option_spec *options;
     int option_count;
+    int common_count; ///< --help lists these first ones, --help-all all; 0: both list all
     int operand_maximum;
 };
 
@@ -62,7 +63,7 @@ struct usage {
 /// What options_parse() returns: whether to go on, or the exit status at once.
 enum options_result {
     OPTIONS_RUN = -1, ///< go on
-    OPTIONS_HELP = 0, ///< --help was printed
+    OPTIONS_HELP = 0, ///< --help or --help-all was printed
     OPTIONS_WRONG = 2 ///< a sentence was printed on stderr
 };
 
