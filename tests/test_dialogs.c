@@ -237,3 +237,23 @@ TEST(test_advice_names_what_is_there)
     expect_advice(SWING_BY("") "}", "Double-click", "Double-click to set a knot. Space plays, F1 shows all keys");
     expect_advice(SWING "}", "Double-click", "Drag a knot. Space plays, F1 shows all keys");
 }
+
+/// In the smallest window all buttons are inside of the dialog, which has a margin of 12 pixels.
+SESSION_TEST(test_buttons_fit_the_smallest_window, open_session(s))
+{
+    static const char *const all[][4] = {{"Keep mine", "Take theirs", "Save as", "Cancel"}, {"Cancel", "Save"}};
+    for (int saving = 0; saving < 2; saving++) {
+        editor_resize(s->editor, 480, 320, 1);
+        if (!saving) dialogs_ask_changed(s->editor->dialogs, &s->editor->core, "walk.json", true);
+        if (saving) dialogs_save_as(s->editor->dialogs, &s->editor->core);
+        session_frame(s);
+        const char *title = saving ? "Save the scene as" : "walk.json has changed on the disk";
+        const float left = shown_text(s->editor, title)->x;
+        for (int i = 0; i < 4 && all[saving][i]; i++) {
+            const struct draw_command *shown = shown_text(s->editor, all[saving][i]);
+            assert_non_null(shown);
+            assert_true(shown->x >= left && shown->x < 480 - left && shown->y < 320 - 16);
+        }
+        session_key(s, KEY_ESCAPE, 0);
+    }
+}

@@ -83,6 +83,18 @@ static void open_recover(struct session *s)
                            &(struct recovery_offer){"walk.json", "21 November 2026, 10:00:00", 2});
 }
 
+static void open_changed(struct session *s)
+{
+    dialogs_ask_changed(s->editor->dialogs, &s->editor->core, "walk.json", true);
+}
+
+/// A long name beside the figures.
+static void open_busy(struct session *s)
+{
+    s->editor->core.status.told = (struct figures){0, 8465};
+    core_set_path(&s->editor->core, "/home/somebody/a scene with a name that is rather too long to show.json");
+}
+
 static void open_failed(struct session *s)
 {
     session_key(s, 'S', MOD_CTRL | MOD_SHIFT);
@@ -147,7 +159,7 @@ static const struct screen {
     {"quit", open_quit, false},           {"recover", open_recover, false}, {"save failed", open_failed, false},
     {"palette", open_palette, false},     {"add menu", open_add, false},    {"one knot", open_knots, false},
     {"all knots", open_all_knots, false}, {"history", open_history, false}, {"message", open_message, true},
-    {"overlays", open_overlays, false},
+    {"overlays", open_overlays, false},   {"changed", open_changed, false}, {"busy", open_busy, true},
 };
 
 // --- the walk -----------------------------------------------------------------------------------------------------------
@@ -215,6 +227,24 @@ TEST(test_the_tail_on_every_screen)
     assert_done(file_read("assets/scenes/tail.json", 1 << 20, &scene, &size, &error));
     assert_int_equal(walk_all(scene, true), 0);
     free(scene);
+}
+
+/// In windows as narrow as they can be made, words may be cut short, but stay apart and inside.
+TEST(test_narrow_windows)
+{
+    static const float sizes[][3] = {{640, 480, 1}, {560, 400, 1}, {480, 320, 1}};
+    static const struct screen narrow[] = {
+        {"start", open_start, true},     {"help", open_help, true},       {"open", open_open, true},
+        {"save as", open_save, true},    {"quit", open_quit, true},       {"save failed", open_failed, true},
+        {"changed", open_changed, true}, {"recover", open_recover, true}, {"message", open_message, true},
+        {"busy", open_busy, true},
+    };
+    int problems = 0;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        for (size_t k = 0; k < sizeof narrow / sizeof *narrow; k++)
+            problems += walk(crowded, &narrow[k], sizes[i], false);
+    }
+    assert_int_equal(problems, 0);
 }
 
 TEST(test_crowded_on_every_screen) { assert_int_equal(walk_all(crowded, false), 0); }

@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LIST_ROWS = 8, BUTTON_WIDTH = 104 };
+enum { LIST_ROWS = 8, AROUND_LIST = 184, BUTTON_WIDTH = 104 };
 
 static bool is_question(const struct dialog *dialog)
 {
@@ -281,10 +281,11 @@ static void build_list(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
-    struct rect list = {ui->area.x, ui->y, ui->area.w, LIST_ROWS * UI_ROW};
+    const int rows = (int)fminf(LIST_ROWS, fmaxf((core->layout.window.h - AROUND_LIST) / UI_ROW, 1));
+    struct rect list = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
     bool confirmed = is_confirmed(dialog, list);
-    int first = dialog->choice >= LIST_ROWS ? dialog->choice - LIST_ROWS + 1 : 0, taken = -1;
-    for (int row = 0; row < LIST_ROWS; row++) {
+    int first = dialog->choice >= rows ? dialog->choice - rows + 1 : 0, taken = -1;
+    for (int row = 0; row < rows; row++) {
         struct rect r = ui_row(ui, UI_ROW);
         if (first + row < dialog->match_count && dialog_row(dialog, r, first + row)) taken = first + row;
     }

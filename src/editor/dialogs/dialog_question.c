@@ -16,10 +16,11 @@ int question_build(struct dialog *dialog)
     ui_paragraph(ui, failed ? dialog->error : question->note, failed ? theme()->error : theme()->text_dim);
     ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
     struct rect row = ui_row(ui, 28);
+    const float width = fminf(BUTTON_WIDTH, floorf((row.w + UI_GAP) / (float)question->count) - UI_GAP);
     int pressed = QUESTION_OPEN;
     for (int i = 0; i < question->count; i++) {
-        float x = row.x + row.w - (float)(question->count - i) * (BUTTON_WIDTH + UI_GAP) + UI_GAP;
-        struct rect r = {x, row.y, BUTTON_WIDTH, row.h};
+        float x = row.x + row.w - (float)(question->count - i) * (width + UI_GAP) + UI_GAP;
+        struct rect r = {x, row.y, width, row.h};
         const struct answer *answer = &question->answers[i];
         if (ui_button(ui, r, answer->name, answer->label, i == dialog->choice)) pressed = i;
     }

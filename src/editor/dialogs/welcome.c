@@ -91,10 +91,10 @@ static struct card corner_card(const struct core *core, enum form form, bool rig
 }
 
 /// Hints across the upper edge, in place of the description: the camera leaves so much free.
-static struct card band_card(const struct core *core)
+static struct card band_card(const struct core *core, int count)
 {
     const struct rect *stage = &core->layout.stage;
-    struct card card = {.form = FORM_BAND, .hints = stage->h < TALL || !core->document->about ? 1 : 2};
+    struct card card = {.form = FORM_BAND, .hints = count};
     float what, why;
     measure(core->document, card.hints, &what, &why);
     card.before = what + GAP;
@@ -126,7 +126,8 @@ static struct card place_card(const struct core *core, struct rect figure)
         if (legend && !places[i].right) continue;
         if (roomy || is_clear(core, &card, figure)) return card;
     }
-    return band_card(core);
+    const struct card band = band_card(core, core->layout.stage.h < TALL || !core->document->about ? 1 : 2);
+    return band.rect.w <= core->layout.stage.w ? band : band_card(core, 1);
 }
 
 bool welcome_event(struct dialogs *dialogs, const struct event *event)
@@ -167,6 +168,8 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, struct rec
     if (!history_is_saved(core->history)) dialogs->welcome = false;
     if (!dialogs->welcome) return;
     const struct card card = place_card(core, figure);
+    dialogs->card = (struct rect){0};
+    if (card.rect.w > core->layout.stage.w) return;
     struct drawlist *list = &core->list;
     struct rect clip = drawlist_push_clip(list, core->layout.stage);
     drawlist_rounded(list, card.rect, 8, theme()->panel);

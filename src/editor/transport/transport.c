@@ -223,11 +223,11 @@ struct title {
     float width;
 };
 
-static struct title title_of(const struct core *core, bool saved, struct rect bar)
+static struct title title_of(const struct core *core, bool saved, float room)
 {
     struct title title;
     snprintf(title.text, sizeof title.text, "%s%s", core->title, saved ? "" : " •");
-    title.width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, title.text), bar.w / 5);
+    title.width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, title.text), room);
     return title;
 }
 
@@ -278,22 +278,22 @@ void transport_show(struct core *core, const char *hint)
     figures_text(core, figures, sizeof figures);
     const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
     const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
-    // What has happened is said in full: the figures give way to it, and the name of the scene.
-    const float needed = GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text);
+    // What has happened is said in full: the figures give way to it and to the scene's name, and that to what has happened.
+    const float needed = message->text[0] ? GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text) : 0;
     const bool saved = history_is_saved(core->history);
-    const struct title title = title_of(core, saved, bar);
-    const bool tight = message->text[0] && x + title.width + needed > end - width - GAP;
-    const float right = tight ? end : end - width;
-    if (!tight && right > x)
-        paint_text(&core->list, (struct rect){right, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim, figures);
-    if (!tight || x + title.width + needed <= end) {
+    const struct title title = title_of(core, saved, fminf(bar.w / 5, fmaxf(end - x, 0)));
+    const bool roomy = x + title.width + needed + GAP + width <= end;
+    if (roomy)
+        paint_text(&core->list, (struct rect){end - width, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim,
+                   figures);
+    if (roomy || x + title.width + needed <= end) {
         paint_text(&core->list, (struct rect){x, bar.y, title.width, bar.h}, FONT_LABEL,
                    saved ? theme()->text_dim : theme()->text, title.text);
         x += title.width + GAP;
     }
     const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(core);
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
-    struct rect middle = {x, bar.y, right - (tight ? 0 : GAP) - x, bar.h};
+    const struct rect middle = {x, bar.y, end - (roomy && figures[0] ? width + GAP : 0) - x, bar.h};
     if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
     show_unkept(core, bar);
 }
