@@ -1,6 +1,6 @@
 #version 330 core
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line.
-// FURRED is a coat, FACED what a face is drawn on, PICTURED any other character; else it is a reed.
+// FURRED is a coat, FACED what a face is drawn on, PICTURED any other character.
 #if defined(FACED)
 #define FURRED
 #endif

@@ -52,6 +52,26 @@ TEST(every_reed_is_a_variation)
     session_close(&s);
 }
 
+/// A meadow has no hard edge: it is an ellipse whose outer half has fewer reeds than the inner one, and shorter ones.
+TEST(it_thins_out_towards_its_edge)
+{
+    struct session s;
+    struct models *models = panel_open_models(&s, scene);
+    session_frame(&s);
+    int count[2] = {0};
+    double height[2] = {0};
+    for (int r = 0; r < 300; r++) {
+        const struct reed *reed = meadow_reed(models_meadow(models), r);
+        const double x = (double)reed->place[0] / 2, z = (double)reed->place[2] / 1.5, from_middle = x * x + z * z;
+        assert_true(from_middle <= 1);
+        count[from_middle > 0.5]++;
+        height[from_middle > 0.5] += (double)reed->height;
+    }
+    assert_true(count[0] > 2 * count[1] && count[1] > 30);
+    assert_true(height[0] / count[0] > 1.2 * height[1] / count[1]);
+    session_close(&s);
+}
+
 SESSION_TEST(its_numbers_are_set_in_the_inspector, panel_open(s, scene, 1280, 2400))
 {
     const char *original = session_saved(s);

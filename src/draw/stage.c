@@ -17,7 +17,7 @@ static const struct {
     [PROGRAM_FACE] = {"stage_skirt.vert", "stage_mesh.frag", "FACED"},
     [PROGRAM_PLAIN] = {"stage_skirt.vert", "stage_mesh.frag", NULL},
     [PROGRAM_PICTURED] = {"stage_skirt.vert", "stage_mesh.frag", "PICTURED"},
-    [PROGRAM_MEADOW] = {"stage_meadow.vert", "stage_mesh.frag", NULL},
+    [PROGRAM_MEADOW] = {"stage_meadow.vert", "stage_meadow.frag", NULL},
     [PROGRAM_FLAT] = {"stage_flat.vert", "stage_flat.frag", NULL},
 };
 
@@ -80,15 +80,15 @@ void stage_upload(struct stage_renderer *renderer, const struct stage_view *view
               stage_flat_upload(renderer->flat, view);
 }
 
-/// Clears depth, and draws the rigs.
-static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float scale)
+/// Clears depth, and draws the rigs; with a `seam`, reeds blend into what is behind.
+static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float scale, float seam)
 {
     glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     glClear(GL_DEPTH_BUFFER_BIT);
     stage_meshes_draw(renderer->meshes, view, scale, 0.0f);
-    stage_meadows_draw(&renderer->meadows, &renderer->programs[PROGRAM_MEADOW], view);
+    stage_meadows_draw(&renderer->meadows, &renderer->programs[PROGRAM_MEADOW], view, seam);
 }
 
 static void end_rigs(void)
@@ -99,17 +99,17 @@ static void end_rigs(void)
 
 void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, int x, int y, int width, int height)
 {
-    const float scale = (float)height / view->viewport.h;
+    const float scale = (float)height / view->viewport.h, seam = 2.0f / (view->projection[5] * (float)height);
     glViewport(x, y, width, height);
     glDisable(GL_DEPTH_TEST);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
     stage_flat_draw(renderer->flat, &renderer->programs[PROGRAM_FLAT], y, height);
-    draw_rigs(renderer, view, scale);
+    draw_rigs(renderer, view, scale, seam);
     // Edges without multisampling: a skirt a pixel wide (draw/posed.h) fades out from the outlines over whatever is behind: the
     // background or the animal itself.
     glEnable(GL_BLEND);
     glDepthMask(GL_FALSE);
-    stage_meshes_draw(renderer->meshes, view, scale, 2.0f / (view->projection[5] * (float)height));
+    stage_meshes_draw(renderer->meshes, view, scale, seam);
     glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     end_rigs();
@@ -118,6 +118,6 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
 void stage_draw_rigs(struct stage_renderer *renderer, const struct stage_view *view, int width, int height)
 {
     glViewport(0, 0, width, height);
-    draw_rigs(renderer, view, (float)height / view->viewport.h);
+    draw_rigs(renderer, view, (float)height / view->viewport.h, 0.0f);
     end_rigs();
 }

@@ -124,14 +124,16 @@ void stage_flat_draw(const struct stage_flat *flat, const struct program *progra
 
 struct stage_meadows {
     GLuint vertex_array, corners, indices, instances;
+    struct stage_reed sorted[STAGE_MAX_REEDS]; ///< from the farthest to the nearest
 };
 
 void stage_meadows_create(struct stage_meadows *meadows);
 void stage_meadows_destroy(struct stage_meadows *meadows);
 /// Returns how many bytes that were.
-long stage_meadows_upload(const struct stage_meadows *meadows, const struct stage_view *view);
+long stage_meadows_upload(struct stage_meadows *meadows, const struct stage_view *view);
+/// `seam` as for meshes: with it, edges blend into what is behind.
 void stage_meadows_draw(const struct stage_meadows *meadows, const struct program *program,
-                        const struct stage_view *view);
+                        const struct stage_view *view, float seam);
 
 // Imported characters, foxes and soft characters.
 

@@ -1,7 +1,10 @@
-/// Draws a meadow: one strip of triangles, instanced for every reed.
+/// Draws a meadow: one strip of triangles, instanced for every reed. Reeds are about as thin as pixels, so each pixel blends what a
+/// reed covers of it into what is behind: they are drawn from the farthest to the nearest.
 #include "draw/stage.h"
+#include <string.h>
 
-enum { RINGS = 5, CORNERS = 2 * RINGS - 1, INDICES = 6 * (RINGS - 1) - 3 };
+enum { RINGS = 5, CORNERS = 2 * RINGS, INDICES = 6 * (RINGS - 1) };
+enum { DEPTHS = 2048 }; ///< that are told apart when they are sorted
 
 /// Joints from the ground at which a reed has corners; one at its tip.
 static const float rings[RINGS] = {0, 2, 3.7f, 5, 6};
@@ -12,7 +15,7 @@ static void make_strip(struct stage_meadows *meadows)
     GLushort indices[INDICES], *next = indices;
     for (int c = 0; c < CORNERS; c++) {
         corners[c][0] = rings[c / 2];
-        corners[c][1] = c + 1 == CORNERS ? 0.0f : (float)(c % 2 * 2 - 1);
+        corners[c][1] = (float)(c % 2 * 2 - 1);
     }
     for (int c = 0; c + 2 < CORNERS; c++) {
         *next++ = (GLushort)c;
@@ -52,22 +55,48 @@ void stage_meadows_destroy(struct stage_meadows *meadows)
     glDeleteBuffers(3, (const GLuint[]){meadows->corners, meadows->indices, meadows->instances});
 }
 
-long stage_meadows_upload(const struct stage_meadows *meadows, const struct stage_view *view)
+/// How far the foot of a reed is from the eye's plane, as a share of all depths, the farthest 0.
+static int depth_of(const struct stage_view *view, const struct stage_reed *reed, float nearest, float farthest)
+{
+    const float *m = view->view, *p = reed->place, depth = -(m[2] * p[0] + m[6] * p[1] + m[10] * p[2] + m[14]);
+    const float share = (farthest - depth) / fmaxf(farthest - nearest, 1e-6f);
+    return (int)(fminf(fmaxf(share, 0), 1) * (DEPTHS - 1));
+}
+
+/// Counts how many reeds each depth has, and puts them in their places.
+static void sort(struct stage_reed *sorted, const struct stage_view *view)
+{
+    const struct stage_meadow *meadow = &view->meadow;
+    const float *m = view->view, *lo = meadow->lo, *hi = meadow->hi;
+    const float middle = -(m[2] * (lo[0] + hi[0]) / 2 + m[10] * (lo[2] + hi[2]) / 2 + m[14]);
+    const float half = fabsf(m[2]) * (hi[0] - lo[0]) / 2 + fabsf(m[10]) * (hi[2] - lo[2]) / 2;
+    int next[DEPTHS + 1] = {0};
+    for (int r = 0; r < meadow->count; r++)
+        next[depth_of(view, &meadow->reeds[r], middle - half, middle + half) + 1]++;
+    for (int d = 0; d < DEPTHS; d++) next[d + 1] += next[d];
+    for (int r = 0; r < meadow->count; r++)
+        sorted[next[depth_of(view, &meadow->reeds[r], middle - half, middle + half)]++] = meadow->reeds[r];
+}
+
+long stage_meadows_upload(struct stage_meadows *meadows, const struct stage_view *view)
 {
     const size_t size = (size_t)view->meadow.count * sizeof *view->meadow.reeds;
     if (size == 0) return 0;
+    sort(meadows->sorted, view);
     glBindBuffer(GL_ARRAY_BUFFER, meadows->instances);
-    glBufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)size, view->meadow.reeds);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)size, meadows->sorted);
     return (long)size;
 }
 
 void stage_meadows_draw(const struct stage_meadows *meadows, const struct program *program,
-                        const struct stage_view *view)
+                        const struct stage_view *view, float seam)
 {
     if (view->meadow.count == 0) return;
-    program_use(program, view, 0.0f);
+    program_use(program, view, seam);
     glUniform2f(program->at[AT_BEND], view->meadow.lag, view->meadow.gain);
+    if (seam > 0) glEnable(GL_BLEND);
     glBindVertexArray(meadows->vertex_array);
     glDrawElementsInstanced(GL_TRIANGLES, INDICES, GL_UNSIGNED_SHORT, NULL, view->meadow.count);
+    glDisable(GL_BLEND);
     glBindVertexArray(0);
 }

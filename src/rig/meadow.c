@@ -72,16 +72,19 @@ static float chance(int seed, int reed, int what)
     return (float)(hash_bytes(HASH_START, key, sizeof key) >> 40) * 0x1p-24f;
 }
 
-/// On a grid, each somewhere in its cell, so that they stand neither in rows nor in clumps.
+/// On a grid, each somewhere in its cell, so that they stand neither in rows nor in clumps. The grid's square is bent to the ellipse in
+/// it, which thins out towards its edge, and reeds are shorter there.
 static struct reed plant(const struct meadow_rig *rig, int reed)
 {
     const double wide = rig->area[0], deep = rig->area[1];
     const int columns = (int)fmax(1, round(sqrt(rig->count * wide / deep))),
               rows = (rig->count + columns - 1) / columns;
-    const float x = ((float)(reed % columns) + chance(rig->seed, reed, 0)) / (float)columns - 0.5f;
-    const float z = ((float)(reed / columns) + chance(rig->seed, reed, 1)) / (float)rows - 0.5f;
-    const float tall = 0.7f + 0.6f * chance(rig->seed, reed, 2);
-    return (struct reed){.place = {x * (float)wide, 0, z * (float)deep},
+    const float u = 2 * ((float)(reed % columns) + chance(rig->seed, reed, 0)) / (float)columns - 1;
+    const float v = 2 * ((float)(reed / columns) + chance(rig->seed, reed, 1)) / (float)rows - 1;
+    const float x = u * sqrtf(1 - v * v / 2), z = v * sqrtf(1 - u * u / 2), r2 = fminf(x * x + z * z, 1);
+    const float out = 0.65f + (0.35f - 0.15f * chance(rig->seed, reed, 5)) * r2 * r2; // its edge is ragged
+    const float tall = (0.7f + 0.6f * chance(rig->seed, reed, 2)) * (1 - 0.5f * r2 * r2 * r2);
+    return (struct reed){.place = {out * x * (float)wide / 2, 0, out * z * (float)deep / 2},
                          .height = tall * (float)rig->height,
                          .turn = 1.2f * (chance(rig->seed, reed, 3) - 0.5f),
                          .shade = chance(rig->seed, reed, 4)};
