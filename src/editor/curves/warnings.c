@@ -329,10 +329,11 @@ static void put_remedy(const struct warning *warning, enum far_remedy far, char 
     case WARNING_FAR:
         if (far == FAR_CALM) snprintf(remedy, 96, "Click to raise calm to 1.");
         if (far == FAR_LIMITS)
-            snprintf(remedy, 96, "Click to set limits from %.6g to %.6g: so it swings least.", warning->low,
-                     warning->high);
+            snprintf(remedy, 96, "Click to set limits from %.6g to %.6g, which leave the smallest swing.",
+                     warning->low, warning->high);
         if (far == FAR_POSE)
-            snprintf(remedy, 96, "Click to add a pose at frame %.6g: so it swings least.", warning->frame);
+            snprintf(remedy, 96, "Click to add a pose at frame %.6g, which leaves the smallest swing.",
+                     warning->frame);
         if (far == FAR_NOTHING) snprintf(remedy, 96, "Neither limits nor a pose would help. Move the knots.");
         break;
     case WARNING_SWING:
@@ -345,7 +346,7 @@ static void put_remedy(const struct warning *warning, enum far_remedy far, char 
         snprintf(remedy, 96, "Click to narrow it to %.3g.", warning->remedy);
         break;
     case WARNING_FORCED:
-        snprintf(remedy, 96, "Click to free the phase, of the pose where that leaves more of the swing.");
+        snprintf(remedy, 96, "Click to free the phase of one of the poses, or of both.");
         break;
     case WARNING_SLOPE:
         snprintf(remedy, 96, "Click to switch it off.");
