@@ -32,7 +32,7 @@ fi
 # The live app lasts until somebody quits it: ten small frames do. A simulation takes 10 s: a coarse, short one does.
 case \${1-live} in
 simulate) set -- "\$@" --tets 300 --seconds 2 ;;
-solve | rig | export | check | analyze | -*) ;;
+solve | rig | export | check | analyze | log | -*) ;;
 *)
     [[ " \$* " == *" --frames "* || " \$* " == *" --replay "* ]] || set -- "\$@" --frames 10
     [[ " \$* " == *" --replay "* ]] || set -- "\$@" --size 480x320
