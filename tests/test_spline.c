@@ -339,8 +339,9 @@ TEST(a_description_of_zeroes_is_valid)
 TEST(every_status_has_a_text_of_its_own)
 {
     for (int a = 0; a < WIGGLY_STATUS_COUNT; a++) {
-        assert_true(strlen(wiggly_status_text((wiggly_status)a)) > 1);
-        for (int b = 0; b < a; b++) {
+        const bool is_free = a > WIGGLY_SINGULAR && a < WIGGLY_ERROR_ARGUMENT; // for later versions
+        assert_int_equal(strcmp(wiggly_status_text((wiggly_status)a), "unknown status") == 0, is_free);
+        for (int b = 0; b < a && !is_free; b++) {
             assert_string_not_equal(wiggly_status_text((wiggly_status)a), wiggly_status_text((wiggly_status)b));
         }
     }

@@ -3,10 +3,10 @@
 
 static const char *const status_text[WIGGLY_STATUS_COUNT] = {
     [WIGGLY_OK] = "solved",
-    [WIGGLY_CALMED] = "the start could swing without limit; solved with calm 0.05 instead of 0",
+    [WIGGLY_CALMED] = "with calm 0 the swing has no limit; solved with calm 0.05 instead",
     [WIGGLY_LEVELLED] = "the knots do not determine the curve; solved with slope 0 at the earliest knot",
     [WIGGLY_INEXACT] = "solved, but the estimated error exceeds the tolerance",
-    [WIGGLY_SINGULAR] = "singular in every way tried; straight lines join the knots",
+    [WIGGLY_SINGULAR] = "no curve could be found; straight lines join the knots",
     [WIGGLY_ERROR_ARGUMENT] = "a pointer is missing or a count is out of range",
     [WIGGLY_ERROR_SIZE] =
         "the size of a structure is not set, or it asks for more than this version of libwiggly has",
@@ -26,6 +26,6 @@ static const char *const status_text[WIGGLY_STATUS_COUNT] = {
 
 const char *wiggly_status_text(wiggly_status status)
 {
-    if ((int)status < 0 || status >= WIGGLY_STATUS_COUNT) return "unknown status";
-    return status_text[status];
+    const char *text = (int)status >= 0 && status < WIGGLY_STATUS_COUNT ? status_text[status] : NULL;
+    return text ? text : "unknown status";
 }
