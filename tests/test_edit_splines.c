@@ -12,6 +12,7 @@ WORLD_TEST(test_a_new_spline, world_open(world))
     assert_near(added->parameter[PARAMETER_FREQUENCY].value, 1, 0);
     assert_near(added->parameter[PARAMETER_DAMPING].value, 0.1, 0);
     assert_near(added->parameter[PARAMETER_BANDWIDTH].value, 0.1, 0);
+    assert_int_equal(spline_start(added), WIGGLY_LOOP); // as one of the others does
     assert_int_equal(added->knot_count, 1);
     assert_near(added->knots[0].frame, 7, 0);
     assert_int_equal(world->document->splines[3]->parameter[PARAMETER_EQUILIBRIUM].track, 0);

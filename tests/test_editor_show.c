@@ -339,14 +339,16 @@ SESSION_TEST(test_the_playhead_names_the_frame_of_the_next_knot, session_open(s,
     assert_near(s->document->splines[0]->knots[2].frame, 52, 0);
 }
 
-/// V: which way the curves are shown stands beside them for as long as they are; Im x is named where it is drawn.
+/// V: which way the curves are shown stands beside them for as long as they are. Shift+V: the phase curve, named where it is drawn.
 SESSION_TEST(test_the_curves_say_how_they_are_shown, session_open(s, TAIL))
 {
-    assert_true(shows_text(s, "Im"));
+    assert_false(shows_text(s, "phase"));
+    session_key(s, 'V', MOD_SHIFT);
+    assert_true(shows_text(s, "phase"));
     session_key(s, 'V', 0);
     session_key(s, 'V', 0);
     assert_true(shows_text(s, "Cubic"));
-    assert_false(shows_text(s, "Im"));
+    assert_false(shows_text(s, "phase"));
 }
 
 /// Home puts everything back into sight where the pointer is: the camera over the stage, else the curves.

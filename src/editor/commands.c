@@ -326,6 +326,7 @@ const struct command commands[] = {
     COMMAND("Show the selection", CURVES, 0, NOTHING, 0, .run = run_frame, 1, {KEY_END, 0}),
     COMMAND("Normalise: all curves equally high", CURVES, 0, NOTHING, 0, .core = core_flip, SWITCH_NORMALISE,
             {'N', 0}),
+    COMMAND("Phase curve", CURVES, 0, SWING, ANY_TIME, .core = core_flip, SWITCH_PHASE, {'V', SHIFT}),
     COMMAND("Dope sheet", CURVES, ON_TIME, NOTHING, 0, .core = core_flip, SWITCH_SHEET, {KEY_F7, 0}),
     COMMAND("Frames or seconds", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SECONDS, {'U', 0}),
     COMMAND("Snap to frames or not", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SNAP, {'G', 0}),

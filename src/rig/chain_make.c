@@ -171,7 +171,7 @@ bool chain_make(struct document *document, const struct models *models, const st
                               .to = gltf->nodes[bones.node[bones.count - 1]].name,
                               .frequency = wish->frequency > 0 ? wish->frequency : round(10 * frequency) / 10,
                               .damping = wish->damping > 0 ? wish->damping : USUAL_DAMPING,
-                              .loops = is_loop(document, &model->model, gltf)};
+                              .loops = document_loops(document) || is_loop(document, &model->model, gltf)};
     struct chain chain = {.model = plan.model, .by_file = plan.by_file, .from = plan.from, .to = plan.to};
     const struct chain *twin = wish->own ? NULL : find_twin(document, wish);
     const double bend =

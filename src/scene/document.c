@@ -242,6 +242,14 @@ bool document_has_motions(const struct document *document)
     return false;
 }
 
+bool document_loops(const struct document *document)
+{
+    for (int i = 0; i < document->spline_count; i++) {
+        if (spline_start(document->splines[i]) == WIGGLY_LOOP) return true;
+    }
+    return false;
+}
+
 bool document_is_limited(const struct document *document)
 {
     for (int i = 0; i < document->spline_count; i++) {

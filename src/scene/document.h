@@ -134,6 +134,9 @@ int document_longest(const struct document *document);
 /// Whether the equilibrium of any spline follows a joint.
 bool document_has_motions(const struct document *document);
 
+/// Whether a spline of the document loops: then what is new loops too.
+bool document_loops(const struct document *document);
+
 /// Whether a spline of the document has a low or high limit.
 bool document_is_limited(const struct document *document);
 

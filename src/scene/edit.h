@@ -20,7 +20,7 @@ bool edit_knot_set(struct document *document, int spline, const struct knot *kno
 /// Sets a parameter; a motion is copied. A new mode clamps, so that the saved file loads.
 bool edit_parameter(struct document *document, int spline, enum parameter parameter, const struct param *param,
                     struct error *error);
-/// Adds a spline at a place in the list (-1: the end), with f 1, ζ 0.1, β 0.1. `name` NULL: a free one. `first` NULL: it has no knot.
+/// Adds a spline at a place in the list (-1: the end), with f 1, ζ 0.1, β 0.1; it loops where others do. `name` NULL: a free one. `first` NULL: it has no knot.
 bool edit_spline_add(struct document *document, int at, const char *name, const struct knot *first,
                      struct error *error);
 /// A copy goes after the spline, with a free name and new knot ids.

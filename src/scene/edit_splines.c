@@ -98,6 +98,7 @@ bool edit_spline_add(struct document *document, int at, const char *name, const 
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
         spline->parameter[p].value = parameter_rows[p].fresh;
     }
+    if (document_loops(document)) spline->parameter[PARAMETER_START].value = WIGGLY_LOOP;
     spline->knots = need(1, sizeof *spline->knots);
     spline->knot_capacity = 1;
     if (first) {

@@ -6,15 +6,16 @@
 #define PLACE(member) offsetof(wiggly_desc, member)
 
 const struct parameter_row parameter_rows[PARAMETER_COUNT] = {
-    [PARAMETER_MODE] = {.name = "mode",
-                        .hint = "Complex: phase is free. Real: a damped spring. Cubic: no swing (M)",
-                        .undo = "Change mode",
-                        .kind = PARAMETER_CHOICE,
-                        .modes = IN_ALL,
-                        .place = PLACE(mode),
-                        .maximum = WIGGLY_CUBIC,
-                        .words = {"complex", "real", "cubic"},
-                        .labels = {"Complex", "Real", "Cubic"}},
+    [PARAMETER_MODE] =
+        {.name = "mode",
+         .hint = "Wiggly: swings, with a free phase. Spring: swings as a damped spring. Cubic: no swing (M)",
+         .undo = "Change kind",
+         .kind = PARAMETER_CHOICE,
+         .modes = IN_ALL,
+         .place = PLACE(mode),
+         .maximum = WIGGLY_CUBIC,
+         .words = {"complex", "real", "cubic"},
+         .labels = {"Wiggly", "Spring", "Cubic"}},
     [PARAMETER_FREQUENCY] = {.name = "frequency",
                              .unit = "Hz",
                              .hint = "Swings per second (hold F and press ↑ ↓)",

@@ -63,6 +63,7 @@ enum core_switch {
     SWITCH_TRAIL,
     SWITCH_GHOST,
     SWITCH_SHEET,
+    SWITCH_PHASE,
     SWITCH_SECONDS,
     SWITCH_NORMALISE
 };

@@ -301,6 +301,7 @@ struct curve_options {
     bool normalise; ///< every curve as high as the active one; the axis shows the active one's values
     bool seconds;   ///< on the ruler, in place of frames
     bool sheet;     ///< the dope sheet is open
+    bool phase;     ///< the imaginary part of the active curve, from which its phase is seen
 };
 
 /// A knot by its indices.

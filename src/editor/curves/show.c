@@ -51,7 +51,7 @@ static void show_ghost(struct curves *curves, struct core *core)
 
 static bool shows_imaginary(const struct core *core, const struct spline *spline)
 {
-    return spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
+    return core->curves.phase && spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
 }
 
 /// Lines in painter's order, the active one last.
@@ -297,7 +297,7 @@ static int place_labels(const struct curves *curves, const struct core *core, st
         insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
     }
     if (active && shows_imaginary(core, active)) {
-        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, color, "Im"});
+        insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, color, "phase"});
     }
     for (int i = 0; i < cache->other_count && count < most; i++) {
         int spline = cache->other_spline[i];

@@ -29,12 +29,13 @@ static void build_drives(struct inspector *in, const struct character_rig *rig)
         struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
         snprintf(name, sizeof name, "drive.%d", k);
         snprintf(remove, sizeof remove, "drive.%d.remove", k);
-        snprintf(text, sizeof text, "%.60s, by %.60s", drive->name, in->core->document->splines[drive->spline]->name);
+        snprintf(text, sizeof text, "%.60s, driven by %.60s", drive->name,
+                 in->core->document->splines[drive->spline]->name);
         r.w -= r.h + 4;
-        ui_hint(ui, r, "One of the ways this character swings");
+        ui_hint(ui, r, "A channel of this character, and the spline that drives it");
         const uint32_t color = spline_list_color(in->core->document, drive->spline);
         if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose(in, k);
-        if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this coordinate")) continue;
+        if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this channel")) continue;
         const int owner = characters_rig(in->core);
         if (core_begin(in->core, "Remove coordinate", 0))
             core_end(in->core, edit_drive_remove(in->core->document, owner, k, &in->core->error));
@@ -86,7 +87,7 @@ static void choose_spline(struct inspector *in, const struct dropdown *list)
     if (core_end(in->core, set_drive(in, &next, &in->core->error))) choose(in, in->core->characters.drive);
 }
 
-static const struct dropdown spline_list = {"drive.splines", "The spline that drives this coordinate", choose_spline};
+static const struct dropdown spline_list = {"drive.splines", "The spline that drives this channel", choose_spline};
 
 /// Whether the rig drives the coordinate already.
 static bool is_driven(const struct character_rig *rig, const char *name)

@@ -48,7 +48,7 @@ static const struct section {
     {"section.knot", NULL, inspector_knot_title, inspector_knot, SPLINE, false},
     {"section.splines", "Splines", NULL, inspector_splines, 0, false},
     {"section.spline", "Spline", NULL, inspector_spline, SPLINE, false},
-    {"section.rigs", "Tails and characters", NULL, inspector_rigs, 0, false},
+    {"section.rigs", "Rigs", NULL, inspector_rigs, 0, false},
     {"section.model", "Imported character", NULL, inspector_model, MODELS, false},
     {"section.tail", NULL, tail_title, inspector_tail, TAILS | CHAINS, false},
     {"section.character", "Character", NULL, inspector_character, CHARACTERS, false},
@@ -106,14 +106,15 @@ void inspector_unfold(struct inspector *in, const char *name)
 static void build_look(struct inspector *in, struct rect footer)
 {
     static const struct ui_choice looks[] = {
-        [LOOK_WIGGLY] = {"wiggly", "Wiggly"}, [LOOK_STIFF] = {"stiff", "Stiff"}, [LOOK_CUBIC] = {"cubic", "Cubic"}};
+        [LOOK_WIGGLY] = {"wiggly", "Off"}, [LOOK_STIFF] = {"stiff", "Stiff"}, [LOOK_CUBIC] = {"cubic", "Cubic"}};
     struct ui *ui = &in->ui;
     struct rect r = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
     if (ui->pass == UI_PASS_DRAW) {
         drawlist_rect(ui->list, footer, theme()->panel);
         drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
     }
-    ui_hint(ui, footer, "Compare the same knots: wiggly, without lag, or as a cubic (V)");
+    ui_hint(ui, footer, "Show the same knots without lag (stiff), or as a cubic (V)");
+    r = inspector_label(in, r, "compare with");
     int look = (int)in->core->look;
     if (ui_segments(ui, r, "look", looks, 3, &look)) core_set_look(in->core, (enum look)look);
 }

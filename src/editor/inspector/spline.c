@@ -204,8 +204,8 @@ static void build_of(struct inspector *in)
         [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
     struct joint_motion motion = *followed(in)->motion;
     int of = (int)motion.of;
-    if (!inspector_choice(in, "its", "Its turn in degrees, or its way across or up in metres", "joint.of", choices,
-                          MOTION_KINDS, &of))
+    if (!inspector_choice(in, "joint's", "Its turn in degrees, or its way across or up in metres", "joint.of",
+                          choices, MOTION_KINDS, &of))
         return;
     struct param param = *followed(in);
     motion.of = (enum motion_of)of;
@@ -225,7 +225,7 @@ static bool set_gain(struct inspector *in, int which, double gain, struct error 
 }
 
 static const struct number_row gain_rows[] = {
-    {"joint.gain", "times", NULL, "How much of the joint's motion it follows", "Set joint's gain",
+    {"joint.gain", "strength", NULL, "How much of the joint's motion it follows", "Set joint's gain",
      NUMBER_AT(struct joint_motion, gain), 0, 0, -1e6, 1e6, 1, 0.01, 2},
 };
 

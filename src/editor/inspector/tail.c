@@ -10,10 +10,14 @@ static const struct {
     enum axis axis;
     struct ui_item item;
 } tail_axes[] = {
-    {AXIS_SIDE, {"side", "sideways", 0}},        {AXIS_UP, {"up", "up and down", 0}},
-    {AXIS_LOOK, {"look", "turns the head", 0}},  {AXIS_NOD, {"nod", "lifts the head", 0}},
-    {AXIS_EARS, {"ears", "lays ears back", 0}},  {AXIS_BREATH, {"breath", "widens the chest", 0}},
-    {AXIS_STRETCH, {"stretch", "stretches", 0}}, {AXIS_BLINK, {"blink", "closes the lids", 0}},
+    {AXIS_SIDE, {"side", "bend", 0}},
+    {AXIS_UP, {"up", "lift", 0}},
+    {AXIS_LOOK, {"look", "turn of the head", 0}},
+    {AXIS_NOD, {"nod", "nod of the head", 0}},
+    {AXIS_EARS, {"ears", "ears", 0}},
+    {AXIS_BREATH, {"breath", "chest", 0}},
+    {AXIS_STRETCH, {"stretch", "stretch", 0}},
+    {AXIS_BLINK, {"blink", "eyelids", 0}},
 };
 
 static const char rename_line[] = "tail.rename";
@@ -152,7 +156,7 @@ static void choose_axis(struct inspector *in, const struct dropdown *list)
     if (picked >= 0) set_axis(in, tail_axes[picked].axis);
 }
 
-static const struct dropdown axis_list = {"axis", "The way it bends, or moves the body", choose_axis};
+static const struct dropdown axis_list = {"axis", "What this channel moves", choose_axis};
 
 static void choose_feed(struct inspector *in, const struct dropdown *list)
 {
@@ -161,7 +165,7 @@ static void choose_feed(struct inspector *in, const struct dropdown *list)
     if (changed.spline >= 0 && put_channel(in, "Set channel's spline", &changed)) choose(in, in->channel);
 }
 
-static const struct dropdown feed_list = {"feed", "The spline that bends it", choose_feed};
+static const struct dropdown feed_list = {"feed", "The spline that drives this channel", choose_feed};
 
 /// Where a chain begins or ends.
 struct end {
@@ -240,7 +244,7 @@ static void build_list(struct inspector *in)
         snprintf(text, sizeof text, "%s, %s", in->core->document->splines[channel->spline]->name,
                  axis_label(channel->axis));
         struct rect r = ui_row(ui, UI_ROW);
-        ui_hint(ui, r, "One of the splines that bend it");
+        ui_hint(ui, r, "A channel of this rig, and the spline that drives it");
         uint32_t color = spline_list_color(in->core->document, channel->spline);
         if (ui_list_row(ui, r, name, text, color, c == in->channel)) {
             choose(in, c);
@@ -258,7 +262,7 @@ static void build_channels(struct inspector *in)
 static void build_buttons(struct inspector *in)
 {
     static const struct icon_button buttons[] = {
-        {"channel.add", "Bend it by the active spline too", UI_ICON_ADD},
+        {"channel.add", "Add a channel that the active spline drives", UI_ICON_ADD},
         {"channel.delete", "Delete this channel", UI_ICON_DELETE},
     };
     struct error *error = &in->core->error;
@@ -273,17 +277,19 @@ static void build_buttons(struct inspector *in)
 static void build_choices(struct inspector *in, const struct channel *channel)
 {
     static const struct ui_choice chain[] = {
-        [AXIS_SIDE] = {"side", "Side"}, [AXIS_UP] = {"up", "Up"}, [AXIS_TWIST] = {"twist", "Twist"}};
+        [AXIS_SIDE] = {"side", "Bend"}, [AXIS_UP] = {"up", "Lift"}, [AXIS_TWIST] = {"twist", "Twist"}};
     static const struct ui_choice parts[] = {
-        [PART_TOTAL] = {"total", "Total"}, [PART_DISPLACEMENT] = {"displacement", "Displaced"}};
+        [PART_TOTAL] = {"total", "Curve"}, [PART_DISPLACEMENT] = {"displacement", "Swing"}};
     int axis = (int)channel->axis, part = (int)channel->of;
     if (inspector_shown(in)->kind == RIG_TAIL) {
-        inspector_dropdown(in, &axis_list, inspector_labelled(in, "axis"), in->channel, axis_label(channel->axis), 0);
-    } else if (inspector_choice(in, "axis", axis_list.hint, "axis", chain, 3, &axis)) {
+        inspector_dropdown(in, &axis_list, inspector_labelled(in, "moves"), in->channel, axis_label(channel->axis),
+                           0);
+    } else if (inspector_choice(in, "moves", axis_list.hint, "axis", chain, 3, &axis)) {
         set_axis(in, (enum axis)axis);
     }
-    if (inspector_choice(in, "bends by", "Total, or displacement only: use that for a tail on a moving base", "part",
-                         parts, 2, &part)) {
+    if (inspector_choice(in, "driven by",
+                         "The whole curve, or its swing about the equilibrium only: for a tail on a moving base",
+                         "part", parts, 2, &part)) {
         struct channel changed = *channel;
         changed.of = (enum channel_part)part;
         put_channel(in, "Set what bends", &changed);
