@@ -48,6 +48,32 @@ SESSION_TEST(test_tail_follows_through_and_settles, session_open(s, scene))
     assert_saved(s, before);
 }
 
+/// A body whose way begins at a still knot: a drag with auto-key gives it a value, one of the whole shot takes it along.
+static const char still[] =
+    "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1.5, \"damping\": 0.2},"
+    "{\"name\": \"walk\", \"mode\": \"cubic\", \"equilibrium\": 0.05, \"knots\": [{\"frame\": 0, \"still\": true}, "
+    "{\"frame\": 48, \"value\": 0.1}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", "
+    "\"position\": [{\"spline\": \"walk\"}, 0.26, 0], \"channels\": [{\"spline\": \"sway\"}]}]}";
+
+SESSION_TEST(test_a_still_knot_under_a_dragged_body_gets_a_value, session_open(s, still))
+{
+    hold_and_drag(s, -150, 0, 12);
+    session_release(s, BUTTON_LEFT);
+    assert_false(s->document->splines[1]->knots[0].still);
+    assert_true(s->document->splines[1]->knots[0].value > 0.1);
+}
+
+SESSION_TEST(test_a_still_knot_goes_along_with_the_whole_shot, session_open(s, still))
+{
+    session_key(s, 'A', MOD_SHIFT);
+    hold_and_drag(s, -150, 0, 12);
+    session_release(s, BUTTON_LEFT);
+    const struct spline *walk = s->document->splines[1];
+    const double by = walk->knots[1].value - 0.1;
+    assert_true(walk->knots[0].still && by > 0.1);
+    assert_near(s->table.evaluation.curves[1].total[0], 0.05 + by, 1e-6);
+}
+
 /// Lagged joints come later: each extremum of the bend is at the base first and at the tip last.
 SESSION_TEST(test_swing_runs_along_the_tail, session_open(s, scene))
 {

@@ -75,8 +75,10 @@ struct knot core_knot_at(const struct document *document, int spline, int sample
 {
     const struct spline *edited = document->splines[spline];
     const int at = spline_find_knot(document, edited, sample);
-    return at < 0 ? (struct knot){.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS}
-                  : edited->knots[at];
+    struct knot knot = {.frame = document_frame(document, sample), .stiffness = KNOT_DEFAULT_STIFFNESS};
+    if (at >= 0) knot = edited->knots[at];
+    knot.still = false;
+    return knot;
 }
 
 void core_refresh(struct core *core)

@@ -25,7 +25,7 @@ bool core_set_parameter(struct core *core, int spline, enum parameter parameter,
 double core_parameter_at(const struct core *core, const struct spline *spline, enum parameter parameter, int sample);
 /// An edit: sets a knot, or inserts it where its id is 0.
 bool core_put_knot(struct core *core, int spline, const struct knot *knot);
-/// The knot on a sample, or a new one with id 0 for it.
+/// The knot on a sample, or a new one with id 0 for it, to be given a value: not still.
 struct knot core_knot_at(const struct document *document, int spline, int sample);
 /// After undo, redo and another document: see editor_refresh().
 void core_refresh(struct core *core);

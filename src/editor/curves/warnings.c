@@ -132,13 +132,12 @@ static bool apply_far(struct document *document, const struct warning *warning, 
                       struct error *error)
 {
     const int of = warning->spline;
-    const struct param low = {.value = warning->low, .track = -1}, high = {.value = warning->high, .track = -1};
+    const struct param low = param_number(warning->low), high = param_number(warning->high), calm = param_number(1);
     const struct knot pose = {.frame = warning->frame,
                               .value = warning->remedy,
                               .has_phase = spline_mode(document->splines[of]) == WIGGLY_COMPLEX,
                               .phase = warning->phase,
                               .stiffness = KNOT_DEFAULT_STIFFNESS};
-    const struct param calm = {.value = 1, .track = -1};
     if (remedy == FAR_CALM) return edit_parameter(document, of, PARAMETER_CALM, &calm, error);
     if (remedy == FAR_POSE) return edit_knot_insert(document, of, &pose, error);
     return remedy == FAR_LIMITS && edit_parameter(document, of, PARAMETER_LOW, &low, error) &&

@@ -160,6 +160,17 @@ static void place_within(const struct stage *stage, const struct core *core, dou
     }
 }
 
+/// A still knot is where the equilibrium is; unless that moves by itself, it goes along with the other knots.
+static void shift_still(struct core *core, int spline, double by)
+{
+    const struct spline *shifted = core->document->splines[spline];
+    const struct param *equilibrium = &shifted->parameter[PARAMETER_EQUILIBRIUM];
+    bool any = false;
+    for (int k = 0; k < shifted->knot_count; k++) any |= shifted->knots[k].still;
+    if (any && equilibrium->track < 0 && !equilibrium->motion)
+        core_set_parameter(core, spline, PARAMETER_EQUILIBRIUM, core_round(equilibrium->value + by, RESOLUTION));
+}
+
 /// All knots of a spline, so that what follows it moves as it did, elsewhere: all by as much as each can go. How far that was.
 static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
 {
@@ -177,6 +188,7 @@ static double shift_spline(struct core *core, int spline, double way, char why[S
         knot.value = spline_within(core->document->splines[spline], core_round(knot.value + by, RESOLUTION));
         core_put_knot(core, spline, &knot);
     }
+    shift_still(core, spline, by);
     core_edited(core, spline);
     return by;
 }

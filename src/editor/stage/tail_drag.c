@@ -135,7 +135,7 @@ static void set_knot(const struct stage *stage, struct core *core, struct tail_d
 {
     struct knot knot = core_knot_at(core->document, axis->spline, stage->tail_drag.sample);
     knot.value = axis->value;
-    knot.has_phase = knot.still = false;
+    knot.has_phase = false;
     core_hold(core->document->splines[axis->spline], &knot, why);
     axis->value = knot.value;
     begin_from_rest(core, axis->spline, stage->tail_drag.sample);
