@@ -381,6 +381,8 @@ TEST(a_pin_on_the_way_changes_nothing)
     wiggly_destroy(solver);
 }
 
+static int wrong_knot; ///< of the second spline, as status_of() found it
+
 static wiggly_status status_of(struct random_group *g)
 {
     static double memory[5 * SAMPLES * MOST_SPLINES];
@@ -388,15 +390,18 @@ static wiggly_status status_of(struct random_group *g)
     memory[0] = 17;
     wiggly_status status = solve_group(g, WIGGLY_CHAIN, memory, curves);
     if (status >= WIGGLY_ERROR_ARGUMENT) assert_near(memory[0], 17, 0); // nothing is touched
+    wrong_knot = curves[1].knot;
     return status;
 }
 
 TEST(what_cannot_be_held_is_refused)
 {
-    static const wiggly_status expected[] = {WIGGLY_ERROR_PIN,    WIGGLY_ERROR_PIN,     WIGGLY_ERROR_PIN,
-                                             WIGGLY_ERROR_PIN,    WIGGLY_ERROR_PIN,     WIGGLY_ERROR_NUMBER,
-                                             WIGGLY_ERROR_NUMBER, WIGGLY_ERROR_ARGUMENT};
-    for (int i = 0; i < 8; i++) {
+    static const wiggly_status expected[] = {WIGGLY_ERROR_PIN,      WIGGLY_ERROR_PIN,       WIGGLY_ERROR_PIN,
+                                             WIGGLY_ERROR_PIN,      WIGGLY_ERROR_PIN,       WIGGLY_ERROR_NUMBER,
+                                             WIGGLY_ERROR_NUMBER,   WIGGLY_ERROR_ARGUMENT,  WIGGLY_ERROR_SIZE,
+                                             WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_KNOT_TWICE};
+    static const wiggly_knot twice[] = {{.sample = 3}, {.sample = 3}};
+    for (int i = 0; i < 11; i++) {
         struct random_group *g = make_group(2, 2, 1);
         if (i == 0) g->pin[0].sample = SAMPLES;
         if (i == 1) {
@@ -410,7 +415,11 @@ TEST(what_cannot_be_held_is_refused)
         if (i == 5) g->pin[0].to[1] = NAN;
         if (i == 6) g->weights[0] = 0;
         if (i == 7) g->pulls[0][1].spline = 2;
+        if (i == 8) g->descs[1].size = 0;
+        if (i == 9) g->descs[1].samples = 0;
+        if (i == 10) g->descs[1].knots = twice, g->descs[1].knot_count = 2;
         assert_int_equal(status_of(g), expected[i]);
+        if (i == 10) assert_int_equal(wrong_knot, 1);
     }
 }
 

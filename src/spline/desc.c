@@ -62,8 +62,12 @@ wiggly_status desc_read(const wiggly_desc *from, wiggly_desc *to)
 {
     if (!from) return WIGGLY_ERROR_ARGUMENT;
     if (!desc_fits(from)) return WIGGLY_ERROR_SIZE;
-    memset(to, 0, sizeof *to);
-    memcpy(to, from, from->size < sizeof *to ? from->size : sizeof *to);
+    if (from->size >= sizeof *to) {
+        *to = *from; // of a known size, that is quick
+    } else {
+        memset(to, 0, sizeof *to);
+        memcpy(to, from, from->size);
+    }
     if ((to->has_low && !isfinite(to->low)) || (to->has_high && !isfinite(to->high))) return WIGGLY_ERROR_LIMITS;
     if (to->step == 0) to->step = 1.0 / 24;
     if (to->calm == 0 && !to->has_calm) to->calm = 1;

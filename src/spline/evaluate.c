@@ -78,22 +78,22 @@ static cplx interpolate_complex(const wiggly_curve *curve, int i, double u, cplx
     const bend re = catmull_rom(before.re, from.re, to.re, after.re, u),
                im = catmull_rom(before.im, from.im, to.im, after.im, u);
     const cplx frame = {cos(turn * u), sin(turn * u)};
-    *rate = cplx_mul(frame, (cplx){re.rate - turn * im.at, im.rate + turn * re.at});
+    if (rate) *rate = cplx_mul(frame, (cplx){re.rate - turn * im.at, im.rate + turn * re.at});
     return cplx_add(base, cplx_mul(frame, (cplx){re.at, im.at}));
 }
 
-/// In the interval from sample i on; `rate` receives the change in a sample.
-static wiggly_value between(const wiggly_curve *curve, int i, double u, wiggly_value *rate)
+/// In the interval from sample i on; `rate` receives the change in a sample, or is NULL.
+static inline wiggly_value between(const wiggly_curve *curve, int i, double u, wiggly_value *rate)
 {
     const bend y = interpolate(curve, curve->y, i, neighbour_of(curve, i + 2), u);
     if (curve->mode != WIGGLY_COMPLEX) {
         const bend re = interpolate(curve, curve->re, i, beyond(curve, i), u);
-        *rate = (wiggly_value){y.rate, re.rate, 0};
+        if (rate) *rate = (wiggly_value){y.rate, re.rate, 0};
         return (wiggly_value){y.at, re.at, 0};
     }
     cplx moving;
-    const cplx x = interpolate_complex(curve, i, u, &moving);
-    *rate = (wiggly_value){y.rate, moving.re, moving.im};
+    const cplx x = interpolate_complex(curve, i, u, rate ? &moving : NULL);
+    if (rate) *rate = (wiggly_value){y.rate, moving.re, moving.im};
     return (wiggly_value){y.at, x.re, x.im};
 }
 
@@ -101,23 +101,22 @@ wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
 {
     if (curve->samples < 1) return (wiggly_value){0};
     double u;
-    wiggly_value rate;
     int i = locate(curve, position, &u);
     if (u == 0 || i >= curve->samples - 1) return (wiggly_value){curve->y[i], curve->re[i], curve->im[i]};
-    return between(curve, i, u, &rate);
+    return between(curve, i, u, NULL);
 }
 
-/// What changes in a second at a position: on a sample as from there on, on the last as up to there, beyond the ends nothing.
-static wiggly_value rate_at(const wiggly_curve *curve, double position)
+/// wiggly_evaluate() with what changes in a second: on a sample as from there on, on the last as up to there, beyond the ends nothing.
+static wiggly_value evaluate_moving(const wiggly_curve *curve, double position, wiggly_value *rate)
 {
     const int last = curve->samples - 1;
     const bool outside = curve->start != WIGGLY_LOOP && !(position >= 0 && position <= last);
-    if (last < 1 || outside) return (wiggly_value){0};
+    if (last < 1 || outside) return wiggly_evaluate(curve, position);
     double u;
-    wiggly_value rate;
     const int i = locate(curve, position, &u);
-    between(curve, i < last ? i : last - 1, i < last ? u : 1, &rate);
-    return (wiggly_value){rate.y / curve->step, rate.re / curve->step, rate.im / curve->step};
+    const wiggly_value value = between(curve, i < last ? i : last - 1, i < last ? u : 1, rate);
+    *rate = (wiggly_value){rate->y / curve->step, rate->re / curve->step, rate->im / curve->step};
+    return u == 0 ? (wiggly_value){curve->y[i], curve->re[i], curve->im[i]} : value;
 }
 
 /// Whether a curve has the arrays that values between samples come from.
@@ -134,8 +133,7 @@ wiggly_value wiggly_evaluate_at(const wiggly_curve *curve, double seconds, wiggl
     if (curve->samples < 1 || !has_arrays(curve)) return nothing;
     const double exact = seconds / curve->step, sample = round(exact);
     const double position = fabs(exact - sample) <= 4 * DBL_EPSILON * fabs(sample) ? sample : exact;
-    if (per_second) *per_second = rate_at(curve, position);
-    return wiggly_evaluate(curve, position);
+    return per_second ? evaluate_moving(curve, position, per_second) : wiggly_evaluate(curve, position);
 }
 
 double wiggly_lagged(wiggly_value value, double lag) { return value.y + cos(lag) * value.re + sin(lag) * value.im; }

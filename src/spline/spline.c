@@ -179,15 +179,11 @@ wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, do
 }
 
 /// The caller's curve has as many members as its version knows.
-static size_t shared_size(const wiggly_curve *curve)
-{
-    return curve->size < sizeof *curve ? curve->size : sizeof *curve;
-}
-
 static wiggly_curve read_curve(const wiggly_curve *curve)
 {
+    if (curve->size >= sizeof *curve) return *curve;
     wiggly_curve own = {0};
-    memcpy(&own, curve, shared_size(curve));
+    memcpy(&own, curve, curve->size);
     return own;
 }
 
@@ -206,7 +202,11 @@ static void keep_asked(wiggly_curve *curve, wiggly_curve all)
 {
     all.total = curve->total, all.re = curve->re, all.im = curve->im;
     all.knot = -1;
-    memcpy(curve, &all, shared_size(curve));
+    if (curve->size >= sizeof *curve) {
+        *curve = all;
+    } else {
+        memcpy(curve, &all, curve->size);
+    }
 }
 
 /// Whether nothing is to be minimised: too short, nothing moves, or nothing constrains.

@@ -30,6 +30,7 @@ static void describe(struct crowd *crowd, int s, enum bench_kind kind)
         crowd->knots[s * KNOTS + k] =
             (wiggly_knot){.sample = GAP * k + 2 + (5 * s + 7 * k) % 11, .value = sin(s + 2.0 * k)};
     }
+    crowd->curve[s].size = sizeof crowd->curve[s];
     crowd->curve[s].total = crowd->numbers + (size_t)s * 2 * SAMPLES;
     crowd->curve[s].im = crowd->curve[s].total + SAMPLES;
     if (kind != BENCH_EQUILIBRIUM) return;
