@@ -5,11 +5,11 @@
 
 static const double FAR = 3;             ///< of a curve, in heights of its knots
 static const double LEAST_OTHER = 0.25;  ///< of the other knots' height, as a share of the largest knot's
-static const double MOST_SWING = 2;      ///< of a span, in heights of its knots
+static const double FAR_SWING = 2;       ///< of a span, in heights of its knots
 static const double LEAST_HEIGHT = 0.75; ///< of a span's knots, as a share of the highest: small ones may ring
-static const double MOST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
-static const double MOST_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
-static const double MOST_FORCED = 120;   ///< degrees of poses out of step: midway the swing is down to half of theirs
+static const double FAST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
+static const double WIDE_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
+static const double FORCED_TURN = 120;   ///< degrees of poses out of step: midway the swing is down to half of theirs
 static const double MOST_OF_VALUES =
     30; ///< degrees by which their values alone may be out of step, or no free phase helps
 static const double LEAST_FORCED = 0.4; ///< magnitude of such poses, as a share of the largest
@@ -193,11 +193,11 @@ static void find_rate(const struct look *look)
     const struct document *document = look->document;
     const double edge = look->frequency * (1 + bandwidth_of(look->spline));
     const double rate = document->fps * document->substeps;
-    if (edge <= MOST_RATE * rate) return;
+    if (edge <= FAST_RATE * rate) return;
     add(look, (struct warning){.kind = WARNING_RATE,
                                .amount = edge,
-                               .limit = MOST_RATE * rate,
-                               .remedy = ceil(edge / (MOST_RATE * document->fps))});
+                               .limit = FAST_RATE * rate,
+                               .remedy = ceil(edge / (FAST_RATE * document->fps))});
 }
 
 /// Samples from one knot to the next one, around the end of a loop.
@@ -257,7 +257,7 @@ static void find_swing(const struct look *look, const struct knot_span *span, do
     const int peak = furthest(look, span);
     const double knots = fmax(knot_height(look, span->from), knot_height(look, span->to));
     const double limit = fmax(knots, LEAST_HEIGHT * highest);
-    if (height(curve, peak) <= MOST_SWING * limit || limit <= 0 || peak == far) return;
+    if (height(curve, peak) <= FAR_SWING * limit || limit <= 0 || peak == far) return;
     add(look, (struct warning){.kind = WARNING_SWING,
                                .frame = document_frame(look->document, peak),
                                .value = curve->total[peak],
@@ -272,12 +272,12 @@ static void find_drift(const struct look *look, const struct knot_span *span, st
 {
     const double bandwidth = bandwidth_of(look->spline);
     const double periods = look->frequency * span->length * document_step(look->document);
-    if (bandwidth * periods <= MOST_TURN * (1 + 1e-9)) return; /* at the limit is within it, rounding or not */
+    if (bandwidth * periods <= WIDE_TURN * (1 + 1e-9)) return; /* at the limit is within it, rounding or not */
     if (periods <= drift->amount) return;
     *drift = in_middle(look, span, WARNING_DRIFT);
     drift->amount = periods;
     drift->limit = bandwidth;
-    drift->remedy = floor(1000 * MOST_TURN / periods) / 1000;
+    drift->remedy = floor(1000 * WIDE_TURN / periods) / 1000;
 }
 
 static double largest_pose(const struct look *look)
@@ -342,7 +342,7 @@ static void find_forced(const struct look *look, int k, double largest)
     if (!take_span(look, k, &span)) return;
     struct warning warning = in_middle(look, &span, WARNING_FORCED);
     warning.amount = degrees_forced(look, &span, largest);
-    if (warning.amount > MOST_FORCED) add(look, warning);
+    if (warning.amount > FORCED_TURN) add(look, warning);
 }
 
 double warning_swing_left(const struct warning *warning, const struct document *document,
