@@ -100,8 +100,8 @@ typedef struct wiggly_knot {
     double phase;                     ///< Im x, like a value; read where has_phase, in complex mode
 } wiggly_knot;
 
-/// What to solve. Zeroes with `size` set are valid; what 0 means is said here. All of an array have the size of its
-/// first.
+/// What to solve. Zeroes with `size` set are valid; what 0 means is said here. In an array, every element has the
+/// size of the first.
 typedef struct wiggly_desc {
     size_t size;              ///< sizeof(wiggly_desc)
     const wiggly_knot *knots; ///< in any order, at most one a sample
@@ -127,8 +127,8 @@ wiggly_desc wiggly_default_desc(void);
 
 // --- solving ---------------------------------------------------------------------------------------------------------
 
-/// A solved spline: your arrays of N numbers each, which a solve fills; those that are NULL it leaves out. All of an
-/// array have the size of its first.
+/// A solved spline: your arrays of N numbers each, which a solve fills; those that are NULL it leaves out. In an
+/// array, every element has the size of the first.
 typedef struct wiggly_curve {
     size_t size;   ///< sizeof(wiggly_curve)
     double *total; ///< y + Re x; at knots exactly the knot's value
