@@ -339,3 +339,28 @@ SESSION_TEST(test_a_tail_has_no_twin, open_beast(s, TAIL))
 }
 
 int main(void) { return tests_run(folder_make, folder_remove); }
+
+/// Its tail and ears are met at three quarters from behind, whichever way it faces; what has no tail and stands upright, from the front.
+SESSION_TEST(test_a_beast_is_met_from_behind, open_beast(s, ""))
+{
+    const float *eye = editor_stage(s->editor)->eye, *target = s->editor->stage->camera.target;
+    assert_true(eye[2] < target[2] - 0.5f * (eye[0] - target[0]) && eye[0] > target[0]); // it faces +z
+    struct imported beast;
+    float back[2];
+    assert_done(imported_read(&beast, folder_path("beast.glb"), &error));
+    for (int turned = 0; turned < 2; turned++) {
+        assert_true(imported_back(&beast, back));
+        assert_true(turned ? back[1] > 0.4f : back[1] < -0.4f);
+        assert_near(back[0], 0, 1e-3);
+        for (int n = 0; n < beast.gltf.node_count; n++) beast.rest.world[n][14] *= -1;
+        const float lo = beast.gltf.lo[2];
+        beast.gltf.lo[2] = -beast.gltf.hi[2];
+        beast.gltf.hi[2] = -lo;
+    }
+    for (int n = 0; n < beast.gltf.node_count; n++) beast.gltf.nodes[n].name[0] = 'n';
+    assert_true(imported_back(&beast, back));
+    assert_near(back[1], -1, 0);
+    beast.gltf.hi[0] = beast.gltf.lo[0] + 2 * (beast.gltf.hi[2] - beast.gltf.lo[2]);
+    assert_false(imported_back(&beast, back));
+    imported_free(&beast);
+}

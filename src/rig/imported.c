@@ -7,7 +7,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float SHORT_TIP = 0.1f;     ///< of the character's height: a lone joint's
+static const float SHORT_TIP = 0.1f; ///< of the character's height: a lone joint's
+static const float BESIDE = 0.1f; ///< of its length: a tail that ends nearer to its middle says nothing of its back
 static const float SHORT_SIBLING = 0.4f; ///< of the way from its parent: one of several, as an eye of a head
 
 static void mark_joints(const struct gltf *gltf, bool *is_bone)
@@ -68,6 +69,30 @@ void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float 
                                  : glms_mat4_mulv3(mat4_from(pose->world[bone->node]), vec3_from(bone->tip), 1.0f);
     memcpy(ends[0], pose->world[bone->node] + 12, sizeof ends[0]);
     memcpy(ends[1], end.raw, sizeof ends[1]);
+}
+
+bool imported_back(const struct imported *imported, float back[2])
+{
+    const struct gltf *gltf = &imported->gltf;
+    const float *lo = gltf->lo, *hi = gltf->hi;
+    float farthest = BESIDE * (hi[2] - lo[2]);
+    bool found = false;
+    for (int b = 0; b < imported->skeleton.count; b++) {
+        const struct bone *bone = &imported->skeleton.bones[b];
+        float ends[2][3];
+        if (!strcasestr(gltf->nodes[bone->node].name, "tail")) continue;
+        skeleton_ends(bone, &imported->rest, ends);
+        const float x = ends[1][0] - 0.5f * (lo[0] + hi[0]), z = ends[1][2] - 0.5f * (lo[2] + hi[2]);
+        if (hypotf(x, z) <= farthest) continue;
+        farthest = hypotf(x, z);
+        back[0] = x;
+        back[1] = z;
+        found = true;
+    }
+    if (found) return true;
+    back[0] = 0;
+    back[1] = -1;
+    return gltf->skin_count > 0 && hi[2] - lo[2] > hi[0] - lo[0];
 }
 
 bool imported_complete(struct imported *imported)

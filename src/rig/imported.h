@@ -37,6 +37,10 @@ void imported_free(struct imported *imported);
 /// Where a bone begins and ends in a pose, in the character's space.
 void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3]);
 
+/// Where an animal's back is, as x and z from its middle: where its tail ends, else away from glTF's front, +z. False for what is met from
+/// the front: it has no bone with "tail" in its name, and is wider than long, or has no bones.
+bool imported_back(const struct imported *imported, float back[2]);
+
 // --- bones of a chain
 
 struct chain_bones {

@@ -212,8 +212,9 @@ void stage_vertex(const struct figure *figure, const struct morph *morph, const 
     for (int k = 0; k < 3; k++) place[k] += position[k] - (k == 1 ? figure->lo[1] : 0.0f);
 }
 
-/// Radians. Characters look towards +z; one is met from a bit aside, a pair from the front.
-static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f;
+/// Radians. Characters look towards +z; one is met from a bit aside, a pair from the front. Animals are met at three quarters from
+/// behind, so that their tails and ears are seen: this far from straight behind them.
+static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f, FROM_BEHIND = 0.87f;
 
 /// In this order they are posed, hashed and drawn.
 #define STAGE_ROW(constant, name) [constant] = &name##_stage,
@@ -268,6 +269,15 @@ struct rect stage_figure(const struct stage *stage, const struct core *core)
                          figure->w * place->h, figure->h * place->h};
 }
 
+/// The azimuth that imported characters are met from: by the first one.
+static float azimuth_of_models(const struct core *core)
+{
+    const int rig = document_next_rig(core->document, RIG_MODEL, 0);
+    const struct imported *imported = models_imported(core->models, core->document, rig);
+    float back[2];
+    return imported && imported_back(imported, back) ? atan2f(-back[1], back[0]) - FROM_BEHIND : AZIMUTH_OF_ONE;
+}
+
 void stage_fit(struct stage *stage, const struct core *core)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -279,8 +289,10 @@ void stage_fit(struct stage *stage, const struct core *core)
         any |= moves;
     }
     stage->camera = camera_default();
-    if ((seen[RIG_CHARACTER] || seen[RIG_MODEL]) && !seen[RIG_TAIL])
+    if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
         stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
+    else if (seen[RIG_MODEL] && !seen[RIG_TAIL])
+        stage->camera.azimuth = azimuth_of_models(core);
     camera_lamp(&stage->camera, stage->view.key_from); // it stays there while the camera goes round
     stage->figure = (struct rect){0};
     if (!any) return;
