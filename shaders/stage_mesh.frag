@@ -180,6 +180,13 @@ vec3 with_phase_lines(vec3 color)
 }
 #endif
 
+// Within half a step of 255, and cheaper than pow().
+vec3 to_srgb(vec3 linear)
+{
+    vec3 a = sqrt(linear), b = sqrt(a), c = sqrt(b);
+    return 0.662002687 * a + 0.684122060 * b - 0.323583601 * c - 0.0225411470 * linear;
+}
+
 void main()
 {
     vec3 n = direction(world_normal);
@@ -219,5 +226,5 @@ void main()
 #ifdef FURRED
     linear += (1.0 - gloss) * coat * light * (0.55 * graze2 * graze); // hair that stands off catches the light
 #endif
-    pixel = vec4(max(1.055 * pow(linear, vec3(1.0 / 2.4)) - 0.055, 0.0), skirt * skirt * opacity_here); // what a skirt adds to a shape is a third of a pixel
+    pixel = vec4(to_srgb(linear), skirt * skirt * opacity_here); // what a skirt adds to a shape is a third of a pixel
 }

@@ -108,9 +108,7 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     // Edges without multisampling: a skirt a pixel wide (draw/posed.h) fades out from the outlines over whatever is behind: the
     // background or the animal itself.
     glEnable(GL_BLEND);
-    glDepthMask(GL_FALSE);
     stage_meshes_draw(renderer->meshes, view, scale, seam);
-    glDepthMask(GL_TRUE);
     glDisable(GL_BLEND);
     end_rigs();
 }

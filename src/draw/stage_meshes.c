@@ -218,8 +218,8 @@ static void draw_surface(const struct stage_meshes *meshes, const struct posed *
         draw_parts(meshes, mesh, program, MASKED, MASKED);
         return;
     }
-    draw_parts(meshes, mesh, program, SOLID, MASKED);
     glEnable(GL_BLEND);
+    draw_parts(meshes, mesh, program, SOLID, MASKED);
     glDepthMask(GL_FALSE);
     draw_parts(meshes, mesh, program, BLENDED, BLENDED);
     glDepthMask(GL_TRUE);
