@@ -102,9 +102,10 @@ vec3 with_face(vec3 coat, float sharp, out float gloss)
     float corner = 0.009 - 0.0072 * share - length(from + 0.02 * share);
     vec2 e = (p.xy - vec2(0.076, 0.016)) / vec2(0.0285, 0.0335);
     float ring = length(e);
-    // The mouth: two arcs that meet below the nose, and a line up to it.
-    vec2 m = p.xy - vec2(0.022, -0.070);
-    float mouth = 0.0032 - (m.y < 0.0 ? abs(length(m) - 0.027) : 1.0);
+    // The mouth: two arcs that meet below the nose, and a line up to it. They go on along the sides of the muzzle, which the front does not see.
+    float along = 0.4 * max(p.z + 0.255, 0.0);
+    vec2 m = vec2(p.x + along, p.y) - vec2(0.022, -0.070);
+    float mouth = 0.0032 - 0.06 * along - (m.y < 0.0 ? abs(length(m) - 0.027) : length(vec2(abs(m.x) - 0.027, m.y)));
     mouth = max(mouth, 0.0028 - max(p.x, abs(p.y + 0.072) - 0.012));
     vec3 n = (in_head - vec3(0.0, -0.047, -0.268)) / vec3(0.0250, 0.0200, 0.0240);
     float lines = covered(p.z < -0.14 ? max(corner, mouth) : corner, min(sharp, 330.0));
