@@ -12,6 +12,7 @@ short() { # EXTENSION LIMIT
 echo "lines of src: $(lines src)"
 echo "lines of src, tools and include: $(lines src tools include)"
 echo "lines of tests: $(lines tests)"
+echo "words of README: $(wc -w <README.md), with docs, CONTRIBUTING and CHANGELOG: $(cat README.md CONTRIBUTING.md CHANGELOG.md docs/*.md | wc -w)"
 echo ".c files of src under 60 lines: $(short c 60)"
 echo "headers of src under 30 lines: $(short h 30)"
 # A function's lines are those from its brace to the one that closes it.
