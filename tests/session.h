@@ -210,6 +210,7 @@ static inline void session_open(struct session *session, const char *scene)
     session->history = history_create(session->document);
     assert_non_null(session->history);
     session->editor = editor_create();
+    session->editor->core.more = true; // all that the inspector has
     session->table = (struct table){.editor = session->editor,
                                     .document = session->document,
                                     .history = session->history,

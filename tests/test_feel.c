@@ -30,7 +30,7 @@ SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
 }
 
 /// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ).
-SESSION_TEST(test_the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 720))
+SESSION_TEST(test_the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 900))
 {
     const double tau = 2 * acos(-1.0), ln20 = log(20);
     const char *before = session_saved(s);

@@ -66,7 +66,7 @@ SESSION_TEST(test_deleting_a_followed_spline_asks, panel_open(s, scene, 1280, 72
 }
 
 /// The only spline may go as well; what is left still draws, and can be added to.
-SESSION_TEST(test_an_empty_list, panel_open(s, scene, 960, 600))
+SESSION_TEST(test_an_empty_list, panel_open(s, scene, 960, 680))
 {
     for (int i = 0; i < 3; i++) {
         panel_click(s, "spline.delete");

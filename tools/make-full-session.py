@@ -33,6 +33,7 @@ def circle(start, radius):
     return lambda u: f"{start}{radius * math.sin(2 * math.pi * u):+.2f},{radius * math.sin(4 * math.pi * u):.2f}"
 
 
+key(0, "F9")  # all sections
 scroll_inspector(2, -40)
 click(4, "widget(section.poles)")
 scroll_inspector(8, -40)

@@ -43,11 +43,12 @@ key(376, "E", "shift", times=4)
 drag(392, 30, "handle(sway,4,1)", lambda u: f"handle(sway,4,1)+0,{-1.5 if u < 0.5 else 1.5}")
 # Sliders: each drag is one undo step.
 drag(430, 40, "slider(frequency)", lambda u: f"slider(frequency,{1 + 1.2 * math.sin(math.pi * u):.4f})")
+key(474, "F9")  # all sections
 drag(480, 30, "slider(damping)", lambda u: f"slider(damping,{0.08 + 0.3 * u:.4f})")
-scroll_inspector(512, -20)
+scroll_inspector(512, -40)
 click(513, "widget(section.advanced)")
 drag(516, 30, "slider(bandwidth)", lambda u: f"slider(bandwidth,{0.08 + 0.2 * u:.4f})")
-scroll_inspector(550, 20)
+scroll_inspector(550, 40)
 drag(552, 24, "slider(lag)", lambda u: f"slider(lag,{6.5 + 6 * u:.4f})")
 # Keys held: frequency, damping, lag.
 for frame, letter in ((584, "F"), (604, "Z"), (624, "L")):

@@ -20,6 +20,7 @@
 struct choices {
     enum theme_kind theme;
     double ui_scale, stage_share, inspector_width;
+    bool more;        ///< the inspector shows all
     bool is_welcomed; ///< somebody who has closed the card that says what to try first
 };
 
@@ -80,6 +81,7 @@ static struct choices choices_of(const struct app *app)
                             .ui_scale = app->ui_scale,
                             .stage_share = (double)layout->stage_share,
                             .inspector_width = (double)layout->inspector_width,
+                            .more = app->table.editor->core.more,
                             .is_welcomed = !dialogs_is_welcoming(app->table.editor->dialogs)};
 }
 
@@ -91,7 +93,7 @@ static void note_choices(struct app *app, bool ends)
     if (!ends) now.stage_share = before.stage_share, now.inspector_width = before.inspector_width;
     const bool has_moved = now.stage_share != before.stage_share || now.inspector_width != before.inspector_width;
     if (now.theme == before.theme && now.ui_scale == before.ui_scale && !has_moved &&
-        now.is_welcomed == before.is_welcomed)
+        now.is_welcomed == before.is_welcomed && now.more == before.more)
         return;
     app->personal->choices = now;
     struct settings *settings = open_settings(app);
@@ -101,6 +103,7 @@ static void note_choices(struct app *app, bool ends)
     if (has_moved) settings_set_number(settings, "stage_share", now.stage_share);
     if (has_moved) settings_set_number(settings, "inspector_width", now.inspector_width);
     if (now.is_welcomed && !before.is_welcomed) settings_set(settings, "welcomed", "yes");
+    if (now.more != before.more) settings_set(settings, "more", now.more ? "yes" : "no");
     store_settings(app, settings);
 }
 
@@ -115,6 +118,8 @@ static void start_choices(struct app *app, const struct settings *settings)
     const double scale = settings_number(settings, "ui_scale", app->ui_scale);
     if (!(app->options->ui_scale > 0)) app->ui_scale = fmin(fmax(scale, UI_SCALE_LEAST), UI_SCALE_MOST);
     ui_scale_fit(app);
+    const char *more = settings_get(settings, "more", 0);
+    core->more = more && strcmp(more, "yes") == 0;
     if (!settings_get(settings, "welcomed", 0)) dialogs_welcome(app->table.editor->dialogs);
     app->personal->choices = choices_of(app);
 }

@@ -365,6 +365,7 @@ const struct command commands[] = {
     GESTURE("Enter, double-click", "Type a number", INSPECTOR, ON_INSPECTOR),
     GESTURE("Del, right-click", "Restore the default", INSPECTOR, ON_INSPECTOR),
     GESTURE("Type in a list", "Search it", INSPECTOR, ON_INSPECTOR),
+    COMMAND("More or fewer sections", INSPECTOR, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_MORE, {KEY_F9, 0}),
     COMMAND("Add a tail, a character, a chain …", INSPECTOR, ON_INSPECTOR, NOTHING, 0,
             .inspector = inspector_add_menu, 0, {'A', 0}),
     COMMAND("Remove the tail or character", INSPECTOR, ON_INSPECTOR, RIG, 0, .inspector = inspector_remove_rig, 0,

@@ -229,6 +229,8 @@ void core_flip(struct core *core, int which)
                           {"Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F7)."}},
         [SWITCH_PHASE] = {&core->curves.phase,
                           {"Phase curve off.", "Phase curve on: a quarter of a swing behind the curve."}},
+        [SWITCH_MORE] = {&core->more,
+                         {"The inspector shows what you need first.", "The inspector shows all sections (F9)."}},
         [SWITCH_SECONDS] = {&core->curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},
         [SWITCH_NORMALISE] = {&core->curves.normalise,
                               {"All curves share one axis again.",

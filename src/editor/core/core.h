@@ -64,6 +64,7 @@ enum core_switch {
     SWITCH_GHOST,
     SWITCH_SHEET,
     SWITCH_PHASE,
+    SWITCH_MORE,
     SWITCH_SECONDS,
     SWITCH_NORMALISE
 };

@@ -349,6 +349,7 @@ struct core {
     double nudged_seconds; ///< that the ghost of the nudged knot is still shown
     bool auto_key;         ///< a body that is dragged gets knots at the playhead, else the whole shot moves
     bool record_armed;     ///< the next drag of a body is recorded from its start
+    bool more;             ///< the inspector shows all sections and controls
     bool plain;            ///< a picture of the stage without what is written over it
     bool refit_stage;      ///< all of the stage is to be in sight
     bool refit_curves;     ///< all curves are to be, once they are solved

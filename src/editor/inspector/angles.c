@@ -491,7 +491,8 @@ void inspector_angles(struct inspector *in, enum angle_kind kind)
     const int joints = bones_joints(in->core, in->rig);
     struct rect r = ui_row(&in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
     left.x -= SWITCH;
-    build_slider(in, kind, (struct rect){r.x, r.y, left.x - r.x - 2, r.h});
+    build_slider(in, kind, in->core->more ? (struct rect){r.x, r.y, left.x - r.x - 2, r.h} : r);
+    if (!in->core->more) return;
     const struct angles *angles = angles_of(in, (int)kind);
     const struct angles ramp = as_ramp(angles, kind, joints), each = each_angle(angles, kind, joints);
     if (build_switch(in, kind, angles, &ramp, left) || build_switch(in, kind, angles, &each, right)) return;

@@ -73,10 +73,12 @@ static bool set_drive_number(struct inspector *in, int which, double number, str
     return set_drive(in, &drive, error);
 }
 
-void inspector_felt_drive(struct inspector *in)
+bool inspector_felt_drive(struct inspector *in)
 {
     static const struct number_home home = {.of = felt_drive, .set = set_drive_number};
-    if (felt_drive(in)) inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
+    if (!felt_drive(in)) return false;
+    inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
+    return true;
 }
 
 static void choose_spline(struct inspector *in, const struct dropdown *list)

@@ -20,7 +20,7 @@ static const struct preset {
     {"preset.antenna", "Antenna", "An antenna: very quick, stiff, rings for long", 5, 0.03, 20},
 };
 
-enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARGINS = 8 };
+enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARGINS = 8, TEXT = 32 /* two lines */ };
 
 static bool set_parameter(struct inspector *in, enum parameter parameter, double value)
 {
@@ -136,7 +136,10 @@ static void build_settle(struct inspector *in)
     const struct spline *spline = core_active_spline(in->core);
     const double step = document_step(in->core->document);
     const enum settle_kind kind = settle_alone(spline, step).kind;
-    if (kind != SETTLE_ALONE && !is_never(kind)) return;
+    if (kind != SETTLE_ALONE && !is_never(kind)) {
+        inspector_idle(in, "settles in", "–");
+        return;
+    }
     const struct number_row number = {.name = "settle",
                                       .label = "settles in",
                                       .unit = "s",
@@ -149,7 +152,7 @@ static void build_settle(struct inspector *in)
                                       .step = 0.05,
                                       .decimals = 2};
     struct rect r = ui_row(&in->ui, UI_ROW);
-    r.w -= UI_ROW + 2; // as the rows above, which have a button there
+    if (in->core->more) r.w -= UI_ROW + 2; // as the rows above, which have a button there
     inspector_number(in, &number, &home, 0, r);
 }
 
@@ -193,8 +196,10 @@ static void build_sentence(struct inspector *in)
     ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-static void build_warnings(struct inspector *in)
+/// What is wrong with it; false: nothing.
+static bool build_warnings(struct inspector *in)
 {
+    const float top = in->ui.y;
     const struct spline *spline = core_active_spline(in->core);
     const struct evaluation *evaluation = in->core->evaluation;
     const int active = in->core->active;
@@ -211,6 +216,7 @@ static void build_warnings(struct inspector *in)
         snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing aliases.", limit);
         ui_paragraph(&in->ui, text, theme()->warning);
     }
+    return in->ui.y > top;
 }
 
 static void build_find(struct inspector *in)
@@ -220,16 +226,33 @@ static void build_find(struct inspector *in)
     if (ui_button(&in->ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
 }
 
+/// Lag and gain of the channel or coordinate that the spline drives.
+static void build_reach(struct inspector *in)
+{
+    if (inspector_felt_channel(in)) inspector_angles(in, ANGLE_LAG);
+    if (inspector_felt_channel(in)) inspector_angles(in, ANGLE_GAIN);
+    if (inspector_felt_channel(in) || inspector_felt_drive(in)) return;
+    inspector_idle(in, "lag", "–");
+    inspector_idle(in, "gain", "–");
+}
+
+/// Whatever the spline is like, each row stays in its place, and so does what comes below.
 void inspector_feel(struct inspector *in)
 {
     static const enum parameter pace[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING};
     build_presets(in);
-    for (size_t i = 0; i < sizeof pace / sizeof pace[0]; i++) inspector_parameter(in, pace[i]);
+    for (size_t i = 0; i < sizeof pace / sizeof pace[0]; i++) {
+        if (spline_uses(core_active_spline(in->core), pace[i], false)) {
+            inspector_parameter(in, pace[i]);
+        } else {
+            inspector_idle(in, parameter_rows[pace[i]].name, "–");
+        }
+    }
     build_settle(in);
-    build_sentence(in);
-    if (inspector_felt_channel(in)) inspector_angles(in, ANGLE_LAG);
-    if (inspector_felt_channel(in)) inspector_angles(in, ANGLE_GAIN);
-    inspector_felt_drive(in);
-    if (spline_mode(core_active_spline(in->core)) != WIGGLY_CUBIC) build_find(in);
-    build_warnings(in);
+    build_reach(in);
+    const float end = in->ui.y + TEXT;
+    const bool warns = build_warnings(in);
+    if (!warns || in->core->more) build_sentence(in);
+    in->ui.y = fmaxf(in->ui.y, end);
+    if (in->core->more) build_find(in);
 }

@@ -3,6 +3,7 @@
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/core/pins.h"
 #include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>
@@ -36,33 +37,58 @@ static unsigned what_there_is(const struct core *core)
     return found;
 }
 
+static bool always(const struct inspector *in)
+{
+    (void)in;
+    return true;
+}
+
+/// Nothing moves yet: then what stands on the stage is of interest.
+static bool has_no_spline(const struct inspector *in) { return core_active_spline(in->core) == NULL; }
+
+static bool has_bone(const struct inspector *in)
+{
+    return has_no_spline(in) || in->core->bone.any || in->core->pick.use != BONE_SELECTED;
+}
+
+static bool has_brush(const struct inspector *in) { return in->core->brush.on; }
+
+static bool has_pin(const struct inspector *in)
+{
+    int rig;
+    return pins_selected(in->core, &rig) != NULL;
+}
+
 /// From the top down; `name` is what replays call the header.
 static const struct section {
     const char *name, *title;
     const char *(*titled)(struct inspector *in); ///< in place of a title
     void (*build)(struct inspector *in);
-    unsigned needs; ///< one of these, for it to be shown; 0: nothing
-    bool closed;    ///< at first
+    unsigned needs;                            ///< one of these, for it to be shown; 0: nothing
+    bool (*shown)(const struct inspector *in); ///< without More; NULL: when it was asked for
+    bool closed;                               ///< at first
 } sections[] = {
-    {"section.feel", "Feel", NULL, inspector_feel, SPLINE, false},
-    {"section.knot", NULL, inspector_knot_title, inspector_knot, SPLINE, false},
-    {"section.splines", "Splines", NULL, inspector_splines, 0, false},
-    {"section.spline", "Spline", NULL, inspector_spline, SPLINE, false},
-    {"section.rigs", "Rigs", NULL, inspector_rigs, 0, false},
-    {"section.model", "Imported character", NULL, inspector_model, MODELS, false},
-    {"section.tail", NULL, tail_title, inspector_tail, TAILS | CHAINS, false},
-    {"section.character", "Character", NULL, inspector_character, CHARACTERS, false},
-    {"section.meadow", "Meadow", NULL, inspector_meadow, MEADOWS, false},
-    {"section.pins", "Pins", NULL, inspector_pins, TAILS | CHAINS | CHARACTERS, false},
-    {"section.advanced", "Advanced", NULL, inspector_advanced, SPLINE, true},
-    {"section.poles", "Poles and response", NULL, inspector_poles, SPLINE, true},
-    {"section.limits", "Limits and steadiness", NULL, inspector_limits, SPLINE, true},
-    {"section.variation", "Variation", NULL, inspector_variation, SWING, true},
-    {"section.scene", "Scene", NULL, inspector_scene, 0, true},
-    {"section.history", "History", NULL, inspector_history, 0, true}, // the last one: see there
+    {"section.feel", "Feel", NULL, inspector_feel, SPLINE, always, false},
+    {"section.knot", NULL, inspector_knot_title, inspector_knot, SPLINE, always, false},
+    {"section.splines", "Splines", NULL, inspector_splines, 0, always, false},
+    {"section.spline", "Spline", NULL, inspector_spline, SPLINE, NULL, false},
+    {"section.rigs", "Rigs", NULL, inspector_rigs, 0, has_no_spline, false},
+    {"section.model", "Imported character", NULL, inspector_model, MODELS, has_bone, false},
+    {"section.tail", NULL, tail_title, inspector_tail, TAILS | CHAINS, NULL, false},
+    {"section.character", "Character", NULL, inspector_character, CHARACTERS, has_brush, false},
+    {"section.meadow", "Meadow", NULL, inspector_meadow, MEADOWS, NULL, false},
+    {"section.pins", "Pins", NULL, inspector_pins, TAILS | CHAINS | CHARACTERS, has_pin, false},
+    {"section.advanced", "Advanced", NULL, inspector_advanced, SPLINE, NULL, true},
+    {"section.poles", "Poles and response", NULL, inspector_poles, SPLINE, NULL, true},
+    {"section.limits", "Limits and steadiness", NULL, inspector_limits, SPLINE, NULL, true},
+    {"section.variation", "Variation", NULL, inspector_variation, SWING, NULL, true},
+    {"section.scene", "Scene", NULL, inspector_scene, 0, NULL, true},
+    {"section.history", "History", NULL, inspector_history, 0, NULL, true}, // the last one: see there
 };
 
-_Static_assert(sizeof sections / sizeof sections[0] <= INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
+enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 3 /* of what More opens */ };
+
+_Static_assert(SECTIONS <= (int)INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
 
 /// Scrolls just so far that what was built from `top` on is in sight, and remembers it as done.
 static void reveal(struct inspector *in, float top)
@@ -75,18 +101,37 @@ static void reveal(struct inspector *in, float top)
     if (above < 0) scroll->offset += above;
 }
 
+/// Whether the scene has what a section is about, and the user needs it now.
+static bool is_shown(const struct inspector *in, int i)
+{
+    const struct section *section = &sections[i];
+    if (section->needs && !(section->needs & what_there_is(in->core))) return false;
+    return in->core->more || in->called[i] || (section->shown && section->shown(in));
+}
+
+/// Opens the rest, and closes it again.
+static void build_more(struct inspector *in)
+{
+    const bool more = in->core->more;
+    const struct rect row = ui_row(&in->ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
+    ui_hint(&in->ui, r, more ? "Show only what is needed first (F9)" : "Show all sections and controls (F9)");
+    if (ui_button(&in->ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
+}
+
 static void build_sections(struct inspector *in)
 {
     inspector_find_rig(in);
-    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+    for (int i = 0; i < SECTIONS; i++) {
         const struct section *section = &sections[i];
         bool *flipped = &in->flipped[i];
-        if (section->needs && !(section->needs & what_there_is(in->core))) continue;
+        if (i == FIRST) build_more(in); // where it is found again, whatever comes and goes below
+        if (!is_shown(in, i)) continue;
         bool closed = *flipped != section->closed;
         const float top = in->ui.y;
         bool open =
             ui_section(&in->ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
         *flipped = closed != section->closed;
+        in->called[i] &= open;
         if (!open) continue;
         section->build(in);
         ui_space(&in->ui, 4);
@@ -96,8 +141,9 @@ static void build_sections(struct inspector *in)
 
 void inspector_unfold(struct inspector *in, const char *name)
 {
-    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+    for (int i = 0; i < SECTIONS; i++) {
         if (strcmp(sections[i].name, name) != 0) continue;
+        in->called[i] = true;
         in->flipped[i] = sections[i].closed;
         in->revealed = sections[i].name; // the pass that measures scrolls there
     }
@@ -152,6 +198,7 @@ void inspector_reset(struct inspector *in)
     in->selected = 0;
     in->model = 0;
     in->channel = 0;
+    memset(in->called, 0, sizeof in->called);
 }
 
 /// Whether the panel's code has to run for the event at all; keys are the editor's where nothing here has the keyboard.
@@ -455,6 +502,11 @@ struct rect inspector_label(struct inspector *in, struct rect r, const char *lab
 struct rect inspector_labelled(struct inspector *in, const char *label)
 {
     return inspector_label(in, ui_row(&in->ui, UI_ROW), label);
+}
+
+void inspector_idle(struct inspector *in, const char *label, const char *text)
+{
+    ui_label(&in->ui, inspector_labelled(in, label), text, theme()->text_dim);
 }
 
 bool inspector_choice(struct inspector *in, const char *label, const char *hint, const char *name,

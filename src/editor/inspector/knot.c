@@ -127,12 +127,6 @@ static int all_hold(const struct inspector *in, bool *any_still)
     return all > HOLDS_STILL ? -1 : all;
 }
 
-/// A row without anything to set yet.
-static void build_idle(struct inspector *in, const char *label, const char *text)
-{
-    ui_label(&in->ui, inspector_labelled(in, label), text, theme()->text_dim);
-}
-
 struct knot_button {
     const char *name, *label, *hint;
 };
@@ -171,7 +165,7 @@ static void build_or_idle(struct inspector *in, int field, bool there)
     if (there) {
         build_field(in, field, ui_row(&in->ui, UI_ROW));
     } else {
-        build_idle(in, rows[field].label, "–");
+        inspector_idle(in, rows[field].label, "–");
     }
 }
 
@@ -183,9 +177,9 @@ static void build_several(struct inspector *in)
     for (int i = 0; i < FIELDS; i++) {
         if (i == FIELD_PHASE) build_holds(in);
         if (i >= FIELD_SLOPE && !sloped) {
-            build_idle(in, rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
+            inspector_idle(in, rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
         } else if ((i == FIELD_PHASE && !posed) || (i == FIELD_VALUE && any_still)) {
-            build_idle(in, rows[i].label, i == FIELD_PHASE ? "not all hold one" : "–");
+            inspector_idle(in, rows[i].label, i == FIELD_PHASE ? "not all hold one" : "–");
         } else {
             build_field(in, i, ui_row(&in->ui, UI_ROW));
         }
@@ -244,8 +238,8 @@ static void build_overview(struct inspector *in, const struct spline *spline)
         snprintf(values, sizeof values, one ? "%.4g" : "%.4g … %.4g", range[0], range[1]);
     }
     ui_paragraph(&in->ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
-    build_idle(in, "knots", frames);
-    build_idle(in, "values", values);
+    inspector_idle(in, "knots", frames);
+    inspector_idle(in, "values", values);
     const int pressed = build_buttons(in,
                                       (const struct knot_button[3]){
                                           {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)"},
@@ -290,7 +284,7 @@ void inspector_knot(struct inspector *in)
         build_holds(in);
         build_or_idle(in, FIELD_PHASE, posed);
         if (still) {
-            build_idle(in, "slope", "–");
+            inspector_idle(in, "slope", "–");
         } else {
             build_slope(in, id);
         }

@@ -35,7 +35,7 @@ void inspector_parameter(struct inspector *in, enum parameter parameter);
 
 /// The channel that is shown, where it bends by the active spline; and rows for the coordinate of the shown character that it drives.
 const struct channel *inspector_felt_channel(const struct inspector *in);
-void inspector_felt_drive(struct inspector *in);
+bool inspector_felt_drive(struct inspector *in);
 
 /// A list that opens over the panel.
 struct dropdown {
@@ -113,6 +113,9 @@ int inspector_spline_list(struct inspector *in, const struct dropdown *list, int
 /// A label, in a row of its own or at the left of one; returns what is right of it.
 struct rect inspector_label(struct inspector *in, struct rect r, const char *label);
 struct rect inspector_labelled(struct inspector *in, const char *label);
+
+/// A row without anything to set now, so that those below it stay where they are.
+void inspector_idle(struct inspector *in, const char *label, const char *text);
 
 /// A row of segments with a label; true if `*chosen` changed.
 bool inspector_choice(struct inspector *in, const char *label, const char *hint, const char *name,

@@ -240,9 +240,10 @@ static void build_number(struct inspector *in, enum parameter parameter)
 {
     const struct spline *spline = core_active_spline(in->core);
     struct rect r = ui_row(&in->ui, UI_ROW);
-    bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK;
+    const bool follows = param_follows(&spline->parameter[parameter]);
+    const bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK && (in->core->more || follows);
     if (may_follow) r.w -= UI_ROW + 2;
-    if (!param_follows(&spline->parameter[parameter])) {
+    if (!follows) {
         build_slider(in, parameter, r);
     } else {
         build_track(in, parameter, r);

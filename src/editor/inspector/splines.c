@@ -131,6 +131,13 @@ static int drop_place(const struct inspector *in, int first, int rows, float top
     return first + (row < 0 ? 0 : row >= rows ? rows - 1 : row);
 }
 
+/// The colour of a spline, without a way to change it.
+static void paint_chip(const struct inspector *in, int s, struct rect r)
+{
+    const struct rect chip = {r.x + (r.w - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
+    if (in->ui.pass == UI_PASS_DRAW) drawlist_rounded(in->ui.list, chip, 3, spline_list_color(in->core->document, s));
+}
+
 /// A row; returns whether it was dropped after a drag.
 static bool build_row(struct inspector *in, int s, struct rect r)
 {
@@ -139,7 +146,8 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     bool active = s == in->core->active, dropped = false;
     char name[192];
     snprintf(name, sizeof name, "spline.%s", spline->name);
-    struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - 2 * INSPECTOR_ICON, r.h};
+    const float icons = in->core->more ? 2 * INSPECTOR_ICON : 0;
+    struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - icons, r.h};
     if (active && ui_line_is_open(ui, rename_line)) {
         build_rename(in, s, label);
     } else {
@@ -153,6 +161,10 @@ static bool build_row(struct inspector *in, int s, struct rect r)
         dropped = event == UI_ROW_DROPPED;
     }
     struct rect swatch = {r.x, r.y, SWATCH, r.h};
+    if (!in->core->more) {
+        paint_chip(in, s, swatch);
+        return dropped;
+    }
     snprintf(name, sizeof name, "color.%s", spline->name);
     ui_hint(ui, swatch, palette.hint);
     ui_swatch(ui, swatch, name, palette.name, (int)spline->id, spline_list_color(in->core->document, s));
@@ -171,7 +183,8 @@ static void build_buttons(struct inspector *in)
         {"spline.down", "Move this spline down", UI_ICON_DOWN},
     };
     struct core *core = in->core;
-    const int pressed = inspector_icons(in, ui_row(&in->ui, UI_ROW), buttons, sizeof buttons / sizeof buttons[0]);
+    const int count = core->more ? sizeof buttons / sizeof buttons[0] : 1;
+    const int pressed = inspector_icons(in, ui_row(&in->ui, UI_ROW), buttons, count);
     if (pressed == 0) spline_list_add(core);
     if (pressed == 1) spline_list_copy(core);
     if (pressed == 2) spline_list_remove(core);

@@ -45,19 +45,21 @@ struct inspector {
     enum ui_change change; ///< that a number is being set by
     struct ui_scroll scroll;
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
-    int rig, channel;                     ///< the tail or chain that is shown, and its channel
-    int selected;                         ///< in the list of all rigs
-    int model;                            ///< the imported character that is shown, of their number
-    double angle_reach[3];                ///< by enum angle_kind: times the usual ends of its slider
-    double ramp_scale[3][2];              ///< by enum angle_kind: lowest and highest angle that its curve shows
-    int joint[3];                         ///< by enum angle_kind: the selected one, where each has its own
-    struct angles drawn;                  ///< angles of each joint as the running drag has drawn them
-    float drawn_x, drawn_y;               ///< where it was last
-    struct bone_selection seen_bone;      ///< that was last shown
-    const char *revealed;                 ///< section that is to be in sight, NULL: none
-    double dragged;                       ///< what it would be; of several knots, what was last possible
-    struct knot_numbers knots;            ///< of the field that was built last
-    char knot_title[32];                  ///< of the section on knots
+    bool called
+        [INSPECTOR_MAX_SECTIONS]; ///< sections that were asked for, and are shown without More until they are closed
+    int rig, channel;             ///< the tail or chain that is shown, and its channel
+    int selected;                 ///< in the list of all rigs
+    int model;                    ///< the imported character that is shown, of their number
+    double angle_reach[3];        ///< by enum angle_kind: times the usual ends of its slider
+    double ramp_scale[3][2];      ///< by enum angle_kind: lowest and highest angle that its curve shows
+    int joint[3];                 ///< by enum angle_kind: the selected one, where each has its own
+    struct angles drawn;          ///< angles of each joint as the running drag has drawn them
+    float drawn_x, drawn_y;       ///< where it was last
+    struct bone_selection seen_bone; ///< that was last shown
+    const char *revealed;            ///< section that is to be in sight, NULL: none
+    double dragged;                  ///< what it would be; of several knots, what was last possible
+    struct knot_numbers knots;       ///< of the field that was built last
+    char knot_title[32];             ///< of the section on knots
     struct poles_view poles;
     struct history_view history;
     const struct dropdown *list; ///< that is open, in the running pass; NULL: none

@@ -1,0 +1,112 @@
+/// The inspector at the first start: what an animator needs first, each further section when it is wanted, and More for the rest.
+#include "panel_session.h"
+
+#include "base/file.h"
+
+static void open_file(struct session *s, const char *path)
+{
+    char *text;
+    size_t size;
+    assert_done(file_read(path, 1 << 20, &text, &size, &error));
+    session_open(s, text);
+    free(text);
+    s->editor->core.more = false;
+    session_frame(s);
+}
+
+static void open_first(struct session *s) { open_file(s, "assets/scenes/tail.json"); }
+
+/// Controls that Tab reaches, without the headers of sections; the comparison counts once.
+static int count_controls(const struct session *s)
+{
+    static const char *const headers[] = {"section.feel", "section.knot", "section.splines"};
+    const struct ui *ui = inspector_ui(s->editor->inspector);
+    int count = ui->stop_count;
+    for (int i = 0; i < ui->stop_count; i++) {
+        for (size_t h = 0; h < sizeof headers / sizeof headers[0]; h++) count -= ui->stop[i].id == ui_id(headers[h]);
+    }
+    return count;
+}
+
+SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
+{
+    static const char *const shown[] = {"preset.cat", "frequency",   "damping",    "settle", "lag",       "gain",
+                                        "knot.next",  "spline.sway", "spline.add", "more",   "look.stiff"};
+    static const char *const hidden[] = {"follow.frequency", "gain.ramp",     "gain.curve",     "eye.sway",
+                                         "color.sway",       "spline.delete", "section.spline", "section.rigs",
+                                         "section.tail",     "section.pins",  "section.poles",  "section.history"};
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) assert_true(panel_shows(s, shown[i]));
+    for (size_t i = 0; i < sizeof hidden / sizeof hidden[0]; i++) assert_false(panel_shows(s, hidden[i]));
+    session_frame(s);
+    assert_in_range(count_controls(s), 10, 20);
+}
+
+SESSION_TEST(test_more_opens_the_rest_and_closes_it, open_first(s))
+{
+    panel_click(s, "more");
+    assert_true(panel_shows(s, "follow.frequency"));
+    session_key(s, KEY_F9, 0);
+    assert_false(panel_shows(s, "follow.frequency"));
+    session_key(s, KEY_F9, 0);
+    s->editor->inspector->scroll.offset = 1e6f;
+    session_frame(s);
+    assert_true(panel_shows(s, "section.history"));
+}
+
+/// A section comes with what it is about, and goes with it.
+SESSION_TEST(test_sections_come_when_they_are_wanted, open_first(s))
+{
+    session_key(s, 'H', 0); // pins the tip
+    assert_true(panel_shows(s, "section.pins"));
+    session_key(s, KEY_ESCAPE, 0);
+    assert_false(panel_shows(s, "section.pins"));
+    session_key(s, 'A', 0);
+    panel_type(s, "mea");
+    session_key(s, KEY_ENTER, 0);
+    assert_true(panel_shows(s, "section.meadow"));
+    panel_click(s, "section.meadow"); // closed, it is no longer wanted
+    assert_false(panel_shows(s, "section.meadow"));
+}
+
+/// Without splines there is something to begin with.
+TEST(test_an_empty_scene_is_not_an_empty_inspector)
+{
+    struct session s;
+    session_open(&s, "{\"wiggly\": 1, \"frames\": [0, 96]}");
+    s.editor->core.more = false;
+    assert_true(panel_shows(&s, "rig.add") && panel_shows(&s, "spline.add"));
+    session_close(&s);
+}
+
+/// Where a widget is, down the inspector.
+static float height_of(struct session *s, const char *name)
+{
+    float x, y;
+    if (!inspector_target(s->editor->inspector, name, &x, &y)) fail_msg("the inspector does not show %s", name);
+    return y;
+}
+
+static const char mixed[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": ["
+    "{\"name\": \"tail\", \"frequency\": 1, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 1}]},"
+    "{\"name\": \"cubic\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 1}]},"
+    "{\"name\": \"follows\", \"frequency\": {\"spline\": \"cubic\"}, \"knots\": [{\"frame\": 0, \"value\": 1}]},"
+    "{\"name\": \"fast\", \"frequency\": 40, \"knots\": [{\"frame\": 0, \"value\": 1}]},"
+    "{\"name\": \"idle\", \"mode\": \"real\", \"knots\": []}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"channels\": [{\"spline\": \"tail\", \"lag\": 6, \"gain\": "
+    "6}]}]}";
+
+/// No row moves when another spline becomes active, whatever kind it is and whatever is said of it.
+SESSION_TEST(test_rows_stay_where_they_are, session_open(s, mixed))
+{
+    s->editor->core.more = false;
+    session_frame(s);
+    const float before[] = {height_of(s, "section.knot"), height_of(s, "section.splines"), height_of(s, "more")};
+    for (int i = 0; i < 5; i++) {
+        session_key(s, KEY_PAGE_DOWN, 0);
+        session_frame(s);
+        assert_near(height_of(s, "section.knot"), before[0], 0);
+        assert_near(height_of(s, "section.splines"), before[1], 0);
+        assert_near(height_of(s, "more"), before[2], 0);
+    }
+}
