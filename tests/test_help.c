@@ -172,6 +172,59 @@ SESSION_TEST(test_the_palette_says_what_is_missing, session_open(s, scene))
     assert_saved(s, before);
 }
 
+/// What needs no key is there too: buttons and sections of the inspector.
+TEST(test_the_palette_reaches_the_inspector)
+{
+    static const struct {
+        const char *typed, *shows; ///< and the widget that is to be seen then
+    } cases[] = {{"history", "section.history"},  {"limits", "section.limits"},     {"bandwidth", "section.advanced"},
+                 {"frame rate", "section.scene"}, {"add a mead", "section.meadow"}, {"channels", "section.tail"}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        struct session s;
+        panel_open(&s, scene, 1280, 1400);
+        s.editor->core.more = false;
+        assert_false(panel_shows(&s, cases[i].shows));
+        search(&s, cases[i].typed);
+        session_key(&s, KEY_ENTER, 0);
+        if (!panel_shows(&s, cases[i].shows)) fail_msg("%s does not show %s", cases[i].typed, cases[i].shows);
+        session_close(&s);
+    }
+}
+
+SESSION_TEST(test_the_palette_chooses_a_feel, session_open(s, scene))
+{
+    static const struct {
+        const char *typed;
+        double frequency;
+    } cases[] = {{"cat", 0.8}, {"whip", 1.8}, {"heavy", 0.5}, {"jelly", 3}, {"antenna", 5}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char typed[32];
+        snprintf(typed, sizeof typed, "feel %s", cases[i].typed);
+        search(s, typed);
+        session_key(s, KEY_ENTER, 0);
+        assert_near(s->document->splines[0]->parameter[PARAMETER_FREQUENCY].value, cases[i].frequency, 0);
+    }
+}
+
+/// Whatever can be done now is done without harm, in an empty scene and in one with everything selected.
+TEST(test_every_command_runs)
+{
+    static const char empty[] = "{\"wiggly\": 1, \"frames\": [0, 96]}";
+    for (int c = 0; c < command_count; c++) {
+        for (int rich = 0; rich < 2; rich++) {
+            struct session s;
+            session_open(&s, rich ? scene : empty);
+            if (rich) session_key(&s, 'A', MOD_CTRL);
+            const bool can = command_runs(&commands[c]) && !command_missing(&s.editor->core, &commands[c]);
+            if (can) command_run(s.editor, &commands[c]);
+            session_frame(&s);
+            if (can && s.editor->core.message.is_error)
+                fail_msg("“%s”: %s", commands[c].name, s.editor->core.message.text);
+            session_close(&s);
+        }
+    }
+}
+
 /// Arrows, pages and the wheel go through all rows, round the ends; a click runs one.
 SESSION_TEST(test_the_palette_is_walked, session_open(s, scene))
 {

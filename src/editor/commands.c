@@ -112,6 +112,36 @@ static void run_brush(struct editor *e, int argument)
     if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
 }
 
+/// Sections of the inspector, as arguments of run_section().
+enum section_name {
+    SECTION_SPLINE,
+    SECTION_RIGS,
+    SECTION_MODEL,
+    SECTION_TAIL,
+    SECTION_CHARACTER,
+    SECTION_MEADOW,
+    SECTION_PINS,
+    SECTION_ADVANCED,
+    SECTION_POLES,
+    SECTION_LIMITS,
+    SECTION_VARIATION,
+    SECTION_SCENE,
+    SECTION_HISTORY
+};
+
+static void run_section(struct editor *e, int section)
+{
+    static const char *const names[] = {
+        [SECTION_SPLINE] = "section.spline",       [SECTION_RIGS] = "section.rigs",
+        [SECTION_MODEL] = "section.model",         [SECTION_TAIL] = "section.tail",
+        [SECTION_CHARACTER] = "section.character", [SECTION_MEADOW] = "section.meadow",
+        [SECTION_PINS] = "section.pins",           [SECTION_ADVANCED] = "section.advanced",
+        [SECTION_POLES] = "section.poles",         [SECTION_LIMITS] = "section.limits",
+        [SECTION_VARIATION] = "section.variation", [SECTION_SCENE] = "section.scene",
+        [SECTION_HISTORY] = "section.history"};
+    inspector_unfold(e->inspector, names[section]);
+}
+
 static void run_theme(struct editor *e, int argument)
 {
     (void)e;
@@ -408,6 +438,32 @@ const struct command commands[] = {
     COMMAND("A fox in a meadow", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 10, {'0', CTRL}),
 
     // Without a line in F1.
+    COMMAND("Open Spline: kind, equilibrium, start", NOTHING, 0, SPLINE, 0, .run = run_section, SECTION_SPLINE, {0}),
+    COMMAND("Open Rigs", NOTHING, 0, NOTHING, 0, .run = run_section, SECTION_RIGS, {0}),
+    COMMAND("Open Imported character: clip, bones", NOTHING, 0, MODEL, 0, .run = run_section, SECTION_MODEL, {0}),
+    COMMAND("Open Tail or chain set-up: channels", NOTHING, 0, TAIL, 0, .run = run_section, SECTION_TAIL, {0}),
+    COMMAND("Open Character: coordinates, paint", NOTHING, 0, CHARACTER, 0, .run = run_section, SECTION_CHARACTER,
+            {0}),
+    COMMAND("Open Meadow", NOTHING, 0, MEADOW, 0, .run = run_section, SECTION_MEADOW, {0}),
+    COMMAND("Open Pins", NOTHING, 0, RIG, 0, .run = run_section, SECTION_PINS, {0}),
+    COMMAND("Open Advanced: bandwidth, calm", NOTHING, 0, SPLINE, 0, .run = run_section, SECTION_ADVANCED, {0}),
+    COMMAND("Open Poles and response", NOTHING, 0, SPLINE, 0, .run = run_section, SECTION_POLES, {0}),
+    COMMAND("Open Limits and steadiness", NOTHING, 0, SPLINE, 0, .run = run_section, SECTION_LIMITS, {0}),
+    COMMAND("Open Variation", NOTHING, 0, SWING, 0, .run = run_section, SECTION_VARIATION, {0}),
+    COMMAND("Open Scene: frame rate, range", NOTHING, 0, NOTHING, 0, .run = run_section, SECTION_SCENE, {0}),
+    COMMAND("Open History", NOTHING, 0, NOTHING, 0, .run = run_section, SECTION_HISTORY, {0}),
+    COMMAND("Add a tail", NOTHING, 0, NOTHING, 0, .inspector = inspector_add, ADD_TAIL, {0}),
+    COMMAND("Add a character or model from a file", NOTHING, 0, NOTHING, 0, .inspector = inspector_add, ADD_FILE,
+            {0}),
+    COMMAND("Add a meadow", NOTHING, 0, NO_MEADOW, 0, .inspector = inspector_add, ADD_MEADOW, {0}),
+    COMMAND("Copy the rig", NOTHING, 0, RIG, 0, .inspector = inspector_add, ADD_COPY, {0}),
+    COMMAND("Feel like a cat's tail", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 0, {0}),
+    COMMAND("Feel like a whip", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 1, {0}),
+    COMMAND("Feel heavy", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 2, {0}),
+    COMMAND("Feel like jelly", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 3, {0}),
+    COMMAND("Feel like an antenna", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 4, {0}),
+    COMMAND("Roll a variation of the motion", NOTHING, 0, SWING, 0, .inspector = inspector_roll, 0, {0}),
+    COMMAND("Play at normal speed", NOTHING, 0, NOTHING, 0, .core = playback_change_speed, 0, {0}),
     COMMAND("Add a spline", NOTHING, 0, NOTHING, 0, .core = change_list, LIST_ADD, {0}),
     COMMAND("Duplicate the spline", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_COPY, {0}),
     COMMAND("Delete the spline", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_REMOVE, {0}),

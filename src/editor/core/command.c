@@ -49,6 +49,21 @@ static bool has_bone(const struct core *core)
 
 static bool has_rig(const struct core *core) { return core->document->rig_count > 0; }
 
+static bool has_kind(const struct core *core, enum rig_kind kind)
+{
+    return document_find_rig(core->document, kind, 0) >= 0;
+}
+
+static bool has_tail(const struct core *core) { return has_kind(core, RIG_TAIL) || has_kind(core, RIG_CHAIN); }
+
+static bool has_character(const struct core *core) { return has_kind(core, RIG_CHARACTER); }
+
+static bool has_model(const struct core *core) { return has_kind(core, RIG_MODEL); }
+
+static bool has_meadow(const struct core *core) { return has_kind(core, RIG_MEADOW); }
+
+static bool has_no_meadow(const struct core *core) { return !has_meadow(core); }
+
 static bool has_coordinate(const struct core *core) { return characters_coordinate(core) != NULL; }
 
 static const struct {
@@ -65,6 +80,11 @@ static const struct {
     [NEEDS_PIN] = {has_pin, "Select a pin first."},
     [NEEDS_BONE] = {has_bone, "Click a bone of an imported character first."},
     [NEEDS_RIG] = {has_rig, "Add a tail or a character first."},
+    [NEEDS_TAIL] = {has_tail, "Add a tail or a chain first."},
+    [NEEDS_CHARACTER] = {has_character, "Add a soft character first."},
+    [NEEDS_MODEL] = {has_model, "Open a character from a file first."},
+    [NEEDS_MEADOW] = {has_meadow, "Add a meadow first."},
+    [NEEDS_NO_MEADOW] = {has_no_meadow, "There is a meadow already."},
     [NEEDS_PAINT] = {has_coordinate, "Select a soft character first."},
 };
 

@@ -50,6 +50,11 @@ enum need {
     NEEDS_PIN,
     NEEDS_BONE,
     NEEDS_RIG,
+    NEEDS_TAIL, ///< or a chain
+    NEEDS_CHARACTER,
+    NEEDS_MODEL,
+    NEEDS_MEADOW,
+    NEEDS_NO_MEADOW,
     NEEDS_PAINT, ///< a character with a coordinate
     NEEDS_COUNT
 };

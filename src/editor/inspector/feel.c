@@ -2,6 +2,7 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/inspector/inspector.h"
 #include "editor/inspector/parts.h"
 #include "scene/order.h"
 #include <math.h>
@@ -48,6 +49,8 @@ static void apply(struct inspector *in, const struct preset *preset)
     core_end(in->core, good && set_lag(in, preset->lag));
     core_edited(in->core, in->core->active);
 }
+
+void inspector_preset(struct inspector *in, int preset) { apply(in, &presets[preset]); }
 
 static float presets_width(int first, int end)
 {

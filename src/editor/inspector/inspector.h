@@ -19,6 +19,14 @@ void inspector_show_rig(struct inspector *in, int rig);
 void inspector_show_spline(struct inspector *in, int spline);
 /// A: the menu of what can be added, at the pointer over stage and curves, else on top of the inspector. And on something of the inspector.
 void inspector_add_menu(struct inspector *in, int unused);
+/// What inspector_add() adds.
+enum added { ADD_TAIL, ADD_FILE, ADD_COPY, ADD_CHAIN, ADD_MEADOW, ADD_SPLINE };
+/// Adds it, ADD_COPY one more of the rig that is shown, and shows it.
+void inspector_add(struct inspector *in, int what);
+/// Gives the active spline one of the presets of its feel, in their order on the panel.
+void inspector_preset(struct inspector *in, int preset);
+/// Another variation of the active spline's motion.
+void inspector_roll(struct inspector *in, int unused);
 /// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
 void inspector_remove_rig(struct inspector *in, int unused);
 /// Its widgets: what the pointer is over, what has the keyboard, what is typed.

@@ -152,7 +152,7 @@ void inspector_rigs(struct inspector *in)
 
 /// A row of the menu.
 struct choice {
-    enum { ADD_TAIL, ADD_FILE, ADD_COPY, ADD_CHAIN, ADD_MEADOW, ADD_SPLINE } what;
+    enum added what;
     int rig; ///< of ADD_COPY
 };
 
@@ -220,6 +220,8 @@ static void carry_out(struct inspector *in, struct choice choice)
     }
     if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
+
+void inspector_add(struct inspector *in, int what) { carry_out(in, (struct choice){(enum added)what, in->selected}); }
 
 static void choose_added(struct inspector *in, const struct dropdown *list)
 {

@@ -2,6 +2,7 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/inspector/inspector.h"
 #include "editor/inspector/parts.h"
 #include "scene/order.h"
 #include <math.h>
@@ -326,6 +327,12 @@ static void roll(struct inspector *in, const struct spline *spline)
     if (is_new) core_set_parameter(in->core, active, PARAMETER_VARIATION, FRESH_VARIATION);
     core_end(in->core, true);
     core_edited(in->core, in->core->active);
+}
+
+void inspector_roll(struct inspector *in, int unused)
+{
+    (void)unused;
+    roll(in, core_active_spline(in->core));
 }
 
 /// Why there is no variation to see; NULL: there is.
