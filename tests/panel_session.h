@@ -18,7 +18,7 @@ static inline void panel_open(struct session *session, const char *scene, float 
 /// The same with the models of its characters, in a window so high that no section has to be scrolled to.
 static inline struct models *panel_open_models(struct session *session, const char *scene)
 {
-    panel_open(session, scene, 1280, 1400);
+    panel_open(session, scene, 1280, 1500);
     struct models *models = session->table.models;
     assert_done(models_update(models, session->document, &error));
     editor_open(session->editor, &session->world);

@@ -109,7 +109,7 @@ SESSION_TEST(
     assert_false(s->editor->core.message.is_error);
 }
 
-SESSION_TEST(the_inspector_switches_each, panel_open(s, swinging, 1280, 900))
+SESSION_TEST(the_inspector_switches_each, panel_open(s, swinging, 1280, 1000))
 {
     panel_click(s, "section.limits");
     panel_click(s, "limit.low");
