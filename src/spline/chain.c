@@ -73,7 +73,8 @@ static void costate_at_end(const chain *c, const chain_node *p, const chain_node
 static void begin_real(const chain *c, const chain_node *p, const chain_node *q, cplx weight[4])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
-    const double *f = s->form, xp = p->value, dp = p->d_re, xq = q->value, dq = chain_end_d(q).re;
+    const double *f = s->form, xp = p->value, dp = p->d_re, xq = q->value;
+    const double dq = q->fixed & NODE_STILL ? 0 : q->d_re;
     double on_x = f[FORM_C00] * xq + f[FORM_C10] * dq - (f[FORM_P00] * xp + f[FORM_P01] * dp);
     double on_d = f[FORM_C01] * xq + f[FORM_C11] * dq - (f[FORM_P01] * xp + f[FORM_P11] * dp);
     if (q->slope_weight > 0) {

@@ -193,14 +193,14 @@ ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const
     const double *form = form_after(c, j);
     const chain_node *end = &c->nodes[chain_next(c, j)];
     kernel_leave_pull(is_complex, posed, right, form, p, q);
-    kernel_enter_pull(posed, entering, form, p, q);
+    kernel_enter_pull(is_complex, posed, entering, form, p, q);
     if (end->slope_weight > 0) {
         const kernel_slope slope = kernel_slope_of(c, end);
         const kernel_link link = kernel_link_of(posed, &slope, form, p, q);
         kernel_add_pull(right, link.miss, link.before);
         kernel_add_pull(entering, link.miss, link.at);
     }
-    for (int i = 0; i < 3 && end->fixed & NODE_STILL; i++) entering[i] = 0;
+    if (end->fixed & NODE_STILL) entering[0] = entering[1] = entering[2] = 0;
 }
 
 ALWAYS_INLINE void pull_first(const chain *c, const kernel_node *node, bool is_complex, bool posed, double *right)

@@ -92,9 +92,13 @@ ALWAYS_INLINE void kernel_leave_pull(bool is_complex, bool posed, double *r, con
 }
 
 /// C s_p − V s_q at the last node.
-ALWAYS_INLINE void kernel_enter_pull(bool posed, double *r, const double *f, const kernel_node *p,
+ALWAYS_INLINE void kernel_enter_pull(bool is_complex, bool posed, double *r, const double *f, const kernel_node *p,
                                      const kernel_node *q)
 {
+    if (!is_complex) {
+        r[1] += f[FORM_C10] * p->x + f[FORM_C11] * p->d - (f[FORM_V01] * q->x + f[FORM_V11] * q->d);
+        return;
+    }
     r[0] += f[FORM_C00 + 1] * p->x + f[FORM_C01 + 1] * p->d;
     r[1] += f[FORM_C10] * p->x + f[FORM_C11] * p->d;
     r[2] += f[FORM_C10 + 1] * p->x + f[FORM_C11 + 1] * p->d;

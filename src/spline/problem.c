@@ -177,6 +177,7 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
     chain *c = &solver->chain;
     chain_node *node = c->nodes;
     bool same = true;
+    unsigned fixed = 0; // of any node
     int turned = p->start == WIGGLY_LOOP ? knot_at(solver, p, begin)->sample : 0;
     if (p->start == WIGGLY_REST) {
         same = put_node(node, 0, problem_oscillates(p) ? NODE_FROM_REST : NODE_AT_REST, VIEW_AHEAD, 0, 0);
@@ -190,10 +191,9 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
         same = put_knot(p, node, knot_at(solver, p, n), pair ? knot_at(solver, p, in_turn(p, n + 1)) : NULL) && same;
         if (p->start == WIGGLY_LOOP) node->sample = (node->sample - turned + p->count) % p->count;
         if (pair) i++;
+        fixed |= node->fixed;
     }
-    c->posed = false;
-    for (const chain_node *at = c->nodes; at < node; at++)
-        c->posed = c->posed || at->fixed & (NODE_POSE | NODE_FIXED_E_IM);
+    c->posed = fixed & (NODE_POSE | NODE_FIXED_E_IM);
     int count = (int)(node - c->nodes);
     same = same && count == c->node_count && turned == c->turned;
     c->node_count = count;
