@@ -70,9 +70,20 @@ SESSION_TEST(test_recent_files, open_session(s))
     expect_request(s, REQUEST_OPEN, "/home/me/scenes/walk.json");
 }
 
-/// They make room for the folder's names as soon as something is typed, and are not offered for saving.
-SESSION_TEST(test_recent_files_give_way, open_session(s))
+/// Typing filters them as it filters the folder's names, and they are not offered for saving.
+SESSION_TEST(test_recent_files_are_filtered, open_session(s))
 {
+    session_key(s, 'O', MOD_CTRL);
+    panel_type(s, "AL"); // of walk.json
+    assert_int_equal(s->editor->dialogs->dialog.match_count, 1);
+    session_key(s, KEY_ENTER, 0); // it does not begin so, hence it is not meant unless it is chosen
+    expect_request(s, REQUEST_OPEN, "AL");
+    panel_answer(s, REQUEST_OPEN, false, "AL: no such file");
+    session_key(s, KEY_DOWN, 0);
+    session_key(s, KEY_ENTER, 0);
+    expect_request(s, REQUEST_OPEN, "/home/me/scenes/walk.json");
+    panel_answer(s, REQUEST_OPEN, false, "no");
+    session_key(s, KEY_ESCAPE, 0);
     session_key(s, 'O', MOD_CTRL);
     panel_type(s, "t");
     assert_int_equal(s->editor->dialogs->dialog.match_count, 1);

@@ -290,7 +290,8 @@ TEST(test_open_completes_paths)
     struct dialog *dialog = &f.editor->dialogs->dialog;
     assert_int_equal(dialog->match_count, 5);
     panel_type(&f, "fi");
-    assert_int_equal(dialog->match_count, 3);
+    assert_int_equal(dialog->match_count, 4); // also in the middle of a name, but after those that begin so
+    assert_string_equal(dialog->names[dialog->match[0]], "figures/");
     session_key(&f, KEY_TAB, 0);
     assert_string_equal(dialog->ui.text.bytes, "figure");
     assert_int_equal(calls, 1); // listed once, not at every key

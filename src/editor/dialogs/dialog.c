@@ -3,6 +3,7 @@
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/state.h"
+#include "ui/filter.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
@@ -26,24 +27,43 @@ static void list_folder(struct dialog *dialog, const char *folder)
     dialog->name_count = count > 0 ? count : 0;
 }
 
-/// Lists the folder of the path where it is a new one, and picks the names that fit what is typed after it.
+/// Whether a name begins with what is typed after the folder.
+static bool begins(const struct dialog *dialog, const char *name)
+{
+    const char *typed = path_name(dialog->ui.text.bytes);
+    return strncmp(name, typed, strlen(typed)) == 0;
+}
+
+/// Whether a name holds what is typed; on the first of two passes those that begin so, on the second the others.
+static bool fits(const struct dialog *dialog, const struct ui_filter *filter, const char *name, int pass)
+{
+    const enum fit fit = ui_filter_fit(filter, name);
+    if (dialog->kind == DIALOG_ADD && path_has_end(name, ".json")) return false;
+    return fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0);
+}
+
+/// Lists the folder of the path where it is a new one, and picks the names that fit what is typed after it; in front of them, unless a folder is
+/// typed, the recent files that fit.
 static void dialog_match(struct dialog *dialog)
 {
     char folder[UI_TEXT_SIZE];
+    struct ui_filter filter = {{0}};
     const char *name = path_name(dialog->ui.text.bytes);
     snprintf(folder, sizeof folder, "%.*s", (int)(name - dialog->ui.text.bytes), dialog->ui.text.bytes);
     list_folder(dialog, folder);
     dialog->match_count = 0;
     dialog->choice = -1;
-    bool empty = dialog->kind == DIALOG_OPEN && !dialog->ui.text.bytes[0];
-    for (int i = 0; empty && i < dialog->recent_count; i++)
-        dialog->match[dialog->match_count++] = DIALOG_MAX_NAMES + i;
-    size_t length = strlen(name);
-    for (int i = 0; i < dialog->name_count; i++) {
-        // While the whole name is selected, the next character replaces it: everything is still open.
-        bool fits = dialog->ui.text.all || strncmp(dialog->names[i], name, length) == 0;
-        if (dialog->kind == DIALOG_ADD && path_has_end(dialog->names[i], ".json")) fits = false;
-        if (fits) dialog->match[dialog->match_count++] = i;
+    // While the whole name is selected, the next character replaces it: everything is still open.
+    if (!dialog->ui.text.all) snprintf(filter.typed, sizeof filter.typed, "%s", name);
+    const int recent = dialog->kind == DIALOG_OPEN && !folder[0] ? dialog->recent_count : 0;
+    for (int i = 0; i < recent; i++) {
+        if (ui_filter_fit(&filter, path_name(dialog->recent[i].path)) >= FIT_INSIDE)
+            dialog->match[dialog->match_count++] = DIALOG_MAX_NAMES + i;
+    }
+    for (int i = 0; i < 2 * dialog->name_count; i++) {
+        const int at = i % dialog->name_count;
+        if (fits(dialog, &filter, dialog->names[at], i / dialog->name_count))
+            dialog->match[dialog->match_count++] = at;
     }
 }
 
@@ -177,20 +197,21 @@ static const struct dialog_recent *dialog_recent_of(const struct dialog *dialog,
     return recent >= 0 ? &dialog->recent[recent] : NULL;
 }
 
-/// Tab: adds what all matches have in common.
+/// Tab: adds what all names have in common that begin as typed.
 static void dialog_complete(struct dialog *dialog)
 {
-    if (dialog->match_count == 0 || dialog_recent_of(dialog, 0)) return;
-    const char *first = dialog->names[dialog->match[0]];
-    size_t common = strlen(first);
-    for (int m = 1; m < dialog->match_count; m++) {
-        const char *other = dialog->names[dialog->match[m]];
+    const char *first = NULL;
+    size_t common = 0;
+    for (int m = 0; m < dialog->match_count; m++) {
+        const char *other = dialog_recent_of(dialog, m) ? "" : dialog->names[dialog->match[m]];
         size_t same = 0;
+        if (!*other || (!dialog->ui.text.all && !begins(dialog, other))) continue;
+        if (!first) common = strlen(first = other);
         while (same < common && other[same] == first[same]) same++;
         common = same;
     }
-    while (common > 0 && ((unsigned char)first[common] & 0xC0) == 0x80) common--; // never half a character
-    if (common > 0 || dialog->ui.text.all) set_name(dialog, first, common);
+    while (first && common > 0 && ((unsigned char)first[common] & 0xC0) == 0x80) common--; // never half a character
+    if (first && (common > 0 || dialog->ui.text.all)) set_name(dialog, first, common);
 }
 
 static bool take_recent(struct dialog *dialog, const struct dialog_recent *recent)
@@ -216,6 +237,13 @@ static bool dialog_take(struct dialog *dialog, int match)
     return !folder;
 }
 
+/// The match that Enter takes though none is chosen: the only one, if it begins as typed; else −1.
+static int dialog_only(const struct dialog *dialog)
+{
+    const bool single = dialog->kind != DIALOG_SAVE_AS && dialog->match_count == 1 && !dialog_recent_of(dialog, 0);
+    return single && begins(dialog, dialog->names[dialog->match[0]]) ? 0 : -1;
+}
+
 static bool path_key(struct dialogs *dialogs, struct core *core, int key)
 {
     struct dialog *dialog = &dialogs->dialog;
@@ -233,7 +261,7 @@ static bool path_key(struct dialogs *dialogs, struct core *core, int key)
         move_choice(dialog, 1);
         return true;
     case KEY_ENTER:
-        if (dialog->kind != DIALOG_SAVE_AS && dialog->match_count == 1) dialog->choice = 0;
+        if (dialog->choice < 0) dialog->choice = dialog_only(dialog);
         if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(dialogs, core);
         return true;
     default:
