@@ -84,10 +84,12 @@ static void look_at_part(const struct gltf_part *part, int vertex, struct posed_
         const float *mark = part->mark[vertex], *place = part->position[vertex];
         *look = (struct posed_look){{place[0], place[1], place[2], part->fur[vertex][0]},
                                     {mark[0], mark[1]},
-                                    {mark[2], part->fur[vertex][1]}};
+                                    {mark[2], part->fur[vertex][1]},
+                                    1};
         return;
     }
     memcpy(look->color, part->color ? part->color[vertex] : white, sizeof look->color);
+    look->cover = 1;
     if (part->uv) memcpy(look->uv, part->uv[vertex], sizeof look->uv);
 }
 
@@ -159,7 +161,7 @@ static void map_color(const struct figure *figure, const float phase[2], float c
 static void look_at(const struct figure *figure, int map, int axis, int vertex, struct posed_look *look)
 {
     const struct character *c = &figure->character;
-    *look = (struct posed_look){.color = {[3] = 1.0f}};
+    *look = (struct posed_look){.color = {[3] = 1.0f}, .cover = 1.0f};
     memcpy(look->color, c->color[vertex], sizeof c->color[vertex]);
     if (c->looks.uv && !c->looks.corner) memcpy(look->uv, c->looks.uv[vertex], sizeof look->uv);
     if (map < 0) return;

@@ -11,7 +11,7 @@
 /// What a vertex looks like: its colour, linear, with opacity; its place in a picture; and its phase, as in stage_mesh.frag. A coat's are as
 /// stage_skirt.vert has them.
 struct posed_look {
-    float color[4], uv[2], phase[2];
+    float color[4], uv[2], phase[2], cover; ///< the last: 1 on the surface, 0 a pixel off it
 };
 
 /// Triangles of one material, one after the other.
@@ -68,7 +68,6 @@ bool posed_map_figure(struct posed *mesh, const struct stage_character *shown);
 struct skirt_vertex {
     float place[3], normal[3]; ///< world
     struct posed_look look;
-    float cover; ///< 1 on the surface, 0 a pixel off it
 };
 
 enum { SKIRT_CORNERS = 4 }; ///< of an edge

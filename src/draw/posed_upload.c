@@ -10,6 +10,7 @@ void posed_look_attributes(size_t stride, size_t offset)
     gl_attribute(POSED_COLOR, 4, GL_FLOAT, stride, offset + offsetof(struct posed_look, color));
     gl_attribute(POSED_UV, 2, GL_FLOAT, stride, offset + offsetof(struct posed_look, uv));
     gl_attribute(POSED_PHASE, 2, GL_FLOAT, stride, offset + offsetof(struct posed_look, phase));
+    gl_attribute(POSED_COVER, 1, GL_FLOAT, stride, offset + offsetof(struct posed_look, cover));
 }
 
 long posed_upload(struct posed *mesh)

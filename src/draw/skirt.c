@@ -59,7 +59,7 @@ static vec3s step_out(const struct skirt_vertex *end, vec3s edge, float side, bo
 static void look_at(const struct posed *mesh, int corner, bool back, struct skirt_vertex *out)
 {
     const uint32_t vertex = mesh->indices[corner];
-    *out = (struct skirt_vertex){.look = mesh->looks[vertex], .cover = 1.0f};
+    *out = (struct skirt_vertex){.look = mesh->looks[vertex]};
     for (int k = 0; k < 3; k++) {
         out->place[k] = mesh->place[vertex][k];
         out->normal[k] = back ? -mesh->normal[vertex][k] : mesh->normal[vertex][k];
@@ -92,7 +92,7 @@ void skirt_hang(const struct posed *mesh, const struct posed_part *part, int cor
         const vec3s off = step_out(&out[e], edge, side, open, eye, seam);
         struct skirt_vertex *outer = &out[3 - e];
         *outer = out[e];
-        outer->cover = 0.0f;
+        outer->look.cover = 0.0f;
         for (int k = 0; k < 3; k++) outer->place[k] += off.raw[k];
     }
     for (int c = 0; mesh->neighbours[corner] == NEIGHBOUR_CUT && c < SKIRT_CORNERS; c++) {

@@ -3,9 +3,11 @@
 #include "draw/posed.h"
 #include "model/fox.h"
 #include <stdlib.h>
+#include <string.h>
 
 enum { PICTURE_UNIT = 1 };
-enum { EDGES = 8192 }; ///< whose skirts are drawn at once
+enum { EDGES = 8192, CORNERS = SKIRT_CORNERS * EDGES }; ///< whose skirts are drawn at once
+enum { APART = 256 };                                   ///< corners; Mesa takes arrays that are nearer for one
 /// Meshes on the GPU, more than a picture shows; and after how many pictures without it one goes.
 enum {
     MAX_SHOWN = STAGE_MAX_CHARACTERS + STAGE_MAX_MODELS,
@@ -31,6 +33,12 @@ struct shown {
     float blink;
 };
 
+/// Arranged as meshes are: llvmpipe compiles a shader anew for each arrangement.
+struct skirts {
+    float place[CORNERS][3], normal[CORNERS][3];
+    struct posed_look look[CORNERS];
+};
+
 struct stage_meshes {
     const struct program *programs;
     struct kept kept[MAX_KEPT];
@@ -39,23 +47,18 @@ struct stage_meshes {
     long clock; ///< pictures
     GLuint white;
     GLuint skirt_array, skirt_buffer, skirt_indices;
-    struct skirt_vertex *skirt;
+    struct skirts *skirts;
 };
 
 static void create_skirts(struct stage_meshes *meshes)
 {
     static const uint16_t quad[] = {0, 1, 2, 0, 2, 3};
-    const size_t stride = sizeof *meshes->skirt;
     uint16_t *indices = need(6 * EDGES, sizeof *indices);
     for (int i = 0; i < 6 * EDGES; i++) indices[i] = (uint16_t)(SKIRT_CORNERS * (i / 6) + quad[i % 6]);
-    meshes->skirt = need(SKIRT_CORNERS * EDGES, sizeof *meshes->skirt);
+    meshes->skirts = need(1, sizeof *meshes->skirts);
     glGenVertexArrays(1, &meshes->skirt_array);
     glBindVertexArray(meshes->skirt_array);
     meshes->skirt_buffer = gl_buffer(GL_ARRAY_BUFFER, 0, NULL, GL_STREAM_DRAW);
-    gl_attribute(POSED_PLACE, 3, GL_FLOAT, stride, offsetof(struct skirt_vertex, place));
-    gl_attribute(POSED_NORMAL, 3, GL_FLOAT, stride, offsetof(struct skirt_vertex, normal));
-    posed_look_attributes(stride, offsetof(struct skirt_vertex, look));
-    gl_attribute(POSED_COVER, 1, GL_FLOAT, stride, offsetof(struct skirt_vertex, cover));
     meshes->skirt_indices = gl_buffer(GL_ELEMENT_ARRAY_BUFFER, 6 * EDGES * sizeof *indices, indices, GL_STATIC_DRAW);
     glBindVertexArray(0);
     free(indices);
@@ -82,7 +85,7 @@ void stage_meshes_destroy(struct stage_meshes *meshes)
     glDeleteTextures(1, &meshes->white);
     glDeleteVertexArrays(1, &meshes->skirt_array);
     glDeleteBuffers(2, (const GLuint[]){meshes->skirt_buffer, meshes->skirt_indices});
-    free(meshes->skirt);
+    free(meshes->skirts);
     free(meshes);
 }
 
@@ -226,12 +229,27 @@ static void draw_surface(const struct stage_meshes *meshes, const struct posed *
     glDisable(GL_BLEND);
 }
 
+static void put(struct skirts *skirts, int corner, const struct skirt_vertex *from)
+{
+    memcpy(skirts->place[corner], from->place, sizeof from->place);
+    memcpy(skirts->normal[corner], from->normal, sizeof from->normal);
+    skirts->look[corner] = from->look;
+}
+
 static void draw_edges(const struct stage_meshes *meshes, int count)
 {
     if (count == 0) return;
     glBindBuffer(GL_ARRAY_BUFFER, meshes->skirt_buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)((size_t)(SKIRT_CORNERS * count) * sizeof *meshes->skirt),
-                 meshes->skirt, GL_STREAM_DRAW);
+    const struct skirts *skirts = meshes->skirts;
+    const size_t corners = (size_t)(SKIRT_CORNERS * count), looks = corners * sizeof *skirts->look;
+    const size_t part = corners < APART ? APART * sizeof *skirts->place : corners * sizeof *skirts->place;
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * part + looks), NULL, GL_STREAM_DRAW);
+    glBufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)(corners * sizeof *skirts->place), skirts->place);
+    glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)part, (GLsizeiptr)(corners * sizeof *skirts->normal), skirts->normal);
+    glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)(2 * part), (GLsizeiptr)looks, skirts->look);
+    gl_attribute(POSED_PLACE, 3, GL_FLOAT, 0, 0);
+    gl_attribute(POSED_NORMAL, 3, GL_FLOAT, 0, part);
+    posed_look_attributes(sizeof *skirts->look, 2 * part);
     glDrawElements(GL_TRIANGLES, 6 * count, GL_UNSIGNED_SHORT, NULL);
 }
 
@@ -246,7 +264,9 @@ static void draw_skirts(const struct stage_meshes *meshes, const struct posed *m
         if (program_of(part, true) != program) continue;
         use_material(meshes, &meshes->programs[program], part, true);
         for (int i = skirt_next(mesh, part, part->first); i < part->end; i = skirt_next(mesh, part, i + 1)) {
-            skirt_hang(mesh, part, i, eye, seam, meshes->skirt + SKIRT_CORNERS * count);
+            struct skirt_vertex hung[SKIRT_CORNERS];
+            skirt_hang(mesh, part, i, eye, seam, hung);
+            for (int c = 0; c < SKIRT_CORNERS; c++) put(meshes->skirts, SKIRT_CORNERS * count + c, &hung[c]);
             if (++count < EDGES) continue;
             draw_edges(meshes, count);
             count = 0;
@@ -266,7 +286,6 @@ static bool has_program(const struct posed *mesh, enum stage_program program, bo
 void stage_meshes_draw(const struct stage_meshes *meshes, const struct stage_view *view, float scale, float seam)
 {
     const bool second = seam > 0.0f;
-    glVertexAttrib1f(POSED_COVER, 1.0f); // of surfaces
     glActiveTexture(GL_TEXTURE0 + PICTURE_UNIT);
     for (enum stage_program which = 0; which < PROGRAM_MEADOW; which++) {
         const struct program *program = &meshes->programs[which];
