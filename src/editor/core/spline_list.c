@@ -165,8 +165,8 @@ void spline_list_remove(struct core *core)
     snprintf(question->title, sizeof question->title, "%.200s is used in %d place%s", active->name, count,
              count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note,
-             "Parameters that follow it keep their value at the playhead. Tails and characters on the "
-             "stage stop using it.");
+             "Parameters that follow it keep their value at the playhead. Channels and meadows that it drives go "
+             "with it.");
 }
 
 static void set_fps(struct core *core, double fps, bool keeps_seconds)

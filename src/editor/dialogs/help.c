@@ -224,8 +224,11 @@ static void show_title(struct drawlist *list, const struct page *page, const str
     const struct rect *box = &page->box;
     const float left = box->x + MARGIN, width = fminf(FIELD_WIDTH, box->w / 2 - MARGIN);
     const struct rect field = {box->x + box->w - MARGIN - width, box->y + 18, width, FIELD};
+    const float title = ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_TITLE, "Keys")) + MARGIN;
     drawlist_text_fit(list, left, box->y + 40, field.x - left - 8, FONT_LABEL_BOLD, THEME_TEXT_TITLE, theme()->text,
                       "Keys");
+    paint_line(list, (struct rect){left + title, box->y + 22, fmaxf(field.x - left - title - 8, 0), FIELD - 8},
+               FONT_LABEL, theme()->text_dim, "Esc closes. F3 runs any command by its name.");
     commands_show_field(list, field, &help->filter, "Type to search");
 }
 

@@ -88,13 +88,16 @@ struct sheet {
     int rows; ///< in sight
 };
 
-static struct sheet sheet_of(struct rect window)
+static struct sheet sheet_of(struct rect window, int found)
 {
     struct sheet sheet;
     const float room = window.h - 32 - FIELD - 3 * PAD;
     sheet.rows = (int)fmaxf(fminf(floorf(room / ROW), ROWS), 1);
-    const float w = fminf(WIDTH, window.w - 16), h = FIELD + 3 * PAD + (float)(sheet.rows * ROW);
-    sheet.box = (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 3), w, h};
+    const float w = fminf(WIDTH, window.w - 16), rest = FIELD + 3 * PAD;
+    const float top = roundf(window.y + (window.h - rest - (float)(sheet.rows * ROW)) / 3);
+    if (found < sheet.rows) sheet.rows = found > 0 ? found : 1; // the field stays where it is
+    const float h = rest + (float)(sheet.rows * ROW);
+    sheet.box = (struct rect){roundf(window.x + (window.w - w) / 2), top, w, h};
     sheet.field = (struct rect){sheet.box.x + PAD, sheet.box.y + PAD, w - 2 * PAD, FIELD};
     sheet.list = (struct rect){sheet.field.x, sheet.field.y + FIELD + PAD, sheet.field.w, (float)(sheet.rows * ROW)};
     return sheet;
@@ -147,9 +150,9 @@ bool palette_event(struct dialogs *dialogs, const struct core *core, const struc
     const bool release =
         event->kind == EVENT_KEY && event->action == ACTION_RELEASE; // of a key that was pressed before
     if (!palette->open || release || event->kind == EVENT_POINTER || event->kind > EVENT_WHEEL) return false;
-    const struct sheet sheet = sheet_of(core->layout.window);
     struct commands_found found;
     commands_find(&dialogs->commands, core, &palette->filter, &found);
+    const struct sheet sheet = sheet_of(core->layout.window, found.count);
     if (ui_filter_event(&palette->filter, event)) {
         palette->choice = palette->first = 0;
     } else if (event->kind == EVENT_KEY) {
@@ -197,9 +200,9 @@ void palette_show(const struct dialogs *dialogs, struct core *core)
     const struct palette *palette = &dialogs->palette;
     struct drawlist *list = &core->list;
     if (!palette->open) return;
-    const struct sheet sheet = sheet_of(core->layout.window);
     struct commands_found found;
     commands_find(&dialogs->commands, core, &palette->filter, &found);
+    const struct sheet sheet = sheet_of(core->layout.window, found.count);
     drawlist_rect(list, core->layout.window, theme()->veil);
     drawlist_rounded(list, sheet.box, 8, theme()->panel);
     drawlist_rounded_line(list, sheet.box, 8, 1, theme()->zero);

@@ -37,7 +37,7 @@ static void build_drives(struct inspector *in, const struct character_rig *rig)
         if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose(in, k);
         if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this channel")) continue;
         const int owner = characters_rig(in->core);
-        if (core_begin(in->core, "Remove coordinate", 0))
+        if (core_begin(in->core, "Remove channel", 0))
             core_end(in->core, edit_drive_remove(in->core->document, owner, k, &in->core->error));
         return;
     }
@@ -123,7 +123,7 @@ static void add_coordinate(struct inspector *in, const struct dropdown *list)
     char *name = need_text(items[picked].name);
     const struct drive drive = {
         .name = name, .spline = in->core->active >= 0 ? in->core->active : 0, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-    if (core_begin(in->core, "Add coordinate", 0))
+    if (core_begin(in->core, "Add channel", 0))
         core_end(in->core, edit_drive(in->core->document, owner, -1, &drive, &in->core->error));
     free(name);
 }
@@ -155,7 +155,7 @@ static void build_facts(struct inspector *in)
     const struct coordinate *c = characters_coordinate(in->core);
     char text[200];
     if (!c) {
-        ui_paragraph(&in->ui, "The model lacks this coordinate.", theme()->text_dim);
+        ui_paragraph(&in->ui, "The model has no such channel.", theme()->text_dim);
     } else if (c->frequency > 0) {
         snprintf(text, sizeof text,
                  "Found at %.2f Hz, damping %.3f. It explains %.0f %% of this motion; without phases (real PCA) one "
@@ -267,7 +267,7 @@ void inspector_character(struct inspector *in)
     if (view->drive >= rig->drive_count) view->drive = 0;
     build_drives(in, rig);
     if (free_coordinates(in, rig, items) > 0 && in->core->document->spline_count > 0)
-        inspector_dropdown(in, &add_list, ui_row(&in->ui, UI_ROW), 0, "Add a coordinate", 0);
+        inspector_dropdown(in, &add_list, ui_row(&in->ui, UI_ROW), 0, "Add a channel", 0);
     ui_space(&in->ui, 4);
     if (view->drive < rig->drive_count) {
         inspector_spline_field(in, &spline_list, inspector_labelled(in, "spline"), 0,
