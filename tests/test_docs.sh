@@ -166,7 +166,7 @@ while read -r line; do
     expect 0 "$line: something to do" bash -c "${line/#make/make -n}"
 done < <(grep -ohE '`make [^`]*`' $documents | tr -d '`' | sort -u)
 
-for document in $documents; do
+for document in $documents CHANGELOG.md {assets,src/*,tests,tools}/README.md; do
     missing=$(
         grep -oE '\]\([^)]*\)' "$document" | tr -d '[]()' | while read -r link; do
             target=$(dirname "$document")/${link%%#*} heading=${link#*#}
