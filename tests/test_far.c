@@ -76,7 +76,7 @@ TEST_OF(struct session, s, open_start_scene(s), session_close(s), test_one_click
     session_hover(s, "warning(0)");
     session_frame(s);
     assert_int_equal(s->editor->core.hover.kind, HOVER_WARNING);
-    assert_int_equal(s->editor->curves->far[0], FAR_LIMITS);
+    assert_string_equal(s->editor->curves->fixes[0].text, "set limits from -1.7 to 1.7");
     session_click(s, "warning(0)");
     session_frame(s);
     assert_true(farthest(s, 0, &knot) < 1.3 * knot);
@@ -84,25 +84,29 @@ TEST_OF(struct session, s, open_start_scene(s), session_close(s), test_one_click
     assert_saved(s, dragged);
 }
 
-/// A scene too long for limits: W adds a pose at the peak.
+/// A scene too long for limits: W adds a pose at the peak, outside complex mode a knot.
 TEST(test_a_pose_at_the_peak_holds_where_limits_cannot)
 {
-    char scene[1024];
-    double knot;
-    struct session s;
-    print_jump(25000, "", "", scene);
-    session_open(&s, scene);
-    const char *original = session_saved(&s);
-    const double before = farthest(&s, 0, &knot);
-    session_key(&s, 'W', 0);
-    const struct spline *sway = s.document->splines[0];
-    assert_int_equal(sway->knot_count, 4);
-    assert_true(sway->knots[2].has_phase && sway->knots[2].phase != 0);
-    assert_near(fabs(sway->knots[2].value), 1, 1e-12);
-    assert_true(farthest(&s, 0, &knot) < before);
-    session_key(&s, 'Z', MOD_CTRL);
-    assert_saved(&s, original);
-    session_close(&s);
+    static const char *const modes[] = {", \"mode\": \"real\"", ""};
+    for (int is_complex = 0; is_complex < 2; is_complex++) {
+        char scene[1024];
+        double knot;
+        struct session s;
+        print_jump(25000, modes[is_complex], "", scene);
+        session_open(&s, scene);
+        const char *original = session_saved(&s);
+        const double before = farthest(&s, 0, &knot);
+        session_key(&s, 'W', 0);
+        const struct spline *sway = s.document->splines[0];
+        assert_int_equal(sway->knot_count, 4);
+        const struct knot *added = &sway->knots[2];
+        assert_true(added->has_phase == is_complex && (added->phase != 0) == is_complex);
+        assert_near(fabs(added->value), 1, 1e-12);
+        assert_true(farthest(&s, 0, &knot) < before);
+        session_key(&s, 'Z', MOD_CTRL);
+        assert_saved(&s, original);
+        session_close(&s);
+    }
 }
 
 /// What is said of the last spline of a scene, which then ends.

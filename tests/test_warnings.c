@@ -65,10 +65,11 @@ static void assert_remedied(struct session *s, const char *scene, enum warning_k
 TEST(test_a_swing_is_tamed_by_what_helps)
 {
     struct session s;
-    assert_remedied(&s, JUMP, WARNING_SWING);
+    assert_remedied(&s, JUMP, WARNING_FAR);
     const struct spline *sway = s.document->splines[0];
-    assert_int_equal(sway->knot_count, 4); // there is calm enough: a knot holds it
-    assert_near(sway->knots[2].value, 1, 1e-9);
+    assert_int_equal(sway->knot_count, 3); // there is calm enough: limits hold it
+    assert_near(sway->parameter[PARAMETER_LOW].value, -1.2, 1e-9);
+    assert_near(sway->parameter[PARAMETER_HIGH].value, 1.2, 1e-9);
     session_close(&s);
     assert_remedied(&s, UNCALM, WARNING_FAR);
     assert_int_equal(s.document->splines[0]->knot_count, 2); // no knot where calm does it

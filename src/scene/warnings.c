@@ -3,13 +3,10 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double FAR = 3;             ///< of a curve, in heights of its knots
-static const double LEAST_OTHER = 0.25;  ///< of the other knots' height, as a share of the largest knot's
-static const double FAR_SWING = 2;       ///< of a span, in heights of its knots
-static const double LEAST_HEIGHT = 0.75; ///< of a span's knots, as a share of the highest: small ones may ring
-static const double FAST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
-static const double WIDE_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
-static const double FORCED_TURN = 120;   ///< degrees of poses out of step: midway the swing is down to half of theirs
+static const double FAR = 2;           ///< of a curve, in heights of knots
+static const double FAST_RATE = 0.4;   ///< f·(1 + β) in sample rates; at 0.5 swings alias
+static const double WIDE_TURN = 0.3;   ///< β · periods between two knots (Figure 4)
+static const double FORCED_TURN = 120; ///< degrees of poses out of step: midway the swing is down to half of theirs
 static const double MOST_OF_VALUES =
     30; ///< degrees by which their values alone may be out of step, or no free phase helps
 static const double LEAST_FORCED = 0.4; ///< magnitude of such poses, as a share of the largest
@@ -21,7 +18,6 @@ struct look {
     int of;
     const struct spline *spline;
     const wiggly_curve *curve;
-    double frequency; ///< the highest, Hz; only where all is looked at
     struct warnings *found;
 };
 
@@ -47,12 +43,33 @@ static double knot_height(const struct look *look, const struct knot *knot)
     return is_pose ? hypot(height_of_value, knot->phase) : height_of_value;
 }
 
-static double highest_knot(const struct look *look)
+/// How far a spline may be expected to swing.
+struct measure {
+    double
+        knots; ///< their heights' root mean square, so that one high knot among low ones counts little; still ones say nothing
+    double value;     ///< the highest knot's, its phase left out
+    double low, high; ///< of the equilibrium
+};
+
+static struct measure measure(const struct look *look)
 {
-    double highest = 0;
-    for (int k = 0; k < look->spline->knot_count; k++)
-        highest = fmax(highest, knot_height(look, &look->spline->knots[k]));
-    return highest;
+    const double *y = look->curve->y;
+    struct measure all = {.low = y[0], .high = y[0]};
+    double squares = 0;
+    int count = 0;
+    for (int k = 0; k < look->spline->knot_count; k++) {
+        const struct knot *knot = &look->spline->knots[k];
+        if (knot->still) continue;
+        squares += knot_height(look, knot) * knot_height(look, knot);
+        all.value = fmax(all.value, height(look->curve, sample_of(look, knot)));
+        count++;
+    }
+    all.knots = count > 0 ? sqrt(squares / count) : 0;
+    for (int i = 1; i < look->curve->samples; i++) {
+        if (y[i] < all.low) all.low = y[i];
+        if (y[i] > all.high) all.high = y[i];
+    }
+    return all;
 }
 
 static bool look_at(const struct document *document, const struct evaluation *evaluation, int of,
@@ -68,109 +85,62 @@ static bool look_at(const struct document *document, const struct evaluation *ev
     return true;
 }
 
-/// How far a curve may swing: beside its largest knot, up to the knots on either side, more than elsewhere.
-struct reach {
-    int from, to; ///< samples beside the largest knot; across a loop's seam if `from` is behind `to`
-    double largest, other, value,
-        most[2];     ///< heights: of the largest knot, the next one, and of the largest value alone
-    double range[2]; ///< of the equilibrium
+/// Where a curve is furthest beyond how far it may swing.
+struct far {
+    int sample;
+    double times, limit; ///< as far as it may, which is FAR times the limit
 };
 
-static bool is_beside(const struct reach *reach, int sample)
+static void look_between(const struct look *look, int from, int to, double limit, struct far *far)
 {
-    if (reach->from <= reach->to) return sample >= reach->from && sample <= reach->to;
-    return sample >= reach->from || sample <= reach->to;
+    for (int i = from; i <= to; i++) {
+        const double times = height(look->curve, i) / (FAR * limit);
+        if (times > far->times) *far = (struct far){.sample = i, .times = times, .limit = limit};
+    }
 }
 
-/// From the knot before one to the knot after it; a domain's end, or all of a loop, where there is none.
-static void set_sides(const struct look *look, int knot, struct reach *reach)
+/// It may swing twice as far as the knots around it, as its average knot, or as its equilibrium moves; without knots that swing, anywhere.
+static struct far find_farthest(const struct look *look)
 {
-    const struct spline *spline = look->spline;
-    const int count = spline->knot_count;
-    const bool loop = spline_start(spline) == WIGGLY_LOOP && count > 2;
-    const bool begins = knot == 0 && !loop, ends = knot + 1 == count && !loop;
-    reach->from = begins ? 0 : sample_of(look, &spline->knots[(knot + count - 1) % count]);
-    reach->to = ends ? look->curve->samples - 1 : sample_of(look, &spline->knots[(knot + 1) % count]);
-}
-
-/// A moving equilibrium swings the curve, too, without any knot.
-static struct reach reach_of(const struct look *look)
-{
-    struct reach reach = {.range = {INFINITY, -INFINITY}};
-    int knot = 0;
-    for (int k = 0; k < look->spline->knot_count; k++) {
-        const struct knot *at = &look->spline->knots[k];
-        const double here = knot_height(look, at);
-        if (!at->still) reach.value = fmax(reach.value, height(look->curve, sample_of(look, at)));
-        reach.other = fmax(reach.other, fmin(here, reach.largest));
-        if (here > reach.largest) reach.largest = here, knot = k;
+    struct far far = {0};
+    const struct knot *knots = look->spline->knots;
+    const int count = look->spline->knot_count, last = count - 1;
+    const bool loop = spline_start(look->spline) == WIGGLY_LOOP;
+    const struct measure all = measure(look);
+    const double least = fmax(all.knots, all.high - all.low);
+    for (int k = 0; k <= count && all.knots > 0; k++) {
+        const struct knot *before = &knots[k > 0 ? k - 1 : loop ? last : 0];
+        const struct knot *after = &knots[k < count ? k : loop ? 0 : last];
+        const int from = k > 0 ? sample_of(look, before) : 0;
+        const int to = k < count ? sample_of(look, after) : look->curve->samples - 1;
+        look_between(look, from, to, fmax(least, fmax(knot_height(look, before), knot_height(look, after))), &far);
     }
-    set_sides(look, knot, &reach);
-    for (int i = 0; i < look->curve->samples; i++) {
-        const double y = look->curve->y[i];
-        reach.range[0] = y < reach.range[0] ? y : reach.range[0];
-        reach.range[1] = y > reach.range[1] ? y : reach.range[1];
-    }
-    const double moves = reach.range[1] - reach.range[0];
-    reach.most[true] = FAR * fmax(reach.largest, moves);
-    reach.most[false] = FAR * fmax(fmax(reach.other, LEAST_OTHER * reach.largest), moves);
-    return reach;
-}
-
-/// The sample that is furthest beyond what it may, or least within, and how many times as far as it may.
-static int farthest(const wiggly_curve *curve, const struct reach *reach, double *times)
-{
-    int peak = 0;
-    *times = 0;
-    for (int i = 0; i < curve->samples; i++) {
-        const double here = height(curve, i) / reach->most[is_beside(reach, i)];
-        if (here > *times) *times = here, peak = i;
-    }
-    return peak;
+    return far;
 }
 
 /// Limits beyond where the equilibrium moves by the largest value and a little more, in numbers of few digits.
-static void set_limits(struct warning *warning, const struct reach *reach)
+static void set_limits(const struct look *look, struct warning *warning)
 {
-    const double room = 1.15 * (reach->value > 0 ? reach->value : reach->largest);
+    const struct measure all = measure(look);
+    const double room = 1.15 * (all.value > 0 ? all.value : all.knots);
     const double digits = pow(10, 1 - floor(log10(room)));
-    warning->low = floor((reach->range[0] - room) * digits) / digits;
-    warning->high = ceil((reach->range[1] + room) * digits) / digits;
+    warning->low = floor((all.low - room) * digits) / digits;
+    warning->high = ceil((all.high + room) * digits) / digits;
 }
 
-/// The sample of the peak, or -1.
-static int find_far(const struct look *look)
+static void find_far(const struct look *look)
 {
-    double times;
     const wiggly_curve *curve = look->curve;
-    if (look->spline->knot_count == 0 || spline_is_limited(look->spline)) return -1;
-    const struct reach reach = reach_of(look);
-    if (reach.largest <= 0) return -1;
-    const int peak = farthest(curve, &reach, &times);
-    const bool beside = is_beside(&reach, peak);
-    const double limit = reach.most[beside] / FAR;
-    if (times <= 1) return -1;
+    const struct far far = find_farthest(look);
+    const int peak = far.sample;
+    if (far.times <= 1 || spline_is_limited(look->spline)) return;
     struct warning warning = {.kind = WARNING_FAR,
                               .frame = document_frame(look->document, peak),
                               .value = curve->total[peak],
-                              .amount = times,
-                              .remedy = curve->y[peak] + copysign(limit, curve->total[peak] - curve->y[peak]),
-                              .phase = curve->im[peak] * limit / height(curve, peak),
-                              .why = beside ? "its largest knot" : "its other knots"};
-    set_limits(&warning, &reach);
+                              .remedy = curve->y[peak] + copysign(far.limit, curve->total[peak] - curve->y[peak]),
+                              .phase = curve->im[peak] * far.limit / height(curve, peak)};
+    set_limits(look, &warning);
     add(look, warning);
-    return peak;
-}
-
-double warning_times_far(const struct document *document, const struct evaluation *before,
-                         const struct evaluation *after, int of)
-{
-    double times;
-    struct look look;
-    if (!look_at(document, before, of, NULL, &look)) return 0;
-    const struct reach reach = reach_of(&look);
-    farthest(&after->curves[of], &reach, &times);
-    return times;
 }
 
 /// The highest frequency of the spline in Hz.
@@ -188,16 +158,21 @@ static double bandwidth_of(const struct spline *spline)
     return spline_mode(spline) == WIGGLY_COMPLEX && bandwidth->track < 0 ? bandwidth->value : 0;
 }
 
+/// The highest frequency of the swing, Hz, and the highest that keeps its shape.
+static double edge_of(const struct look *look) { return frequency_of(look) * (1 + bandwidth_of(look->spline)); }
+static double edge_allowed(const struct look *look)
+{
+    return FAST_RATE * look->document->fps * look->document->substeps;
+}
+
 static void find_rate(const struct look *look)
 {
-    const struct document *document = look->document;
-    const double edge = look->frequency * (1 + bandwidth_of(look->spline));
-    const double rate = document->fps * document->substeps;
-    if (edge <= FAST_RATE * rate) return;
+    const double edge = edge_of(look);
+    if (edge <= edge_allowed(look)) return;
     add(look, (struct warning){.kind = WARNING_RATE,
                                .amount = edge,
-                               .limit = FAST_RATE * rate,
-                               .remedy = ceil(edge / (FAST_RATE * document->fps))});
+                               .limit = edge_allowed(look),
+                               .remedy = ceil(edge / (FAST_RATE * look->document->fps))});
 }
 
 /// Samples from one knot to the next one, around the end of a loop.
@@ -239,39 +214,11 @@ static struct warning in_middle(const struct look *look, const struct knot_span 
                             .to = span->to->frame};
 }
 
-/// The sample of a span that is furthest from the equilibrium.
-static int furthest(const struct look *look, const struct knot_span *span)
-{
-    int best = span->first;
-    for (int i = 1; i <= span->length; i++) {
-        const int sample = sample_in(look, span, i);
-        if (height(look->curve, sample) > height(look->curve, best)) best = sample;
-    }
-    return best;
-}
-
-/// `far`: the sample that is warned of already, or -1.
-static void find_swing(const struct look *look, const struct knot_span *span, double highest, int far)
-{
-    const wiggly_curve *curve = look->curve;
-    const int peak = furthest(look, span);
-    const double knots = fmax(knot_height(look, span->from), knot_height(look, span->to));
-    const double limit = fmax(knots, LEAST_HEIGHT * highest);
-    if (height(curve, peak) <= FAR_SWING * limit || limit <= 0 || peak == far) return;
-    add(look, (struct warning){.kind = WARNING_SWING,
-                               .frame = document_frame(look->document, peak),
-                               .value = curve->total[peak],
-                               .from = span->from->frame,
-                               .to = span->to->frame,
-                               .amount = height(curve, peak) / limit,
-                               .remedy = curve->y[peak] + copysign(limit, curve->total[peak] - curve->y[peak])});
-}
-
 /// The worst drift alone is kept: its remedy is the others' too.
-static void find_drift(const struct look *look, const struct knot_span *span, struct warning *drift)
+static void find_drift(const struct look *look, const struct knot_span *span, double frequency, struct warning *drift)
 {
     const double bandwidth = bandwidth_of(look->spline);
-    const double periods = look->frequency * span->length * document_step(look->document);
+    const double periods = frequency * span->length * document_step(look->document);
     if (bandwidth * periods <= WIDE_TURN * (1 + 1e-9)) return; /* at the limit is within it, rounding or not */
     if (periods <= drift->amount) return;
     *drift = in_middle(look, span, WARNING_DRIFT);
@@ -345,22 +292,30 @@ static void find_forced(const struct look *look, int k, double largest)
     if (warning.amount > FORCED_TURN) add(look, warning);
 }
 
-double warning_swing_left(const struct warning *warning, const struct document *document,
-                          const struct evaluation *evaluation)
+/// How many times as far two poses swing as the curve between them does where it swings least.
+static double swing_lost(const struct look *look, const struct warning *warning)
 {
-    struct look look;
     struct knot_span span;
-    const int first = document_sample(document, warning->from);
-    if (!look_at(document, evaluation, warning->spline, NULL, &look)) return 0;
-    if (!take_span(&look, spline_find_knot(document, look.spline, first), &span)) return 0;
+    const int first = document_sample(look->document, warning->from);
+    if (!take_span(look, spline_find_knot(look->document, look->spline, first), &span)) return INFINITY;
     double least = INFINITY, ends = INFINITY;
     for (int i = 0; i <= span.length; i++) {
-        const int sample = sample_in(&look, &span, i);
-        const double here = hypot(look.curve->re[sample], look.curve->im[sample]);
+        const int sample = sample_in(look, &span, i);
+        const double here = hypot(look->curve->re[sample], look->curve->im[sample]);
         least = fmin(least, here);
         if (i == 0 || i == span.length) ends = fmin(ends, here);
     }
-    return ends > 0 ? least / ends : 0;
+    return ends > 0 ? ends / least : INFINITY;
+}
+
+double warning_left(const struct warning *warning, const struct document *document,
+                    const struct evaluation *evaluation)
+{
+    struct look look;
+    if (!look_at(document, evaluation, warning->spline, NULL, &look)) return INFINITY;
+    if (warning->kind == WARNING_FAR) return find_farthest(&look).times;
+    if (warning->kind == WARNING_RATE) return edge_of(&look) / edge_allowed(&look);
+    return swing_lost(&look, warning);
 }
 
 static void find_idle(const struct look *look)
@@ -400,17 +355,15 @@ void warnings_add(const struct document *document, const struct evaluation *eval
     struct warning drift = {0};
     if (!look_at(document, evaluation, of, found, &look)) return;
     const bool swings = spline_mode(look.spline) != WIGGLY_CUBIC;
-    const int far = swings ? find_far(&look) : -1;
-    const double highest = highest_knot(&look);
+    if (swings) find_far(&look);
     find_idle(&look);
     if (!swings) return;
-    look.frequency = frequency_of(&look);
     find_rate(&look);
+    const double frequency = frequency_of(&look);
     for (int k = 0; k < look.spline->knot_count; k++) {
         struct knot_span span;
         if (!take_span(&look, k, &span)) continue;
-        find_swing(&look, &span, highest, far);
-        find_drift(&look, &span, &drift);
+        find_drift(&look, &span, frequency, &drift);
     }
     if (drift.amount > 0) add(&look, drift);
     warnings_add_forced(document, evaluation, of, found);
@@ -420,12 +373,8 @@ void warning_say(const struct warning *warning, char text[WARNING_SENTENCE])
 {
     switch (warning->kind) {
     case WARNING_FAR:
-        snprintf(text, WARNING_SENTENCE, "Frame %.6g: the curve swings to %.3g, far beyond %s.", warning->frame,
-                 warning->value, warning->why);
-        break;
-    case WARNING_SWING:
-        snprintf(text, WARNING_SENTENCE, "Frames %.6g to %.6g: the curve swings %.1f times as far as its knots.",
-                 warning->from, warning->to, warning->amount);
+        snprintf(text, WARNING_SENTENCE, "Frame %.6g: the curve swings to %.3g, far beyond the knots around it.",
+                 warning->frame, warning->value);
         break;
     case WARNING_RATE:
         snprintf(text, WARNING_SENTENCE,

@@ -12,8 +12,7 @@ const char *knot_idle_slope(const struct document *document, int of, int knot);
 int spline_idle_pose(const struct spline *spline);
 
 enum warning_kind {
-    WARNING_FAR,    ///< the curve swings far beyond its knots
-    WARNING_SWING,  ///< it swings more than twice as far as the knots around it
+    WARNING_FAR,    ///< the curve swings more than twice as far as the knots around it and as its average knot
     WARNING_RATE,   ///< a frequency near half the sample rate
     WARNING_DRIFT,  ///< bandwidth times the periods between two knots
     WARNING_FORCED, ///< poses that are out of step with the swing between them
@@ -27,10 +26,10 @@ struct warning {
     int spline;
     double frame, value; ///< the place (not of a rate)
     double from, to;     ///< frames of the knots around it
-    double amount;       ///< swing in heights of the knots, or in how far it may; Hz; periods; degrees out of step
+    double amount;       ///< Hz; periods; degrees out of step
     double limit;        ///< Hz that would be fine; bandwidth as it is
     double remedy;       ///< value of a knot at the place; substeps; bandwidth
-    const char *why;     ///< a slope has no effect; which knots are exceeded
+    const char *why;     ///< a slope has no effect
     double phase;        ///< Im x of a pose at the place
     double low, high;    ///< limits a little beyond the knots
 };
@@ -42,19 +41,15 @@ struct warnings {
     struct warning list[WARNINGS_MAX];
 };
 
-/// Adds where a solved spline swings far beyond its knots, if it does. Allocates nothing.
+/// Adds where a solved spline without limits swings furthest beyond its knots, if it does. Allocates nothing.
 void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
                       struct warnings *found);
-/// How many times as far as its knots in one solution allow a spline swings at most in another one. 3 times its largest knot beside that, and
-/// elsewhere 3 times the next largest, are allowed.
-double warning_times_far(const struct document *document, const struct evaluation *before,
-                         const struct evaluation *after, int of);
 /// And where its poses force the swing.
 void warnings_add_forced(const struct document *document, const struct evaluation *evaluation, int of,
                          struct warnings *found);
-/// What part of the swing of two poses that force it is left between them.
-double warning_swing_left(const struct warning *warning, const struct document *document,
-                          const struct evaluation *evaluation);
+/// What is left in a solution of a far swing, a fast rate or poses out of step: 1 or less where it is gone.
+double warning_left(const struct warning *warning, const struct document *document,
+                    const struct evaluation *evaluation);
 /// Adds all that is wrong with a solved spline, up to WARNINGS_MAX, spans in the order of time. Allocates nothing.
 void warnings_add(const struct document *document, const struct evaluation *evaluation, int of,
                   struct warnings *found);

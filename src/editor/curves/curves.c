@@ -262,7 +262,7 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
         press_ruler(curves, core, event);
         break;
     case HOVER_WARNING:
-        warning_remedy(curves, core, &curves->warnings.list[hover.handle]);
+        warning_remedy(curves, core, hover.handle);
         break;
     case HOVER_UNITS:
         core_flip(core, SWITCH_SECONDS);

@@ -415,7 +415,6 @@ void curves_show(struct curves *curves, struct core *core)
     show_playhead(curves, core);
     ruler_pins_show(curves, core);
     drag_show(curves, core);
-    warnings_try(curves, core);
     warnings_show_words(curves, core);
     drawlist_set_clip(&core->list, clip);
 }

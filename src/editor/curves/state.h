@@ -96,8 +96,18 @@ struct scaling {
     char sentence[400];
 };
 
-/// What helps against a curve that swings far: calm, where it lacks some and that is enough, else what leaves the smallest swing.
-enum far_remedy { FAR_UNTRIED, FAR_CALM, FAR_LIMITS, FAR_POSE, FAR_NOTHING };
+enum { FIX_TEXT = 96 };
+
+/// An edit against a warning. Says what it does.
+typedef bool remedy(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                    struct error *error);
+
+/// What a click on a warning does.
+struct fix {
+    bool is_chosen; ///< by trying what there is, once the warning was pointed at
+    remedy *apply;  ///< NULL: nothing helps
+    char text[FIX_TEXT];
+};
 
 /// A curve in logical pixels, a vertex for each column of the cache.
 typedef float polyline[EDITOR_MAX_COLUMNS][2];
@@ -140,7 +150,7 @@ struct curves {
     struct curve_cache cache;
     struct warnings warnings;
     uint64_t warnings_key;                 ///< of what they were found in
-    enum far_remedy far[WARNINGS_MAX];     ///< what helps against each that swings far, once it was pointed at
+    struct fix fixes[WARNINGS_MAX];        ///< of each
     float scratch[2 * EDITOR_MAX_COLUMNS]; ///< points of a line that is made while it is drawn
 };
 
@@ -247,12 +257,10 @@ void warnings_update(struct curves *curves, const struct core *core);
 bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning, float xy[2]);
 /// The markers.
 void warnings_show(const struct curves *curves, struct core *core);
-/// Tries what helps against the one under the pointer, so that its words can say it. No drag runs.
-void warnings_try(struct curves *curves, const struct core *core);
-/// Words under the pointer; after everything else, so that nothing lies over them.
-void warnings_show_words(const struct curves *curves, struct core *core);
+/// Words under the pointer, with what a click does, which is tried now; after everything else, so that nothing lies over them.
+void warnings_show_words(struct curves *curves, struct core *core);
 
-/// Fixes a warning, as one undo step: tries the remedies in turn and keeps the first that helps.
-void warning_remedy(const struct curves *curves, struct core *core, const struct warning *warning);
+/// Fixes a warning, as one undo step.
+void warning_remedy(struct curves *curves, struct core *core, int index);
 
 #endif
