@@ -67,6 +67,21 @@ static void open_pull(struct session *s)
 
 static void open_help(struct session *s) { session_key(s, KEY_F1, 0); }
 
+static void open_found(struct session *s)
+{
+    session_key(s, KEY_F1, 0);
+    panel_type(s, "knot");
+}
+
+static void open_palette(struct session *s)
+{
+    session_key(s, KEY_F3, 0);
+    panel_type(s, "slope");
+}
+
+/// The inspector as it is at the first start.
+static void open_few(struct session *s) { session_key(s, KEY_F9, 0); }
+
 static void open_open(struct session *s) { session_key(s, 'O', MOD_CTRL); }
 
 static void open_save(struct session *s) { session_key(s, 'S', MOD_CTRL | MOD_SHIFT); }
@@ -102,7 +117,7 @@ static void open_failed(struct session *s)
     panel_answer(s, REQUEST_SAVE_AS, false, long_message);
 }
 
-static void open_palette(struct session *s)
+static void open_colors(struct session *s)
 {
     panel_click(s, "section.feel");
     panel_click(s, "color.sway");
@@ -154,12 +169,13 @@ static const struct screen {
     void (*open)(struct session *s);
     bool cut; ///< shows something that is too long for any place
 } screens[] = {
-    {"start", open_start, false},         {"drag", open_drag, false},       {"pull", open_pull, false},
-    {"help", open_help, false},           {"open", open_open, false},       {"save as", open_save, false},
-    {"quit", open_quit, false},           {"recover", open_recover, false}, {"save failed", open_failed, false},
-    {"palette", open_palette, false},     {"add menu", open_add, false},    {"one knot", open_knots, false},
-    {"all knots", open_all_knots, false}, {"history", open_history, false}, {"message", open_message, true},
-    {"overlays", open_overlays, false},   {"changed", open_changed, false}, {"busy", open_busy, true},
+    {"start", open_start, false},         {"drag", open_drag, false},        {"pull", open_pull, false},
+    {"help", open_help, false},           {"found keys", open_found, false}, {"palette", open_palette, false},
+    {"few controls", open_few, false},    {"open", open_open, false},        {"save as", open_save, false},
+    {"quit", open_quit, false},           {"recover", open_recover, false},  {"save failed", open_failed, false},
+    {"colours", open_colors, false},      {"add menu", open_add, false},     {"one knot", open_knots, false},
+    {"all knots", open_all_knots, false}, {"history", open_history, false},  {"message", open_message, true},
+    {"overlays", open_overlays, false},   {"changed", open_changed, false},  {"busy", open_busy, true},
 };
 
 // --- the walk -----------------------------------------------------------------------------------------------------------
