@@ -131,7 +131,7 @@ struct knot_button {
     const char *name, *label, *hint;
 };
 
-/// A row of three buttons, one of them (-1: none) lit; the one that was pressed, or -1.
+/// A row of three buttons, one of them (3: none) lit; the one that was pressed, or -1.
 static int build_buttons(struct inspector *in, const struct knot_button buttons[3], int lit)
 {
     enum { GAP = 4 };
@@ -246,7 +246,7 @@ static void build_overview(struct inspector *in, const struct spline *spline)
                                           {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)"},
                                           {"knot.all", "All", "Select all knots of the spline (Ctrl+A)"},
                                       },
-                                      -1);
+                                      3);
     if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, false);
     if (pressed == 1) core_visit_neighbour(in->core, 1);
     if (pressed == 2) core_select_all(in->core, false);
