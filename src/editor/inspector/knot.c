@@ -129,10 +129,11 @@ static int all_hold(const struct inspector *in, bool *any_still)
 
 struct knot_button {
     const char *name, *label, *hint;
+    bool lit;
 };
 
-/// A row of three buttons, one of them (3: none) lit; the one that was pressed, or -1.
-static int build_buttons(struct inspector *in, const struct knot_button buttons[3], int lit)
+/// A row of three buttons; the one that was pressed, or -1.
+static int build_buttons(struct inspector *in, const struct knot_button buttons[3])
 {
     enum { GAP = 4 };
     struct rect r = ui_row(&in->ui, UI_ROW);
@@ -140,7 +141,7 @@ static int build_buttons(struct inspector *in, const struct knot_button buttons[
     r.w = (r.w - 2 * GAP) / 3;
     for (int i = 0; i < 3; i++, r.x += r.w + GAP) {
         ui_hint(&in->ui, r, buttons[i].hint);
-        if (ui_button(&in->ui, r, buttons[i].name, buttons[i].label, i == lit)) pressed = i;
+        if (ui_button(&in->ui, r, buttons[i].name, buttons[i].label, buttons[i].lit)) pressed = i;
     }
     return pressed;
 }
@@ -151,11 +152,10 @@ static void build_holds(struct inspector *in)
     bool any_still;
     const int lit = all_hold(in, &any_still);
     const int pressed = build_buttons(
-        in,
-        (const struct knot_button[3]){{"holds.value", "Value", "Hold the value and leave the phase free"},
-                                      {"holds.pose", "Pose", "Hold every part that lags as it is seen now (P)"},
-                                      {"holds.still", "Still", "Come to rest here, and begin from rest (Shift+P)"}},
-        lit);
+        in, (const struct knot_button[3]){
+                {"holds.value", "Value", "Hold the value and leave the phase free", lit == HOLDS_VALUE},
+                {"holds.pose", "Pose", "Hold every part that lags as it is seen now (P)", lit == HOLDS_POSE},
+                {"holds.still", "Still", "Come to rest here, and begin from rest (Shift+P)", lit == HOLDS_STILL}});
     if (pressed >= 0 && pressed != lit) core_set_hold(in->core, pressed);
 }
 
@@ -217,11 +217,10 @@ static void build_slopes(struct inspector *in, bool sloped)
     const int pressed = build_buttons(
         in,
         (const struct knot_button[3]){
-            {"slope.flat", "Flat", "Make the slopes flat (Shift+T)"},
-            {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)"},
+            {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", false},
+            {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", false},
             {"slope.switch", sloped ? "Remove" : "Add",
-             sloped ? "Let go of the slopes (T)" : "Give the knots the slope that the curve has there (T)"}},
-        -1);
+             sloped ? "Let go of the slopes (T)" : "Give the knots the slope that the curve has there (T)", false}});
     if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
 }
 
@@ -240,13 +239,12 @@ static void build_overview(struct inspector *in, const struct spline *spline)
     ui_paragraph(&in->ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
     inspector_idle(in, "knots", frames);
     inspector_idle(in, "values", values);
-    const int pressed = build_buttons(in,
-                                      (const struct knot_button[3]){
-                                          {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)"},
-                                          {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)"},
-                                          {"knot.all", "All", "Select all knots of the spline (Ctrl+A)"},
-                                      },
-                                      3);
+    const int pressed =
+        build_buttons(in, (const struct knot_button[3]){
+                              {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)", false},
+                              {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)", false},
+                              {"knot.all", "All", "Select all knots of the spline (Ctrl+A)", false},
+                          });
     if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, false);
     if (pressed == 1) core_visit_neighbour(in->core, 1);
     if (pressed == 2) core_select_all(in->core, false);
