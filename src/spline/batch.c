@@ -14,6 +14,7 @@ typedef struct job {
     const wiggly_many *many; ///< or NULL
     const wiggly_desc *desc; ///< of the many, one that was read
     wiggly_curve *curve;
+    size_t curve_size;
     wiggly_status *status;
     int count;
 } job;
@@ -41,7 +42,7 @@ struct wiggly_batch {
 static wiggly_status solve_one(const job *now, wiggly_solver *solver, int i)
 {
     if (now->many) return many_solve(solver, now->desc, now->many, i);
-    return wiggly_solve(solver, desc_at(now->desc, i), curve_at(now->curve, i));
+    return wiggly_solve(solver, desc_at(now->desc, i), curve_at(now->curve, now->curve_size, i));
 }
 
 static void work(worker *w)
@@ -166,7 +167,9 @@ wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, w
 {
     if (!batch || count < 0 || (count > 0 && (!desc || !curve))) return WIGGLY_ERROR_ARGUMENT;
     if (count > 0 && !(desc_fits(desc) && curve_fits(curve))) return WIGGLY_ERROR_SIZE;
-    return solve_all(batch, (job){.desc = desc, .curve = curve, .status = status, .count = count});
+    const size_t size = count > 0 ? curve->size : 0;
+    return solve_all(batch,
+                     (job){.desc = desc, .curve = curve, .curve_size = size, .status = status, .count = count});
 }
 
 wiggly_status wiggly_batch_solve_many(wiggly_batch *batch, const wiggly_desc *desc, const wiggly_many *many)

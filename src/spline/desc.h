@@ -38,9 +38,10 @@ static inline const wiggly_desc *desc_at(const wiggly_desc *descs, int i)
     return (const wiggly_desc *)(const void *)((const char *)descs + (size_t)i * descs->size);
 }
 
-static inline wiggly_curve *curve_at(wiggly_curve *curves, int i)
+/// The size that they have is given, because a thread may be filling the first.
+static inline wiggly_curve *curve_at(wiggly_curve *curves, size_t size, int i)
 {
-    return (wiggly_curve *)(void *)((char *)curves + (size_t)i * curves->size);
+    return (wiggly_curve *)(void *)((char *)curves + (size_t)i * size);
 }
 
 /// A description without its knots.

@@ -59,7 +59,7 @@ static wiggly_status read_splines(wiggly_group *g, const wiggly_desc *descs, wig
 {
     for (int s = 0; s < spline_count; s++) {
         pulled *of = &g->pulled[s];
-        of->curve = curve_at(curves, s);
+        of->curve = curve_at(curves, curves->size, s);
         if (!curve_fits(of->curve)) return WIGGLY_ERROR_SIZE;
         of->curve->knot = -1;
         wiggly_status status = desc_read(desc_at(descs, s), &of->desc);
