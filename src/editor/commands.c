@@ -206,13 +206,15 @@ static void play(struct core *core, int unused)
     playback_toggle(core);
 }
 
-enum list_change { LIST_ADD, LIST_COPY, LIST_REMOVE, LIST_UP, LIST_DOWN };
+enum list_change { LIST_ADD, LIST_COPY, LIST_REMOVE, LIST_SOLO, LIST_HIDE, LIST_UP, LIST_DOWN };
 
 static void change_list(struct core *core, int change)
 {
     if (change == LIST_ADD) spline_list_add(core);
     if (change == LIST_COPY) spline_list_copy(core);
     if (change == LIST_REMOVE) spline_list_remove(core);
+    if (change == LIST_SOLO) spline_list_flip(core, &core->solo, core->active);
+    if (change == LIST_HIDE) spline_list_flip(core, &core->hidden, core->active);
     if (change >= LIST_UP) spline_list_move(core, core->active, core->active + (change == LIST_UP ? -1 : 1));
 }
 
@@ -468,6 +470,13 @@ const struct command commands[] = {
     COMMAND("Delete the spline", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_REMOVE, {0}),
     COMMAND("Move the spline up in the list", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_UP, {0}),
     COMMAND("Move the spline down in the list", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_DOWN, {0}),
+    COMMAND("Solo: show only this spline, or all again", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_SOLO, {0}),
+    COMMAND("Hide the spline, or show it", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_HIDE, {0}),
+    COMMAND("Phase map on or off", NOTHING, 0, PAINT, 0, .core = core_flip, SWITCH_PHASE_MAP, {0}),
+    COMMAND("Stiff twin on or off", NOTHING, 0, CHARACTER, 0, .core = core_flip, SWITCH_TWIN, {0}),
+    COMMAND("Remove all paint", NOTHING, 0, PAINT, 0, .core = characters_clean_paint, 0, {0}),
+    COMMAND("Mirror the chain to the other side", NOTHING, 0, TAIL, 0, .inspector = inspector_mirror, 0, {0}),
+    COMMAND("Record the next drag of the body", NOTHING, 0, BODY, 0, .core = core_flip, SWITCH_RECORD, {0}),
     COMMAND("Nudge right", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_RIGHT, {KEY_RIGHT, ALT},
             {KEY_RIGHT, ALT_SHIFT}, {KEY_RIGHT, ALT_CTRL}),
     COMMAND("Nudge left", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_LEFT, {KEY_LEFT, ALT},

@@ -70,10 +70,16 @@ bool characters_blank_paint(struct core *core, const struct figure *figure)
                           &core->error);
 }
 
-void characters_clean_paint(struct core *core)
+void characters_clean_paint(struct core *core, int unused)
 {
     int coordinate;
+    const struct character_rig *rig = characters_selected(core);
     const struct figure *figure = characters_figure(core, &coordinate);
-    if (!figure || !core_begin(core, "Remove paint", 0)) return;
+    (void)unused;
+    if (!figure || !rig->painted || paint_is_plain(rig->painted)) {
+        core_message(core, false, "There is no paint to remove.");
+        return;
+    }
+    if (!core_begin(core, "Remove paint", 0)) return;
     core_end(core, characters_blank_paint(core, figure));
 }

@@ -20,6 +20,6 @@ int characters_rig(const struct core *core);
 /// An edit: gives the selected character blank paint of the figure's shape.
 bool characters_blank_paint(struct core *core, const struct figure *figure);
 /// Takes all paint off the selected character, as a step of the history.
-void characters_clean_paint(struct core *core);
+void characters_clean_paint(struct core *core, int unused);
 
 #endif

@@ -51,6 +51,7 @@ enum need {
     NEEDS_BONE,
     NEEDS_RIG,
     NEEDS_TAIL, ///< or a chain
+    NEEDS_BODY,
     NEEDS_CHARACTER,
     NEEDS_MODEL,
     NEEDS_MEADOW,

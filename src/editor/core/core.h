@@ -66,7 +66,10 @@ enum core_switch {
     SWITCH_PHASE,
     SWITCH_MORE,
     SWITCH_SECONDS,
-    SWITCH_NORMALISE
+    SWITCH_NORMALISE,
+    SWITCH_RECORD,
+    SWITCH_PHASE_MAP,
+    SWITCH_TWIN
 };
 /// Flips one of them, and says so.
 void core_flip(struct core *core, int which);
@@ -128,6 +131,8 @@ void playback_mark(struct core *core, int end);
 uint32_t spline_list_color(const struct document *document, int spline);
 /// Whether the curves show a spline: those that are solo where any is, else those that are not hidden.
 bool spline_list_shows(const struct core *core, int spline);
+/// Turns a spline solo or hidden, or back: `set` is the core's `solo` or `hidden`.
+void spline_list_flip(struct core *core, struct selection *set, int spline);
 /// The active spline where the curves show it, else NULL.
 const struct spline *spline_list_seen(const struct core *core);
 /// After an edit, undo or redo: the active spline keeps being the same one, and the playhead stays on its frame.

@@ -31,6 +31,13 @@ bool spline_list_shows(const struct core *core, int spline)
     return !selection_has(&core->hidden, id);
 }
 
+void spline_list_flip(struct core *core, struct selection *set, int spline)
+{
+    const unsigned id = core->document->splines[spline]->id;
+    selection_set(set, id, !selection_has(set, id));
+    core->visibility++;
+}
+
 const struct spline *spline_list_seen(const struct core *core)
 {
     return spline_list_shows(core, core->active) ? core_active_spline(core) : NULL;

@@ -255,7 +255,7 @@ static void build_brush(struct inspector *in)
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
     const struct rect r = ui_row(&in->ui, UI_ROW);
     ui_hint(&in->ui, r, "Back to what the model says, everywhere");
-    if (ui_button(&in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core);
+    if (ui_button(&in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core, 0);
 }
 
 void inspector_character(struct inspector *in)

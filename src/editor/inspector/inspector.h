@@ -27,6 +27,8 @@ void inspector_add(struct inspector *in, int what);
 void inspector_preset(struct inspector *in, int preset);
 /// Another variation of the active spline's motion.
 void inspector_roll(struct inspector *in, int unused);
+/// Makes the chain that is shown once more, mirrored, on the bones of the other side, and shows it.
+void inspector_mirror(struct inspector *in, int unused);
 /// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
 void inspector_remove_rig(struct inspector *in, int unused);
 /// Its widgets: what the pointer is over, what has the keyboard, what is typed.

@@ -90,12 +90,6 @@ void inspector_rename(struct inspector *in, int unused)
     ui_line_begin(&in->ui, rename_line, spline->name);
 }
 
-static void flip(struct core *core, struct selection *set, unsigned id)
-{
-    selection_set(set, id, !selection_has(set, id));
-    core->visibility++;
-}
-
 /// Solo and eye at the right end of a row.
 static void build_visibility(struct inspector *in, int s, struct rect r)
 {
@@ -106,13 +100,13 @@ static void build_visibility(struct inspector *in, int s, struct rect r)
     struct rect icon = {r.x + r.w - 2 * INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     snprintf(name, sizeof name, "solo.%s", spline->name);
     if (ui_icon_button(&in->ui, icon, name, UI_ICON_SOLO, solo, "Show only this curve")) {
-        flip(core, &core->solo, spline->id);
+        spline_list_flip(core, &core->solo, s);
     }
     icon.x += INSPECTOR_ICON;
     snprintf(name, sizeof name, "eye.%s", spline->name);
     enum ui_icon eye = shown ? UI_ICON_EYE : UI_ICON_EYE_CLOSED;
     if (ui_icon_button(&in->ui, icon, name, eye, false, "Show or hide this curve")) {
-        flip(core, &core->hidden, spline->id);
+        spline_list_flip(core, &core->hidden, s);
     }
 }
 

@@ -328,15 +328,25 @@ static void build_mirror(struct inspector *in)
         core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
 }
 
+void inspector_mirror(struct inspector *in, int unused)
+{
+    const struct rig *shown = inspector_shown(in);
+    (void)unused;
+    if (!shown || shown->kind != RIG_CHAIN || !bones_has_twin(in->core, in->rig)) {
+        core_message(in->core, false, "No chain with unused twin bones (ear_L, ear_R) is selected.");
+        return;
+    }
+    bones_make_twin(in->core, in->rig);
+    in->rig = in->core->document->rig_count - 1;
+}
+
 static void build_twin(struct inspector *in)
 {
     if (!bones_has_twin(in->core, in->rig)) return;
     const struct rect row = ui_row(&in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
     ui_hint(&in->ui, button,
             "The same chain on the other side, mirrored, by the same splines; its channels may get others");
-    if (!ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) return;
-    bones_make_twin(in->core, in->rig);
-    in->rig = in->core->document->rig_count - 1;
+    if (ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
 }
 
 /// What a chain is made of, its place in the list of chains aside; and the buttons that make its twin and take it away.
