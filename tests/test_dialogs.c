@@ -240,10 +240,10 @@ TEST(test_advice_names_what_is_there)
                   "\"channels\": [{\"spline\": \"swing\"}]}]}",
                   "Pull a chain", "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys");
     expect_advice(SWING ", \"rigs\": [" REX "]}", "Click a bone",
-                  "Point at a bone and click it to make a chain. F1 shows all keys");
+                  "Click a bone, then press Shift+J to let it swing. F1 shows all keys");
     expect_advice(SWING_BY("") ", \"rigs\": [{\"type\": \"character\", \"model\": \"/home/ada/bear.glb\", "
                                "\"coordinates\": []}]}",
-                  "sets a knot of a curve",
+                  "adds a knot to a curve",
                   "Drag the character to pin a point of it. Space plays, F1 shows all keys");
     expect_advice(SWING_BY("") "}", "Double-click", "Double-click to set a knot. Space plays, F1 shows all keys");
     expect_advice(SWING "}", "Double-click", "Drag a knot. Space plays, F1 shows all keys");

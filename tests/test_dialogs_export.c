@@ -184,7 +184,7 @@ SESSION_TEST(test_cancelling, open_session(s, "walk.json", 1280, 720))
     asked(s);
     dialogs_tell_export(s->editor->dialogs, 30, 97);
     session_frame(s);
-    assert_non_null(shown_text(s->editor, "30 of 97. Esc cancels, and leaves nothing behind."));
+    assert_non_null(shown_text(s->editor, "30 of 97. Esc cancels and leaves nothing behind."));
     session_key(s, KEY_DELETE, 0); // nothing else is done meanwhile
     panel_type(s, "x");
     assert_string_equal(of(s)->memory.path, "walk.glb");

@@ -162,7 +162,7 @@ TEST(test_a_way_without_a_channel_gets_one)
                      tail->position[1].track);
     assert_near(document->splines[made->spline]->parameter[PARAMETER_FREQUENCY].value, 1.2, 0);
     assert_non_null(
-        strstr(s.editor->core.message.text, " knots recorded. New: tail up, by which the tail swings after tail y."));
+        strstr(s.editor->core.message.text, " knots recorded. New spline tail up: the tail swings after tail y."));
     session_key(&s, KEY_SPACE, 0);
     float most = 0; // it swings: the tip's height above the base changes
     for (int f = 0; f < 90; f++) {

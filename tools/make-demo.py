@@ -61,7 +61,7 @@ def fox(t):
     say(t, "Drag the fox: its tail swings after it")
     hold(t + 40, 300, "body(tail)", to_and_fro(0.45, 0, 2.5))
     t += 9 * SECOND
-    say(t, "Pull the tail: this sets a knot at the playhead")
+    say(t, "Pull the tail: it is held where you let go")
     key(t + 20, "Space")
     hold(t + 40, 90, "tail(tail,0.95)", pull(0.2, -0.3))
     hold(t + 190, 90, "tail(tail,0.95)", pull(-0.35, 0.25))

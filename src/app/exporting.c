@@ -28,7 +28,7 @@ const struct dialog_format exporting_formats[] = {
     {".mp4", "a film that plays everywhere", CHOICE_SIZE, WIDTH, HEIGHT},
     {".webm", "a film for web pages", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT},
     {".gif", "a small film that repeats: messages, README files", CHOICE_SIZE, SMALL_WIDTH, SMALL_HEIGHT},
-    {".png", "a picture a frame, numbered", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT},
+    {".png", "one numbered picture per frame", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT},
 };
 const int exporting_format_count = sizeof exporting_formats / sizeof *exporting_formats;
 
@@ -108,7 +108,7 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
 {
     if (app->export_job) return fail(error, ERROR_INPUT, "Another export is running.");
     if (!app->draw && film_knows(request->path))
-        return fail(error, ERROR_ENVIRONMENT, "%s: pictures need OpenGL, which is not there", request->path);
+        return fail(error, ERROR_ENVIRONMENT, "%s: pictures need OpenGL, which is missing", request->path);
     struct export_job *job = need_zeroed(1, sizeof *job);
     job->request = *request;
     struct opened *opened = &job->opened;
@@ -117,7 +117,7 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
     job->threaded = thrd_create(&job->thread, work, job) == thrd_success;
     if (!job->threaded) {
         destroy(job);
-        return fail(error, ERROR_ENVIRONMENT, "%s: no thread can be started", request->path);
+        return fail(error, ERROR_ENVIRONMENT, "%s: cannot start a thread", request->path);
     }
     app->export_job = job;
     return true;

@@ -271,7 +271,7 @@ const struct command commands[] = {
     GESTURE("Drag on empty", "Select the knots in a box", KNOTS, ON_CURVES),
     COMMAND("Select all knots of the spline", KNOTS, 0, KNOTS, 0, .core = core_select_all, 0, {'A', CTRL}),
     COMMAND("Select all knots in sight", KNOTS, 0, KNOTS, 0, .core = core_select_all, true, {'A', CTRL_SHIFT}),
-    COMMAND("Deselect, or stop what goes on", KNOTS, 0, NOTHING, 0, .run = run_select_none, 0, {KEY_ESCAPE, 0}),
+    COMMAND("Deselect, or cancel", KNOTS, 0, NOTHING, 0, .run = run_select_none, 0, {KEY_ESCAPE, 0}),
     COMMAND("Delete the selection", KNOTS, ON_KNOT | ON_PIN, CHOSEN, 0, .core = core_delete, 0, {KEY_DELETE, 0},
             {KEY_BACKSPACE, 0}),
     COMMAND("Next knot or pin", KNOTS, ON_KNOT | ON_PIN, KNOTS, REPEATS | PINS, .knot = core_select_neighbour, 1,

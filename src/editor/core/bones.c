@@ -130,7 +130,7 @@ void bones_clicked(struct core *core, int model, int node)
     } else if (rig_body(document, pick.which) == model) {
         bones_set_end(core, pick.which, pick.use == BONE_FIRST, node);
     } else {
-        core_message(core, true, "This bone is another character's: a chain stays on its own.");
+        core_message(core, true, "This bone belongs to another character. A chain stays on its own character.");
     }
 }
 

@@ -230,7 +230,7 @@ void core_flip(struct core *core, int which)
         [SWITCH_PHASE] = {&core->curves.phase,
                           {"Phase curve off.", "Phase curve on: a quarter of a swing behind the curve."}},
         [SWITCH_MORE] = {&core->more,
-                         {"The inspector shows what you need first.", "The inspector shows all sections (F9)."}},
+                         {"The inspector shows the main sections (F9).", "The inspector shows all sections (F9)."}},
         [SWITCH_SECONDS] = {&core->curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},
         [SWITCH_NORMALISE] = {&core->curves.normalise,
                               {"All curves share one axis again.",

@@ -95,7 +95,7 @@ void core_set_hold(struct core *core, int holds)
     }
     if (selected_count(core) == 0) return;
     if (holds == HOLDS_POSE && !all && !swings) {
-        core_message(core, false, "Only complex mode has a phase; press M to change the mode.");
+        core_message(core, false, "Only a wiggly spline has a phase. Press M to change the kind.");
         return;
     }
     if (all) holds = HOLDS_VALUE;
@@ -177,7 +177,7 @@ const struct knot *core_visit_neighbour(struct core *core, int direction)
     const int next = spline ? beside(document, spline, core->playback.position, direction) : -1;
     if (next < 0) {
         core_message(core, false,
-                     direction < 0 ? "No knot lies before the playhead." : "No knot lies behind the playhead.");
+                     direction < 0 ? "No knot lies before the playhead." : "No knot lies after the playhead.");
         return NULL;
     }
     const struct knot *knot = &spline->knots[next];

@@ -79,10 +79,10 @@ static bool say_idle(struct core *core, const struct spline *spline, enum parame
     char text[160];
     if (parameter == PARAMETER_CALM || row->modes >> spline_mode(spline) & 1) return false;
     if (spline_mode(spline) == WIGGLY_CUBIC) {
-        snprintf(text, sizeof text, "A cubic does not swing; press M to change the mode.");
+        snprintf(text, sizeof text, "A cubic does not swing. Press M to change the kind.");
     } else {
-        snprintf(text, sizeof text, "Only %s mode has a %s; press M to change the mode.",
-                 row->modes & IN_COMPLEX ? "complex" : "real", row->name);
+        snprintf(text, sizeof text, "Only a %s spline has a %s. Press M to change the kind.",
+                 row->modes & IN_COMPLEX ? "wiggly" : "spring", row->name);
     }
     core_message(core, false, text);
     return true;
@@ -135,10 +135,10 @@ void core_cycle_choice(struct core *core, int parameter)
 static const char *obstacle(const struct spline *spline)
 {
     const struct param *p = spline->parameter;
-    if (spline_mode(spline) == WIGGLY_CUBIC) return "A cubic does not swing; press M to change the mode.";
+    if (spline_mode(spline) == WIGGLY_CUBIC) return "A cubic does not swing. Press M to change the kind.";
     if (p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0)
-        return "Frequency and damping follow another spline; give them numbers first.";
-    if (spline->knot_count < WIGGLY_FEWEST_EXPLAINED) return "Four knots are needed to tell a frequency from them.";
+        return "Frequency or damping follows another spline. Give it a number first.";
+    if (spline->knot_count < WIGGLY_FEWEST_EXPLAINED) return "A frequency can be found from four knots or more.";
     return NULL;
 }
 

@@ -269,6 +269,6 @@ void rigs_ask_remove(struct core *core, int rig)
     core->subject.rig = rig;
     snprintf(question->title, sizeof question->title, "Remove %.150s, with its spline%s or without?",
              path_name(rig_title(core->document->rigs[rig])), count == 1 ? "" : "s");
-    snprintf(question->note, sizeof question->note, "Nothing else moves by %s. Kept, %s for what you add next.",
-             names, count == 1 ? "it stays" : "they stay");
+    snprintf(question->note, sizeof question->note, "%s move%s nothing else. Keep %s for what you add next?", names,
+             count == 1 ? "s" : "", count == 1 ? "it" : "them");
 }

@@ -172,8 +172,8 @@ void spline_list_remove(struct core *core)
     snprintf(question->title, sizeof question->title, "%.200s is used in %d place%s", active->name, count,
              count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note,
-             "Parameters that follow it keep their value at the playhead. Channels and meadows that it drives go "
-             "with it.");
+             "Parameters that follow it keep their value at the playhead. Channels and meadows that it drives are "
+             "deleted.");
 }
 
 static void set_fps(struct core *core, double fps, bool keeps_seconds)
@@ -202,10 +202,11 @@ void spline_list_fps(struct core *core, double fps)
     struct question *question = core_ask(core, answers, 3, answer_fps);
     core->subject.fps = fps;
     snprintf(question->title, sizeof question->title, "%g frames per second instead of %g", fps, before);
-    snprintf(question->note, sizeof question->note,
-             "Keep frames: knots stay on their frames, and everything goes %s. Keep seconds: knots and range move to "
-             "new frames and the timing stays.",
-             fps > before ? "faster" : "slower");
+    snprintf(
+        question->note, sizeof question->note,
+        "Keep frames: knots stay on their frames, and everything plays %s. Keep seconds: knots and range move to "
+        "new frames and the timing stays.",
+        fps > before ? "faster" : "slower");
 }
 
 static void set_range(struct core *core, int first, int last, enum range_fit fit)

@@ -142,7 +142,7 @@ static bool free_all(struct document *document, const struct warning *warning, c
     bool good = true;
     for (int k = 0; k < document->splines[warning->spline]->knot_count && good; k++)
         good = free_knot(document, warning, document->splines[warning->spline]->knots[k].frame, false, error);
-    snprintf(text, FIX_TEXT, "let the spline's knots hold their values alone");
+    snprintf(text, FIX_TEXT, "turn the spline's poses into plain knots");
     return good;
 }
 

@@ -422,10 +422,10 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
     const double count = (wish->last - wish->first) * keys + 1;
     char text[160];
     if (is_running(dialog) && exporting->total > 0) {
-        snprintf(text, sizeof text, "%ld of %ld. Esc cancels, and leaves nothing behind.", exporting->done,
+        snprintf(text, sizeof text, "%ld of %ld. Esc cancels and leaves nothing behind.", exporting->done,
                  exporting->total);
     } else if (is_running(dialog)) {
-        snprintf(text, sizeof text, "Getting ready. Esc cancels, and leaves nothing behind.");
+        snprintf(text, sizeof text, "Getting ready. Esc cancels and leaves nothing behind.");
     } else {
         snprintf(text, sizeof text, "%.0f %s%s, %g a second. ↑ ↓ choose the format, Tab goes to the choices.", count,
                  format->choices & CHOICE_SIZE ? "picture" : "key", count == 1 ? "" : "s", document->fps * keys);

@@ -318,7 +318,7 @@ static void show_found(struct drawlist *list, const struct page *page, const str
 {
     const struct rect r = {page->box.x + MARGIN, y, page->box.w - 2 * MARGIN, ROW};
     show_grid(list, page, y, found->list, found->count);
-    if (found->count == 0) paint_line(list, r, FONT_LABEL, theme()->text_dim, "Nothing is called so.");
+    if (found->count == 0) paint_line(list, r, FONT_LABEL, theme()->text_dim, "Nothing matches.");
 }
 
 void help_show(const struct dialogs *dialogs, struct core *core)

@@ -212,5 +212,5 @@ void palette_show(const struct dialogs *dialogs, struct core *core)
         show_row(core, row, &found, i, i == palette->choice);
     if (found.count == 0)
         show_text(list, (struct rect){row.x + 10, row.y, row.w - 20, ROW}, theme()->text_dim,
-                  "No command is called so. Esc closes.");
+                  "No command matches. Esc closes.");
 }

@@ -15,28 +15,28 @@ static const struct hint {
     const char *what, *why;
 } hints[LEADS][HINTS] = {
     [LEAD_TAIL] = {{"Drag the fox", "its tail swings after it"},
-                   {"Pull the tail", "this sets a knot at the playhead"},
+                   {"Pull the tail", "it is held where you let go"},
                    {0},
                    {"Drop a .glb", "your own: click a bone, Shift+J"}},
     [LEAD_CHARACTER] = {{"Drag the character", "pins the point you hold"},
                         {0},
                         {"Hold F, press ↑", "it swings faster"},
                         {"Drop a .glb", "your own: click a bone, Shift+J"}},
-    [LEAD_CHAIN] = {{"Pull a chain", "this sets a knot at the playhead"},
+    [LEAD_CHAIN] = {{"Pull a chain", "it is held where you let go"},
                     {0},
                     {"Click a bone", "Shift+J makes another chain of it"},
                     {"Press Ctrl+E", "a .glb with the new motion"}},
     [LEAD_MODEL] = {{"Click a bone", "the first of its tail, say"},
                     {"Press Shift+J", "it swings after the clip"},
-                    {"Pull the tail", "this sets a knot at the playhead"},
+                    {"Pull the tail", "it is held where you let go"},
                     {"Press Ctrl+E", "a .glb with the new motion"}},
-    [LEAD_NOTHING] = {{"Double-click", "sets a knot of a curve"},
+    [LEAD_NOTHING] = {{"Double-click", "adds a knot to a curve"},
                       {"Drag a knot", "the curve hits it, and swings"},
                       {"Press A", "adds a tail or a character"},
                       {"Drop a .glb", "your own: click a bone, Shift+J"}},
 };
 
-static const struct hint knot_hints[] = {{"Double-click", "sets a knot of a curve"},
+static const struct hint knot_hints[] = {{"Double-click", "adds a knot to a curve"},
                                          {"Drag a knot", "the curve hits it, and swings"}};
 
 static const struct hint *hint_of(const struct document *document, int row)

@@ -128,8 +128,7 @@ static void add_coordinate(struct inspector *in, const struct dropdown *list)
     free(name);
 }
 
-static const struct dropdown add_list = {"drive.add", "One more way for it to swing, by the active spline",
-                                         add_coordinate};
+static const struct dropdown add_list = {"drive.add", "Add a channel that the active spline drives", add_coordinate};
 
 /// Phases as colours, by direction of movement; and the stiff twin beside it.
 static void build_looks(struct inspector *in)
@@ -142,7 +141,7 @@ static void build_looks(struct inspector *in)
         view->mapped = map > 0;
         if (map > 0) view->axis = map - 1;
     }
-    if (inspector_choice(in, "stiff twin", "Show the character with real parts only: every point moves in step",
+    if (inspector_choice(in, "stiff twin", "Show a second character without phases: all its points move in step",
                          "twin", pairs, 2, &pair)) {
         view->compare = pair;
         in->core->refit_stage = true;
@@ -254,7 +253,7 @@ static void build_brush(struct inspector *in)
     }
     if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
     const struct rect r = ui_row(&in->ui, UI_ROW);
-    ui_hint(&in->ui, r, "Back to what the model says, everywhere");
+    ui_hint(&in->ui, r, "Restore the model everywhere");
     if (ui_button(&in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core, 0);
 }
 

@@ -193,7 +193,7 @@ static void build_sentence(struct inspector *in)
         snprintf(text, sizeof text, "Settles to 5 %% %.0f frames after the last knot.", ceil(frames - 1e-6));
         break;
     case SETTLE_LEFT:
-        snprintf(text, sizeof text, "At the end %.0f %% of the swing is left.", 100 * settling.left);
+        snprintf(text, sizeof text, "Still swinging when the scene ends (%.0f %%).", 100 * settling.left);
         break;
     }
     ui_paragraph(&in->ui, text, theme()->text_dim);

@@ -114,7 +114,7 @@ static void build_more(struct inspector *in)
 {
     const bool more = in->core->more;
     const struct rect row = ui_row(&in->ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
-    ui_hint(&in->ui, r, more ? "Show only what is needed first (F9)" : "Show all sections and controls (F9)");
+    ui_hint(&in->ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
     if (ui_button(&in->ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
 }
 

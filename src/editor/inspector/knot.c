@@ -33,7 +33,7 @@ static const struct {
 } of_one[FIELDS] = {
     [FIELD_FRAME] = {"Move knot", "Frame of the knot"},
     [FIELD_VALUE] = {"Set value", "Value of the knot; the curve hits it exactly"},
-    [FIELD_PHASE] = {"Set phase", "Im x of a pose: with it every part that lags is held (P)"},
+    [FIELD_PHASE] = {"Set phase", "Phase of a pose, which holds every part that lags (P)"},
     [FIELD_SLOPE] = {"Set slope", "Change per second (D, E)"},
     [FIELD_STIFFNESS] = {"Set stiffness", "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)"},
 };
@@ -215,12 +215,11 @@ static void build_slopes(struct inspector *in, bool sloped)
 {
     static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
     const int pressed = build_buttons(
-        in,
-        (const struct knot_button[3]){
-            {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", false},
-            {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", false},
-            {"slope.switch", sloped ? "Remove" : "Add",
-             sloped ? "Let go of the slopes (T)" : "Give the knots the slope that the curve has there (T)", false}});
+        in, (const struct knot_button[3]){
+                {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", false},
+                {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", false},
+                {"slope.switch", sloped ? "Remove" : "Add",
+                 sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)", false}});
     if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
 }
 

@@ -42,17 +42,16 @@ static void choose_clip(struct inspector *in, const struct dropdown *list)
     if (picked >= 0) bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
 }
 
-static const struct dropdown clip_list = {"model.clips", "The animation in the file that it plays, over and over",
-                                          choose_clip};
+static const struct dropdown clip_list = {"model.clips", "The clip of the file that it repeats", choose_clip};
 
 static const struct number_row place[] = {
     {"model.x", "x", "m", "Where it stands along x", "Place character", NUMBER_AT(struct rig, model.position[0]), 0,
      0, -1e6, 1e6, 0, 0.01, 3},
-    {"model.y", "y", "m", "Height of what it stands on", "Place character", NUMBER_AT(struct rig, model.position[1]),
-     0, 0, -1e6, 1e6, 0, 0.01, 3},
+    {"model.y", "y", "m", "Height of the ground under it", "Place character",
+     NUMBER_AT(struct rig, model.position[1]), 0, 0, -1e6, 1e6, 0, 0.01, 3},
     {"model.z", "z", "m", "Where it stands along z", "Place character", NUMBER_AT(struct rig, model.position[2]), 0,
      0, -1e6, 1e6, 0, 0.01, 3},
-    {"model.scale", "scale", NULL, "Scales the size that the file gives it", "Place character",
+    {"model.scale", "scale", NULL, "Size, relative to the file's", "Place character",
      NUMBER_AT(struct rig, model.scale), 0, 0, 1e-9, 1e9, 1, 0.01, 3},
     {"model.turn", "turn", "°", "About the vertical", "Place character", NUMBER_AT(struct rig, model.turn), -180, 180,
      -36000, 36000, 0, 1, 0},
@@ -65,8 +64,8 @@ static void build_bone(struct inspector *in)
         const char *name, *label, *hint;
         bool follow;
     } buttons[] = {
-        {"bone.chain", "Make chain", "From this bone to its tip, bent by a new spline (J)", false},
-        {"bone.follow", "With follow-through", "The same, swinging after the motion of the clip (Shift+J)", true},
+        {"bone.chain", "Make chain", "Make a chain from this bone to its tip, bent by a new spline (J)", false},
+        {"bone.follow", "With follow-through", "Make a chain that follows through on the clip (Shift+J)", true},
     };
     int model;
     const int node = bones_selected(in->core, &model);

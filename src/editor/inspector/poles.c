@@ -312,7 +312,7 @@ void inspector_poles(struct inspector *in)
     struct spline *spline = core_active_spline(in->core);
     struct pole_setting setting = setting_of(in, spline);
     if (spline_mode(spline) == WIGGLY_CUBIC || !(setting.hz > 0)) {
-        ui_paragraph(ui, "Both poles are at 1 (frequency 0): a cubic does not swing by itself.", theme()->text_dim);
+        ui_paragraph(ui, "Both poles are at 1 (frequency 0): a cubic does not swing.", theme()->text_dim);
         return;
     }
     if (!is_held(ui)) poles_fit(view, &setting);

@@ -107,7 +107,7 @@ static void build_row(struct inspector *in, int rig)
     snprintf(text, sizeof text, "%.100s, %s", path_name(rig_title(shown)), rig_word(shown->kind));
     const uint32_t color =
         rig_input_count(shown) > 0 ? spline_list_color(in->core->document, rig_input(shown, 0)) : 0;
-    ui_hint(&in->ui, r, "Show what it is made of, and what moves it");
+    ui_hint(&in->ui, r, "Show this rig and the splines that drive it");
     if (ui_list_row(&in->ui, r, name, text, color, rig == in->selected)) inspector_show_rig(in, rig);
 }
 
@@ -123,8 +123,8 @@ static void build_buttons(struct inspector *in)
 {
     static const struct icon_button buttons[] = {
         {"rig.add", "Add a tail, a character, a chain … (A)", UI_ICON_ADD},
-        {"rig.copy", "One more like it, beside it", UI_ICON_COPY},
-        {"rig.delete", "Remove it, with its splines or without (Shift+Del)", UI_ICON_DELETE},
+        {"rig.copy", "Copy this rig, beside it", UI_ICON_COPY},
+        {"rig.delete", "Remove this rig, with its splines or without (Shift+Del)", UI_ICON_DELETE},
     };
     const struct rect r = ui_row(&in->ui, UI_ROW);
     const int before = in->core->document->rig_count, rig = in->selected;
@@ -248,19 +248,19 @@ void inspector_add_menu(struct inspector *in, int unused)
 static const struct number_row meadow_rows[] = {
     {"meadow.count", "reeds", NULL, "How many reeds there are", "Change meadow", WHOLE_AT(struct rig, meadow.count),
      1, MEADOW_MAX_REEDS, 1, MEADOW_MAX_REEDS, 1000, 1, 0},
-    {"meadow.height", "height", "m", "Of a reed; each is up to 30 % taller or shorter", "Change meadow",
+    {"meadow.height", "height", "m", "Height of a reed; each is up to 30 % taller or shorter", "Change meadow",
      NUMBER_AT(struct rig, meadow.height), 0.05, 2, 0.001, INSPECTOR_NO_LIMIT, 0.8, 0.01, 2},
     {"meadow.wide", "width", "m", "The meadow's extent along x", "Change meadow",
      NUMBER_AT(struct rig, meadow.area[0]), 0.5, 10, 0.001, INSPECTOR_NO_LIMIT, 6, 0.1, 1},
     {"meadow.deep", "depth", "m", "The meadow's extent along z", "Change meadow",
      NUMBER_AT(struct rig, meadow.area[1]), 0.5, 10, 0.001, INSPECTOR_NO_LIMIT, 4, 0.1, 1},
-    {"meadow.variation", "variation", NULL, "How far each reed goes its own way; 0: all move alike", "Change meadow",
+    {"meadow.variation", "variation", NULL, "How much the reeds differ; 0: all move alike", "Change meadow",
      NUMBER_AT(struct rig, meadow.variation), 0, 2, 0, 100, 0.5, 0.05, 2},
     {"meadow.lag", "lag", "°", "How much later each joint of a reed swings", "Change meadow",
      NUMBER_AT(struct rig, meadow.lag), -45, 45, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 12, 0.5, 1},
     {"meadow.gain", "gain", "°", "How far each of a reed's six joints bends", "Change meadow",
      NUMBER_AT(struct rig, meadow.gain), -20, 20, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 6, 0.5, 1},
-    {"meadow.seed", "seed", NULL, "Another number plants and moves them otherwise", "Change meadow",
+    {"meadow.seed", "seed", NULL, "Each number gives another meadow", "Change meadow",
      WHOLE_AT(struct rig, meadow.seed), 0, 999, 0, 999999, 0, 1, 0},
 };
 

@@ -205,7 +205,7 @@ static void build_of(struct inspector *in)
         [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
     struct joint_motion motion = *followed(in)->motion;
     int of = (int)motion.of;
-    if (!inspector_choice(in, "joint's", "Its turn in degrees, or its way across or up in metres", "joint.of",
+    if (!inspector_choice(in, "joint's", "Its turn in degrees, or its movement across or up in metres", "joint.of",
                           choices, MOTION_KINDS, &of))
         return;
     struct param param = *followed(in);
@@ -342,9 +342,9 @@ static const char *stillness(const struct spline *spline)
     if (p[PARAMETER_PASSIVE].value != WIGGLY_OSCILLATOR) return "The paper's filter has no variations.";
     for (enum parameter n = PARAMETER_FREQUENCY; n <= PARAMETER_BANDWIDTH; n++) {
         if (p[n].track >= 0 && spline_uses(spline, n, false))
-            return "Where frequency or damping follow a spline there are no variations.";
+            return "There are no variations while frequency or damping follows a spline.";
     }
-    return p[PARAMETER_FREQUENCY].value > 0 ? NULL : "What does not swing has no variations.";
+    return p[PARAMETER_FREQUENCY].value > 0 ? NULL : "A spline that does not swing has no variations.";
 }
 
 void inspector_variation(struct inspector *in)

@@ -187,8 +187,8 @@ static void choose_end(struct inspector *in, const struct dropdown *list)
 }
 
 static const struct end ends[2] = {
-    {{"chain.from", "The bone that it begins with", choose_end}, "from", "chain.from.pick", BONE_FIRST},
-    {{"chain.to", "The bone that it ends with", choose_end}, "to", "chain.to.pick", BONE_LAST},
+    {{"chain.from", "First bone of the chain", choose_end}, "from", "chain.from.pick", BONE_FIRST},
+    {{"chain.to", "Last bone of the chain", choose_end}, "to", "chain.to.pick", BONE_LAST},
 };
 
 static bool set_joints(struct inspector *in, int which, double number, struct error *error)
@@ -345,7 +345,7 @@ static void build_twin(struct inspector *in)
     if (!bones_has_twin(in->core, in->rig)) return;
     const struct rect row = ui_row(&in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
     ui_hint(&in->ui, button,
-            "The same chain on the other side, mirrored, by the same splines; its channels may get others");
+            "Add the mirrored chain, bent by the same splines; you can choose others for its channels");
     if (ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
 }
 

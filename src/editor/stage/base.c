@@ -188,6 +188,6 @@ void base_say_channel(const struct core *core, int spline, char *text, size_t si
     const struct spline *made = core->document->splines[spline];
     const int base = made->parameter[PARAMETER_EQUILIBRIUM].track;
     const size_t length = strlen(text);
-    snprintf(text + length, size - length, " New: %s, by which the tail swings after %s.", made->name,
+    snprintf(text + length, size - length, " New spline %s: the tail swings after %s.", made->name,
              base >= 0 ? core->document->splines[base]->name : "it");
 }

@@ -232,7 +232,7 @@ static void shift_body(struct stage *stage, struct core *core, const double offs
     if (is_first && report.why[0]) {
         core_stopped(core, report.why);
     } else if (is_first) {
-        core_message(core, false, "It sits on the ground again: auto-key (Shift+A) or R keeps a height.");
+        core_message(core, false, "Back on the ground. Turn on auto-key (Shift+A) or record (R) to keep the height.");
     } else {
         const bool keys = tail_of(core->document, stage->body_drag.rig) && !report.why[0];
         say(&report, keys ? ". Auto-key (Shift+A) sets knots instead." : ".");
@@ -453,8 +453,7 @@ static enum drag_answer take_event(void *room, struct core *core, const struct e
     if (event->key != 'R')
         return drag_lock_axis(&core->drag, &stage->body_drag.axis, event->key) ? DRAG_USED : DRAG_PASSES;
     if (!tail_of(core->document, stage->body_drag.rig)) {
-        core_message(core, false,
-                     "An imported character stands in one place for the whole shot: its motion is its clip's.");
+        core_message(core, false, "An imported character stays in one place for the whole shot. Its clip moves it.");
         return DRAG_USED;
     }
     drag_start_moving(core);

@@ -186,7 +186,7 @@ static void show_legend(struct core *core, const struct coordinate *coordinate)
 /// A line under the feet of each of the pair.
 static void show_pair(const struct stage *stage, struct core *core)
 {
-    static const char *const names[] = {"with their phases", "real parts only"};
+    static const char *const names[] = {"with phases", "without phases"};
     const struct stage_view *view = &stage->view;
     const struct rect r = core->layout.stage;
     for (int i = 0; i < view->character_count; i++) {

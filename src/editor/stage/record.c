@@ -171,7 +171,7 @@ void record_keep(struct stage *stage, struct core *core)
     for (int k = 0; k < 3; k++) {
         if (largest(record->way[k], record->count) >= STILL) made += key_coordinate(stage, core, k, &swings, why);
     }
-    snprintf(text, sizeof text, made == 0 ? "Nothing moved: nothing is recorded." : "%d knots recorded.", made);
+    snprintf(text, sizeof text, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.", made);
     core_add_stopped(why, text, sizeof text);
     base_say_channel(core, swings, text, sizeof text);
     core_message(core, false, text);

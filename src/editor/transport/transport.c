@@ -130,8 +130,8 @@ static const char *lead_hint(const struct document *document)
                             "Drag the character to pin a point of it, or a knot. Space plays, F1 shows all keys"},
         [LEAD_CHAIN] = {"Drag a chain, or click a bone to make another chain. F1 shows all keys",
                         "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys"},
-        [LEAD_MODEL] = {"Point at a bone and click it to make a chain. F1 shows all keys",
-                        "Point at a bone and click it to make a chain. F1 shows all keys"},
+        [LEAD_MODEL] = {"Click a bone, then press Shift+J to let it swing. F1 shows all keys",
+                        "Click a bone, then press Shift+J to let it swing. F1 shows all keys"},
         [LEAD_NOTHING] = {"Double-click to set a knot. Space plays, F1 shows all keys",
                           "Drag a knot. Space plays, F1 shows all keys"},
     };
@@ -151,15 +151,16 @@ static const char *const hover_hints[] = {
     [HOVER_SHEET] = "Click to open or close the dope sheet (F7)",
     [HOVER_ROW] = "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box",
     [HOVER_WARNING] = "Click to fix; Ctrl+Z undoes it",
-    [HOVER_JOINT] = "Drag the tail to set the knot at the playhead; Ctrl+drag or H pins a joint",
+    [HOVER_JOINT] = "Drag the tail: it is held where you let go. Ctrl+drag or H pins a joint",
     [HOVER_BONE] = "Click to select this bone; drag to move the character, and its chains follow through",
-    [HOVER_BODY] = "Drag the body and the tail follows through (Ctrl: lift it, X, Y or Z locks an axis, R records)",
+    [HOVER_BODY] = "Drag the body: the tail follows through (Ctrl lifts it, X, Y or Z locks an axis, R records)",
     [HOVER_PLAY] = "Play, pause (Space)",
     [HOVER_LOOP] = "Loop or stop at the end (Ctrl+L)",
     [HOVER_SPEED] = "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)",
-    [HOVER_AUTO_KEY] = "Whether dragging the body sets knots at the playhead, or moves the whole shot (Shift+A)",
+    [HOVER_AUTO_KEY] =
+        "Auto-key: dragging the body sets knots at the playhead; off, it moves the whole shot (Shift+A)",
     [HOVER_UI_SCALE] =
-        "How large everything is. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)",
+        "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)",
     [HOVER_PRESENT] = "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves",
     [HOVER_LIMIT] = "Drag the limit; the curve stays on this side of it",
     [HOVER_BOX] =
@@ -173,22 +174,21 @@ static const char *const hover_hints[] = {
 static const char *hover_hint(const struct core *core)
 {
     static const char *const picks[] = {
-        [BONE_FOLLOWED] = "Click the bone that the equilibrium is to follow; Esc: none",
-        [BONE_FIRST] = "Click the bone that the chain is to begin with; Esc: none",
-        [BONE_LAST] = "Click the bone that the chain is to end with; Esc: none",
+        [BONE_FOLLOWED] = "Click the bone that the equilibrium should follow; Esc cancels",
+        [BONE_FIRST] = "Click the first bone of the chain; Esc cancels",
+        [BONE_LAST] = "Click the last bone of the chain; Esc cancels",
     };
     const struct hover *hover = &core->hover;
     if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
     if (hover->kind == HOVER_CURVE && hover->spline == core->active)
         return "Double-click to insert a knot without changing the curve; drag to select with a box";
     if (hover->kind == HOVER_JOINT && core->document->rigs[hover->rig]->kind == RIG_CHAIN)
-        return "Drag the chain to set the knot at the playhead; Ctrl+drag or H pins a joint; click to select the "
-               "bone";
+        return "Drag the chain: it is held where you let go. Ctrl+drag or H pins a joint, a click selects the bone";
     if (hover->kind == HOVER_PIN && core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_CURVES)
         return "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, Alt+PgDn: by a frame";
     if (hover->kind != HOVER_NONE) return hover_hints[hover->kind];
     if (core->bone.any)
-        return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc lets go";
+        return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc deselects it";
     return lead_hint(core->document);
 }
 
