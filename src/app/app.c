@@ -102,7 +102,7 @@ static bool rescue(struct app *app, bool good, struct error *error)
     return false;
 }
 
-/// Writes what was asked for at the end: document, log, recording. Goes on after a failure and reports the first.
+/// Writes the files that the command line names: document, log, recording. Continues after a failure and reports the first.
 static bool close_files(struct app *app, struct error *error)
 {
     const char *result = app->table.document && app->frame > 0 ? app->options->result : NULL;
@@ -124,7 +124,7 @@ static bool finish(struct app *app, struct error *error)
     return close_files(app, good ? error : &other) && good;
 }
 
-/// The display is gone, and GL with it: saves what can be saved. The process ends on return.
+/// The display is gone, and GL with it: saves the document if it can. The process ends on return.
 static void on_lost(void *user)
 {
     struct app *app = user;
@@ -249,7 +249,7 @@ int app_run(const struct app_options *options, struct error *error)
     }
     struct error late = {0};
     if (!finish(&app, good ? error : &late)) good = false;
-    platform_on_lost(NULL, NULL); // what there is to rescue goes now
+    platform_on_lost(NULL, NULL); // a rescue would save the document, which is freed below
     personal_end(&app, !good);    // autosave's thread may still run out of memory
     need_keep(0, NULL, NULL);
     app_free(&app);

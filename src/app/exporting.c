@@ -34,13 +34,13 @@ const int exporting_format_count = sizeof exporting_formats / sizeof *exporting_
 
 struct export_job {
     struct request request;
-    struct opened opened; ///< a copy of what is on the table: the user may go on
+    struct opened opened; ///< a copy of the document: the user may go on
     struct film *film;    ///< while it is drawn
     thrd_t thread;
     bool threaded; ///< it is to be waited for
     atomic_long done, total;
     atomic_bool stop, ended;
-    bool good; ///< what the thread has come to
+    bool good; ///< result of the thread
     struct error error;
     struct export_report report;
 };

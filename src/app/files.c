@@ -64,7 +64,7 @@ static void file_watch_note_now(struct app *app) { file_watch_note(app, file_con
 
 uint64_t file_watch_known(const struct app *app) { return app->own_file.content; }
 
-/// What somebody else has written into the document's file; 0: nothing, or it is gone.
+/// Content hash of the document's file if another program changed it; 0: unchanged, or gone.
 static uint64_t changed_content(const struct app *app)
 {
     const uint64_t now = app_path(app)[0] ? file_content(app_path(app)) : 0;
@@ -327,7 +327,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     return true;
 }
 
-/// Whether a request would write over what somebody else has written since: the user is asked instead.
+/// Whether a request would overwrite another program's changes: the user is asked instead.
 static bool is_asked_about(struct app *app, const struct request *request)
 {
     const bool saves = request->kind == REQUEST_SAVE ||

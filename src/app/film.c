@@ -19,7 +19,7 @@ static const struct film_format {
     int width, height;                  ///< where none is asked for
     bool is_even;                       ///< it holds only even sizes
     bool has_alpha;
-    bool repeats; ///< whoever shows it begins again at its end
+    bool repeats; ///< players start it again at its end
 } formats[] = {
     {".mp4", film_mp4, NULL, 1280, 720, .is_even = true},
     {".webm", film_webm, film_webm_alpha, 1280, 720, .is_even = true, .has_alpha = true},
@@ -156,7 +156,7 @@ void film_progress(const struct film *film, long *done, long *total)
     *total = film->shape.count;
 }
 
-/// What to look for if that is not the name that was given.
+/// Names of the files where they are not the path.
 static const char *print_names(const struct film *film, char text[64])
 {
     const char *name = path_name(film->path);

@@ -5,7 +5,7 @@
 #include "app/film.h"
 #include <sys/types.h>
 
-/// What is to come.
+/// Size, rate and length of a film.
 struct film_shape {
     int width, height; ///< pixels, each picture of four bytes a pixel
     double rate;       ///< a second
@@ -29,7 +29,7 @@ struct film_file_kind {
 
 extern const struct film_file_kind film_ffmpeg, film_png;
 
-/// What is said to ffmpeg, NULL behind the last.
+/// The arguments of ffmpeg, NULL-terminated.
 extern char *const film_mp4[], *const film_webm[], *const film_webm_alpha[], *const film_gif[];
 
 #endif

@@ -81,7 +81,7 @@ static enum film_state put(struct film_file *file, const unsigned char *pixels, 
     }
     struct error inner;
     if (!png_write(name, file->shape.width, file->shape.height, pixels, &inner)) {
-        // The folder is ours alone: what the user knows is the path.
+        // Only we know the temporary folder; the user knows the path.
         const bool named = strncmp(inner.text, name, strlen(name)) == 0;
         fail(error, inner.kind, "%s%s", file->path, named ? inner.text + strlen(name) : ": cannot be written");
         return FILM_FAILED;

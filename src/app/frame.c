@@ -260,7 +260,7 @@ static void end_row(struct app *app)
     app->row.allocations = allocation_count() - app->row.allocations;
 }
 
-/// What the drawn frame changes for the next ones.
+/// Measures the drawn frame, and sets the cursor.
 static void after_drawing(struct app *app)
 {
     if (app->resolution.changed == resolution_now(app)) measure(app);

@@ -16,19 +16,19 @@
 #include <sys/stat.h>
 #include <time.h>
 
-/// What the settings hold, besides files.
+/// The settings, besides files.
 struct choices {
     enum theme_kind theme;
     double ui_scale, stage_share, inspector_width;
     bool more;        ///< the inspector shows all
-    bool is_welcomed; ///< somebody who has closed the card that says what to try first
+    bool is_welcomed; ///< the card for new users was closed
 };
 
 struct personal {
     char settings_path[PATH_LIMIT + 16]; ///< "" where there is no folder for it
     char state_folder[PATH_LIMIT];
     struct autosave *autosave;     ///< NULL: unsaved work is not kept
-    struct recovery_entry offered; ///< what the dialog asks about
+    struct recovery_entry offered; ///< the file that the dialog asks about
     bool is_offered;               ///< `offered` is claimed
     struct choices choices;        ///< as in the settings
 };
@@ -85,7 +85,7 @@ static struct choices choices_of(const struct app *app)
                             .is_welcomed = !dialogs_is_welcoming(app->table.editor->dialogs)};
 }
 
-/// Stores what has changed; the panels' places only at the end, for they are dragged.
+/// Stores changed settings; the panels' sizes only at the end, as they are dragged.
 static void note_choices(struct app *app, bool ends)
 {
     struct choices before = app->personal->choices, now = choices_of(app);
@@ -169,13 +169,13 @@ int personal_recent(void *user, struct dialog_recent *files, int most)
     return count;
 }
 
-/// What the document was called whose work a file has.
+/// Name of the document that a recovery file belongs to.
 static const char *name_of(const struct recovery_entry *entry)
 {
     return entry->origin.path[0] ? path_name(entry->origin.path) : "an untitled scene";
 }
 
-/// Says what else is there, for a start without a scene.
+/// Says how many other files there are, for a start without a scene.
 static void mention(struct app *app)
 {
     struct recovery_entry entry;
@@ -187,7 +187,7 @@ static void mention(struct app *app)
     recovery_release(&entry.slot);
 }
 
-/// Asks about the newest file left behind. Whoever names a scene gets that, and is asked about work on no other.
+/// Asks about the newest file left behind. A start with a scene asks about unsaved work on that scene only.
 static void offer(struct app *app)
 {
     struct personal *personal = app->personal;

@@ -153,7 +153,7 @@ static void wait(struct autosave *autosave)
         thrd_sleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
 }
 
-/// Ends what the last write leaves.
+/// Ends the thread of the last write and frees its document.
 static void finish(struct autosave *autosave)
 {
     if (autosave->threaded) thrd_join(autosave->thread, NULL);
@@ -162,7 +162,7 @@ static void finish(struct autosave *autosave)
     autosave->threaded = autosave->writes = false;
 }
 
-/// What came of the last write: only the first failure in a row is told; the next interval tries again.
+/// Reports the last write: only the first failure in a row; the next interval tries again.
 static bool report(struct autosave *autosave, struct error *error)
 {
     if (!autosave->writes) return true;

@@ -8,9 +8,9 @@
 
 /// Zero: always full resolution.
 struct resolution {
-    float moving;    ///< what movement is drawn at; 0 means 1
-    float shown;     ///< what is on the screen; 0 means 1
-    bool adapts;     ///< `moving` follows what frames cost
+    float moving;    ///< resolution while the stage moves; 0 means 1
+    float shown;     ///< resolution on the screen; 0 means 1
+    bool adapts;     ///< adapt `moving` to the cost of frames
     uint64_t hash;   ///< of the stage on the screen
     double changed;  ///< when it last became another one, s
     int slow, quick; ///< how much more frequent slow (quick) frames have been of late
@@ -31,7 +31,7 @@ bool resolution_is_exact(const struct resolution *resolution);
 /// Seconds until the stage must be redrawn exactly; INFINITY if it is exact.
 double resolution_wait(const struct resolution *resolution, double now);
 
-/// What a frame with a moving stage cost, ms.
+/// Cost of a frame with a moving stage, ms.
 struct resolution_cost {
     double before;     ///< until drawing began
     double draw, swap; ///< on the CPU's clock

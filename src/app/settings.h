@@ -1,4 +1,4 @@
-/// What the program remembers between runs: a small text file of lines `key = value`.
+/// Settings kept between runs: a small text file of lines `key = value`.
 ///
 ///     # wiggly's settings
 ///     theme = dark

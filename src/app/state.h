@@ -30,7 +30,7 @@ struct demo {
 /// The document's own file as it was last seen: another program, or a second window, may write it.
 struct own_file {
     uint64_t content; ///< when it was read or written last (file_content())
-    uint64_t asked;   ///< what the user was asked about at the window's focus
+    uint64_t asked;   ///< content that the user was asked about when the window got the focus
 };
 
 struct app {
@@ -69,7 +69,7 @@ struct app {
     double process_start; ///< on the clock
     double last_time, next_time, stats_time;
     long frame, stats_frame;
-    bool shown_saved; ///< what the window's title says
+    bool shown_saved; ///< the window's title
     bool paste;       ///< the editor asked for the clipboard's text: it comes with the next frame's events
     bool quit;
     bool failed; ///< with `error`: the run ends
@@ -94,7 +94,7 @@ void app_adopt(struct app *app, struct document *document);
 /// The document's own file; "" for an untitled one.
 const char *app_path(const struct app *app);
 
-/// Carries out what an event has asked for: files, window, end.
+/// Carries out a request: files, window, end.
 void app_requests(struct app *app);
 /// Keeps the star in the window's title, which says that there is unsaved work.
 void app_show_title(struct app *app);
@@ -115,7 +115,7 @@ void file_watch_note(struct app *app, uint64_t content);
 /// The content of the document's own file that was noted; 0: unknown.
 uint64_t file_watch_known(const struct app *app);
 
-/// The window has the focus again: asks what to do about a changed file, once for each change.
+/// The window has the focus again: asks about a changed file, once for each change.
 void file_watch_look(struct app *app);
 
 /// Lays the editor out anew for the display's size, as large as is chosen and as leaves room.

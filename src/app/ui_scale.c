@@ -8,7 +8,7 @@ enum { UI_LEAST_WIDTH = 320, UI_LEAST_HEIGHT = 240 };
 
 enum { STEPS = sizeof steps / sizeof *steps };
 
-static const double PRESENTING = 1.5;          ///< times what is chosen
+static const double PRESENTING = 1.5;          ///< times the user's choice
 static const double SHARPEST = 5;              ///< device pixels a logical pixel that there is room for glyphs for
 static const double WIDTH = 760, HEIGHT = 400; ///< logical pixels that the panels need
 
@@ -45,7 +45,7 @@ void ui_scale_fit(struct app *app)
 void ui_scale_update(struct app *app)
 {
     if (app->ui_scale_shown == fitting(app)) return;
-    editor_let_go(app->table.editor); // what is held would jump
+    editor_let_go(app->table.editor); // a held control would jump
     ui_scale_fit(app);
 }
 

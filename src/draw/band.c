@@ -1,4 +1,4 @@
-/// Fills what lies between an upper and a lower edge that have a point in each pixel column.
+/// Fills the area between an upper and a lower edge that have a point in each pixel column.
 //
 // Columns are taken in stretches. What all of a stretch cover is one rectangle: software rasterisers pay for triangles a pixel
 // wide and a panel high as if they were four pixels wide. Above and below it a strip goes along the edge:
@@ -15,7 +15,7 @@ enum { STRETCH = 16 }; ///< columns
 struct stretch {
     float x[STRETCH], top[STRETCH], bottom[STRETCH]; ///< of the line's edges in each column
     int count;
-    float core_top, core_bottom; ///< what all columns cover
+    float core_top, core_bottom; ///< the part that all columns cover
 };
 
 /// As many columns from point `first` on as cover a row together: any two that are neighbours do, as they share a point.

@@ -35,7 +35,7 @@ struct batch {
     int vertex_count, index_count, part_count;
     unsigned generation; ///< changes with every flush, which invalidates earlier indices
     int width, height;   ///< framebuffer
-    struct area scissor; ///< of what is added from now on: the caller sets it
+    struct area scissor; ///< of shapes added from now on: the caller sets it
     GLuint texture;
     int texture_width, texture_height;
     double upload_us;

@@ -1,4 +1,4 @@
-/// What changed since the last frame, as a few rectangles. Private to draw/.
+/// The parts of the frame that changed since the last one, as a few rectangles. Private to draw/.
 ///
 /// The framebuffer is divided into cells, with the stage's viewport on their borders. A cell's hash combines, in painter's
 /// order, the hashes of what is on the stage there and of the commands that touch it. Cells whose hash is not the last

@@ -28,7 +28,7 @@ struct draw_input {
     float stage_scale;
 };
 
-/// What drawing cost. Times in microseconds.
+/// Cost of drawing. Times in microseconds.
 struct draw_cost {
     double upload_us, draw_us;
     double gpu_us;  ///< of an earlier frame, where the driver has timer queries; else negative

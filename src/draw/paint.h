@@ -26,7 +26,7 @@ void shape_rect(struct batch *batch, const float corners[4], struct area clip, u
 /// A convex polygon of `count` points, given in logical pixels.
 void shape_convex(struct batch *batch, const float *xy, int count, float scale, uint32_t color);
 
-// What a line that goes up and down from point to point covers, as few triangles.
+// The area of a line that goes up and down from point to point, in few triangles.
 
 /// Everything between each of `count` points and the next, `width` wide; points and width in logical pixels, x never decreasing.
 void band_add(struct batch *batch, const float *xy, int count, float width, float scale, uint32_t color);

@@ -12,7 +12,7 @@
 
 enum stage_program {
     PROGRAM_COAT,
-    PROGRAM_FACE,  ///< what a face is drawn on
+    PROGRAM_FACE,  ///< the surface under a face
     PROGRAM_PLAIN, ///< surfaces of which nothing is left out, has a picture or is seen through: its pixels are cheaper
     PROGRAM_PICTURED, ///< any other mesh, and all skirts but coats'
     PROGRAM_MEADOW,

@@ -1,4 +1,4 @@
-/// Finds what moves on the stage, and where on the screen.
+/// Finds the moving rigs, and their extent on the screen.
 #include "base/hash.h"
 #include "draw/stage.h"
 #include <math.h>

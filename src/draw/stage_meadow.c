@@ -27,7 +27,7 @@ static void make_strip(struct stage_meadows *meadows)
     meadows->indices = gl_buffer(GL_ELEMENT_ARRAY_BUFFER, sizeof indices, indices, GL_STATIC_DRAW);
 }
 
-/// What differs from reed to reed.
+/// Attributes of a reed.
 static void make_instances(struct stage_meadows *meadows)
 {
     static const size_t offsets[] = {offsetof(struct stage_reed, place), offsetof(struct stage_reed, still),

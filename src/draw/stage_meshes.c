@@ -89,7 +89,7 @@ void stage_meshes_destroy(struct stage_meshes *meshes)
     free(meshes);
 }
 
-// --- what is kept
+// --- the cache
 
 static void drop(struct kept *kept)
 {
@@ -98,7 +98,7 @@ static void drop(struct kept *kept)
 }
 
 /// The one of a file or a figure that this picture has not shown yet: several rigs may have the same. An empty one where there is none:
-/// what has not been shown for long is freed, and at least what was shown least recently.
+/// it frees meshes not shown for long, and at least the least recent one.
 static struct kept *find(struct stage_meshes *meshes, enum mesh_kind kind, uint64_t id)
 {
     struct kept *oldest = &meshes->kept[0];
@@ -170,7 +170,7 @@ long stage_meshes_upload(struct stage_meshes *meshes, const struct stage_view *v
 
 // --- the picture
 
-/// What draws a part: its surface, or its skirts.
+/// The program of a part: its surface, or its skirts.
 static enum stage_program program_of(const struct posed_part *part, bool skirts)
 {
     return skirts && part->program == PROGRAM_PLAIN ? PROGRAM_PICTURED : part->program;

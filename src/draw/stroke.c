@@ -133,7 +133,7 @@ static void add_fan(const struct stroke *stroke, struct line_point p, const stru
     batch_triangle(stroke->batch, base, arc + FAN_STEPS, arc + FAN_STEPS + 1);
 }
 
-/// Whether a segment, mitres and all, can touch what is visible.
+/// Whether a segment, with its mitres, can touch the clip.
 static bool is_visible(const struct stroke *stroke, struct line_point a, struct line_point b)
 {
     float margin = 2.0f * stroke->reach + 1.0f;

@@ -92,7 +92,7 @@ static void run_frame(struct editor *e, int argument)
 
 enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_DUPLICATE };
 
-/// Not while a value is typed: knots are not what is meant then.
+/// Not while a value is typed: Ctrl+C then means the text.
 static void run_clipboard(struct editor *e, int argument)
 {
     if (inspector_ui(e->inspector)->typing) return;
@@ -153,7 +153,7 @@ static void run_theme(struct editor *e, int argument)
 enum way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };
 
 static const double PAN = 0.1;  ///< of the panel's size
-static const double ZOOM = 0.8; ///< of what is seen, a step
+static const double ZOOM = 0.8; ///< of the view, a step
 static const float TURN = 0.1f; ///< radians
 static const int way_sign[][2] = {
     [WAY_LEFT] = {-1, 0}, [WAY_RIGHT] = {1, 0}, [WAY_UP] = {0, -1}, [WAY_DOWN] = {0, 1}};
@@ -187,7 +187,7 @@ static void run_fit_stage(struct editor *editor, int argument)
     stage_fit(editor->stage, &editor->core);
 }
 
-/// By a frame or 1 % of the visible values, a pin by 1 % of what is seen; with Shift ten times that, with Ctrl a tenth.
+/// By a frame or 1 % of the visible values, a pin by 1 % of the view; with Shift ten times that, with Ctrl a tenth.
 static void run_nudge(struct editor *editor, int way)
 {
     const unsigned mods = editor->core.mods;
@@ -248,7 +248,7 @@ enum {
     TYPED = CHORD_TYPED
 };
 
-/// A row: its name, heading and places; what it needs and when its keys work; its function with its argument; its keys.
+/// A row: its name, heading, places, need, when its keys work, its function with its argument, its keys.
 #define COMMAND(named, heading, places, need, works, function, number, ...)                                          \
     {                                                                                                                \
         .name = (named), .about = ABOUT_##heading, .at = (places), .needs = NEEDS_##need, .when = (works), function, \
@@ -256,7 +256,7 @@ enum {
             __VA_ARGS__                                                                                              \
         }                                                                                                            \
     }
-/// A row that F1 alone shows: what to do with the mouse or a held key, and what that does.
+/// A row that only F1 shows: a gesture or a held key, and its effect.
 #define GESTURE(gestured, named, heading, places)                                                                    \
     {                                                                                                                \
         .name = (named), .about = ABOUT_##heading, .at = (places), .gesture = (gestured)                             \
@@ -494,7 +494,7 @@ const struct command commands[] = {
     COMMAND("Orbit up", NOTHING, 0, NOTHING, REPEATS, .run = run_orbit, WAY_UP, {KEY_UP, CTRL_SHIFT}),
     COMMAND("Orbit down", NOTHING, 0, NOTHING, REPEATS, .run = run_orbit, WAY_DOWN, {KEY_DOWN, CTRL_SHIFT}),
     COMMAND(NULL, NOTHING, 0, NOTHING, REPEATS, .core = core_nudge_parameter, 1,
-            {KEY_UP, 0}), // of what a held letter means
+            {KEY_UP, 0}), // of the parameter whose letter is held
     COMMAND(NULL, NOTHING, 0, NOTHING, REPEATS, .core = core_nudge_parameter, -1, {KEY_DOWN, 0}),
 };
 

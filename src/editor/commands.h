@@ -8,7 +8,7 @@
 extern const struct command commands[];
 extern const int command_count;
 
-/// Does what a command says. A key does it whatever it needs: what is missing then, its function says.
+/// Runs a command. A key runs it whatever it needs; the function then says what is missing.
 void command_run(struct editor *editor, const struct command *command);
 
 #endif

@@ -1,4 +1,4 @@
-/// The editor's public functions: who gets an event, and what happens once a frame.
+/// The editor's public functions: events, and one frame.
 #include "editor/editor.h"
 #include "base/need.h"
 #include "editor/commands.h"

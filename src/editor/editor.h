@@ -13,9 +13,9 @@ struct press {
     bool opened;   ///< it opened something over the panels, which does not get the character
 };
 
-/// What the panels share, and each panel's own state.
+/// The shared state, and each panel's own.
 struct editor {
-    struct core core; ///< `list` is what editor_show() draws
+    struct core core; ///< editor_show() fills `list`
     struct curves *curves;
     struct stage *stage;
     struct inspector *inspector;
@@ -51,7 +51,7 @@ void editor_show_poles(struct editor *editor);
 
 /// Ends any drag where it is: before the app itself makes an edit.
 void editor_let_go(struct editor *editor);
-/// Does what leaves the document, but asks first where work would be lost.
+/// Carries out a request that leaves the document, but asks first where work would be lost.
 void editor_leave(struct editor *editor, const struct request *request);
 
 /// Logical size of the window, and device pixels a logical pixel.
@@ -72,7 +72,7 @@ void editor_show(struct editor *editor);
 void editor_pose_alone(struct editor *editor, double frame, float width, float height);
 const struct stage_view *editor_stage(const struct editor *editor);
 
-/// Takes what an event has asked for, or an answer; REQUEST_NONE: nothing.
+/// Takes the request of an event or an answer; REQUEST_NONE: none.
 struct request editor_take_request(struct editor *editor);
 
 /// Answers a request, once all that it entails (editor_open(), core_set_path()) is done; every request gets an answer. If not

@@ -1,4 +1,4 @@
-/// One frame of the editor: events go to whoever wants them, time passes, everything is shown.
+/// One frame of the editor: events go to panels, time passes, everything is drawn.
 #include "editor/commands.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
@@ -43,7 +43,7 @@ static void press(struct editor *editor, const struct event *event)
     }
 }
 
-/// Ends what the inspector is in the middle of, before the document changes or the app quits.
+/// Ends a running edit of the inspector before the document changes or the app quits.
 void editor_leave(struct editor *editor, const struct request *request)
 {
     inspector_let_go(editor->inspector);
@@ -110,7 +110,7 @@ void editor_let_go(struct editor *editor)
     inspector_let_go(editor->inspector);
 }
 
-/// Asks what core wants answered. When something opens over the panels, ends any drag and lets go of held keys.
+/// Asks core's question. When something opens over the panels, ends any drag and lets go of held keys.
 static void ask(struct editor *editor)
 {
     if (dialogs_ask(editor->dialogs, &editor->core)) inspector_let_go(editor->inspector);
@@ -120,7 +120,7 @@ static void ask(struct editor *editor)
     editor->core.space_down = false;
 }
 
-/// What somebody does puts a tooltip away; moving the pointer does not.
+/// Keys and buttons hide a tooltip; moving the pointer does not.
 static bool is_interruption(const struct event *event)
 {
     const bool pressed = (event->kind == EVENT_KEY || event->kind == EVENT_BUTTON) && event->action != ACTION_RELEASE;
@@ -156,7 +156,7 @@ void editor_advance(struct editor *editor, double dt)
     const struct ui *ui = inspector_ui(editor->inspector);
     const bool busy =
         ui->typing || inspector_is_dragging(editor->inspector) || ui->popup.id || dialogs_cover(editor->dialogs);
-    editor->press = (struct press){.used = false}; // what it types comes in the same frame
+    editor->press = (struct press){.used = false}; // its text comes in the same frame
     if (message->seconds_left > 0) {
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
@@ -195,7 +195,7 @@ void editor_pose_alone(struct editor *editor, double frame, float width, float h
     editor_pose(editor);
 }
 
-/// Finds what the pointer is over now, because things move under it.
+/// Finds the item under the pointer now, because things move under it.
 static void update_hover(struct editor *editor)
 {
     if (editor->core.drag.owner) return;

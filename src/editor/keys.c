@@ -15,7 +15,7 @@ const struct command *keys_command(int key, unsigned mods)
     return NULL;
 }
 
-/// Does what is bound, unless it excludes key repeats or running drags; true if anything is bound.
+/// Runs the command of a chord, unless it excludes key repeats or running drags; true if there is one.
 static bool run(struct editor *editor, int key, unsigned mods, bool repeated)
 {
     const struct command *command = keys_command(key, mods);

@@ -9,7 +9,7 @@ struct command;
 /// The command of a key with exactly these modifiers, or with CHORD_TYPED of a typed character: every layout has punctuation on other keys,
 /// and what AZERTY, QWERTZ or Nordic layouts type only with AltGr has a key as well. NULL: there is none.
 const struct command *keys_command(int key, unsigned mods);
-/// Keys that mean the same whoever has the keyboard; true where the event is used up.
+/// Keys with one meaning whatever has the focus; true where the event is used up.
 bool keys_first(struct editor *editor, const struct event *event);
 /// Keys and characters; true where the event is used up.
 bool keys_event(struct editor *editor, const struct event *event);

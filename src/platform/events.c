@@ -72,7 +72,7 @@ int key_translate(int glfw_key, int scancode)
     if (glfw_key >= GLFW_KEY_0 && glfw_key <= GLFW_KEY_9) return glfw_key;
     if (glfw_key >= GLFW_KEY_F1 && glfw_key <= GLFW_KEY_F12) return KEY_F1 + (glfw_key - GLFW_KEY_F1);
     if (glfw_key >= 0 && glfw_key <= GLFW_KEY_LAST && special_keys[glfw_key]) return special_keys[glfw_key];
-    // GLFW numbers keys by what a US keyboard has there.
+    // GLFW numbers keys by their US labels.
     bool letter = glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z;
     if (letter && !is_latin()) return glfw_key;
     int key = printed(glfw_key, scancode);

@@ -11,7 +11,7 @@
 struct window;
 struct offscreen;
 
-/// What a surface reports about its framebuffer.
+/// Properties of a surface's framebuffer.
 struct surface_size {
     int width, height; ///< device pixels
     float scale;       ///< device pixels a logical pixel
@@ -24,14 +24,14 @@ struct platform {
     struct surface_size size; ///< where there is no window
     struct event_queue queue;
     bool keeps;
-    char *clipboard; ///< what stands for the system's where there is no window
+    char *clipboard; ///< in place of the system's where there is no window
 };
 
 /// Events go to `queue`, which must outlive the window.
 struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
                              struct error *error);
 void window_destroy(struct window *window);
-/// What the X server calls the window; 0 where there is none.
+/// The window's id on the X server; 0 where there is none.
 unsigned long window_number(const struct window *window);
 /// Asks the display where the window is: an error where it does not exist any more.
 void window_ask_place(const struct window *window);

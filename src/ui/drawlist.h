@@ -32,7 +32,7 @@ struct draw_command {
     enum font font;
     float x, y;         ///< text: the pen, at the left end of the baseline
     int first, count;   ///< points (pairs of floats) or bytes of text (a NUL follows) in the list's pools
-    struct rect bounds; ///< what it may touch, clipped
+    struct rect bounds; ///< its bounds, clipped
     struct rect clip;
     uint64_t hash; ///< of everything above and the points or text: equal hash, equal pixels
 };

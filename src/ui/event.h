@@ -20,7 +20,7 @@ enum event_kind {
     EVENT_CLOSE,   ///< the window's close button
     EVENT_EXPOSE,  ///< the window's content was lost
     EVENT_FOCUS,   ///< the window has the keyboard again
-    EVENT_CAPTION, ///< text: what a demo is showing; empty for nothing
+    EVENT_CAPTION, ///< text: caption of a demo; empty for none
 };
 
 enum event_action { ACTION_RELEASE, ACTION_PRESS, ACTION_REPEAT };

@@ -1,4 +1,4 @@
-/// Compares what is typed with the rows of a list.
+/// Matches typed text with the rows of a list.
 #include "ui/filter.h"
 #include "base/error.h"
 #include <ctype.h>

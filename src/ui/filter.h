@@ -1,4 +1,4 @@
-/// Typing narrows a list down: what is typed over lists to choose from, the help and the palette.
+/// Typing narrows a list down: lists to choose from, the help and the palette.
 #ifndef UI_FILTER_H
 #define UI_FILTER_H
 
@@ -6,7 +6,7 @@
 
 enum { FILTER_SIZE = 48 };
 
-/// What is typed; zero: nothing, which every text fits.
+/// The typed text; zero: empty, which every text matches.
 struct ui_filter {
     char typed[FILTER_SIZE];
 };
@@ -15,7 +15,7 @@ struct ui_filter {
 enum fit {
     FIT_NOT,
     FIT_LETTERS, ///< it has the letters in their order
-    FIT_INSIDE,  ///< it holds what is typed
+    FIT_INSIDE,  ///< it holds the text
     FIT_WORD,    ///< a word of it begins so
     FIT_START    ///< it begins so
 };

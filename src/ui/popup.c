@@ -158,7 +158,7 @@ static enum fit least_fit(const struct ui *ui, const struct ui_item *items, int 
     return ui_filter_least(best);
 }
 
-/// What is typed changes the filter, and the first row that it leaves gets the focus. Space is for that row.
+/// Typed text changes the filter, and the first row that is left gets the focus. Space is for that row.
 static void type_filter(struct ui *ui, const struct ui_item *items, int count)
 {
     const struct event *event = ui->event;
@@ -175,7 +175,7 @@ static void type_filter(struct ui *ui, const struct ui_item *items, int count)
     }
 }
 
-/// Above the rows: what is typed, or that one can.
+/// Above the rows: the typed text, or a hint.
 static void show_filter(struct ui *ui, struct rect area)
 {
     const char *typed = ui->popup.filter.typed;

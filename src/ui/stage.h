@@ -82,7 +82,7 @@ static inline void stage_add_blob(struct stage_view *view, float x, float z, flo
         view->blobs[view->blob_count++] = (struct shadow_blob){x, z, radius, strength};
 }
 
-/// Hash of what all pictures of the stage share: viewport, camera, light and colours.
+/// Hash of the state that all pictures of the stage share: viewport, camera, light and colours.
 static inline uint64_t stage_scenery_hash(const struct stage_view *view)
 {
     uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);

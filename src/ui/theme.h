@@ -59,7 +59,7 @@ uint32_t theme_readable(uint32_t color, uint32_t background, float contrast);
 /// The theme's colour for one that a document asks for (0xRRGGBB): those of theme_spline_rgb() map to the theme's own,
 /// others are made readable on the panel.
 uint32_t theme_spline(uint32_t rgb);
-/// What a document stores for the `index`th spline colour, whatever its shade in a theme.
+/// The stored number of the `index`th spline colour, whatever its shade in a theme.
 uint32_t theme_spline_rgb(int index);
 
 /// The pixel sizes of text that exist (atlases are built for these).

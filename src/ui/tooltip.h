@@ -1,4 +1,4 @@
-/// A sentence on what the pointer rests on, or what has the keyboard, near it.
+/// A sentence on the control under the pointer or with the keyboard focus, beside it.
 #ifndef UI_TOOLTIP_H
 #define UI_TOOLTIP_H
 
@@ -7,7 +7,7 @@
 /// All zero is none.
 struct tooltip {
     const char *text; ///< that is waited for or shown; NULL: none
-    struct rect at;   ///< what it must not cover
+    struct rect at;   ///< the rectangle to keep free
     float x, y;       ///< of the pointer
     double rest;      ///< seconds that it has rested there
     bool spent;       ///< a press has put it away, until the text changes

@@ -24,7 +24,7 @@ enum {
     UI_TEXT_SIZE = PATH_LIMIT,
 };
 
-/// What the pointer is over, for the cursor.
+/// The kind of widget under the pointer, for the cursor.
 enum ui_over { UI_OVER_NOTHING, UI_OVER_NUMBER, UI_OVER_TEXT };
 
 enum ui_pass { UI_PASS_EVENT, UI_PASS_DRAW, UI_PASS_FIND };
@@ -47,15 +47,15 @@ struct ui_stop {
     struct rect rect;
 };
 
-/// What opened over the panel: while open, it alone gets events.
+/// The open popup: it alone gets events.
 struct ui_popup {
     uint32_t id;        ///< of its name; 0: none
-    int which;          ///< the caller's own: what it is about
-    struct rect anchor; ///< what it hangs on
+    int which;          ///< the caller's own: its subject
+    struct rect anchor; ///< the rectangle that it opens at
     struct rect room;   ///< where it may be; nothing: in the panel
     struct ui_scroll scroll;
-    uint32_t focus;          ///< what begins with the focus; 0: its first widget
-    uint32_t opener;         ///< what gets the focus back; 0 where the pointer opened it
+    uint32_t focus;          ///< the widget with the first focus; 0: its first one
+    uint32_t opener;         ///< the widget that gets the focus back; 0 where the pointer opened it
     bool fresh;              ///< opened in the running event
     bool built;              ///< in the running pass
     struct ui_filter filter; ///< typed over a list: rows that do not fit it are left out
@@ -68,7 +68,7 @@ struct ui {
     uint32_t typing; ///< its value is being typed into `text`
     struct ui_popup popup;
     bool began;   ///< ui_line_begin() was called in the running pass
-    bool blocked; ///< what is built now lies under the popup
+    bool blocked; ///< widgets built now lie under the popup
     struct ui_text text;
     bool typed;      ///< `text` was changed since typing began
     bool refused;    ///< `text` was refused and not changed since
@@ -86,7 +86,7 @@ struct ui {
     const char *offered;    ///< the last hint of this pass, and where it holds
     struct rect offered_rect;
     enum ui_over over;   ///< as of the last frame drawn
-    char complaint[160]; ///< why what was typed was refused; the caller shows and clears it
+    char complaint[160]; ///< why typed text was refused; the caller shows and clears it
 
     enum ui_pass pass;
     const struct event *event;
@@ -109,7 +109,7 @@ void ui_begin_event(struct ui *ui, struct rect area, const struct event *event);
 void ui_begin_draw(struct ui *ui, struct rect area, struct drawlist *list);
 /// Looks for the widget `name`, or the place on its bar that shows `*value` (NULL: where it is held): found, found_x, found_y.
 void ui_begin_find(struct ui *ui, struct rect area, const char *name, const double *value);
-/// Ends the pass: moves the focus for Tab, drops what is no longer shown. true if the event was used or the widget found.
+/// Ends the pass: moves the focus for Tab, drops widgets that are gone. true if the event was used or the widget found.
 bool ui_end(struct ui *ui);
 
 /// Cancels focus, hold and typing without a change.
@@ -121,7 +121,7 @@ bool ui_is_typing_key(const struct ui *ui, const struct event *event);
 struct rect ui_row(struct ui *ui, float height);
 void ui_space(struct ui *ui, float height);
 
-/// What is built between these scrolls inside `view`: by the wheel, and to show the focused widget.
+/// Widgets built between these scroll inside `view`: by the wheel, and to show the focused widget.
 void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view);
 void ui_scroll_end(struct ui *ui);
 
@@ -156,9 +156,9 @@ struct ui_number {
     const char *hint;
     const char *shown;       ///< in place of the number, or NULL
     double minimum, maximum; ///< ends of the bar
-    double lowest, highest;  ///< what may be typed
+    double lowest, highest;  ///< limits of typed numbers
     double fallback;         ///< right-click, Delete; NAN: none
-    double step;             ///< arrow keys and what a drag rounds to
+    double step;             ///< step of arrow keys, and of a drag
     int decimals;
 };
 
@@ -254,7 +254,7 @@ bool ui_selects_all(const struct event *event);
 /// One key or character; false if the line does not use it. `changed` may be NULL.
 bool ui_text_event(struct ui_text *text, const struct event *event, bool *changed);
 
-/// What the widgets in `r` are for: a sentence that stays, for who points at them or has the keyboard there.
+/// A hint for the widgets in `r`, shown to who points at them or has the keyboard there.
 void ui_hint(struct ui *ui, struct rect r, const char *text);
 /// Width of a label.
 float ui_text_width(const char *text);

@@ -133,7 +133,7 @@ bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on)
     return pressed;
 }
 
-/// What is behind the row of a list.
+/// The background of a list row.
 static void paint_row(struct ui *ui, uint32_t id, struct rect r, bool selected, bool lit)
 {
     const struct rect back = {r.x - 4, r.y + 1, r.w + 8, r.h - 2};

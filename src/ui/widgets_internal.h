@@ -1,4 +1,4 @@
-/// What the files of the widgets share: input tests and the few shapes that all are painted with.
+/// Functions that the files of the widgets share: input tests and shapes.
 #ifndef UI_WIDGETS_INTERNAL_H
 #define UI_WIDGETS_INTERNAL_H
 
@@ -15,7 +15,7 @@ struct rect ui_field_of(struct rect row);
 bool ui_pressed(struct ui *ui, struct rect r, enum event_button button);
 /// The running event's press holds that widget from now on.
 void ui_hold(struct ui *ui, uint32_t id);
-/// What a key or a button means to what is held: the release drops it, Esc cancels; others are used up.
+/// Keys and buttons while something is held: the release drops it, Esc cancels; others are used up.
 enum ui_change ui_held_change(struct ui *ui);
 /// Whether the running event presses or repeats a key and widget `id` has the focus; the caller marks it as used.
 bool ui_focused_key(const struct ui *ui, uint32_t id);

@@ -162,7 +162,7 @@ enum ui_line ui_typing_event(struct ui *ui, uint32_t id, struct rect field)
 {
     const struct event *event = ui->event;
     if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
-        if (!ui_hovered(ui, field)) return UI_LINE_DONE; // the press is for whatever is there
+        if (!ui_hovered(ui, field)) return UI_LINE_DONE; // the press also goes to the widget there
         ui->used = true;
         ui->focus = id;
         ui->text.all = event->clicks == 2;

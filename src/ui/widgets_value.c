@@ -84,7 +84,7 @@ static void complain_range(struct ui *ui, const struct ui_number *number, const 
     snprintf(ui->complaint, sizeof ui->complaint, "%.40s: expected %s, got %.10g", what, range, typed);
 }
 
-/// Takes what was typed; false (with the reason in ui->complaint) if it is no number or out of range.
+/// Takes the typed text; false (with the reason in ui->complaint) if it is no number or out of range.
 static bool take_typed(struct ui *ui, const struct ui_number *number, double *value)
 {
     double typed;

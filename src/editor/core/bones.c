@@ -1,4 +1,4 @@
-/// The selected bone of an imported character, chains of its bones, and what follows it.
+/// The selected bone of an imported character, chains of its bones, and splines that follow it.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "rig/chain_make.h"
@@ -49,7 +49,7 @@ int bones_joints(const struct core *core, int rig)
     return shown && chain_find(&shown->gltf, bent->chain.from, bent->chain.to, &bones, NULL) ? bones.count : 1;
 }
 
-/// Says what was made.
+/// Reports the new chain.
 static void tell(struct core *core, const struct rig *made, int model, bool follows)
 {
     const char *clip = core->document->rigs[model]->model.clip;
@@ -172,7 +172,7 @@ static enum motion_of motion_along(enum axis axis)
     return axis == AXIS_SIDE ? MOTION_ACROSS : axis == AXIS_UP ? MOTION_UP : MOTION_TURN;
 }
 
-/// Has the chains' channels bend by what the spline adds to what it follows: they are carried by that already.
+/// Has the chains' channels bend by the displacement alone: the joint that the spline follows carries them already.
 static bool bend_by_the_rest(struct core *core, int spline, int model)
 {
     const struct document *document = core->document;

@@ -4,14 +4,14 @@
 
 #include "editor/core/state.h"
 
-/// What a model rig shows, NULL where it could not be read.
+/// The imported character of a model rig, NULL where it could not be read.
 const struct imported *bones_character(const struct core *core, int model);
 /// The selected bone's node, and the rig of its character; −1 where none is selected or its character is gone.
 int bones_selected(const struct core *core, int *model);
 enum { BONES_TITLE = 512 };
-/// What a bone is called: its name, and where there are several characters the rig's before it, as in "dog 2/tail_1".
+/// Title of a bone: its name; with several characters the rig's before it, as in "dog 2/tail_1".
 const char *bones_title(const struct document *document, int model, const char *name, char title[BONES_TITLE]);
-/// A click on a bone: it is what was asked for, or else becomes the selected one.
+/// A click on a bone: answers a pick, else selects it.
 void bones_clicked(struct core *core, int model, int node);
 /// Selects none.
 void bones_clear(struct core *core);
@@ -31,7 +31,7 @@ void bones_follow(struct core *core, int spline, int model, int node);
 /// Has a chain begin (or end) at another bone, as one step. One that begins beside its old end goes on to its own tip. Its splines that
 /// follow its last bone go on to do so.
 void bones_set_end(struct core *core, int chain, bool first, int node);
-/// The next click on a bone is what `use` says.
+/// The next click on a bone is for `use`.
 void bones_pick(struct core *core, enum bone_use use, int which);
 
 /// Makes the selected bone, and those behind it to the tip, a chain; where `follow` is set one that swings after its motion in the clip.

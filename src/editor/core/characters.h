@@ -9,7 +9,7 @@
 const struct character_rig *characters_selected(const struct core *core);
 /// The coordinate that is selected of it, or NULL.
 const struct coordinate *characters_coordinate(const struct core *core);
-/// A new document is on the table: what its first character shows at first.
+/// A new document: sets what its first character shows.
 void characters_open(struct core *core);
 /// The figure that is painted on, or NULL; and its coordinate.
 const struct figure *characters_figure(const struct core *core, int *coordinate);

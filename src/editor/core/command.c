@@ -1,4 +1,4 @@
-/// What a command needs, and what its keys are called.
+/// The needs of commands, and the names of their keys.
 #include "editor/core/command.h"
 #include "editor/core/bones.h"
 #include "editor/core/characters.h"

@@ -1,4 +1,4 @@
-/// What can be done, for keys, F1 and the palette alike. The table is in editor/commands.c.
+/// The commands of keys, F1 and the palette. The table is in editor/commands.c.
 #ifndef EDITOR_CORE_COMMAND_H
 #define EDITOR_CORE_COMMAND_H
 
@@ -27,7 +27,7 @@ enum about {
 };
 extern const char *const about_titles[ABOUT_COUNT];
 
-/// What the pointer is over, one bit each: F1 begins with ten rows about it.
+/// The place under the pointer, one bit each: F1 begins with ten rows about it.
 enum place {
     ON_CURVES = 1,
     ON_KNOT = 2,
@@ -37,7 +37,7 @@ enum place {
     ON_INSPECTOR = 32
 };
 
-/// What a command needs, so that it can be done now.
+/// Needs of a command.
 enum need {
     NEEDS_NOTHING,
     NEEDS_UNDO,
@@ -82,7 +82,7 @@ enum {
     COMMAND_KEYS = 96  ///< bytes of their names
 };
 
-/// A row of the table: what it is called and who does it. A row without a function is a gesture, which only F1 shows.
+/// A row of the table: a command's name and function. A row without a function is a gesture, which only F1 shows.
 struct command {
     const char *name; ///< in plain words; NULL: neither F1 nor the palette lists it
     enum about about;
@@ -90,7 +90,7 @@ struct command {
     struct chord chords[COMMAND_CHORDS]; ///< up to one without a key
     enum need needs;
     unsigned when;       ///< of enum when
-    const char *gesture; ///< what to do with the mouse or a held key; in place of the chords
+    const char *gesture; ///< with the mouse or a held key; in place of the chords
     void (*run)(struct editor *editor, int argument);
     void (*core)(struct core *core, int argument);
     void (*curves)(struct curves *curves, struct core *core, int argument);
@@ -102,13 +102,13 @@ struct command {
 
 /// Whether it is more than a gesture.
 bool command_runs(const struct command *command);
-/// What is missing for it, as in "Select a knot first."; NULL: it can be done now.
+/// The need that is not met, as in "Select a knot first."; NULL: the command can run now.
 const char *command_missing(const struct core *core, const struct command *command);
-/// The same of what it needs.
+/// The same for a need.
 const char *need_missing(const struct core *core, enum need need);
 /// Its first keys, "Ctrl+Y or Ctrl+Shift+Z", or its gesture; "" for a command without a key.
 void command_keys(const struct command *command, char text[COMMAND_KEYS]);
-/// What a key is called: "Esc", "PgUp", "←". NULL: it has no name.
+/// Name of a key: "Esc", "PgUp", "←". NULL: it has none.
 const char *command_key_name(int key);
 
 #endif

@@ -1,4 +1,4 @@
-/// What all panels share, and the edits that they ask for.
+/// State and edits that all panels share.
 #include "editor/core/core.h"
 #include "base/file.h"
 #include "editor/core/selection.h"
@@ -49,7 +49,7 @@ void core_settle(struct core *core)
     if (core->error.kind == ERROR_NONE) return;
     core_message(core, true, core->error.text);
     core->error = (struct error){0};
-    selection_drop_from(&core->selection, core->document->next_id); // what the drag had inserted a moment ago
+    selection_drop_from(&core->selection, core->document->next_id); // the knot that the drag inserted
 }
 
 bool core_set_parameter(struct core *core, int spline, enum parameter parameter, double value)

@@ -1,12 +1,12 @@
 /// The core of the editor: edits, messages, requests to the app, the active spline and the list of all, where the panels are, playing.
 ///
-/// Whatever loses or moves something that nobody asked to be moved is asked about first.
+/// Asks before an edit loses or moves something else.
 #ifndef EDITOR_CORE_CORE_H
 #define EDITOR_CORE_CORE_H
 
 #include "editor/core/state.h"
 
-/// A new document is on the table: selection, playhead and what is looked at start anew.
+/// A new document: resets selection, playhead and views.
 void core_open(struct core *core);
 /// The path of the document's own file, "" for none.
 void core_set_path(struct core *core, const char *path);
@@ -44,9 +44,9 @@ void core_message(struct core *core, bool is_error, const char *text);
 void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_SIZE]);
 /// Where a knot is shown: at its value; a still one on its curve.
 double core_knot_value(const struct core *core, int spline, const struct knot *knot);
-/// Adds what stopped an edit, as a sentence, to what else is said; nothing for "".
+/// Appends the reason why an edit stopped to a sentence; nothing for "".
 void core_add_stopped(const char *why, char *text, size_t size);
-/// What stopped an edit, as a sentence of the status line.
+/// Shows in the status line why an edit stopped.
 void core_stopped(struct core *core, const char *why);
 /// The active spline, or NULL.
 struct spline *core_active_spline(const struct core *core);
@@ -54,7 +54,7 @@ struct spline *core_active_spline(const struct core *core);
 void core_activate(struct core *core, int spline);
 /// The same, but keeps the selection.
 void core_turn_to(struct core *core, int spline);
-/// What is switched on and off, by keys and on the screen.
+/// Switches, by keys and on the screen.
 enum core_switch {
     SWITCH_SNAP,
     SWITCH_AUTO_KEY,
@@ -143,13 +143,13 @@ void spline_list_add(struct core *core);
 void spline_list_copy(struct core *core);
 /// Moves a spline to another place in the list.
 void spline_list_move(struct core *core, int spline, int to);
-/// The number that a track gives at the playhead, inside of what the parameter takes.
+/// Value of a track at the playhead, within the parameter's limits.
 double spline_list_present(const struct core *core, int spline, enum parameter parameter);
 /// Deletes the active spline; asks where something follows it.
 void spline_list_remove(struct core *core);
 /// Sets frames per second; asks whether knots keep their frames or their seconds, where there are any.
 void spline_list_fps(struct core *core, double fps);
-/// Sets the range; asks what becomes of knots that would lie outside.
+/// Sets the range; asks whether to move or delete knots that would lie outside.
 void spline_list_range(struct core *core, int first, int last);
 
 #endif

@@ -55,7 +55,7 @@ static void move(struct core *core, const struct event *event)
     if (drag->owner->move) drag->owner->move(drag->room, core);
 }
 
-/// What the buttons and Esc mean to all drags.
+/// Buttons and Esc, the same for all drags.
 static enum drag_answer answer_of_all(const struct drag *drag, const struct event *event)
 {
     if (event->kind == EVENT_BUTTON) {

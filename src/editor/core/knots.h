@@ -1,4 +1,4 @@
-/// What is done to the selected knots of all splines, to their slopes, and to the parameters of the active spline.
+/// Edits of the selected knots of all splines, their slopes, and the parameters of the active spline.
 #ifndef EDITOR_CORE_KNOTS_H
 #define EDITOR_CORE_KNOTS_H
 

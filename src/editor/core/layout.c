@@ -115,7 +115,7 @@ bool presenter_event(struct core *core, const struct event *event)
     if (event->key != KEY_TAB) return false;
     presenter->pinned = !presenter->pinned;
     presenter->shares |= presenter->pinned;
-    presenter->pointed = false; // else what the pointer is on would stay
+    presenter->pointed = false; // else the hover would stay
     return true;
 }
 

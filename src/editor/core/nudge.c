@@ -164,7 +164,7 @@ static int explain(const struct core *core, const struct spline *spline, wiggly_
     return count;
 }
 
-/// What the spline would be given: numbers as they are saved.
+/// Numbers for the spline, rounded as they are saved.
 static double frequency_of(const wiggly_explanation *found) { return round(found->frequency * 100) / 100; }
 
 static double damping_of(const wiggly_explanation *found) { return round(found->damping * 1000) / 1000; }

@@ -1,4 +1,4 @@
-/// What a new document starts with: the active spline, the playhead, nothing selected.
+/// First state of a new document: the active spline, the playhead, nothing selected.
 #include "editor/core/bones.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"

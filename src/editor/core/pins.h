@@ -1,4 +1,4 @@
-/// The selected pin, and what is done to it. Pins of all rigs share one selection, which holds one or none.
+/// The selected pin and its edits. Pins of all rigs share one selection of at most one.
 #ifndef EDITOR_CORE_PINS_H
 #define EDITOR_CORE_PINS_H
 

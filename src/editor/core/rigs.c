@@ -128,7 +128,7 @@ void rigs_copy(struct core *core, int rig)
     struct rig copy = *document->rigs[rig];
     place_of(core, rig, &width);
     const double place = free_place(core, width);
-    copy.pin_count = 0; // what is pinned drives both
+    copy.pin_count = 0; // pins drive both
     switch (copy.kind) {
     case RIG_TAIL:
         break;
@@ -154,11 +154,11 @@ void rigs_copy(struct core *core, int rig)
     finish(core, done);
 }
 
-/// Which rigs and splines go with a rig: the chains on it; what moves nothing else.
+/// Rigs and splines that are removed with a rig: its chains, and splines that move nothing else.
 struct removal {
     const struct document *document;
     int rig;
-    bool *mine, *others; ///< by spline: named by what goes, by what stays
+    bool *mine, *others; ///< by spline: used by removed rigs, by others
 };
 
 static bool goes(const struct removal *removal, int rig) { return rig_body(removal->document, rig) == removal->rig; }
@@ -198,7 +198,7 @@ static int own_splines(const struct document *document, int rig, char *names, si
     return count;
 }
 
-/// Splines that follow a joint of what goes keep the value at the playhead.
+/// Splines that follow a joint of a removed rig keep the value at the playhead.
 static bool let_go(struct core *core, const struct removal *removal)
 {
     const struct document *document = core->document;

@@ -1,10 +1,10 @@
-/// Adds and removes what stands on the stage: tails, characters, imported models, chains, a meadow. Each is one step of the history.
+/// Adds and removes rigs: tails, characters, imported models, chains, a meadow. Each is one undo step.
 #ifndef EDITOR_CORE_RIGS_H
 #define EDITOR_CORE_RIGS_H
 
 #include "editor/core/state.h"
 
-/// What there is to take hold of on the stage, the likeliest thing first: what newcomers are told about.
+/// What newcomers are told to drag: the first kind of rig here that the scene has.
 enum lead { LEAD_TAIL, LEAD_CHARACTER, LEAD_CHAIN, LEAD_MODEL, LEAD_NOTHING, LEADS };
 enum lead rigs_lead(const struct document *document);
 /// Whether any spline has a knot that could be dragged.

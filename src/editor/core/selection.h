@@ -39,10 +39,10 @@ void selected_settle(struct core *core);
 
 /// Adds a knot as it is.
 void originals_add(struct originals *originals, int spline, const struct knot *knot);
-/// Takes them into `originals`; `later` also takes what comes behind the first one of each spline.
+/// Collects the selected knots in `originals`; with `later` also all knots after the first one of each spline.
 void core_collect(struct core *core, bool later);
 
-/// What becomes of an original.
+/// New knot for an original.
 typedef struct knot knot_rule(const void *how, const struct original *original);
 
 /// Whether knots can go where they are to.

@@ -53,7 +53,7 @@ struct knot_change {
     const char *label;
     uint64_t kind;    ///< for merging, 0: never
     bool on;          ///< slopes are switched on where they are not, or off
-    slope_rule *rule; ///< what slopes are set to, or NULL
+    slope_rule *rule; ///< slope to set, or NULL
     double slope;     ///< added
     double stiffness; ///< multiplied
 };

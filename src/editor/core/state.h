@@ -18,7 +18,7 @@
 
 enum { CORE_MAX_RECENT = 16, STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
 
-/// What the editor works on, owned by the app.
+/// The world of the editor, owned by the app.
 struct editor_world {
     struct document *document;
     struct history *history;
@@ -26,7 +26,7 @@ struct editor_world {
     const struct models *models;         ///< the characters' models; NULL: none
 };
 
-/// What the editor asks of the app after a frame's events (files and windows are not its business).
+/// A request to the app after a frame's events (files and windows are its business).
 enum request_kind {
     REQUEST_NONE,
     REQUEST_NEW,
@@ -45,7 +45,7 @@ enum request_kind {
     REQUEST_FULLSCREEN,
     REQUEST_UI_SCALE,    ///< number: 1 larger, -1 smaller, 0 as the display's own
     REQUEST_COPY,        ///< editor_clipboard() onto the clipboard
-    REQUEST_PASTE,       ///< an EVENT_PASTE with what is there
+    REQUEST_PASTE,       ///< an EVENT_PASTE with its text
     REQUEST_EXPORT,      ///< path, wish; answered once it is done
     REQUEST_EXPORT_STOP, ///< the running one; that answers then
 };
@@ -57,7 +57,7 @@ struct export_wish {
     int keys;          ///< a frame; 0: the scene's substeps
     int width, height; ///< of pictures; 0: as the format likes
     char rig[64];      ///< by its name; "": all
-    char clip[64];     ///< what the animation is called; "": as the scene
+    char clip[64];     ///< name of the animation; "": the scene's
     bool is_cubic, is_signed, transparent;
 };
 
@@ -70,7 +70,7 @@ struct request {
 
 /// Unsaved work that an earlier run left behind.
 struct recovery_offer {
-    char name[256]; ///< what its document was called
+    char name[256]; ///< name of its document
     char when[64];  ///< date and time, as text
     int others;     ///< older ones there are besides
 };
@@ -82,7 +82,7 @@ struct layout {
     struct rect sheet;      ///< the dope sheet's rows, below the ruler; empty where it is not shown
     struct rect value_axis; ///< numbers left of the plot
     struct rect plot;
-    struct rect open;  ///< of the stage, what no panel covers
+    struct rect open;  ///< of the stage, the part that no panel covers
     float stage_share; ///< of the height above the status line; kept when the window changes its size
     float inspector_width;
     float sheet_height; ///< as the curves want it
@@ -112,7 +112,7 @@ struct selection {
 struct drag_owner;
 struct core;
 
-/// The drag of the pointer that is running. Whose it is and what that does: drag.h.
+/// The running drag; see drag.h.
 struct drag {
     const struct drag_owner *owner; ///< NULL: nothing is dragged
     void *room;                     ///< the panel that began it
@@ -128,7 +128,7 @@ struct drag {
     bool snap;
     bool stale;    ///< the pointer moved since the edits were made
     unsigned knot; ///< id of the active spline's knot that is held; 0: none
-    bool stopped;  ///< the status line says what by
+    bool stopped;  ///< the status line names the reason
 };
 
 /// A knot as it was before the edit that moves it.
@@ -144,7 +144,7 @@ struct originals {
     int count, capacity;
 };
 
-/// What the pointer is over in the curves and on the stage.
+/// The item under the pointer, in the curves and on the stage.
 enum hover_kind {
     HOVER_NONE,
     HOVER_KNOT,
@@ -213,7 +213,7 @@ struct status {
 
 enum { CORE_MAX_EDITED = 8 };
 
-/// What was edited since the curves last looked, and is not solved yet: their view follows it.
+/// Edits that the curves have not shown yet, as they are not solved: their view follows.
 struct edited {
     bool selection; ///< the selected knots
     int count;      ///< all knots of these splines
@@ -235,7 +235,7 @@ struct question {
     void (*answered)(void *dialogs, struct core *core, int answer); ///< by another than the last
 };
 
-/// What core's question is about.
+/// Subject of core's question.
 struct subject {
     double fps;
     int first, last;
@@ -247,7 +247,7 @@ struct character_view {
     int character, drive; ///< selected in the inspector
     bool mapped;          ///< the selected coordinate's phases as colours
     int axis;             ///< of movement whose phases are shown: x, y, z
-    bool compare;         ///< beside each character its stiff twin, moved by real parts alone
+    bool compare;         ///< beside each character its stiff twin, without phases
 };
 
 enum brush_mode {
@@ -257,14 +257,14 @@ enum brush_mode {
     BRUSH_MORE,
     BRUSH_LESS,
     BRUSH_SMOOTH_AMPLITUDE,
-    BRUSH_ERASE, ///< back to what the model says
+    BRUSH_ERASE, ///< restore the model
 };
 
 /// The bone that is selected. It is found again after undo, as long as its character is there.
 struct bone_selection {
     bool any;
     int model;     ///< number of its rig among those of imported characters
-    uint64_t file; ///< gltf.id of what that showed
+    uint64_t file; ///< gltf.id of its file
     int node;
 };
 
@@ -274,7 +274,7 @@ struct pin_selection {
     unsigned id;
 };
 
-/// What the next click on a bone is for; otherwise it selects it.
+/// Use of the next click on a bone; otherwise it selects it.
 enum bone_use { BONE_SELECTED, BONE_FOLLOWED, BONE_FIRST, BONE_LAST };
 
 struct bone_pick {
@@ -290,7 +290,7 @@ struct brush {
     double strength; ///< 0 … 1
 };
 
-/// What is shown over the stage; stays as it is when another document is opened.
+/// Overlays on the stage; kept when another document is opened.
 struct overlays {
     bool onion, trail;
     bool ghost; ///< the pose at the knot that is dragged or nudged
@@ -310,7 +310,7 @@ struct knot_place {
 };
 
 struct core {
-    struct document *document; ///< what is worked on, the app's, as the next three: set by editor_open()
+    struct document *document; ///< the document, the app's, as the next three: set by editor_open()
     struct history *history;
     const struct evaluation *evaluation;
     const struct models *models;
@@ -350,7 +350,7 @@ struct core {
     bool auto_key;         ///< a body that is dragged gets knots at the playhead, else the whole shot moves
     bool record_armed;     ///< the next drag of a body is recorded from its start
     bool more;             ///< the inspector shows all sections and controls
-    bool plain;            ///< a picture of the stage without what is written over it
+    bool plain;            ///< a picture of the stage without text over it
     bool refit_stage;      ///< all of the stage is to be in sight
     bool refit_curves;     ///< all curves are to be, once they are solved
 
@@ -362,7 +362,7 @@ struct core {
     struct error error;       ///< of the last edit that failed, until core_settle()
     bool unkept;              ///< unsaved work has no recovery file
     bool unshown;             ///< something of the status line has changed since it was drawn
-    struct question question; ///< what is to be asked next, before an edit; no answers: nothing
+    struct question question; ///< the next question, before an edit; no answers: none
     struct subject subject;
     char *clipboard;        ///< knots that were copied, as text; NULL at first
     struct request request; ///< the app carries it out after the event

@@ -8,7 +8,7 @@
 #include <math.h>
 #include <string.h>
 
-/// What the polylines depend on.
+/// Inputs of the polylines.
 static uint64_t cache_key(const struct curves *curves, const struct core *core)
 {
     uint64_t revision[2] = {history_revision(core->history), core->evaluation ? core->evaluation->revision : 0};

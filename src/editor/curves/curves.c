@@ -307,7 +307,7 @@ static struct rect box_rect(const struct drag *drag)
                          fabsf(drag->y - drag->start_y)};
 }
 
-/// Selects or deselects what of one spline is in the box, in the plot or, with the height of its row, on the sheet.
+/// Selects or deselects the knots of one spline in the box, in the plot or, with the height of its row, on the sheet.
 static void take_inside(const struct curves *curves, struct core *core, int s, float row)
 {
     const struct rect box = box_rect(&core->drag);
@@ -321,7 +321,7 @@ static void take_inside(const struct curves *curves, struct core *core, int s, f
     }
 }
 
-/// Selects what is in the box as it is now.
+/// Selects the knots in the box.
 static void move(void *room, struct core *core)
 {
     const struct curves *curves = room;

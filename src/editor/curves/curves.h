@@ -1,4 +1,4 @@
-/// The door of the curves panel: what the editor asks of it.
+/// Interface of the curves panel.
 #ifndef EDITOR_CURVES_CURVES_H
 #define EDITOR_CURVES_CURVES_H
 
@@ -12,7 +12,7 @@ void curves_destroy(struct curves *curves);
 void sheet_update(struct curves *curves, struct core *core);
 /// Where a knot's mark is on the dope sheet; false where it is out of sight.
 bool curves_mark_point(const struct curves *curves, const struct core *core, int spline, int knot, float xy[2]);
-/// What is under a point of the panel.
+/// Finds the item under a point of the panel.
 struct hover curves_hover(const struct curves *curves, const struct core *core, float x, float y);
 /// A press in the panel.
 void curves_press(struct curves *curves, struct core *core, const struct event *event);
@@ -48,7 +48,7 @@ void curves_frame_all(struct curves *curves, struct core *core);
 void curves_frame_selection(struct curves *curves, struct core *core);
 /// Pans just far enough to show a frame and value.
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value);
-/// After the solve: where what was edited has left the panel, the view is to widen.
+/// After the solve: widens the view to edits that left the panel.
 void follow_edits(struct curves *curves, struct core *core);
 /// Time passes: the view goes on to where it is to be.
 void curves_advance(struct curves *curves, struct core *core, double dt);

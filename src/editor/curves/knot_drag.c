@@ -142,7 +142,7 @@ static enum drag_answer knots_event(void *room, struct core *core, const struct 
     return event->key == 'R' || drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
 }
 
-/// What was dragged comes into sight. The click on a knot that was selected already selects it alone.
+/// Brings the dragged knots into view. A click on a selected knot selects it alone.
 static void end_knots(void *room, struct core *core, bool keep)
 {
     struct curves *curves = room;

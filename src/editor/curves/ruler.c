@@ -38,7 +38,7 @@ static struct grid_step round_step(double least)
 /// To whole device pixels, so that hairlines stay sharp at every scale.
 static float sharp(const struct core *core, float at) { return roundf(at * core->scale) / core->scale; }
 
-/// What shares the axis of time: the dope sheet and the plot.
+/// Panels with this axis of time: the dope sheet and the plot.
 static struct rect field_of(const struct core *core)
 {
     const struct rect *sheet = &core->layout.sheet, *plot = &core->layout.plot;
@@ -59,7 +59,7 @@ static void horizontal(const struct curves *curves, struct core *core, double va
     drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1}, color);
 }
 
-/// Darkens what lies before and after the scene's range.
+/// Darkens the plot before and after the scene's range.
 static void shade_outside(const struct curves *curves, struct core *core)
 {
     const struct rect field = field_of(core);

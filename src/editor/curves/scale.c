@@ -124,7 +124,7 @@ static double along(double pivot, double start, double now)
 
 static double clamped(double factor) { return fmin(fmax(factor, -MOST), MOST); }
 
-/// What was scaled comes into sight.
+/// Brings the scaled knots into view.
 static void end(void *room, struct core *core, bool keep)
 {
     (void)room;
@@ -160,7 +160,7 @@ static struct factors pulled_box(const struct curves *curves, const struct core 
                             row ? pulled(down, drag->moved_y, row) : 1};
 }
 
-/// What the pointer asks for after S.
+/// Factors from the pointer, after S.
 static struct factors pulled_freely(const struct curves *curves, const struct core *core)
 {
     const struct drag *drag = &core->drag;
@@ -195,7 +195,7 @@ static double scaled_value(const struct curves *curves, const struct core *core,
     return core_round(pivot + factor * (original->knot.value - pivot), resolution);
 }
 
-/// What the factors make of a knot.
+/// Applies the factors to a knot.
 struct scale {
     const struct curves *curves;
     const struct core *core;
@@ -239,7 +239,7 @@ static void apply(void *room, struct core *core)
     say(curves, core);
 }
 
-/// Digits, sign and point of a factor, and the space before a second one; by what is typed, because layouts have them on different keys.
+/// Digits, sign and point of a factor, and the space before a second one; by character, because keyboards differ.
 static bool type(struct scaling *scaling, uint32_t c)
 {
     size_t length = strlen(scaling->typed);
@@ -316,7 +316,7 @@ struct tag {
     } line[MOST_LINES];
 };
 
-/// A factor, and on a line of its own what stopped it.
+/// A factor, and on a second line why it stopped.
 static void add_factor(struct tag *tag, const char *what, double factor, const char *stopped)
 {
     snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s × %.3g", what, factor);
@@ -358,7 +358,7 @@ static void show_pivot(const struct curves *curves, struct core *core)
     if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
 }
 
-/// The pivot, the line from it to the pointer, and beside that both factors and what stopped them.
+/// The pivot, the line from it to the pointer, and both factors beside it.
 static void scale_show(void *room, struct core *core)
 {
     const struct curves *curves = room;
@@ -377,7 +377,7 @@ static void scale_show(void *room, struct core *core)
 static const struct drag_owner owner = {
     .cursor = CURSOR_MOVE, .apply = apply, .event = take_event, .end = end, .show = scale_show};
 
-/// The drag has begun: about what, and by which handle of the box (-1: none).
+/// The drag has begun: about a pivot, by a handle of the box (-1: none).
 static void begin(struct curves *curves, struct core *core, enum pivot pivot, int handle)
 {
     curves->scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
@@ -413,7 +413,7 @@ void scale_begin_handle(struct curves *curves, struct core *core, int handle, co
     core->hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = handle};
 }
 
-static const float PAD = 12;   ///< from a knot to the edge: beside what a press on the knot takes
+static const float PAD = 12;   ///< from a knot to the edge: outside the knot's own target
 static const float REACH = 7;  ///< of a handle
 static const float HANDLE = 6; ///< its size
 static const float INSIDE = 4; ///< that the box stays inside of the plot, where handles can be taken

@@ -7,7 +7,7 @@
 #include "ui/theme.h"
 #include <math.h>
 
-enum { ROW = 16, PAD = 3, MOST_ROWS = 6 }; ///< pixels, pixels above and below, rows; what is more is scrolled to
+enum { ROW = 16, PAD = 3, MOST_ROWS = 6 }; ///< pixels, pixels above and below, rows; more rows scroll
 
 static const float LEAST_PLOT = 90; ///< pixels that the curves keep
 static const float REACH = 7;       ///< of a mark

@@ -100,7 +100,7 @@ void curves_handle(const struct curves *curves, const struct core *core, const s
     xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
 }
 
-/// The ring around what is under the pointer.
+/// The ring around the item under the pointer.
 static void hover_ring(struct drawlist *list, float x, float y)
 {
     drawlist_circle(list, (const float[2]){x, y}, HOVER_RADIUS, 1.25f, theme()->playhead);
@@ -119,7 +119,7 @@ static void show_handle(const struct curves *curves, struct core *core, const st
     }
 }
 
-/// What a knot holds: its value a diamond, a pose a circle, a still one a square; with an outline or 0.
+/// Marks of knots: a diamond for a value, a circle for a pose, a square for a still one; with an outline or 0.
 static void knot_mark(struct drawlist *list, const struct knot *knot, float x, float y, float r, uint32_t color,
                       uint32_t outline)
 {
@@ -358,7 +358,7 @@ static void show_playhead(const struct curves *curves, struct core *core)
     drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
 }
 
-/// What to do where there is nothing to edit yet, and no swing of the equilibrium's that the text would cover.
+/// A hint where there is nothing to edit yet, and no swinging equilibrium that the text would cover.
 static void show_empty(struct core *core)
 {
     const struct spline *spline = core_active_spline(core);

@@ -1,4 +1,4 @@
-/// The state of the curves panel, and what its files give each other. Private to the room, and to tests.
+/// State of the curves panel, and functions that its files share. Private to the room, and to tests.
 #ifndef EDITOR_CURVES_STATE_H
 #define EDITOR_CURVES_STATE_H
 
@@ -33,23 +33,23 @@ struct view {
     double value0, value1; ///< at its bottom and top edge
 };
 
-/// The view on its way to what was edited.
+/// The view on its way to an edit.
 struct following {
     bool moves;
     struct view goal;
 };
 
-/// What a box does with the knots in it.
+/// Use of a box.
 enum box_mode { BOX_REPLACE, BOX_ADD, BOX_REMOVE };
 
-/// What a drag of knots, slopes or a box has besides what all drags have.
+/// State of a drag of knots, slopes or a box, besides that of all drags.
 struct knot_drag {
     double free_frames; ///< last shift by which no knot was hit
     int handle;         ///< of a slope: which end, as in curves_handle()
     bool collapse;      ///< a click on a selected knot selects it alone, a drag moves all
     enum box_mode box;
     bool in_sheet; ///< the box is around marks of the dope sheet
-    bool ripple;   ///< what comes after the first moved knot of a spline moves along in time
+    bool ripple;   ///< knots after the first moved one of a spline move too
 };
 
 /// A drag of a limit.
@@ -98,13 +98,13 @@ struct scaling {
 
 enum { FIX_TEXT = 96 };
 
-/// An edit against a warning. Says what it does.
+/// An edit that fixes a warning. Describes itself.
 typedef bool remedy(struct document *document, const struct warning *warning, char text[FIX_TEXT],
                     struct error *error);
 
-/// What a click on a warning does.
+/// The fix for a warning.
 struct fix {
-    bool is_chosen; ///< by trying what there is, once the warning was pointed at
+    bool is_chosen; ///< found by trying the remedies once the pointer is on the warning
     remedy *apply;  ///< NULL: nothing helps
     char text[FIX_TEXT];
 };
@@ -145,11 +145,11 @@ struct curves {
     struct scaling scaling;
     struct limit_drag limit_drag;
     struct pin_time_drag pin_drag;
-    double range_before[2]; ///< of what is played, when a drag of it began
+    double range_before[2]; ///< of the played range, when a drag of it began
     struct ghost ghost;
     struct curve_cache cache;
     struct warnings warnings;
-    uint64_t warnings_key;                 ///< of what they were found in
+    uint64_t warnings_key;                 ///< of the document they were found in
     struct fix fixes[WARNINGS_MAX];        ///< of each
     float scratch[2 * EDITOR_MAX_COLUMNS]; ///< points of a line that is made while it is drawn
 };
@@ -213,7 +213,7 @@ void ruler_pins_begin(struct curves *curves, struct core *core, const struct hov
 /// The marks of all pins.
 void ruler_pins_show(const struct curves *curves, struct core *core);
 
-/// Its rows with their names, and what opens it.
+/// Its rows with their names, and the triangle that opens it.
 struct rect sheet_area(const struct core *core);
 struct rect sheet_switch(const struct core *core);
 /// The mark or the row at a point of its area.
@@ -245,7 +245,7 @@ double handle_stiffness(double length);
 /// Where the playhead's frame number is, on the ruler; empty where the playhead is out of sight.
 struct rect playhead_tag(const struct curves *curves, const struct core *core);
 
-/// The corner left of the ruler, which says what it counts.
+/// The corner left of the ruler, with its unit.
 struct rect ruler_corner(const struct core *core);
 /// Grids, numbers and ruler; part of curves_show().
 void grid_show(const struct curves *curves, struct core *core);

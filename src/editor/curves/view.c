@@ -129,7 +129,7 @@ static void show_values(struct view *view, const struct view *part)
     view->value1 = known ? part->value1 + margin : 1;
 }
 
-/// Makes room for what else is drawn of the active spline: its imaginary part, and what it swings about.
+/// Makes room for the phase curve and the equilibrium of the active spline.
 static void include_rest(struct curves *curves, const struct core *core)
 {
     enum { COLUMNS = 200 };
@@ -146,7 +146,7 @@ static void include_rest(struct curves *curves, const struct core *core)
     if (part.value1 > view->value1) view->value1 = part.value1 + margin * span;
 }
 
-/// The view stays where it is, whatever was edited.
+/// The view stops following edits.
 static void follow_stop(struct curves *curves, struct core *core)
 {
     curves->following = (struct following){0};
@@ -286,8 +286,8 @@ void curves_activate(struct curves *curves, struct core *core, int before)
 
 static const double RATE = 14;     ///< of the way that is left, a second
 static const double CLOSE = 0.25;  ///< pixels: it is there
-static const double MARGIN = 0.06; ///< of what is seen, beyond what was edited
-static const double WIDEST = 1.7;  ///< of the visible frames: what needs more is panned to
+static const double MARGIN = 0.06; ///< of the view, beyond the edit
+static const double WIDEST = 1.7;  ///< of the visible frames: farther edits are panned to
 
 /// Widens a part to a knot, and the curve from the knot before to the one after it.
 static void include_around(const struct curves *curves, const struct core *core, struct knot_place at,
@@ -313,7 +313,7 @@ static struct view edited_part(const struct curves *curves, const struct core *c
     return part;
 }
 
-/// Moves the edges of what is seen out to what has to be; where that would be too wide, all of it by what is missing.
+/// Moves the edges of the view out to the edit; where that would be too wide, pans.
 static void widen(double *low, double *high, const double part[2], double widest)
 {
     const double least = fmin(*low, part[0]), most = fmax(*high, part[1]), span = *high - *low;

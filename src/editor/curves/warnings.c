@@ -1,4 +1,4 @@
-/// Warnings on the curves: what a click does about them, and the marks.
+/// Warnings on the curves: their marks and fixes.
 #include "scene/warnings.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
@@ -188,7 +188,7 @@ static double left_with(const struct core *core, const struct warning *warning, 
     return left;
 }
 
-/// The first remedy if it is enough, else what leaves least.
+/// The first remedy if it is enough, else the best one.
 static struct fix choose(const struct core *core, const struct warning *warning)
 {
     const struct cure *cure = &cures[warning->kind];
@@ -206,7 +206,7 @@ static struct fix choose(const struct core *core, const struct warning *warning)
     return best;
 }
 
-/// What a click on a warning does, tried once.
+/// The fix for a warning, tried once.
 static const struct fix *fix_of(struct curves *curves, const struct core *core, int index)
 {
     struct fix *fix = &curves->fixes[index];

@@ -1,4 +1,4 @@
-/// What lies over the panels and takes events first; among that the dialogs: open, save as, and the questions.
+/// Overlays that take events first, and the dialogs: open, save as, questions.
 #include "base/file.h"
 #include "base/need.h"
 #include "editor/core/core.h"
@@ -27,14 +27,14 @@ static void list_folder(struct dialog *dialog, const char *folder)
     dialog->name_count = count > 0 ? count : 0;
 }
 
-/// Whether a name begins with what is typed after the folder.
+/// Whether a name begins with the text after the folder.
 static bool begins(const struct dialog *dialog, const char *name)
 {
     const char *typed = path_name(dialog->ui.text.bytes);
     return strncmp(name, typed, strlen(typed)) == 0;
 }
 
-/// Whether a name holds what is typed; on the first of two passes those that begin so, on the second the others.
+/// Whether a name holds the text; of two passes the first takes those that begin with it, the second the others.
 static bool fits(const struct dialog *dialog, const struct ui_filter *filter, const char *name, int pass)
 {
     const enum fit fit = ui_filter_fit(filter, name);
@@ -130,7 +130,7 @@ bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct req
     return true;
 }
 
-/// Asks the app to open or save what is typed.
+/// Asks the app to open or save the typed path.
 static void confirm(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;
@@ -197,7 +197,7 @@ static const struct dialog_recent *dialog_recent_of(const struct dialog *dialog,
     return recent >= 0 ? &dialog->recent[recent] : NULL;
 }
 
-/// Tab: adds what all names have in common that begin as typed.
+/// Tab: completes as far as all matching names agree.
 static void dialog_complete(struct dialog *dialog)
 {
     const char *first = NULL;

@@ -296,7 +296,7 @@ static bool is_offered(const struct rig *rig, unsigned choices)
     return rig->kind != RIG_CHAIN; // it goes with its character
 }
 
-/// What an export calls it.
+/// Name of the clip in an export.
 static const char *label_of(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
 
 /// The next of the scene's rigs after that one; "" after the last where all may go in.
@@ -409,7 +409,7 @@ static void build_formats(struct dialogs *dialogs, float room)
     if (taken >= 0) choose_format(dialogs, taken);
 }
 
-/// What will be in the file, or how far it is, or why not.
+/// Contents of the file, progress, or an error.
 static void build_note(struct dialogs *dialogs, const struct document *document)
 {
     const struct dialog *dialog = &dialogs->dialog;

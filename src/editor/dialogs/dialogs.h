@@ -1,4 +1,4 @@
-/// The door of what lies over the panels: dialogs, help, the card for new users.
+/// Interface of the overlays: dialogs, help, the card for new users.
 #ifndef EDITOR_DIALOGS_DIALOGS_H
 #define EDITOR_DIALOGS_DIALOGS_H
 
@@ -18,7 +18,7 @@ struct dialog_recent {
 /// Writes at most `most` recent files, newest first; returns how many.
 typedef int dialog_list_recent(void *user, struct dialog_recent *files, int most);
 
-/// What an export to a format has to choose, besides name and frames.
+/// Choices of an export format, besides name and frames.
 enum dialog_choice {
     CHOICE_KEYS = 1,   ///< keys a frame
     CHOICE_RIG = 2,    ///< one rig or all
@@ -33,7 +33,7 @@ enum dialog_choice {
 
 /// A file format that motion is exported to.
 struct dialog_format {
-    const char *ending, *holds; ///< ".glb", and a line on what such a file is for
+    const char *ending, *holds; ///< ".glb", and a line on its use
     unsigned choices;           ///< of enum dialog_choice
     int width, height;          ///< CHOICE_SIZE: the size it likes
 };
@@ -48,7 +48,7 @@ struct dialog_files {
     void *user;
 };
 
-/// What was exported last, and from which scene's file.
+/// The last export, and its scene's file.
 struct export_memory {
     char path[PATH_LIMIT], scene[PATH_LIMIT];
     struct export_wish wish;
@@ -58,16 +58,16 @@ struct dialogs;
 
 struct command;
 
-/// `commands`: what F1 shows.
+/// `commands`: those that F1 shows.
 struct dialogs *dialogs_create(const struct command *commands, int count);
 void dialogs_destroy(struct dialogs *dialogs);
 /// Gives the dialogs access to folders; copied.
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files);
 /// Asks where to save.
 void dialogs_save_as(struct dialogs *dialogs, const struct core *core);
-/// Asks what to export, and where to.
+/// Opens the Export dialog.
 void dialogs_export(struct dialogs *dialogs, const struct core *core);
-/// What the Export dialog begins with.
+/// Sets the Export dialog's first choices.
 void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory);
 /// How far the export is that was asked for; without an end in sight `total` is 0.
 void dialogs_tell_export(struct dialogs *dialogs, long done, long total);
@@ -100,7 +100,7 @@ void dialogs_palette(struct dialogs *dialogs);
 const struct command *dialogs_take_command(struct dialogs *dialogs);
 /// Whether something lies over the panels.
 bool dialogs_cover(const struct dialogs *dialogs);
-/// The same, and what the pointer is over there.
+/// The same, with the place under the pointer.
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over);
 /// How far down the left side of the stage is free.
 float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
@@ -108,15 +108,15 @@ float dialogs_bottom(const struct dialogs *dialogs, const struct core *core);
 void dialogs_welcome(struct dialogs *dialogs);
 /// Whether it is still to be seen.
 bool dialogs_is_welcoming(const struct dialogs *dialogs);
-/// Hears of every event, for who shows keys as they are pressed.
+/// Gets every event, to show keys as they are pressed.
 void dialogs_note(struct dialogs *dialogs, const struct event *event);
-/// Time passes: what is shown of that fades, and the demo's pointer glides.
+/// Time passes: shown keys fade, and the demo's pointer glides.
 void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt);
 /// Whether it is still to be seen.
 bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core);
-/// While presenting, and in a demo: what is pressed, its caption and pointer.
+/// While presenting, and in a demo: the pressed keys, caption and pointer.
 void dialogs_show_input(const struct dialogs *dialogs, struct core *core);
-/// A card on the stage with what to try first, beside `figure`, which is what the scene shows.
+/// The card for new users on the stage, beside `figure`, the rectangle of the rigs.
 void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, struct rect figure);
 
 #endif

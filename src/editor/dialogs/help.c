@@ -17,7 +17,7 @@ enum {
     TITLE = 66,
     FIELD = 32,
     FIELD_WIDTH = 300,
-    HERE = 10, ///< rows about what the pointer is over
+    HERE = 10, ///< rows about the place under the pointer
     MARGIN = 24,
     KEYS_GAP = 12,
     WHEEL = 48 ///< pixels a notch
@@ -76,7 +76,7 @@ static struct flow flow_of(const struct command_list *list, int columns, float r
     struct flow flow = {.columns = columns, .row = row};
     float limit = 0;
     for (int g = 0; g < ABOUT_COUNT; g++) limit += group_height(list, g, row) / (float)columns;
-    limit = ceilf(limit); // whole pixels, so that what just fits does not seem to need scrolling
+    limit = ceilf(limit); // whole pixels, so that a list that just fits does not scroll
     while (!fill(list, &flow, limit)) limit += step;
     return flow;
 }
@@ -85,7 +85,7 @@ static struct flow flow_of(const struct command_list *list, int columns, float r
 struct page {
     struct rect box, body;
     struct flow flow;
-    float here;   ///< height of the rows about what the pointer is over, with the gap below
+    float here;   ///< height of the rows about the place under the pointer, with the gap below
     float height; ///< of all that is in the body
 };
 
@@ -134,7 +134,7 @@ static float scroll_of(const struct event *event, const struct page *page)
     }
 }
 
-/// What the pointer is over.
+/// The place under the pointer.
 static enum place place_of(const struct core *core)
 {
     const enum panel panel = core_panel_at(core, core->pointer_x, core->pointer_y);
@@ -263,7 +263,7 @@ static void show_grid(struct drawlist *list, const struct page *page, float y, c
     }
 }
 
-/// The rows about what the pointer is over.
+/// The rows about the place under the pointer.
 static void show_here(struct drawlist *list, const struct dialogs *dialogs, const struct page *page, float y)
 {
     static const struct {

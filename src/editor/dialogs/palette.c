@@ -1,4 +1,4 @@
-/// The command palette (F3): every command, found by typing, with its keys and with what it lacks where it cannot be done now.
+/// The command palette (F3): every command, found by typing, with its keys or its unmet need.
 #include "editor/core/command.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
@@ -171,7 +171,7 @@ static void show_text(struct drawlist *list, struct rect r, uint32_t color, cons
                       color, text);
 }
 
-/// Name, what is missing, keys.
+/// Name, unmet need, keys.
 static void show_row(struct core *core, struct rect r, const struct commands_found *found, int row, bool chosen)
 {
     struct drawlist *list = &core->list;

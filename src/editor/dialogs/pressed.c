@@ -82,7 +82,7 @@ bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core)
     return is_shown(dialogs, core) && dialogs->pressed.seconds > 0;
 }
 
-/// A pill in the middle of what is free of the stage, its lower edge at `bottom`.
+/// A pill in the middle of the free part of the stage, its lower edge at `bottom`.
 static void show_pill(struct core *core, float bottom, const char *text, float alpha, uint32_t color)
 {
     const struct rect open = core->layout.open;

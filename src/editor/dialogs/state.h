@@ -14,7 +14,7 @@ struct command_list {
 
 enum { COMMANDS_MOST = 256 };
 
-/// The commands that fit what is typed, the best ones first.
+/// The commands that match the typed text, the best ones first.
 struct commands_found {
     const struct command *list[COMMANDS_MOST];
     const char *missing[COMMANDS_MOST]; ///< as command_missing() says
@@ -25,7 +25,7 @@ struct commands_found {
 struct help {
     bool open;
     float offset; ///< pixels that it is scrolled by, where the window is too low for all of it
-    unsigned at;  ///< what the pointer was over when it opened, of enum place
+    unsigned at;  ///< place of the pointer when it opened, of enum place
     struct ui_filter filter;
 };
 
@@ -57,8 +57,8 @@ struct dialog {
     struct ui ui; ///< its text is the path
     struct dialog_files files;
     struct question question;  ///< its `choice` is the one that Enter gives
-    struct request after;      ///< what to do once the work is saved or discarded; REQUEST_NONE: nothing
-    enum request_kind awaited; ///< what was requested and is not answered yet; REQUEST_NONE: nothing
+    struct request after;      ///< request to carry out once the work is saved or discarded, or REQUEST_NONE
+    enum request_kind awaited; ///< request without an answer yet, or REQUEST_NONE
     bool saving;               ///< DIALOG_CHANGED: the user has asked to save
     bool skip_text;            ///< a letter has answered: the character that comes with it is no part of a path
     char error[DIALOG_ERROR_SIZE];
@@ -67,25 +67,25 @@ struct dialog {
     int name_count; ///< -1: nothing is listed
     struct dialog_recent recent[DIALOG_MAX_RECENT];
     int recent_count;
-    /// Names that begin with what is typed after the folder; before them, as DIALOG_MAX_NAMES + n, recent files.
+    /// Names that begin with the text after the folder; before them, as DIALOG_MAX_NAMES + n, recent files.
     int match[DIALOG_MAX_NAMES + DIALOG_MAX_RECENT];
     int match_count;
     int choice; ///< highlighted match (-1: none), or answer of a question
 };
 
-/// The Export dialog: what it asks for, and what it was used for last.
+/// The Export dialog: its choices, and the last export.
 struct exporting {
     struct export_memory memory; ///< as it is being edited
     unsigned serial;             ///< of the document that it is about
-    int format;                  ///< among the dialog's: what the path's ending says, or said last
+    int format;                  ///< among the dialog's: that of the path's ending, or the last one
     uint32_t typed;              ///< the field whose text is in `ui.text`; 0: none
-    const char *dragged;         ///< the number that the pointer drags, and what it was before
+    const char *dragged;         ///< the number that the pointer drags, and its value before
     double before;
     struct ui_scroll scroll; ///< of the list of formats
     long done, total;
 };
 
-/// What was pressed last, for an audience.
+/// The last pressed keys, for an audience.
 struct pressed {
     char text[64];
     int times;
@@ -113,7 +113,7 @@ struct dialogs {
 void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path);
 /// Closes whichever is shown.
 void dialog_close(struct dialogs *dialogs);
-/// Does what was to follow, REQUEST_OPEN without a path: asks for one.
+/// Carries out the request that had to wait; REQUEST_OPEN without a path asks for one.
 void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct request *after);
 /// Asks something of the app; the dialog takes nothing until dialogs_answer().
 void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
@@ -127,13 +127,13 @@ enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 
 /// Lays the dialog's question out; returns the answer that was pressed, or QUESTION_OPEN.
 int question_build(struct dialog *dialog);
-/// What a key does: an answer, QUESTION_OPEN where it moved the choice, or QUESTION_UNUSED.
+/// Effect of a key: an answer, QUESTION_OPEN where it moved the choice, or QUESTION_UNUSED.
 int question_key(struct dialog *dialog, int key);
 
 /// The commands that fit, those that can be done now before others that fit as well. Without `core`: all rows of F1, in their order.
 void commands_find(const struct command_list *commands, const struct core *core, const struct ui_filter *filter,
                    struct commands_found *found);
-/// A field with what is typed, or with what typing does.
+/// A text field with its text, or a hint.
 void commands_show_field(struct drawlist *list, struct rect r, const struct ui_filter *filter, const char *empty);
 
 /// Typing searches; wheel, ↑ ↓ and PgUp PgDn scroll; Esc, Enter or a click closes it. While it is open help_event() is true for keys,

@@ -1,4 +1,4 @@
-/// What to try first: a card on the stage that goes away with the first edit, the first look at the help, Esc, or a click.
+/// The card for new users: it goes away with the first edit, the first look at the help, Esc, or a click.
 #include "editor/core/rigs.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
@@ -10,7 +10,7 @@ enum { MARGIN = 16, PAD = 14, LINE = 20, GAP = 16, BAND_MARGIN = 6, TITLE = 40 }
 /// Hints of a card; the width of a stage with room beside tails, the height of one with room for two hints.
 enum { HINTS = 4, WIDE = 900, TALL = 250 };
 
-/// By what is on the stage; an empty row is about knots.
+/// By the scene's first rig; an empty row is about knots.
 static const struct hint {
     const char *what, *why;
 } hints[LEADS][HINTS] = {
@@ -53,7 +53,7 @@ bool dialogs_is_welcoming(const struct dialogs *dialogs) { return dialogs->welco
 
 static float width_of(enum font font, const char *text) { return font_width(font, THEME_TEXT_NORMAL, text); }
 
-/// How the words stand: in two columns; each reason below what to do; or the first hints alone, in a band at the upper edge.
+/// Layouts: two columns; each reason below its action; or the first hints alone, in a band at the upper edge.
 enum form { FORM_WIDE, FORM_UPRIGHT, FORM_BAND };
 
 struct card {
@@ -104,7 +104,7 @@ static struct card band_card(const struct core *core, int count)
     return card;
 }
 
-/// Whether a card covers neither what the scene shows, nor the title of its description.
+/// Whether a card covers neither the rigs nor the title of the scene's description.
 static bool is_clear(const struct core *core, const struct card *card, struct rect figure)
 {
     const struct rect *r = &card->rect;

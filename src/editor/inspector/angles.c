@@ -21,7 +21,7 @@ static const struct number_row rows[] = {
                     -36000, 36000, 5, 0.5, 1},
 };
 
-/// Which of them is the largest: what a slider shows and sets where there are several.
+/// The largest of the angles: a slider shows and sets it where there are several.
 static int peak(const struct angles *angles)
 {
     int found = 0;
@@ -79,7 +79,7 @@ static const struct angles *angles_of(const struct inspector *in, int kind)
     return kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
 
-/// The largest of them is what the slider shows.
+/// The slider shows the largest of them.
 static double get_largest(const struct inspector *in, int kind)
 {
     const struct angles *angles = angles_of(in, kind);
@@ -435,7 +435,7 @@ static void build_each(struct inspector *in, struct angle_view *view)
     ui_hint(ui, view->box, view->handles->hint);
     if (ui->pass == UI_PASS_EVENT) take_press(in, view);
     const enum ui_change change = ui_handles(ui, view->box, view->handles, 1, &which);
-    if (is_held(view, ui->held)) ui->focus = ui->held; // so that arrows mean what was pressed
+    if (is_held(view, ui->held)) ui->focus = ui->held; // so that arrow keys act on the pressed point
     if (change == UI_NUDGE) {
         nudge(in, view);
     } else if (change != UI_NONE) {

@@ -1,4 +1,4 @@
-/// The inspector's section on a soft character: what moves each of its coordinates, how it is shown, and the brush.
+/// The inspector's section on a soft character: its channels, how it is shown, and the brush.
 #include "base/need.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
@@ -10,7 +10,7 @@
 
 enum { MAX_ITEMS = 32 }; ///< coordinates that may be added
 
-/// Shows a coordinate, and what it feels like.
+/// Shows a channel, and the feel of its spline.
 static void choose(struct inspector *in, int drive)
 {
     const struct character_view *view = &in->core->characters;
@@ -19,7 +19,7 @@ static void choose(struct inspector *in, int drive)
     in->core->characters.drive = drive; // of two by the same spline
 }
 
-/// A row for each coordinate that is driven, with what takes it away.
+/// A row for each channel, with a button that removes it.
 static void build_drives(struct inspector *in, const struct character_rig *rig)
 {
     struct ui *ui = &in->ui;
@@ -148,7 +148,7 @@ static void build_looks(struct inspector *in)
     }
 }
 
-/// What the analysis found out about the selected coordinate.
+/// Results of the analysis of the selected channel.
 static void build_facts(struct inspector *in)
 {
     const struct coordinate *c = characters_coordinate(in->core);

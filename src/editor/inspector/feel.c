@@ -1,4 +1,4 @@
-/// What an animator feels of the active spline: how fast it swings, how soon it settles, how late and how far it bends what it moves.
+/// The feel of the active spline: frequency, settling time, lag and gain.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -159,7 +159,7 @@ static void build_settle(struct inspector *in)
     inspector_number(in, &number, &home, 0, r);
 }
 
-/// What that means to this motion, in one plain sentence.
+/// The settling in one plain sentence.
 static void build_sentence(struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
@@ -199,7 +199,7 @@ static void build_sentence(struct inspector *in)
     ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-/// What is wrong with it; false: nothing.
+/// The warnings; false: none.
 static bool build_warnings(struct inspector *in)
 {
     const float top = in->ui.y;
@@ -239,7 +239,7 @@ static void build_reach(struct inspector *in)
     inspector_idle(in, "gain", "–");
 }
 
-/// Whatever the spline is like, each row stays in its place, and so does what comes below.
+/// Rows keep their places whatever the spline is like.
 void inspector_feel(struct inspector *in)
 {
     static const enum parameter pace[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING};

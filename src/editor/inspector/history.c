@@ -1,6 +1,6 @@
 /// The inspector's section on the history: its steps, the present one marked; a click goes to where a step ended.
 ///
-/// It has to be the last section: going to a step changes the document under what is laid out after it.
+/// It has to be the last section, because going to a step changes the document that later sections would show.
 #include "editor/core/core.h"
 #include "editor/inspector/parts.h"
 #include "ui/theme.h"
@@ -44,7 +44,7 @@ static void go_to(struct inspector *in, size_t row)
     core_jump(in->core, row);
 }
 
-/// The wheel scrolls the list where it is longer than what is shown.
+/// The wheel scrolls the list where it is longer than its view.
 static void scroll(struct inspector *in, struct rect list)
 {
     struct ui *ui = &in->ui;

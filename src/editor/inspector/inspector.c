@@ -18,7 +18,7 @@ static const char *tail_title(struct inspector *in)
     return shown && shown->kind == RIG_CHAIN ? "Chain set-up" : "Tail set-up";
 }
 
-/// What sections need one of: rigs of a kind, the active spline, one that swings.
+/// Needs of sections, at least one of: rigs of a kind, the active spline, one that swings.
 enum {
     TAILS = 1 << RIG_TAIL,
     CHAINS = 1 << RIG_CHAIN,
@@ -86,11 +86,11 @@ static const struct section {
     {"section.history", "History", NULL, inspector_history, 0, NULL, true}, // the last one: see there
 };
 
-enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 3 /* of what More opens */ };
+enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 3 /* of sections that More opens */ };
 
 _Static_assert(SECTIONS <= (int)INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
 
-/// Scrolls just so far that what was built from `top` on is in sight, and remembers it as done.
+/// Scrolls just enough to show the section that begins at `top`.
 static void reveal(struct inspector *in, float top)
 {
     const struct ui *ui = &in->ui;
@@ -101,7 +101,7 @@ static void reveal(struct inspector *in, float top)
     if (above < 0) scroll->offset += above;
 }
 
-/// Whether the scene has what a section is about, and the user needs it now.
+/// Whether the scene has the section's subject, and the user needs it now.
 static bool is_shown(const struct inspector *in, int i)
 {
     const struct section *section = &sections[i];
@@ -124,7 +124,7 @@ static void build_sections(struct inspector *in)
     for (int i = 0; i < SECTIONS; i++) {
         const struct section *section = &sections[i];
         bool *flipped = &in->flipped[i];
-        if (i == FIRST) build_more(in); // where it is found again, whatever comes and goes below
+        if (i == FIRST) build_more(in); // a fixed place, whatever comes and goes below
         if (!is_shown(in, i)) continue;
         bool closed = *flipped != section->closed;
         const float top = in->ui.y;
@@ -229,7 +229,7 @@ static bool concerns(const struct inspector *in, const struct event *event)
 /// An event elsewhere still ends hovering; a press also ends the keyboard focus.
 static void event_elsewhere(struct ui *ui, const struct event *event)
 {
-    if (event->kind == EVENT_SIZE) ui->popup.id = 0; // what it hangs on is elsewhere now
+    if (event->kind == EVENT_SIZE) ui->popup.id = 0; // its anchor has moved
     if (event->kind != EVENT_POINTER && event->kind != EVENT_BUTTON) return;
     ui->pointer_x = event->x;
     ui->pointer_y = event->y;
@@ -260,7 +260,7 @@ bool inspector_event(struct inspector *in, const struct event *event)
     return used || (pointer && inside);
 }
 
-/// A bone that was just selected is to be seen, with what can be made of it.
+/// Shows a newly selected bone, with its buttons.
 static void show_bone(struct inspector *in)
 {
     const struct bone_selection *bone = &in->core->bone, *seen = &in->seen_bone;

@@ -1,4 +1,4 @@
-/// The door of the inspector: what the editor asks of it.
+/// Interface of the inspector.
 #ifndef EDITOR_INSPECTOR_INSPECTOR_H
 #define EDITOR_INSPECTOR_INSPECTOR_H
 
@@ -13,13 +13,13 @@ void inspector_destroy(struct inspector *in);
 void inspector_rename(struct inspector *in, int unused);
 /// Opens a section, with all of it in sight where there is room.
 void inspector_unfold(struct inspector *in, const char *name);
-/// Shows a rig, with what it feels like.
+/// Shows a rig, with its feel.
 void inspector_show_rig(struct inspector *in, int rig);
-/// Shows what a spline bends or drives: of the rig that is shown, if it is one of these.
+/// Shows the channel that a spline drives: of the shown rig if it has one.
 void inspector_show_spline(struct inspector *in, int spline);
 /// A: the menu of what can be added, at the pointer over stage and curves, else on top of the inspector. And on something of the inspector.
 void inspector_add_menu(struct inspector *in, int unused);
-/// What inspector_add() adds.
+/// Choices of inspector_add().
 enum added { ADD_TAIL, ADD_FILE, ADD_COPY, ADD_CHAIN, ADD_MEADOW, ADD_SPLINE };
 /// Adds it, ADD_COPY one more of the rig that is shown, and shows it.
 void inspector_add(struct inspector *in, int what);
@@ -31,7 +31,7 @@ void inspector_roll(struct inspector *in, int unused);
 void inspector_mirror(struct inspector *in, int unused);
 /// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
 void inspector_remove_rig(struct inspector *in, int unused);
-/// Its widgets: what the pointer is over, what has the keyboard, what is typed.
+/// Its widgets: hover, focus, typed text.
 const struct ui *inspector_ui(const struct inspector *in);
 /// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
 void inspector_reset(struct inspector *in);

@@ -210,7 +210,7 @@ static void build_slope(struct inspector *in, unsigned id)
     }
 }
 
-/// What can be done with the slopes of all selected knots.
+/// Buttons for the slopes of all selected knots.
 static void build_slopes(struct inspector *in, bool sloped)
 {
     static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
@@ -223,7 +223,7 @@ static void build_slopes(struct inspector *in, bool sloped)
     if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
 }
 
-/// Nothing is selected: what knots there are, and what can be done without pointing at one.
+/// Nothing is selected: the knots of the spline, and buttons that need no pointing.
 static void build_overview(struct inspector *in, const struct spline *spline)
 {
     char frames[64] = "none", values[64] = "–";
@@ -272,7 +272,7 @@ void inspector_knot(struct inspector *in)
     } else if (!one) {
         build_overview(in, spline);
     } else {
-        // Each is built from the document as the one before left it; ids survive what happens to the order of knots.
+        // Each row reads the document that the row before left; ids survive a new order of knots.
         const unsigned id = spline->knots[only.knot].id;
         bool still;
         build_field(in, FIELD_FRAME, ui_row(ui, UI_ROW));

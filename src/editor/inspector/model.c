@@ -1,4 +1,4 @@
-/// The inspector's section on imported characters: what they are, which clip they play, where they stand, and the selected bone.
+/// The inspector's section on imported characters: file, clip, place, and the selected bone.
 #include "base/file.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -57,7 +57,7 @@ static const struct number_row place[] = {
      -36000, 36000, 0, 1, 0},
 };
 
-/// The selected bone, and what can be made of it.
+/// The selected bone, and buttons that make chains of it.
 static void build_bone(struct inspector *in)
 {
     static const struct {

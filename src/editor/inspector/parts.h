@@ -1,4 +1,4 @@
-/// What the inspector's sections share. Private to the room.
+/// Functions that the inspector's sections share. Private to the room.
 #ifndef EDITOR_INSPECTOR_PARTS_H
 #define EDITOR_INSPECTOR_PARTS_H
 
@@ -10,7 +10,7 @@
 
 enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list to choose from, from the top
 
-/// The sections; inspector.c has the table. Each builds what is below its header.
+/// The sections; inspector.c has the table. Each builds the rows below its header.
 void inspector_scene(struct inspector *in);
 void inspector_splines(struct inspector *in);
 void inspector_feel(struct inspector *in);
@@ -27,7 +27,7 @@ void inspector_pins(struct inspector *in);
 void inspector_meadow(struct inspector *in);
 void inspector_model(struct inspector *in);
 void inspector_history(struct inspector *in);
-/// What the section on knots is called: how many are selected.
+/// Title of the section on knots: how many are selected.
 const char *inspector_knot_title(struct inspector *in);
 
 /// A row for a parameter of the active spline, where its mode uses it.
@@ -39,8 +39,8 @@ bool inspector_felt_drive(struct inspector *in);
 
 /// A list that opens over the panel.
 struct dropdown {
-    const char *name, *hint; ///< and what the field that opens it is for
-    /// Lays it out after all else in the panel, and does what was picked.
+    const char *name, *hint; ///< and a hint for the field that opens it
+    /// Lays it out after all else in the panel, and carries out the choice.
     void (*build)(struct inspector *in, const struct dropdown *list);
 };
 /// Has it built where it is open: to be called where something may have opened it.
@@ -49,7 +49,7 @@ void inspector_offer(struct inspector *in, const struct dropdown *list);
 void inspector_dropdown(struct inspector *in, const struct dropdown *list, struct rect r, int which, const char *text,
                         uint32_t color);
 void inspector_spline_field(struct inspector *in, const struct dropdown *list, struct rect r, int which, int spline);
-/// The menu of what can be added.
+/// The menu of A.
 extern const struct dropdown inspector_add_list;
 
 /// An open list of the bones of a model rig below one (−1: all), by name; the node that was picked, or −1.
@@ -72,18 +72,18 @@ struct number_home {
     double (*get)(const struct inspector *in, int which);
     bool (*set)(struct inspector *in, int which, double number, struct error *error);
     bool settles; ///< they are set once a drag has ended, by a step of their own or none, because that may ask before
-    /// What is shown in place of a number; returns `text`, or NULL for the number. Itself NULL: none.
+    /// Text in place of a number; returns `text`, or NULL for the number. Itself NULL: none.
     const char *(*shown)(const struct inspector *in, int which, char text[64]);
 };
 
 /// A row of a table: a number.
 struct number_row {
     const char *name, *label, *unit, *hint; ///< as struct ui_number
-    const char *undo;                       ///< what its step of the history is called; NULL: set() makes no edit
+    const char *undo;                       ///< name of its undo step; NULL: set() makes no edit
     size_t at;                              ///< of the number in its struct, for number_at()
     bool is_whole;                          ///< it is an int there
     double minimum, maximum;                ///< ends of the bar
-    double lowest, highest;                 ///< what may be typed
+    double lowest, highest;                 ///< limits of typed numbers
     double fallback, step;
     int decimals;
 };
@@ -110,7 +110,7 @@ int inspector_spline_items(const struct inspector *in, const bool *left_out, int
 /// The open list of them; the one that was picked, or -1.
 int inspector_spline_list(struct inspector *in, const struct dropdown *list, int chosen);
 
-/// A label, in a row of its own or at the left of one; returns what is right of it.
+/// A label, in a row of its own or at the left of one; returns the rest of the row.
 struct rect inspector_label(struct inspector *in, struct rect r, const char *label);
 struct rect inspector_labelled(struct inspector *in, const char *label);
 
@@ -132,10 +132,10 @@ int inspector_icons(struct inspector *in, struct rect r, const struct icon_butto
 
 /// The first of `most` rows to show of a list, the chosen one among them.
 int inspector_first_row(int count, int chosen, int most);
-/// Below the rows: says that there are more, and of what.
+/// Below the rows: says that there are more.
 void inspector_more(struct inspector *in, int count, int most, const char *what);
 
-/// Switches for what is drawn over the stage: onion skin, motion arc, ghost.
+/// Switches of the stage's overlays: onion skin, motion arc, ghost.
 void inspector_overlays(struct inspector *in);
 
 /// Finds the rigs that are shown among those that there are.

@@ -1,4 +1,4 @@
-/// The inspector's section on pins: the list of all, what is left of each, and the numbers of the selected one.
+/// The inspector's section on pins: the list of all with their remaining offsets, and the numbers of the selected one.
 #include "editor/core/pins.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"

@@ -250,7 +250,7 @@ static bool set_poles(struct inspector *in, const struct pole_setting *setting, 
            (which == HANDLE_CENTRE || set(in, PARAMETER_BANDWIDTH, rounded(setting->bandwidth, 1000)));
 }
 
-/// What the setting becomes when a handle was moved.
+/// The setting after a handle moved.
 static struct pole_setting moved_to(const struct inspector *in, struct pole_setting setting, struct rect inset,
                                     int which, enum ui_change change, const struct ui_handle *handle)
 {

@@ -1,4 +1,4 @@
-/// The inspector's list of all rigs, in which one can be shown or taken away, the menu of what can be added, and the section on the
+/// The inspector's list of rigs, with a button that removes one; the menu of additions; and the section on the
 /// meadow.
 #include "editor/core/rigs.h"
 #include "base/file.h"

@@ -1,4 +1,4 @@
-/// The active spline's parameters: a row for each, what those follow (another spline, or a joint), and the sections that list them.
+/// The active spline's parameters: a row for each, the spline or joint that it follows, and the sections that list them.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -47,7 +47,7 @@ static void build_slider(struct inspector *in, enum parameter parameter, struct 
 
 enum { MAX_BONES = 1024 }; ///< in a list
 
-/// What the active spline's equilibrium follows.
+/// The equilibrium of the active spline.
 static const struct param *followed(const struct inspector *in)
 {
     return &core_active_spline(in->core)->parameter[PARAMETER_EQUILIBRIUM];

@@ -1,4 +1,4 @@
-/// The inspector's list of splines: which is active, what it is called, its colour, whether the curves show it, its place.
+/// The inspector's list of splines: the active one, names, colours, visibility, order.
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/inspector/inspector.h"

@@ -10,7 +10,7 @@ enum { INSPECTOR_MAX_SECTIONS = 16 };
 
 enum { POLES_COLUMNS = 224 }; ///< points of a response's plot
 
-/// The filter in force: what the parameters say at the playhead.
+/// The filter at the playhead.
 struct pole_setting {
     enum filter_kind kind; ///< two-pole real or complex
     double hz, damping, bandwidth, step;
@@ -25,13 +25,13 @@ struct poles_view {
     double reach, top; ///< Hz and damping ratio at the inset's right and upper edge; kept while a pole is dragged
 };
 
-/// What the list of the history's steps shows.
+/// State of the list of history steps.
 struct history_view {
     size_t top;         ///< its first row
     size_t count, done; ///< of the history, when it was last laid out
 };
 
-/// What the selected knots have in a field: the first one's number, and whether others have another.
+/// A field of the selected knots: the first one's number, and whether others differ.
 struct knot_numbers {
     int count;
     double first;

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/// What a channel can do to a tail and its body, in the order of its list.
+/// Channels of a tail and its body, in the order of the list.
 static const struct {
     enum axis axis;
     struct ui_item item;
@@ -118,7 +118,7 @@ static const struct channel *chosen_channel(const struct inspector *in)
     return in->channel < count ? &channels[in->channel] : NULL;
 }
 
-/// Shows a channel, and what it feels like.
+/// Shows a channel, and the feel of its spline.
 static void choose(struct inspector *in, int channel)
 {
     in->channel = channel;
@@ -296,7 +296,7 @@ static void build_choices(struct inspector *in, const struct channel *channel)
     }
 }
 
-/// Its channels: the list; and what the chosen one is made of.
+/// The list of channels, and the chosen one.
 static void build_channel(struct inspector *in)
 {
     build_buttons(in);
@@ -360,7 +360,7 @@ static void build_chain(struct inspector *in)
     build_twin(in);
 }
 
-/// Buttons among these rows may make another list of channels, and more rigs: each looks what is shown up anew.
+/// Buttons among these rows may change the channels and rigs: each looks up the shown rig again.
 static void build_shown(struct inspector *in)
 {
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;

@@ -43,7 +43,7 @@ void body_drag_way(const struct stage *stage, const struct core *core, double of
 
 static const double RESOLUTION = 1e-3; ///< metres that the document gets
 
-/// What is said afterwards, and what held a knot.
+/// The report of a drag, and the reason why a knot stopped.
 struct report {
     char text[512], why[STOPPED_SIZE];
     size_t length;
@@ -279,7 +279,7 @@ struct tail *tail_of(const struct document *document, int rig)
 
 /// Where a body stands now.
 struct stand {
-    float base[3], middle[2]; ///< what the pointer holds; x and z
+    float base[3], middle[2]; ///< the grabbed point; x and z
     float ground, radius;     ///< of a ring around it
 };
 

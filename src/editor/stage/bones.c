@@ -89,7 +89,7 @@ static bool is_better(const struct candidate *a, const struct candidate *best)
     return a->fraction < best->fraction;
 }
 
-/// An edit in the same frame may have taken away what was last shown.
+/// An edit in the same frame may have removed the last one shown.
 static bool exists(const struct document *document, const struct shown_bone *bone)
 {
     const bool is_there = bone->model < document->rig_count && document->rigs[bone->model]->kind == RIG_MODEL;

@@ -65,7 +65,7 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
     return skin_pose(stage, core->characters.character) ? figure : NULL;
 }
 
-/// What strokes are called, and what they are with Shift and with Ctrl.
+/// Names of strokes, and the modes with Shift and with Ctrl.
 static const struct stroke {
     const char *label;
     enum brush_mode smoothed, other;
@@ -79,7 +79,7 @@ static const struct stroke {
     [BRUSH_ERASE] = {"Erase paint", BRUSH_ERASE, BRUSH_ERASE},
 };
 
-/// What a stroke that begins with these modifiers does: Shift smooths, Ctrl reverses.
+/// Mode of a stroke with modifiers: Shift smooths, Ctrl reverses.
 static enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
 {
     const struct stroke *stroke = &strokes[brush->mode];
@@ -361,7 +361,7 @@ static void add_reached(struct stage *stage, const uint32_t *corner, float radiu
         silhouette_add_triangle(&stage->silhouette, (const float(*)[2])xy, inside);
 }
 
-/// The outline of what the brush reaches.
+/// The outline of the brush's reach.
 static void show_ring(struct stage *stage, struct core *core, const struct figure *figure)
 {
     struct silhouette *silhouette = &stage->silhouette;
@@ -384,7 +384,7 @@ static void show_ring(struct stage *stage, struct core *core, const struct figur
     }
 }
 
-/// What is painted at the vertex nearest to the pointer; leaves the text alone where that is nothing.
+/// The paint at the vertex nearest to the pointer; leaves the text alone where there is none.
 static void describe_spot(const struct stage *stage, const struct paint *paint, int coordinate, char *text,
                           size_t size)
 {

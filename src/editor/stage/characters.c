@@ -11,7 +11,7 @@
 
 enum { BOUND_STEPS = 30 };
 
-static const float FRONT_SHARE = 0.1f; ///< of a point's depth, in what decides between front and back
+static const float FRONT_SHARE = 0.1f; ///< of a point's depth, to decide between front and back
 
 #define PAIR_GAP 0.58f /* from the middle to each of a pair, in widths of the character */
 

@@ -88,7 +88,7 @@ void floors_begin(struct stage *stage, struct core *core, const struct hover *ho
         .rig = hover->rig, .start = rig->floor, .pixels_per_metre = rise * stage_pixels_per_metre(stage, core, at)};
 }
 
-static const float TOUCH = 2e-3f;     ///< of the character's height: what is so near touches
+static const float TOUCH = 2e-3f;     ///< of the character's height: nearer counts as touching
 static const float MARK = 4, END = 2; ///< radii, pixels
 static const float FAR_SIDE = 0.35f,
                    FAR_PART = 0.4f; ///< of edges behind the character: opacity, and the part that is drawn

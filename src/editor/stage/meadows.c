@@ -1,4 +1,4 @@
-/// A meadow on the stage: its reeds in their wind, pushed by bodies, and swinging after what was dragged through them.
+/// A meadow on the stage: reeds in their wind, pushed by bodies, and swinging after a body was dragged through them.
 #include "base/hash.h"
 #include "editor/stage/parts.h"
 #include "model/vector.h"
@@ -34,7 +34,7 @@ static void push_of(const struct stage *stage, const float place[3], double push
     }
 }
 
-/// What the reeds answer by: false where nothing pulls them back.
+/// The reeds' oscillator: false where nothing pulls them back.
 static bool filter_of(const struct spline *spline, struct swing_filter *filter)
 {
     double parameter[PARAMETER_COUNT];

@@ -1,4 +1,4 @@
-/// Words on the stage: the names of several rigs of a kind, and what the scene is about.
+/// Words on the stage: names where there are several rigs of a kind, and the scene's description.
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"

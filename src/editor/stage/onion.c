@@ -100,7 +100,7 @@ static bool station(const struct stage *stage, const struct core *core, const st
     return true;
 }
 
-/// Draws an outline without what is at the root, where the tail grows out of the body: without the longest such part.
+/// Draws an outline without its longest part at the root, where the tail grows out of the body.
 static void show_open(struct stage *stage, struct core *core, int count, const struct disc *root, float width,
                       uint32_t color)
 {

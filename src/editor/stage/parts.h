@@ -1,4 +1,4 @@
-/// What the files of the stage give each other. Private to the room, and to tests.
+/// Functions that the files of the stage share. Private to the room, and to tests.
 #ifndef EDITOR_STAGE_PARTS_H
 #define EDITOR_STAGE_PARTS_H
 
@@ -24,7 +24,7 @@ struct stage_kind {
 RIG_KIND_LIST(STAGE_KIND)
 #undef STAGE_KIND
 
-/// What rigs are posed from: the world, in the editor's look.
+/// Inputs of posing: the world, in the editor's look.
 struct posing stage_posing(const struct core *core);
 /// Where a point of the world is on the screen, the stage being drawn in `r`; false where it is behind the eye.
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
@@ -38,7 +38,7 @@ void stage_ring(struct core *core, const float xy[2]);
 /// The end of a drag that never moved: a click, on a bone or beside all.
 void stage_click(void *room, struct core *core, bool keep);
 
-/// The same with what is moved by hand: the body that is held, and what swings after it.
+/// The same, with the held body and the parts that swing after it.
 struct posing stage_posing_by_hand(const struct stage *stage);
 /// Pixels a metre that faces the eye takes at a place.
 double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3]);
@@ -50,7 +50,7 @@ const struct stage_character *stage_character_shown(const struct stage *stage, i
 void stage_vertex(const struct figure *figure, const struct morph *morph, const float position[3], int vertex,
                   float place[3]);
 
-/// Notes what hangs on the held body, before anything is edited.
+/// Notes the rigs on the held body, before any edit.
 void base_begin(struct stage *stage, const struct core *core);
 /// Where a coordinate is at a sample, metres, as a spline would have it.
 double base_value(const struct core *core, int rig, int coordinate, int sample);
@@ -122,10 +122,10 @@ void floors_show(const struct stage *stage, struct core *core);
 /// that can be pinned (HOVER_POINT). HOVER_NONE: nothing.
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y);
 
-/// Starts to drag what is under the pointer, a point or a marker; edits nothing until it moves.
+/// Starts to drag the point or marker under the pointer; edits nothing until it moves.
 void pins_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event);
 
-/// Draws all markers, what is lit up, and the path of the point that is held or selected.
+/// Draws all markers, highlights, and the path of the held or selected point.
 void pins_show(struct stage *stage, struct core *core);
 
 /// Frees its memory.
@@ -134,10 +134,10 @@ void brush_free(struct painting *painting);
 bool brush_press(struct stage *stage, struct core *core, const struct event *event);
 /// Ctrl+wheel changes the radius, Shift+wheel the strength; true if it was one of these.
 bool brush_wheel(struct core *core, const struct event *event);
-/// Finds what is under the pointer once the stage is posed, and what the brush reaches from there.
+/// Finds the surface point under the pointer once the stage is posed, and the brush's reach from there.
 void brush_pose(struct stage *stage, struct core *core, bool covered);
 
-/// Draws the ring on the surface; above the legend, what the brush does and what is painted at the pointer.
+/// Draws the ring on the surface; above the legend, the brush's mode and the paint at the pointer.
 void brush_show(struct stage *stage, struct core *core);
 
 /// The body under a point of the stage (HOVER_BODY) at a position in samples, the nearest to the eye, or HOVER_NONE.
@@ -154,28 +154,28 @@ bool body_is_held(const struct core *core);
 /// A ring on the ground round the body that is held or can be.
 void body_drag_show(struct stage *stage, struct core *core);
 
-/// How far the pointer has taken the held body, metres, whatever holds it; 0 where none is held.
+/// How far the pointer has moved the held body, metres, limits aside; 0 where none is held.
 void body_drag_way(const struct stage *stage, const struct core *core, double offset[3]);
-/// The held body goes as far as the pointer and limits have it: before what else advances.
+/// Moves the held body as far as pointer and limits allow: before everything else advances.
 void body_drag_advance(struct stage *stage, const struct core *core);
 /// How far the running drag has moved a rig from where the document has it, metres; 0 where the body that is held does not carry it.
 void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3]);
 
-/// Advances by `dt` seconds: the bases go where body_drag_offset() says, and what hangs on them swings.
+/// Advances by `dt` seconds: the bases go where body_drag_offset() says, and their tails and chains swing.
 void drag_inertia_advance(struct stage *stage, const struct core *core, double dt);
 /// The document now holds the offset: the base has not moved by that.
 void drag_inertia_land(struct stage *stage);
-/// Stops what a body carries at once.
+/// Stops the follow-through of a body at once.
 void drag_inertia_stop(struct stage *stage, const struct document *document, int body);
 /// swing_scale() of a channel that swings; else 0.
 double drag_inertia_scale(const struct stage *stage, const struct document *document, int rig, int channel);
-/// Adds to the values of a rig's channels what follow-through adds now.
+/// Adds the follow-through to the values of a rig's channels.
 void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,
                       wiggly_value values[RIG_MAX_INPUTS]);
 
 /// Starts to record at the playhead, and plays; the body must be held.
 void record_begin(struct stage *stage, struct core *core);
-/// Records where the body is, up to the playhead; stops at the end of what is played.
+/// Records the body's place up to the playhead; stops at the end of the played range.
 void record_advance(struct stage *stage, const struct core *core);
 /// The path of the body that is pointed at or held, and the way that is being recorded.
 void record_show(struct stage *stage, struct core *core);
@@ -221,7 +221,7 @@ void names_show(const struct stage *stage, struct core *core);
 
 /// Where the legend is, when it is shown.
 struct rect characters_legend(const struct core *core);
-/// Legend of the phase map, and what the two of a pair are.
+/// Legend of the phase map, and the labels of a pair.
 void characters_show(const struct stage *stage, struct core *core);
 
 /// How far along the segment a … b the point nearest to p is, 0 … 1.
@@ -239,7 +239,7 @@ void skin_reserve(struct stage *stage);
 /// Poses the surface of a character (its number among those of the document, its stiff twin left out), unless it is posed so
 /// already. false where it is not shown.
 bool skin_pose(struct stage *stage, int character);
-/// What of the posed surface, which is the figure's, is under a point of the stage; false where that is nothing.
+/// The surface point (of the posed figure) under a point of the stage; false where there is none.
 bool skin_spot(const struct stage *stage, const struct figure *figure, float x, float y, struct surface_spot *spot);
 
 #endif

@@ -1,4 +1,4 @@
-/// Pins on the stage: what is pointed at, drags in the plane that faces the eye, keys, and their markers.
+/// Pins on the stage: hover, drags in the plane that faces the eye, keys, and markers.
 #include "editor/core/pins.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -13,8 +13,9 @@
 #include <stdio.h>
 #include <string.h>
 
-static const float MARKER_REACH = 9;    ///< pixels
-static const float LEAST_SHARE = 0.05f; ///< of how far the surface moves at most: what moves less is not offered
+static const float MARKER_REACH = 9; ///< pixels
+static const float LEAST_SHARE =
+    0.05f; ///< of the surface's largest movement: vertices that barely move are not offered
 
 /// How far a vertex moves with a unit of what moves the character, squared, as a share of what is the most along each axis.
 static float share_of(const struct stage_character *shown, int vertex)
@@ -207,7 +208,7 @@ void pins_begin(struct stage *stage, struct core *core, const struct hover *hove
     pins_take_plane(stage, core, drag->start, drag);
 }
 
-static const double NUDGE = 0.01; ///< of the height of what is seen
+static const double NUDGE = 0.01; ///< of the view's height
 
 void stage_nudge_pin(struct stage *stage, struct core *core, double right, double up)
 {
@@ -283,7 +284,7 @@ static void show_marker(const struct stage *stage, struct core *core, struct pin
     if (selected || hot) show_frame(core, line[0], pin->frame);
 }
 
-/// What a press would take hold of.
+/// The target of a press.
 static void show_lit(struct core *core)
 {
     const float xy[2] = {core->hover.x, core->hover.y};

@@ -8,7 +8,7 @@ enum { LEAST_POINTS = 12 }; ///< of an outline that is no speck
 
 static const float FINEST = 2;   ///< pixels from node to node
 static const float AROUND = 8;   ///< pixels beside the stage that outlines reach, so that their edge is not seen
-static const float OUTSIDE = -2; ///< cells; what is farther away makes no difference
+static const float OUTSIDE = -2; ///< cells; farther points make no difference
 
 void silhouette_clear(struct silhouette *silhouette)
 {

@@ -8,7 +8,7 @@ enum { SILHOUETTE_SIDE = 208, SILHOUETTE_POINTS = 4096 };
 
 /// How far inside each node of the grid is, pixels; negative outside.
 struct silhouette {
-    float low[2], high[2]; ///< of what is to be painted
+    float low[2], high[2]; ///< of the shape
     struct rect area;
     float cell; ///< pixels from node to node
     int columns, rows;

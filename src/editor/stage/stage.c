@@ -1,4 +1,4 @@
-/// The stage panel: its beginning and end, the mouse on it, what time does, and each frame its poses and what is drawn over them.
+/// The stage panel: its beginning and end, the mouse, time, and each frame's poses and overlays.
 #include "editor/stage/stage.h"
 #include "base/hash.h"
 #include "base/need.h"
@@ -92,7 +92,7 @@ static const struct drag_owner orbiting = {.cursor = CURSOR_ARROW, .move = orbit
 
 static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; between two steps a tail moves less than its reach
 
-/// The position that was shown some seconds ago, round the end of what is played.
+/// The position shown some seconds ago, round the end of the played range.
 static double position_ago(const struct core *core, double seconds)
 {
     const struct document *document = core->document;
@@ -138,7 +138,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
         return;
     }
     if (brush_press(stage, core, event)) return;
-    stage->pointed.hash = 0; // a press means what is there now, even while all moves
+    stage->pointed.hash = 0; // a press takes the item of this moment, even while all moves
     struct hover hover = stage_hover(stage, core, event->x, event->y);
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
     if (holds && hover.kind == HOVER_NONE) hover = moment_ago(stage, core, event->x, event->y);
@@ -345,7 +345,7 @@ void stage_ring(struct core *core, const float xy[2])
     drawlist_circle(&core->list, xy, 6.5f, 1.5f, theme()->playhead);
 }
 
-/// What an empty stage says, or NULL.
+/// The text of an empty stage, or NULL.
 static const char *empty_text(const struct stage *stage, const struct core *core)
 {
     const struct stage_view *view = &stage->view;

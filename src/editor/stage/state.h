@@ -65,7 +65,7 @@ struct body_drag {
     double lowest;                  ///< of the way upwards: there it sits on the ground
     double pixels_per_metre;        ///< at the body
     double pitch;                   ///< metres up the screen for one away from the eye
-    double right[2];                ///< x and z of what is to the right on the screen
+    double right[2];                ///< x and z of the screen's right
     double offset[3];               ///< metres from where the document has it, as shown
     bool hangs[SCENE_MAX_CHANNELS]; ///< channels that swing with it
     bool loops;                     ///< so do all of their splines
@@ -75,7 +75,7 @@ enum { RECORD_SAMPLES = 8192 };
 
 /// The way of the held body while it is recorded.
 struct record {
-    bool running;                  ///< it goes on; ends with what is played
+    bool running;                  ///< it goes on; ends with the played range
     int first, count;              ///< samples
     double way[3][RECORD_SAMPLES]; ///< metres from where the document has it
     double seen_position, seen[3]; ///< at the last frame
@@ -124,7 +124,7 @@ struct skin {
     uint64_t hash;     ///< of the stage and the character on it that `posed` was made for
 };
 
-/// What was last found of a surface, and under which point of which picture.
+/// The last surface point that was found, under which point of which picture.
 struct pointed {
     float x, y;
     uint64_t hash; ///< of the stage
@@ -160,7 +160,7 @@ struct brush_work {
 
 /// The brush at work.
 struct painting {
-    enum brush_mode stroke; ///< what the running stroke does (Shift and Ctrl make it another than the one chosen)
+    enum brush_mode stroke; ///< mode of the running stroke (Shift and Ctrl change the chosen one)
     bool covers;            ///< the pointer is over the character, at `spot`
     struct surface_spot spot;
     float x, y;      ///< pointer in the last frame of the running stroke
@@ -190,7 +190,7 @@ struct stage {
     int strand_count, tail_count;
     struct shown_bone bones[STAGE_MAX_BONES];
     int bone_count;
-    struct hover pressed; ///< what the running drag began on
+    struct hover pressed; ///< the item that the running drag began on
     struct tail_drag tail_drag;
     struct body_drag body_drag;
     struct record record;
@@ -198,7 +198,7 @@ struct stage {
     struct trail_point trail[TRAILS][TRAIL_FRAMES];
     struct liveliest liveliest;
     struct skin skin;
-    struct silhouette silhouette; ///< of what is drawn as an outline just now
+    struct silhouette silhouette; ///< of the current outline
     struct pointed pointed;
     struct pin_drag pin_drag;
     struct floor_drag floor_drag;

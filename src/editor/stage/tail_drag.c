@@ -198,7 +198,7 @@ static void apply(void *room, struct core *core)
     select_knot(stage, core);
 }
 
-/// What is seen is what stays: the pulled knots become poses.
+/// The pulled knots become poses, with the phase that is shown: nothing moves at the release.
 static void end(void *room, struct core *core, bool keep)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;

@@ -131,7 +131,7 @@ struct hover strand_hover(const struct stage *stage, const struct core *core, fl
         const struct shown_strand *tail = &stage->strands[s];
         strand_nearer(stage, core, tail->rig, &tail->pose, (const float[2]){x, y}, &nearest, &hover);
     }
-    // An edit in the same frame may have taken away what was last shown.
+    // An edit in the same frame may have removed the last one shown.
     if (!tail_drag_holds(core->document, hover.rig, hover.joint)) hover.kind = HOVER_NONE;
     return hover;
 }

@@ -1,4 +1,4 @@
-/// The status line: the controls of playback, what was last said, and what the machine does.
+/// The status line: playback controls, the last message, and performance figures.
 #include "editor/transport/transport.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
@@ -108,7 +108,7 @@ static float controls_show(struct core *core)
 }
 
 static const double REFRESH = 0.5; ///< seconds between changes of the figures at the right
-static const double SOLVED = 5;    ///< µs; what took less was only a look for something to solve
+static const double SOLVED = 5;    ///< µs; shorter times only checked whether anything had to be solved
 
 void transport_advance(struct core *core, double dt)
 {
@@ -120,7 +120,7 @@ void transport_advance(struct core *core, double dt)
     status->dropped = core->playback.dropped;
 }
 
-/// What to try where nothing is pointed at; knots are not spoken of where there are none.
+/// A hint where nothing is under the pointer; about knots only where there are some.
 static const char *lead_hint(const struct document *document)
 {
     static const char *const hints[LEADS][2] = {
@@ -141,7 +141,7 @@ static const char *lead_hint(const struct document *document)
     return hints[lead][rigs_have_knots(document)];
 }
 
-/// What can be done with what the pointer is on.
+/// Hints by the item under the pointer.
 static const char *const hover_hints[] = {
     [HOVER_KNOT] = "Drag it (X, Y: one axis, R: later ones too, Shift: fine, Ctrl: off frames)",
     [HOVER_SLOPE] = "Drag to turn the slope, pull to make it firmer; T removes it",
@@ -258,7 +258,7 @@ static struct rect unkept_rect(struct rect bar)
     return (struct rect){bar.x + bar.w - STATUS_MARGIN - width, bar.y + 1, width, bar.h - 1};
 }
 
-/// In a narrow window it covers what is there.
+/// In a narrow window it covers the controls.
 static void show_unkept(struct core *core, struct rect bar)
 {
     const struct rect r = unkept_rect(bar);
