@@ -1,5 +1,5 @@
-/// Carries out what the editor may only ask for: files, the clipboard, the window, and the end of the run. Notices that somebody else has
-/// written the document's file.
+/// Carries out the editor's requests: files, the clipboard, the window, and the end of the run. Notices when another program writes
+/// the document's file.
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/error.h"
@@ -27,8 +27,7 @@ static const char new_scene[] =
 static const char *const places[] = {"../share/wiggly/scenes", "../assets/scenes", "../../assets/scenes",
                                      "../../../assets/scenes"};
 
-/// The folder of the scenes that come with the running program: those of the tree that it was built in, or of its installation. false
-/// if it stands alone.
+/// The folder of the scenes that come with the program: of its source tree, or of its installation. false if there is neither.
 static bool assets_folder(char folder[PATH_LIMIT])
 {
     char program[PATH_LIMIT], beside[PATH_LIMIT];
@@ -137,7 +136,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
                     strlen(path), path);
     }
     const bool imports = path && import_suits(path);
-    const uint64_t content = path && !imports ? file_content(path) : 0; // what is written while it is read is theirs
+    const uint64_t content = path && !imports ? file_content(path) : 0; // first: a later write is another program's
     if (imports) {
         document = import_scene(path, error);
     } else if (path) {

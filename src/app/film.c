@@ -36,7 +36,7 @@ struct film {
     struct film_shape shape;
     bool transparent;
     double first, spacing,
-        period; ///< in frames: of the first picture, from one to the next, after which it begins anew (0: never)
+        period; ///< frames: the first picture, the step to the next, and the loop's length (0: no loop)
     struct editor *editor;
     struct picture *picture;
     struct film_file *file;

@@ -10,8 +10,8 @@
 /// Whether a file of that name is a film or a picture.
 bool film_knows(const char *path);
 
-/// Draws and writes it all, whole or not at all, without a display. A .png name with %d in it, as walk-%04d.png, is that of a sequence,
-/// and walk.png is short for that if there is more than one picture. Its splines must be solved and its models read.
+/// Draws a film and writes it whole or not at all; needs no display. A .png name with %d in it, as walk-%04d.png, names a sequence;
+/// walk.png is short for that if there are several pictures. The splines must be solved and the models read.
 bool film_write(const struct opened *opened, const char *path, const struct export_options *options,
                 struct export_report *report, struct error *error);
 

@@ -15,7 +15,7 @@ struct film_shape {
 
 struct film_file;
 
-/// Nothing of it is to be seen under its name before finish() says FILM_DONE.
+/// No file appears under the film's name before finish() says FILM_DONE.
 struct film_file_kind {
     /// NULL with a sentence. `path` must live as long.
     struct film_file *(*open)(const char *path, const struct film_shape *shape, struct error *error);

@@ -65,7 +65,7 @@ struct replay *demo_replay(struct error *error)
     return replay_parse("demo.replay", (const char *)file->data, file->size, error);
 }
 
-/// Everything as it was when the program started: whoever watches has changed nothing, and a round depends on no other.
+/// Restarts the demo as it began: a viewer has changed nothing, and no round depends on another.
 static bool start_anew(struct app *app, struct error *error)
 {
     theme_use(app->demo.theme);

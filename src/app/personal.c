@@ -269,7 +269,7 @@ bool personal_recover(struct app *app, struct error *error)
     if (!document) return false;
     document_set_path(document, personal->offered.origin.path);
     app_adopt(app, document);
-    file_watch_note(app, personal->offered.origin.content); // what was written since is theirs
+    file_watch_note(app, personal->offered.origin.content); // a write since then counts as another program's
     history_mark_unsaved(app->table.history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;

@@ -31,7 +31,7 @@ static bool write_to(const struct app *app, const char *folder, char *path, size
 }
 
 /// Beside the scene's own file, else in the home folder, else in a new folder of ours where all may write: nobody can have put a link
-/// there. What failed first is told.
+/// there. Reports the first failure.
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
     char beside[PATH_LIMIT], shared[] = "/tmp/wiggly-XXXXXX";

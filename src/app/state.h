@@ -144,15 +144,15 @@ extern const int exporting_format_count;
 
 /// Begins; the answer comes once exporting_step() is done with it. False with a sentence.
 bool exporting_start(struct app *app, const struct request *request, struct error *error);
-/// The running one is to end, with nothing written; if there is none, nothing happens.
+/// Stops a running export, which then writes nothing; without one, does nothing.
 void exporting_stop(struct app *app);
-/// Call it once a frame: goes on with the running one, and tells the editor. Under a fixed clock it ends in the frame it began in.
+/// Continues a running export, once a frame, and tells the editor. Under a fixed clock it ends in the frame it began in.
 void exporting_step(struct app *app);
 
 /// Gives up the export that runs, with nothing written.
 void app_stop_export(struct app *app);
 
-/// The clipboard's text, or NULL, telling the user that there is none or too much.
+/// The clipboard's text. NULL, with a message, if there is none or too much.
 const char *app_clipboard_text(struct app *app);
 
 /// Redraws the last frame if its stage was drawn at a lower resolution.

@@ -44,7 +44,7 @@ static inline struct area area_outer(struct rect r, float scale)
                          area_whole(ceilf((r.x + r.w) * scale)), area_whole(ceilf((r.y + r.h) * scale))};
 }
 
-/// The pixels of a logical rectangle whose edges are rounded to the next pixel edge: how clips and viewports are taken.
+/// The pixels of a logical rectangle, its edges rounded to pixel edges: for clips and viewports.
 static inline struct area area_rounded(struct rect r, float scale)
 {
     return (struct area){area_whole(roundf(r.x * scale)), area_whole(roundf(r.y * scale)),

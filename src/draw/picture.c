@@ -85,7 +85,7 @@ static void average_row(const unsigned char *below, const unsigned char *above, 
     }
 }
 
-/// What is there counts by how much it covers, so that edges do not darken towards the nothing beside them.
+/// Weighs colours by their coverage, so that edges do not darken towards the empty background.
 static void weigh_row(const unsigned char *below, const unsigned char *above, int width, unsigned char *row)
 {
     for (int x = 0; x < width; x++, below += 8, above += 8, row += 4) {

@@ -28,7 +28,7 @@ void posed_free(struct posed *mesh)
     *mesh = (struct posed){0};
 }
 
-/// Finds what lies across edges, of the parts from that one on. They have nothing to do with those before.
+/// Finds the neighbours across edges, from a part on. Earlier parts share no edges with those.
 static void find_neighbours(struct posed *mesh, int from)
 {
     if (from == mesh->part_count) return;

@@ -41,7 +41,7 @@ struct posed {
     uint64_t map_version;         ///< of the figure in them
     // On the GPU.
     GLuint vertex_array, index_buffer;
-    GLuint moving_buffer, look_buffer; ///< all places, then all normals; what vertices look like
+    GLuint moving_buffer, look_buffer; ///< all places, then all normals; looks of vertices
     GLuint *pictures, *samplers;
     int picture_count, sampler_count;
 };
@@ -52,7 +52,7 @@ void posed_from_gltf(struct posed *mesh, const struct gltf *gltf);
 void posed_from_figure(struct posed *mesh, const struct figure *figure, bool coarse);
 void posed_free(struct posed *mesh);
 
-/// Both move all of it, and say what faces the eye. They allocate nothing.
+/// Both move all vertices, and mark the triangles that face the eye. They allocate nothing.
 void posed_pose_gltf(struct posed *mesh, const struct stage_model *shown, const float eye[3]);
 void posed_pose_figure(struct posed *mesh, const struct stage_character *shown, const float eye[3]);
 
@@ -64,7 +64,7 @@ bool posed_map_figure(struct posed *mesh, const struct stage_character *shown);
 
 // Skirts.
 
-/// What a skirt shows at a corner.
+/// A corner of a skirt.
 struct skirt_vertex {
     float place[3], normal[3]; ///< world
     struct posed_look look;
@@ -72,7 +72,7 @@ struct skirt_vertex {
 
 enum { SKIRT_CORNERS = 4 }; ///< of an edge
 
-/// Of the edges from the corners `from` … of a part the first where what is seen ends: where it turns away from the eye, and where the mesh
+/// From the corner `from` on, the first edge of a part where its visible surface ends: it turns away from the eye, or the mesh
 /// ends. The part's end where there is none.
 int skirt_next(const struct posed *mesh, const struct posed_part *part, int from);
 
@@ -92,7 +92,7 @@ long posed_upload_looks(const struct posed *mesh);
 /// Frees its memory too.
 void posed_delete(struct posed *mesh);
 
-/// What attributes are of in stage_skirt.vert.
+/// Attributes of stage_skirt.vert.
 enum { POSED_PLACE, POSED_NORMAL, POSED_COLOR, POSED_UV, POSED_PHASE, POSED_COVER };
 
 /// Describes those of looks that lie in each `stride` bytes at an offset.

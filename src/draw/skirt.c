@@ -2,7 +2,7 @@
 #include "draw/posed.h"
 #include "model/adjacency.h"
 
-/// Pixels that the skirt is nearer to the eye where the surface goes on: it may lean towards the eye.
+/// Pixels by which the skirt is nearer to the eye where the surface continues, which may lean towards the eye.
 static const float LIFT = 2.0f;
 
 /// Whether a triangle faces the eye, or nearly: the rasteriser, which rounds, has the last word.
@@ -66,7 +66,7 @@ static void look_at(const struct posed *mesh, int corner, bool back, struct skir
     }
 }
 
-/// Takes the place in the picture half a pixel back into the triangle: on its edge, what is read may come from the picture's other side.
+/// Moves the place in the picture half a pixel into the triangle: at its edge a lookup may hit the picture's other side.
 static void pull_in(const struct posed *mesh, int corner, const float eye[3], float seam, struct skirt_vertex ends[2])
 {
     const uint32_t third = mesh->indices[next_corner(next_corner(corner))];

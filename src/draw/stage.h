@@ -12,8 +12,8 @@
 
 enum stage_program {
     PROGRAM_COAT,
-    PROGRAM_FACE,  ///< the surface under a face
-    PROGRAM_PLAIN, ///< surfaces of which nothing is left out, has a picture or is seen through: its pixels are cheaper
+    PROGRAM_FACE,     ///< the surface under a face
+    PROGRAM_PLAIN,    ///< opaque surfaces, neither masked nor pictured: their pixels are cheaper
     PROGRAM_PICTURED, ///< any other mesh, and all skirts but coats'
     PROGRAM_MEADOW,
     PROGRAM_FLAT,
@@ -64,7 +64,7 @@ struct stage_renderer;
 struct stage_renderer *stage_renderer_create(struct error *error);
 void stage_renderer_destroy(struct stage_renderer *renderer);
 
-/// Uploads what `view` needs: posed meshes, ground and shadows. Adds to `bytes`. Allocates only for what is seen for the first time.
+/// Uploads posed meshes, ground and shadows of `view`. Adds to `bytes`. Allocates only for meshes seen for the first time.
 void stage_upload(struct stage_renderer *renderer, const struct stage_view *view, long *bytes);
 
 /// Draws what was uploaded into a rectangle of the framebuffer (device pixels; x, y from the bottom left, as in

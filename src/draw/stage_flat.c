@@ -7,7 +7,7 @@
 
 #define GROUND_RADIUS 3.5f
 
-// Of figures between these sizes, metres, the ground is always the same; others have as much of it as the largest and the smallest of them.
+// Figures between these sizes, metres, all get the same ground; smaller and larger ones get it in proportion.
 static const float SMALL = 0.2f, LARGE = 5.0f;
 
 enum {

@@ -1,5 +1,5 @@
-/// Draws a meadow: one strip of triangles, instanced for every reed. Reeds are about as thin as pixels, so each pixel blends what a
-/// reed covers of it into what is behind: they are drawn from the farthest to the nearest.
+/// Draws a meadow: one strip of triangles, instanced for every reed. Reeds are about as thin as pixels, so each is blended over its
+/// background by coverage, from the farthest to the nearest.
 #include "draw/stage.h"
 #include <string.h>
 

@@ -8,7 +8,7 @@
 enum { PICTURE_UNIT = 1 };
 enum { EDGES = 8192, CORNERS = SKIRT_CORNERS * EDGES }; ///< whose skirts are drawn at once
 enum { APART = 256 };                                   ///< corners; Mesa takes arrays that are nearer for one
-/// Meshes on the GPU, more than a picture shows; and after how many pictures without it one goes.
+/// Number of meshes on the GPU, more than a picture shows; and after how many pictures an unused one is freed.
 enum {
     MAX_SHOWN = STAGE_MAX_CHARACTERS + STAGE_MAX_MODELS,
     MAX_KEPT = MAX_SHOWN + STAGE_MAX_CHARACTERS,
@@ -212,7 +212,7 @@ static void draw_parts(const struct stage_meshes *meshes, const struct posed *me
     glFrontFace(GL_CCW);
 }
 
-/// In the second pass again what is masked, as there its edges fade out over what is behind.
+/// The second pass draws masked surfaces again, because their edges fade out over the background.
 static void draw_surface(const struct stage_meshes *meshes, const struct posed *mesh, enum stage_program program,
                          bool second)
 {

@@ -1,4 +1,4 @@
-/// Everything that can be done: one table, from which keys are dispatched, F1 is drawn and the palette is filled. docs/keys.md lists it.
+/// All commands in one table, for keys, F1 and the palette. docs/keys.md lists them.
 #include "editor/commands.h"
 #include "editor/core/bones.h"
 #include "editor/core/characters.h"

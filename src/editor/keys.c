@@ -1,4 +1,4 @@
-/// The keyboard: which command a key or a typed character is, and the keys that mean something while they are held.
+/// The keyboard: the command of a key or character, and keys that act while they are held.
 #include "editor/keys.h"
 #include "editor/commands.h"
 #include "editor/editor.h"

@@ -1,4 +1,4 @@
-/// Makes a window, an offscreen surface or what stands for one, and makes up for what graphics drivers do with memory and pictures.
+/// Makes a window, an offscreen surface or a stand-in, and works around graphics drivers.
 #include "platform/platform.h"
 #include "base/need.h"
 #include "platform/surface.h"

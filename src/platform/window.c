@@ -1,4 +1,4 @@
-/// A GLFW window, its callbacks, which only translate and queue, and what is asked of a surface, window or not.
+/// A GLFW window, its callbacks, which only translate and queue, and the functions of a surface.
 #include "base/need.h"
 #include "base/progress.h"
 #include "platform/process.h"

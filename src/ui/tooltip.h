@@ -13,7 +13,7 @@ struct tooltip {
     bool spent;       ///< a press has put it away, until the text changes
 };
 
-/// Says what there is to explain: where the pointer is, what must stay free. A moving pointer starts the wait anew until it is shown.
+/// Offers a tooltip for the control at `at`, with the pointer at x, y. A moving pointer restarts the wait until it is shown.
 void tooltip_offer(struct tooltip *tooltip, const char *text, float x, float y, struct rect at);
 /// A press, a key or the wheel puts it away.
 void tooltip_dismiss(struct tooltip *tooltip);
@@ -21,7 +21,7 @@ void tooltip_advance(struct tooltip *tooltip, double dt);
 bool tooltip_is_shown(const struct tooltip *tooltip);
 /// Whether it is about to be shown: frames must go on.
 bool tooltip_waits(const struct tooltip *tooltip);
-/// Where it is in a window: below what it is about or above it, never outside the window.
+/// Its rectangle in a window: below the control or above it, always inside the window.
 struct rect tooltip_box(const struct tooltip *tooltip, struct rect window);
 void tooltip_show(const struct tooltip *tooltip, struct rect window, struct drawlist *list);
 

@@ -47,7 +47,7 @@ struct ui_stop {
     struct rect rect;
 };
 
-/// The open popup: it alone gets events.
+/// The open popup, which alone gets events.
 struct ui_popup {
     uint32_t id;        ///< of its name; 0: none
     int which;          ///< the caller's own: its subject

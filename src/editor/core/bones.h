@@ -19,14 +19,14 @@ void bones_clear(struct core *core);
 /// The joints of a tail or chain; 1 for a chain whose bones are not there.
 int bones_joints(const struct core *core, int rig);
 
-/// Has a model rig (by its index) play a clip, NULL: none, as one step; import_choose_clip() says what it does to the scene's length.
+/// Sets the clip of a model rig (by its index; NULL: none) in one step; import_choose_clip() sets the scene's length.
 void bones_choose_clip(struct core *core, int model, const char *clip);
 
 /// The bones of a character to choose from, in the order of its file, those below `top` (−1: all); at most `most`. Returns how many.
 int bones_below(const struct imported *character, int top, int *nodes, int most);
 
-/// Has a spline's equilibrium follow a joint of a model rig (−1: the one that suits best), as one step. What of it, how much of it and along
-/// which chain's axes stays as it was; at first it is what a chain that the spline bends wants.
+/// Has a spline's equilibrium follow a joint of a model rig (−1: the best one), as one step. Keeps the kind of motion, its gain and
+/// the chain whose axes count; the first time they suit a chain that the spline bends.
 void bones_follow(struct core *core, int spline, int model, int node);
 /// Has a chain begin (or end) at another bone, as one step. One that begins beside its old end goes on to its own tip. Its splines that
 /// follow its last bone go on to do so.

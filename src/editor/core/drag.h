@@ -10,7 +10,7 @@ enum drag_answer { DRAG_PASSES, DRAG_USED, DRAG_KEEP, DRAG_TAKE_BACK };
 /// Functions of a drag; each may be NULL. `room` is the panel that began it.
 struct drag_owner {
     enum mouse_cursor cursor;
-    bool goes_on; ///< apply() is called in every frame, and goes on from the edits of the last one
+    bool goes_on; ///< apply() is called in every frame, and continues from the edits of the last one
 
     /// The pointer has moved.
     void (*move)(void *room, struct core *core);

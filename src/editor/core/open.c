@@ -19,7 +19,7 @@ static int first_spline(const struct document *document)
     return document->spline_count > 0 ? 0 : -1;
 }
 
-/// Plays from the start what goes round, runs or explains itself; who animates a body goes on to.
+/// Plays scenes that loop, play a clip or have a description; turns on auto-key where a body is animated.
 static void open_playback(struct core *core)
 {
     const struct document *document = core->document;

@@ -20,9 +20,9 @@ uint32_t pins_color(const struct document *document, int rig);
 void pins_visit(struct core *core, const struct pin *pin);
 /// Lets go of the selected pin.
 void pins_clear(struct core *core);
-/// The frame on which a pin of the rig at the playhead is: a whole one, inside the scene.
+/// The frame for a pin at the playhead: a whole one, inside the scene.
 double pins_frame_here(const struct core *core, int rig);
-/// Pins a point inside the open step, or moves the pin that it has on the frame; selects it.
+/// Pins a point inside the open step, or moves its pin on that frame; selects it.
 bool pins_put(struct core *core, int rig, int point, double frame, const double to[3]);
 /// The same at the playhead, as a step of its own.
 void pins_put_here(struct core *core, int rig, int point, const double to[3]);
@@ -32,7 +32,7 @@ void pins_tell(struct core *core, int rig);
 bool pins_set(struct document *document, int rig, const struct pin *pin, struct error *error);
 /// Moves the selected pin by metres; repeated nudges are one undo step.
 void pins_nudge(struct core *core, const double by[3]);
-/// Moves it to the next frame that its point has no pin on, so many frames on; repeated ones are one undo step.
+/// Moves it by so many frames, skipping those where its point has a pin; repeated moves are one undo step.
 void pins_retime(struct core *core, int frames);
 /// Removes the selected pin.
 void pins_delete(struct core *core);

@@ -16,7 +16,7 @@ void rigs_add_tail(struct core *core);
 void rigs_add_meadow(struct core *core);
 /// One more like it beside all else, moved by the same splines; an imported character brings copies of its chains.
 void rigs_copy(struct core *core, int rig);
-/// Removes a rig, and the chains on it. Where splines move nothing else, asks whether they are to go too. What follows a joint of it keeps the
+/// Removes a rig and its chains. Asks whether to remove splines that move nothing else. Splines that follow one of its joints keep the
 /// value at the playhead.
 void rigs_ask_remove(struct core *core, int rig);
 

@@ -48,8 +48,8 @@ typedef struct knot knot_rule(const void *how, const struct original *original);
 /// Whether knots can go where they are to.
 enum room { ROOM_FREE, ROOM_OCCUPIED, ROOM_OUTSIDE };
 
-/// Whether the originals can go where a rule, which keeps or reverses their order, puts them: inside the range, apart, and off the
-/// knots that stay. If not, `why` says so: "a knot would leave the range". The document is as it was when they were collected.
+/// Whether the originals have room where a rule, which keeps or reverses their order, puts them: inside the range, on different frames, and
+/// off the other knots. If not, `why` says so: "a knot would leave the range". The document is as it was when they were collected.
 enum room originals_room(const struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE]);
 /// An edit: puts them there, for which there must be room. `why` says which one a limit holds; core->error, why it could not be done.
 bool originals_put(struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE]);

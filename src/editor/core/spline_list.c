@@ -107,7 +107,7 @@ double spline_list_present(const struct core *core, int spline, enum parameter p
     return parameter_clamped(parameter, spline_mode(follower), value);
 }
 
-/// Finds the last place that follows a spline, so that letting go of it moves no other place; false: there is none.
+/// Finds the last reference to a spline: releasing that one first keeps the indices of the others. false: there is none.
 static bool last_reference(const struct document *document, int spline, struct reference *last)
 {
     bool found = false;

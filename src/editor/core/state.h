@@ -1,5 +1,4 @@
-/// What the editor is handed, and what its panels share: layout, selection, playback, what is under the pointer, how things are looked at,
-/// requests to the app.
+/// State of the editor and its panels: layout, selection, playback, hover, views, requests to the app.
 ///
 /// Knots are remembered by id, splines and tails by index.
 #ifndef EDITOR_CORE_STATE_H
@@ -50,7 +49,7 @@ enum request_kind {
     REQUEST_EXPORT_STOP, ///< the running one; that answers then
 };
 
-/// How motion is to be exported. What a format has no use for is ignored; all zero is a good start.
+/// Options of an export. A format ignores those it has no use for; all zero is a good start.
 struct export_wish {
     bool part; ///< these frames alone
     double first, last;

@@ -1,4 +1,4 @@
-/// Grids, numbers and the ruler: on it the part that is played, and a mark for each pin, which is dragged to move it in time.
+/// Grids, numbers and the ruler, with the played part and a mark for each pin, to be dragged in time.
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
 #include "editor/curves/state.h"

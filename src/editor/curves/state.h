@@ -128,7 +128,7 @@ struct curve_cache {
     int range_count;
 };
 
-/// The active curve as it was before a drag, in frames and values so that it survives a change of the view.
+/// The active curve before a drag, in frames and values so that it survives a change of the view.
 struct ghost {
     bool is_shown; ///< the drag edits
     int count;

@@ -169,7 +169,7 @@ static const struct cure {
 
 static bool has_choice(const struct warning *warning) { return cures[warning->kind].remedies[1] != NULL; }
 
-/// What is left of a problem with a remedy in a copy of the document; infinitely much where that cannot be had. A remedy without others is
+/// What a remedy leaves of a problem, in a copy of the document; infinity where that is not possible. A remedy without others is
 /// enough. Only what differs from what was tried before in `trial` is solved.
 static double left_with(const struct core *core, const struct warning *warning, struct fix *fix,
                         struct evaluation *trial)

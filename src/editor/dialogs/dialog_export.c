@@ -358,7 +358,7 @@ static const char *usual_clip(const struct document *document)
     return rig >= 0 && document->rigs[rig]->model.clip ? document->rigs[rig]->model.clip : "as the scene";
 }
 
-/// Always as many rows, so that nothing jumps when another format is chosen.
+/// Always as many rows, so that nothing jumps when the format changes.
 static void build_choices(struct dialogs *dialogs, const struct document *document)
 {
     struct export_memory *memory = &dialogs->exporting.memory;

@@ -49,7 +49,7 @@ static float group_height(const struct command_list *list, int about, float row)
     return HEADER + row * (float)row_count(list, about) + GROUP_GAP;
 }
 
-/// Fills column after column up to a height; false where that takes more columns than there are.
+/// Fills column after column up to a height; false where there are too few columns.
 static bool fill(const struct command_list *list, struct flow *flow, float limit)
 {
     int column = 0;

@@ -1,4 +1,4 @@
-/// The inspector's section on the history: its steps, the present one marked; a click goes to where a step ended.
+/// The inspector's section on the history: its steps, the present one marked; a click goes to the end of a step.
 ///
 /// It has to be the last section, because going to a step changes the document that later sections would show.
 #include "editor/core/core.h"

@@ -398,7 +398,7 @@ static void drag(struct inspector *in, const struct number_row *row, const struc
     }
 }
 
-/// Sets a number as a step of the history, which a drag makes anew in each frame.
+/// Sets a number as one undo step, which a drag makes anew in each frame.
 static void change_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
                           int which, enum ui_change change, double value)
 {

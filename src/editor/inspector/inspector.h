@@ -29,7 +29,7 @@ void inspector_preset(struct inspector *in, int preset);
 void inspector_roll(struct inspector *in, int unused);
 /// Makes the chain that is shown once more, mirrored, on the bones of the other side, and shows it.
 void inspector_mirror(struct inspector *in, int unused);
-/// Shift+Del: asks whether to remove the rig that is shown, which is that of the active spline.
+/// Shift+Del: asks whether to remove the shown rig, which is that of the active spline.
 void inspector_remove_rig(struct inspector *in, int unused);
 /// Its widgets: hover, focus, typed text.
 const struct ui *inspector_ui(const struct inspector *in);
@@ -39,7 +39,7 @@ void inspector_reset(struct inspector *in);
 bool inspector_event(struct inspector *in, const struct event *event);
 /// Draws it; `covered`: something lies over the panels.
 void inspector_show(struct inspector *in, bool covered);
-/// Ends a running drag where it is, and drops focus and typing: something opens over the panel, or the document goes.
+/// Ends a running drag where it is, and drops focus and typing, before something opens over the panel or the document changes.
 void inspector_let_go(struct inspector *in);
 /// Whether a slider is being dragged (a history step is open).
 bool inspector_is_dragging(const struct inspector *in);

@@ -257,7 +257,7 @@ const char *inspector_knot_title(struct inspector *in)
     return in->knot_title;
 }
 
-/// Takes the same room whatever is selected, so that nothing below it moves.
+/// Takes the same room for any selection, so that nothing below it moves.
 void inspector_knot(struct inspector *in)
 {
     struct ui *ui = &in->ui;

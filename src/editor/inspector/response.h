@@ -1,5 +1,5 @@
-/// What frequency and damping do: the response of the filter that turns jet-engine force into motion (paper: section 4, eq. 19,
-/// Figure 2), and how long a spline takes to settle, which is what people feel of damping.
+/// Effects of frequency and damping: the response of the filter that turns jet-engine force into motion (paper: section 4, eq. 19,
+/// Figure 2), and how long a spline takes to settle.
 ///
 /// An analysis view beside the spline: the two-pole real and the four-pole real filter are what the paper compares its
 /// two-pole complex one with.

@@ -306,7 +306,7 @@ static void build_channel(struct inspector *in)
     build_choices(in, channel);
 }
 
-/// The bone at one end: a list of those that it may be, and a button to pick it on the stage.
+/// The bone at one end: a list of the possible ones, and a button to pick it on the stage.
 static void build_end(struct inspector *in, const struct end *end, const char *bone)
 {
     struct rect field = inspector_labelled(in, end->label),

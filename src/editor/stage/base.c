@@ -122,7 +122,7 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
     return spline;
 }
 
-/// The axis about which a tail bends when its base goes along a coordinate, where no channel of its does; else AXES.
+/// The axis about which a tail should bend when its base moves along a coordinate, if no channel does that yet; else AXES.
 static enum axis missing_axis(const struct stage *stage, const struct core *core, int coordinate, double *share)
 {
     const struct tail *tail = tail_of(core->document, stage->body_drag.rig);
@@ -138,7 +138,7 @@ static enum axis missing_axis(const struct stage *stage, const struct core *core
     return fabs(*share) >= MAIN_SHARE ? axis : AXES;
 }
 
-/// Lets a tail that did not swing with a coordinate do so, as it does with another one; the new spline, or -1.
+/// Adds a spline by which a tail swings with a coordinate, if none did; returns it, or -1.
 static int add_missing(const struct stage *stage, struct core *core, int coordinate, int base)
 {
     const struct document *document = core->document;

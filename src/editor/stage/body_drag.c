@@ -1,4 +1,4 @@
-/// Dragging the body over the ground: where the pointer takes it, and what the document makes of that.
+/// Drags the body over the ground, and turns the drag into edits of the document.
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
@@ -72,8 +72,8 @@ static int sample_of(const struct core *core, int spline)
     return sample > last ? last : sample < 0 ? 0 : sample;
 }
 
-/// A knot at the playhead. A coordinate that was a number gets a spline, which begins where the body was. The spline by which the
-/// tail swings with that from now on where it did not, else -1.
+/// Sets a knot at the playhead. A coordinate that was a number gets a spline that begins at the body's place. Returns the new spline by
+/// which the tail swings with it, or -1.
 static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, double by,
                           char why[STOPPED_SIZE])
 {
@@ -138,8 +138,7 @@ static double room_for(const struct spline *spline, double by, const struct knot
     return room;
 }
 
-/// Keeps the way of the held body, metres, where the limits of the splines that it follows will keep what place_body() or a recording
-/// makes of it.
+/// Limits the offset of the held body, metres, to where the limits of its splines will keep it in place_body() or a recording.
 static void place_within(const struct stage *stage, const struct core *core, double offset[3])
 {
     const struct document *document = core->document;
@@ -171,7 +170,7 @@ static void shift_still(struct core *core, int spline, double by)
         core_set_parameter(core, spline, PARAMETER_EQUILIBRIUM, core_round(equilibrium->value + by, RESOLUTION));
 }
 
-/// All knots of a spline, so that what follows it moves as it did, elsewhere: all by as much as each can go. How far that was.
+/// Shifts all knots of a spline by the same amount, as far as all can go, so that followers keep their motion. Returns that amount.
 static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
 {
     const int count = core->document->splines[spline]->knot_count;
@@ -201,7 +200,7 @@ static double shift_model(struct core *core, int rig, int coordinate, double by)
     return edit_rig_set(core->document, rig, &moved, &core->error) ? by : 0;
 }
 
-/// A height that is a number says where the ground is, which stays. How far the coordinate went.
+/// Shifts a coordinate; returns by how much. A height that is a number is the ground, which stays.
 static double shift_coordinate(struct core *core, int rig, int coordinate, double by, char why[STOPPED_SIZE])
 {
     const struct tail *tail = tail_of(core->document, rig);
@@ -241,7 +240,7 @@ static void shift_body(struct stage *stage, struct core *core, const double offs
     }
 }
 
-/// The new place, metres from the old one: knots at the playhead with auto-key, else all of the shot moves. Says which.
+/// Moves the body by metres: knots at the playhead with auto-key, else the whole shot. Reports which.
 static void place_body(struct stage *stage, struct core *core, const double offset[3])
 {
     if (core->auto_key && tail_of(core->document, stage->body_drag.rig)) {

@@ -79,8 +79,8 @@ static bool measure(const struct stage *stage, const struct core *core, int bone
     return found->distance < REACH;
 }
 
-/// Whether a bone is meant rather than the best so far, both being about as near to the pointer. At a joint two are as near and as deep:
-/// the one that begins there is meant.
+/// Whether a bone is a better target than the best so far, both about as near to the pointer. At a joint two are as near and as deep:
+/// the one that begins there wins.
 static bool is_better(const struct candidate *a, const struct candidate *best)
 {
     if (best->bone < 0) return true;
@@ -215,7 +215,7 @@ static void show_name(struct core *core, const char *name)
                       theme()->text, name);
 }
 
-/// How bones are shown in this frame: of which character, which is chosen, the tip of the chain that it could begin, and which is meant.
+/// How bones are shown in this frame: the character, the selected bone, the tip of a chain from it, and the bone under the pointer.
 struct showing {
     bool all; ///< one of them is to be picked
     int model, chosen_model, chosen, tip, meant_model, meant;

@@ -116,7 +116,7 @@ static const double PHASE_FLOW = 6.2831853071795865;     ///< radians a second a
 static const double AMPLITUDE_FLOW = 1.3862943611198906; ///< of a: four times as much in a second
 static const float STROKE_LEAD = 1.5707963f,
                    STROKE_SWELL = 1.3862944f; ///< a stroke saturates here, however long it is held:
-                                              ///< what differs by more folds through itself
+                                              ///< a surface that differs by more folds through itself
 static const double BLENDING_FLOW = 12;       ///< of smoothing and erasing, 1/s
 static const double MOST_BLEND = 0.5;         ///< of one pass; more would overshoot
 static const float MOST_LEAD = 12.5663706f, LEAST_SWELL = -4.60517f, MOST_SWELL = 1.3862944f; ///< ±720°; 0.01 … 4
@@ -204,7 +204,7 @@ static void smooth(struct painting *painting, const struct figure *figure, int c
     }
 }
 
-/// How much of a step a stroke may still take where it has come to `spent`, which counts it.
+/// How much of a step a stroke may still take after `spent`; adds to it.
 static float saturate(float step, float most, float *spent)
 {
     const float allowed = fminf(step, fmaxf(most - *spent, 0));
@@ -228,7 +228,7 @@ static void change(enum brush_mode mode, double flow, float weight, float *spent
     for (int k = 0; k < 2; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
 }
 
-/// A dab for what work.reach holds: `flow` is the strength times the time. Its arrays are the brush's own.
+/// A dab on the vertices of work.reach: `flow` is strength times time. Its arrays are the brush's own.
 static struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
                             int coordinate, float radius, double flow)
 {

@@ -137,7 +137,7 @@ static void show_height(struct core *core, const struct shown_floor *floor, doub
     stage_note(core, x, y, FONT_LABEL, color, text);
 }
 
-/// The edges at the nearest corner, and the beginnings of the other two, so that no line crosses the character.
+/// The edges at the nearest corner, and the starts of the other two, so that no line crosses the character.
 static void show_edges(struct core *core, const struct shown_floor *floor, float width, uint32_t color)
 {
     for (int side = 1; side < 4; side += 2) {

@@ -42,7 +42,7 @@ static bool filter_of(const struct spline *spline, struct swing_filter *filter)
     return swing_filter(spline, parameter, filter);
 }
 
-/// While a body is in the hand, what it does to the push kicks the reed's own oscillator; then that swings out. Whether it still does.
+/// A held body's push kicks the reed's own oscillator, which then swings out. Returns whether it still swings.
 static bool brush_reed(struct brushed_reed *reed, const double pushed[2], bool held, const step_matrix *m,
                        double natural, double dt)
 {
@@ -89,7 +89,7 @@ static void brush_all(struct stage *stage, const struct core *core, const struct
     }
 }
 
-/// What all reeds together keep the light from: discs so wide that they run into each other.
+/// The shadow of all reeds: discs so wide that they run into each other.
 static void add_shadow(struct stage_view *view, const double area[2])
 {
     enum { ACROSS = 3, DEEP = 2 };

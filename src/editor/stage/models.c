@@ -1,4 +1,4 @@
-/// Imported characters on the stage; and the surface of a soft one as it is shown, for who points at it.
+/// Imported characters on the stage; and the surface of a soft one as it is shown, for hover.
 #include "base/hash.h"
 #include "base/need.h"
 #include "editor/stage/parts.h"

@@ -152,7 +152,7 @@ static bool show_chain(struct stage *stage, struct core *core, const struct pose
     return true;
 }
 
-/// Poses its surface and puts that on the screen, in the memory for what is pointed at, which is posed anew then.
+/// Poses its surface and projects it to the screen, in the skin that hover uses, which is posed again then.
 static bool project_surface(struct stage *stage, const struct core *core, const struct figure *figure,
                             const struct morph *morph, const float position[3])
 {

@@ -15,7 +15,7 @@ struct stage_kind {
     int bound_steps;
     /// Metres that this is wider to both sides; NULL: as it is.
     float (*aside)(const struct core *core, int n);
-    /// Of all that are in the view; NULL: what they show is another kind's.
+    /// Hash over all of them in the view; NULL: another kind's hash covers them.
     uint64_t (*hash)(uint64_t hash, const struct stage_view *view);
 };
 
@@ -60,12 +60,12 @@ int base_spline(const struct stage *stage, struct core *core, int coordinate);
 void base_put_knot(struct core *core, int spline, int sample, double value, bool level, char why[STOPPED_SIZE]);
 /// The coordinate follows the spline from now on.
 void base_follow(const struct stage *stage, struct core *core, int coordinate, int base);
-/// Lets the channels that swung with a coordinate follow its spline. A tail that has none that would gets one: its spline, else -1.
+/// Lets the channels that swung with a coordinate follow its spline. A tail without such a channel gets one. Returns its new spline, or -1.
 int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base);
-/// Adds a sentence on that spline to what is said; nothing for -1.
+/// Adds a sentence on the new spline to a message; nothing for -1.
 void base_say_channel(const struct core *core, int spline, char *text, size_t size);
 
-/// Shows what a rig has as a model: an imported character, or the fox of a tail; NULL where it has none, or there is no room.
+/// Shows the model of a rig: an imported character, or the fox of a tail; NULL where it has none, or there is no room.
 struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed);
 
 /// The one of a rig as it was last shown, or NULL.
@@ -88,7 +88,7 @@ struct hover strand_end(const struct stage *stage, const struct core *core, cons
 
 /// Whether the document has it and, of a character, its model.
 bool point_exists(const struct core *core, struct rig_point point);
-/// Where the document has it at a position in samples, world; false where its model is missing.
+/// Its place in the document at a position in samples, world; false where its model is missing.
 bool point_place(const struct core *core, struct rig_point point, double position, float place[3]);
 
 /// Adds the bones of a character that is shown.
@@ -118,8 +118,8 @@ void floors_begin(struct stage *stage, struct core *core, const struct hover *ho
 /// Draws all floors: brighter where a character stands on one, in the colour of warnings where it is below.
 void floors_show(const struct stage *stage, struct core *core);
 
-/// What of pins is under a point of the stage: a marker (HOVER_PIN), else, where nothing else was `found` there, a point of a surface
-/// that can be pinned (HOVER_POINT). HOVER_NONE: nothing.
+/// The pin under a point of the stage: a marker (HOVER_PIN), else, where nothing else was `found` there, a surface point
+/// that can be pinned (HOVER_POINT), else HOVER_NONE.
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y);
 
 /// Starts to drag the point or marker under the pointer; edits nothing until it moves.
@@ -158,7 +158,7 @@ void body_drag_show(struct stage *stage, struct core *core);
 void body_drag_way(const struct stage *stage, const struct core *core, double offset[3]);
 /// Moves the held body as far as pointer and limits allow: before everything else advances.
 void body_drag_advance(struct stage *stage, const struct core *core);
-/// How far the running drag has moved a rig from where the document has it, metres; 0 where the body that is held does not carry it.
+/// How far the running drag has moved a rig from its place in the document, metres; 0 where it is not on the held body.
 void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3]);
 
 /// Advances by `dt` seconds: the bases go where body_drag_offset() says, and their tails and chains swing.
@@ -206,7 +206,7 @@ void onion_show(struct stage *stage, struct core *core);
 /// pose that is shown.
 void ghost_show(struct stage *stage, struct core *core);
 
-/// What stands for a rig where nothing is pointed at: the tip of the tail or chain that the active spline moves, else the liveliest
+/// The point of a rig where none is under the pointer: the tip of the tail or chain that the active spline moves, else the liveliest
 /// vertex of the selected character. It may not exist (point_exists()).
 struct rig_point overlay_point(struct stage *stage, const struct core *core);
 /// Motion arc (Shift+O): where that point goes within two seconds of the playhead, with a mark at each frame.
@@ -236,7 +236,7 @@ static inline float segment_nearest(const float a[2], const float b[2], const fl
 void skin_free(struct skin *skin);
 /// Memory for the surface of any character that is shown; allocates only where a larger one has come onto the stage.
 void skin_reserve(struct stage *stage);
-/// Poses the surface of a character (its number among those of the document, its stiff twin left out), unless it is posed so
+/// Poses the surface of a character (by its number in the document, not its stiff twin), unless that is done
 /// already. false where it is not shown.
 bool skin_pose(struct stage *stage, int character);
 /// The surface point (of the posed figure) under a point of the stage; false where there is none.

@@ -13,11 +13,10 @@
 #include <stdio.h>
 #include <string.h>
 
-static const float MARKER_REACH = 9; ///< pixels
-static const float LEAST_SHARE =
-    0.05f; ///< of the surface's largest movement: vertices that barely move are not offered
+static const float MARKER_REACH = 9;    ///< pixels
+static const float LEAST_SHARE = 0.05f; ///< of the largest movement, for a vertex to be offered
 
-/// How far a vertex moves with a unit of what moves the character, squared, as a share of what is the most along each axis.
+/// How far a vertex moves per unit of the character's coordinates, squared, as a share of the largest movement along each axis.
 static float share_of(const struct stage_character *shown, int vertex)
 {
     float own = 0, most = 0;
@@ -80,7 +79,7 @@ static struct hover surface_hover(struct stage *stage, const struct core *core, 
     return pointed->hover;
 }
 
-/// Goes on to the next pin that has a marker: those of a pair of characters, which stand aside, have none.
+/// Goes on to the next pin with a marker: the characters of a pair stand aside and have none.
 static const struct pin *next_marker(const struct core *core, struct pin_place *place)
 {
     const struct pin *pin;

@@ -1,4 +1,4 @@
-/// The motion of a body that is dragged while it is recorded: a place a sample, the knots that are made of it, and its path on the stage.
+/// Records a dragged body: a place a sample, the knots made of them, and its path on the stage.
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"

@@ -1,4 +1,4 @@
-/// The outline of something on the screen, whatever way it faces: it is painted onto a grid, and the edge of that is followed.
+/// The outline of a shape on the screen: the shape is painted onto a grid, and its edge followed.
 #ifndef EDITOR_STAGE_SILHOUETTE_H
 #define EDITOR_STAGE_SILHOUETTE_H
 
@@ -20,9 +20,9 @@ struct silhouette {
 
 /// Nothing yet.
 void silhouette_clear(struct silhouette *silhouette);
-/// A disc will be painted within what this widens.
+/// Makes room for a disc to be painted.
 void silhouette_widen(struct silhouette *silhouette, const float middle[2], float radius);
-/// Opens the grid for all that; false where nothing of it is on the stage.
+/// Opens the grid for all discs; false where none is on the stage.
 bool silhouette_open(struct silhouette *silhouette, struct rect stage);
 /// Two discs and what is between them.
 void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],

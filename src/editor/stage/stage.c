@@ -119,7 +119,7 @@ static struct hover hover_at(struct stage *stage, const struct core *core, doubl
     return joint.kind != HOVER_NONE ? joint : body_hover(stage, core, position, x, y);
 }
 
-/// What was under a point within the last third of a second of a scene that plays: who presses there aimed at that.
+/// The item under a point in the last third of a second, in a scene that plays: a press aims at what was seen then.
 static struct hover moment_ago(struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};

@@ -40,7 +40,7 @@ void stage_show(struct stage *stage, struct core *core);
 /// Where a point of a tail or chain is on the screen, as of the last pose: `fraction` 0 … 1 of the way from joint to joint + 1.
 bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
                    float xy[2]);
-/// What can be held or clicked at a point: the nearest of tails and bones, else a floor's edge, else a body; pins before these, surfaces
+/// The item to hold or click at a point: the nearest of tails and bones, else a floor's edge, else a body; pins before these, surfaces
 /// behind.
 struct hover stage_hover(struct stage *stage, const struct core *core, float x, float y);
 /// A press on the stage.
@@ -49,7 +49,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
 void stage_wheel(struct stage *stage, struct core *core, const struct event *event);
 /// Moves the selected pin in the plane that faces the eye, by steps of 1 % of the view.
 void stage_nudge_pin(struct stage *stage, struct core *core, double right, double up);
-/// Pins what is pointed at where it is; else the selected pin's point once more, at the playhead; else a tip, or what moves most.
+/// Pins the point under the pointer where it is; else the selected pin's point at the playhead; else a tip, or the liveliest point.
 void stage_hold_point(struct stage *stage, struct core *core);
 /// Where a pin's marker is on the screen; false where it is not in sight.
 bool stage_pin_point(const struct stage *stage, const struct core *core, const struct pin *pin, float xy[2]);

@@ -168,7 +168,7 @@ struct painting {
     struct brush_work work;
 };
 
-/// A reed that something passes: how it is pushed, and what its own swing adds to that, radians towards +x and +z.
+/// A reed that a body passes: how far it is pushed, and its own swing on top, radians towards +x and +z.
 struct brushed_reed {
     double pushed[2], speed[2], q[2], v[2];
 };

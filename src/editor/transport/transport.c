@@ -278,7 +278,7 @@ void transport_show(struct core *core, const char *hint)
     figures_text(core, figures, sizeof figures);
     const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
     const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
-    // What has happened is said in full: the figures give way to it and to the scene's name, and that to what has happened.
+    // The message is shown in full: the figures make room for it and for the scene's name, and the name for the message.
     const float needed = message->text[0] ? GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text) : 0;
     const bool saved = history_is_saved(core->history);
     const struct title title = title_of(core, saved, fminf(bar.w / 5, fmaxf(end - x, 0)));
