@@ -206,6 +206,22 @@ SESSION_TEST(test_the_palette_chooses_a_feel, session_open(s, scene))
     }
 }
 
+/// Switches that have no key.
+SESSION_TEST(test_the_palette_flips_switches, session_open(s, scene))
+{
+    const struct core *core = &s->editor->core;
+    for (int on = 1; on >= 0; on--) {
+        static const char *const typed[] = {"solo", "hide the spl", "record the next"};
+        for (size_t i = 0; i < sizeof typed / sizeof typed[0]; i++) {
+            search(s, typed[i]);
+            session_key(s, KEY_ENTER, 0);
+        }
+        assert_int_equal(selection_has(&core->solo, s->document->splines[0]->id), on);
+        assert_int_equal(selection_has(&core->hidden, s->document->splines[0]->id), on);
+        assert_int_equal(core->record_armed, on);
+    }
+}
+
 /// Whatever can be done now is done without harm, in an empty scene and in one with everything selected.
 TEST(test_every_command_runs)
 {

@@ -367,7 +367,7 @@ static void show_empty(struct core *core)
     bool hidden = spline && !spline_list_seen(core);
     if (spline && !flat && !hidden) return;
     const bool has_bones = document_find_rig(core->document, RIG_MODEL, 0) >= 0;
-    const char *text = hidden      ? "This spline is hidden. Click its eye in the list to show it."
+    const char *text = hidden      ? "This spline is hidden. Click its eye in the list (F9: More) to show it."
                        : flat      ? "Double-click to set the first knot."
                        : has_bones ? "This scene has no splines. Click a bone and press Shift+J to let it swing."
                                    : "This scene has no splines. Click + in the list on the right to add one.";

@@ -150,7 +150,7 @@ static bool build_switch(struct inspector *in, enum angle_kind kind, const struc
     const bool ramp = next->form == ANGLES_RAMP, lit = angles->form == next->form;
     char name[32];
     snprintf(name, sizeof name, "%s.%s", rows[kind].name, ramp ? "ramp" : "each");
-    const char *hint = lit    ? "Back to one angle for all joints"
+    const char *hint = lit    ? "Use one angle for all joints"
                        : ramp ? "Draw the angles along the joints as a curve through a few points"
                               : "Give each joint an angle of its own";
     if (!ui_icon_button(&in->ui, r, name, ramp ? UI_ICON_RAMP : UI_ICON_EACH, lit, hint)) return false;
@@ -464,7 +464,7 @@ static void build_joint(struct inspector *in, enum angle_kind kind)
     number.name = name;
     number.label = label;
     number.unit = unit_of(in, (int)kind);
-    number.hint = "Angle of the joint that was touched last in the curve above";
+    number.hint = "Angle of the joint selected in the curve above";
     number.minimum = number.maximum = 0; // a field
     number.fallback = NAN;
     inspector_number(in, &number, &home, (int)kind, ui_row(&in->ui, UI_ROW));

@@ -80,13 +80,13 @@ enum { ROW_FRAME, ROW_POINT, ROWS = ROW_POINT + 4 };
 static const struct number_row rows[ROWS] = {
     {"pin.frame", "frame", NULL, "Frame of the pin (Alt+PgUp, Alt+PgDn)", "Move pin in time",
      NUMBER_AT(struct pin, frame), 0, 0, 0, 0, NAN, 1, 0},
-    {"pin.point", NULL, NULL, "What is pinned", "Pin another point", WHOLE_AT(struct pin, point), 0, 0, 0, 0, NAN, 1,
-     0},
-    {"pin.x", "x", "m", "Where the point is to be; 0 is the middle", "Move pin", NUMBER_AT(struct pin, to[0]), 0, 0,
+    {"pin.point", NULL, NULL, "The pinned point", "Pin another point", WHOLE_AT(struct pin, point), 0, 0, 0, 0, NAN,
+     1, 0},
+    {"pin.x", "x", "m", "Target of the point: across; 0 is the middle", "Move pin", NUMBER_AT(struct pin, to[0]), 0,
+     0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+    {"pin.y", "y", "m", "Target of the point: height", "Move pin", NUMBER_AT(struct pin, to[1]), 0, 0,
      -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
-    {"pin.y", "y", "m", "Where the point is to be: height", "Move pin", NUMBER_AT(struct pin, to[1]), 0, 0,
-     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
-    {"pin.z", "z", "m", "Where the point is to be: depth", "Move pin", NUMBER_AT(struct pin, to[2]), 0, 0,
+    {"pin.z", "z", "m", "Target of the point: depth", "Move pin", NUMBER_AT(struct pin, to[2]), 0, 0,
      -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
 };
 

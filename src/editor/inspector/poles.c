@@ -330,7 +330,7 @@ void inspector_poles(struct inspector *in)
     build_inset(in, &setting);
     ui_space(ui, 4);
     struct rect response = ui_row(ui, RESPONSE);
-    ui_hint(ui, response, "Response in dB over Hz: the complex filter rejects low frequencies");
+    ui_hint(ui, response, "Response in dB over Hz: a wiggly spline rejects low frequencies");
     if (ui->pass == UI_PASS_DRAW) poles_draw_response(view, response, ui->list);
     ui_space(ui, 4);
 }

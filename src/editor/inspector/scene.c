@@ -36,8 +36,7 @@ static const struct number_row rows[ROWS] = {
 static void build_solver(struct inspector *in)
 {
     const struct rect r = inspector_labelled(in, "solver");
-    ui_hint(&in->ui, r,
-            "Band: all samples at once, as in the paper. Chain: stretches between knots, beyond 4096 samples");
+    ui_hint(&in->ui, r, "Band: all samples at once, as in the paper. Chain: from knot to knot, beyond 4096 samples");
     if (in->core->evaluation) ui_label(&in->ui, r, evaluation_solver(in->core->evaluation), theme()->text);
 }
 
