@@ -122,7 +122,7 @@ static struct document *parse_built_in(const char *name, struct error *error)
     return document;
 }
 
-/// What a figure of the paper is about is in sight, however it was opened.
+/// Shows the subject of a paper's figure, however it was opened.
 static void show_subject(struct app *app, const char *name)
 {
     if (strcmp(name, "figure2.json") == 0) editor_show_poles(app->table.editor);
@@ -187,7 +187,7 @@ static bool take_theirs(struct app *app, struct error *error)
     return true;
 }
 
-/// Adds the character in a file beside what stands there, as one step of the history.
+/// Adds the character of a file beside the other rigs, as one undo step.
 static bool add_file(struct app *app, const char *path, struct error *error)
 {
     struct table *table = &app->table;

@@ -29,7 +29,7 @@ enum film_state film_step(struct film *film, bool wait, struct error *error);
 
 /// How many pictures are done, and of how many.
 void film_progress(const struct film *film, long *done, long *total);
-/// What was written; after FILM_DONE.
+/// Size, number and names of the written files; after FILM_DONE.
 void film_report(const struct film *film, struct export_report *report);
 /// If it is not done, nothing is left behind. NULL is fine.
 void film_close(struct film *film);

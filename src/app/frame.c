@@ -248,7 +248,7 @@ static void draw(struct app *app)
     app->row.swap_us = microseconds(swap_start, end);
 }
 
-/// Ends what is timed of the frame.
+/// Ends the frame's timing.
 static void end_row(struct app *app)
 {
     double end = clock_now();

@@ -45,7 +45,7 @@ struct autosave;
 struct autosave_work {
     const struct document *document;
     const char *path;  ///< of the document's own file, or ""
-    uint64_t content;  ///< what was in it when it was read or written last; 0: unknown
+    uint64_t content;  ///< content of the scene's file when it was read or written last; 0: unknown
     uint64_t revision; ///< changes with the document
     bool saved;        ///< nothing would be lost
 };

@@ -16,7 +16,7 @@ static const char size_limits[] = "a width and a height from 64 to 16384";
 
 struct replay {
     char *path, *text, *end;
-    char *at;    ///< what is still to be cut into lines
+    char *at;    ///< text that is not cut into lines yet
     int number;  ///< of the last line that was cut off
     char *event; ///< the next event's line; NULL: there is none
     int line;    ///< the one that is being read, for messages
@@ -425,7 +425,7 @@ static const struct verb *verb_of(const struct event *event)
     return NULL;
 }
 
-/// Escapes what would end a word or open a target's brackets.
+/// Escapes characters that would end a word or open a target's brackets.
 static void write_escaped(FILE *f, const char *text)
 {
     fputc(' ', f);

@@ -76,7 +76,7 @@ struct app {
     struct error error;
 };
 
-/// Frees everything the app holds; what was never made may be NULL.
+/// Frees everything the app holds; parts that were never made may be NULL.
 void app_free(struct app *app);
 
 /// One frame: input, edit, solve, pose, draw, log.

@@ -23,7 +23,7 @@ static double wanted(const struct app *app, double chosen)
     return chosen * (app->table.editor->core.presenter.on ? PRESENTING : 1);
 }
 
-/// What is wanted, or the largest step below it that leaves room; a window too small for any is left as it is.
+/// The wanted scale, or the largest step below it that fits; a window too small for any keeps its scale.
 static double fitting(const struct app *app)
 {
     const double most = wanted(app, app->ui_scale);

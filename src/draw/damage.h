@@ -23,12 +23,12 @@ struct damage {
     uint64_t hashes[2][DAMAGE_SIDE * DAMAGE_SIDE]; ///< this frame's and the last one's, taking turns
     int current;
     struct damage_axis columns, rows;
-    bool known;                                ///< the last frame's hashes say what is on the screen
+    bool known;                                ///< the last frame's hashes match the screen
     struct area rectangles[DAMAGE_RECTANGLES]; ///< disjoint, inside the framebuffer
     int count;
 };
 
-/// The stage below the list: its viewport, and what moves inside it.
+/// The stage below the list: its viewport, and the extent of its motion.
 struct damage_stage {
     struct area viewport, moving;
     uint64_t hash, moving_hash; ///< of everything outside `moving`; of all

@@ -111,7 +111,7 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
     draw_stage(draw, input, viewport, on_stage);
 }
 
-/// At another resolution every pixel of the stage changes, and enlarging spreads whatever moves by as much.
+/// At another resolution every pixel of the stage changes, and enlarging spreads motion by as much.
 static struct damage_stage describe_stage(const struct draw_input *input)
 {
     static const float seam = 3.0f; ///< how far the soft silhouette reaches out, pixels, with some slack

@@ -1,4 +1,4 @@
-/// The renderer: draws what it is handed (a draw list and a stage) into the current framebuffer; decides nothing.
+/// The renderer: draws a draw list and a stage into the current framebuffer; decides nothing.
 ///
 /// Where the target keeps its content, only what changed since the last frame is drawn: draw_frame() compares the commands
 /// of both frames cell by cell and redraws the rectangles that differ, with the scissor on.

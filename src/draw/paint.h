@@ -1,4 +1,4 @@
-/// What draw lists become: shapes, lines and text as anti-aliased triangles. Private to draw/.
+/// Turns draw lists into anti-aliased triangles: shapes, lines and text. Private to draw/.
 #ifndef DRAW_PAINT_H
 #define DRAW_PAINT_H
 
@@ -76,7 +76,7 @@ struct polyline {
     bool closed;
 };
 
-/// Adds the triangles of a line of at least two points; segments that cannot touch what is visible are left out.
+/// Adds the triangles of a line of at least two points; leaves out segments outside the clip.
 void stroke_draw(struct stroke *stroke, struct polyline line);
 
 // Turns a draw list into triangles.

@@ -107,7 +107,7 @@ struct area stage_extent(const struct stage_view *view, struct area viewport, in
 /// Height of the ground under the lowest rig.
 float stage_lowest_ground(const struct stage_view *view);
 
-// What lies flat on the stage: background, ground and contact shadows, as a few quads of one program.
+// The flat parts of the stage: background, ground and contact shadows, as a few quads of one program.
 
 struct stage_flat;
 

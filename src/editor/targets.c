@@ -102,7 +102,7 @@ static bool find_along(struct editor *editor, const struct target *target, float
     return stage_project(editor->stage, &editor->core, target->rig, joint, along - joint, xy);
 }
 
-/// What is behind a character's own name and a slash, or else all of a text.
+/// The part after a character's own name and a slash, or else all of a text.
 static const char *bone_name(const struct rig *character, const char *text)
 {
     const char *title = rig_title(character);
@@ -176,7 +176,7 @@ static const struct target_kind {
     enum rig_kind rig; ///< OF_RIG
     int numbers;       ///< how many there are behind the name
     find_place *find;
-    const char *missing; ///< why there is no such place, although what it is of is there
+    const char *missing; ///< why there is no such place, although its subject exists
 } kinds[] = {
     {"knot", OF_KNOT, 0, 1, find_knot, "that knot is not in the visible part of the curves"},
     {"mark", OF_KNOT, 0, 1, find_mark, "the dope sheet does not show that knot"},

@@ -8,7 +8,7 @@
 struct platform;
 
 /// Call the first of these at the start to print each of the OpenGL driver's messages, except notifications, once to stderr.
-/// The second counts the serious ones: errors, and whatever is undefined, deprecated or not portable.
+/// The second counts the serious ones: errors, and everything undefined, deprecated or not portable.
 void platform_debug_gl(void);
 int platform_gl_complaints(void);
 

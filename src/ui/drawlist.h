@@ -1,4 +1,4 @@
-/// What the editor wants on the screen, in painter's order: rectangles, lines, convex shapes and text, each clipped. No GL.
+/// The editor's picture, in painter's order: rectangles, lines, convex shapes and text, each clipped. No GL.
 ///
 /// Coordinates are logical pixels from the top left; y down. Colours are 0xRRGGBBAA in sRGB.
 #ifndef UI_DRAWLIST_H

@@ -90,7 +90,7 @@ void core_refresh(struct core *core)
     }
 }
 
-/// Where undo has taken the active spline away, the one that was active before it is so again.
+/// Where undo has removed the active spline, the one before it becomes active again.
 static void return_to_active(struct core *core)
 {
     const struct document *document = core->document;

@@ -44,7 +44,7 @@ enum slopes { SLOPES_TOGGLE, SLOPES_FLAT, SLOPES_SMOOTH };
 /// Switches them on, as the curve runs there, or off; makes them level; or aims them at the neighbours (Catmull-Rom).
 void slopes_set(struct core *core, int how);
 
-/// Gives the active spline the frequency and damping that explain its knots best; where it has these, the runner-up's.
+/// Gives the active spline the frequency and damping that explain its knots best; if it has these already, the runner-up's.
 void core_find_frequency(struct core *core, int unused);
 
 /// The channel of a tail or chain that the active spline moves, the first of all where it moves none; NULL where there is none at all.

@@ -46,7 +46,7 @@ static double place_of(const struct core *core, int rig, double *width)
     return at->kind == RIG_TAIL ? at->tail.position[0].value : 0;
 }
 
-/// A free place along x, to the right of all that stands there, for something as wide.
+/// A free place along x, to the right of all rigs, for one of that width.
 static double free_place(const struct core *core, double wide)
 {
     double right = -INFINITY;

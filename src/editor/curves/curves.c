@@ -1,4 +1,4 @@
-/// The curves panel: its beginning and end, what is under the pointer, presses, boxes round knots, and the active spline's limits.
+/// The curves panel: its beginning and end, hover, presses, boxes round knots, and the active spline's limits.
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"

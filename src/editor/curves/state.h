@@ -194,7 +194,7 @@ void limits_show(const struct curves *curves, struct core *core);
 
 /// Draws the knots of a spline that are small unless they are selected, those of the dope sheet with the height of their row, else NAN.
 void knots_show(const struct curves *curves, struct core *core, int spline, float row);
-/// Whether something is no further than what was found before, or may be; `best` is how far.
+/// Whether something is at least as near as the best so far, or may be; `best` is how far.
 static inline bool is_nearest(float distance, float *best)
 {
     if (distance > *best) return false;

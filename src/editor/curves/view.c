@@ -153,7 +153,7 @@ static void follow_stop(struct curves *curves, struct core *core)
     core->edited = (struct edited){0};
 }
 
-/// Shows a part, within reason, and no more what was edited.
+/// Shows a part, within limits, and stops following edits.
 static void view_set(struct curves *curves, struct core *core, struct view view)
 {
     follow_stop(curves, core);
@@ -284,7 +284,7 @@ void curves_activate(struct curves *curves, struct core *core, int before)
                            (view->value1 - map.offset) / map.scale});
 }
 
-static const double RATE = 14;     ///< of the way that is left, a second
+static const double RATE = 14;     ///< of the remaining distance, a second
 static const double CLOSE = 0.25;  ///< pixels: it is there
 static const double MARGIN = 0.06; ///< of the view, beyond the edit
 static const double WIDEST = 1.7;  ///< of the visible frames: farther edits are panned to

@@ -351,7 +351,7 @@ static void build_flags(struct dialogs *dialogs, const struct document *document
     if (choices & CHOICE_ALPHA) build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
 }
 
-/// What the clip is called where nothing is typed: an imported character's keeps the name of the one that it plays.
+/// The clip's name where none is typed: an imported character keeps that of the clip it plays.
 static const char *usual_clip(const struct document *document)
 {
     const int rig = document_next_rig(document, RIG_MODEL, 0);

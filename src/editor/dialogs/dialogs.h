@@ -86,7 +86,7 @@ bool dialogs_ask(struct dialogs *dialogs, struct core *core);
 /// another name. `saving`: the user has just asked to save, and that request needs no other answer. false where something else
 /// lies over the panels, or a drag goes on.
 bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, const char *name, bool saving);
-/// Asks what to do with unsaved work of an earlier run: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet.
+/// Asks about unsaved work of an earlier run: REQUEST_RECOVER, REQUEST_FORGET, or nothing yet.
 void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer);
 /// true where an open dialog, the help or the card for new users takes the event.
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event);

@@ -24,7 +24,7 @@ static bool is_listed(const struct command *command, bool gestures)
     return command->name && (gestures ? command->about != ABOUT_NOTHING : command_runs(command));
 }
 
-/// Adds those of one fit, of which something is missing or not.
+/// Adds the commands of one fit, with an unmet need or without.
 static void add(const struct command_list *commands, const enum fit *fits, enum fit fit, const char *const *missing,
                 bool lacking, struct commands_found *found)
 {

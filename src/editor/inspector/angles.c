@@ -93,7 +93,7 @@ static bool set_largest(struct inspector *in, int kind, double number, struct er
     return set_angles(in, (enum angle_kind)kind, &next, error);
 }
 
-/// What the numbers are in: the gain of what moves the body may be in percent.
+/// Unit of the numbers: gains of channels that move the body may be in percent.
 static const char *unit_of(const struct inspector *in, int kind)
 {
     return kind == ANGLE_GAIN ? axis_unit(inspector_felt_channel(in)->axis) : rows[kind].unit;
@@ -187,7 +187,7 @@ static void place_angle(const struct angle_view *view, int i, float xy[2])
     xy[1] = view->plot.y + view->plot.h * (float)((view->high - angles_number(angles, i)) / (view->high - view->low));
 }
 
-/// The angle that a height of the plot stands for.
+/// The angle at a height of the plot.
 static double angle_at(const struct angle_view *view, float y)
 {
     const double share = (double)((y - view->plot.y) / view->plot.h);
@@ -266,7 +266,7 @@ static void draw(const struct inspector *in, const struct angle_view *view)
     if (!is_ramp) drawlist_disc(list, line[view->selected + 1], 3.5f, theme()->accent);
 }
 
-/// The point that a place of the plot stands for.
+/// The point at a place of the plot.
 static struct ramp_point point_at(const struct angle_view *view, float x, float y)
 {
     const double at = (double)((x - view->plot.x) / view->plot.w);
@@ -336,7 +336,7 @@ static int removed_point(const struct inspector *in, const struct angle_view *vi
     return -1;
 }
 
-/// What adds and removes points; a press on one also gives it the focus, so that arrows and Del mean it.
+/// Adds and removes points; a press on one also gives it the focus, for arrow keys and Del.
 static void take_event(struct inspector *in, const struct angle_view *view)
 {
     struct ui *ui = &in->ui;

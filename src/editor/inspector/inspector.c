@@ -43,7 +43,7 @@ static bool always(const struct inspector *in)
     return true;
 }
 
-/// Nothing moves yet: then what stands on the stage is of interest.
+/// Nothing moves yet: the rigs matter more.
 static bool has_no_spline(const struct inspector *in) { return core_active_spline(in->core) == NULL; }
 
 static bool has_bone(const struct inspector *in)
@@ -59,7 +59,7 @@ static bool has_pin(const struct inspector *in)
     return pins_selected(in->core, &rig) != NULL;
 }
 
-/// From the top down; `name` is what replays call the header.
+/// From the top down; replays call the header `name`.
 static const struct section {
     const char *name, *title;
     const char *(*titled)(struct inspector *in); ///< in place of a title

@@ -138,7 +138,7 @@ void inspector_more(struct inspector *in, int count, int most, const char *what)
 /// Switches of the stage's overlays: onion skin, motion arc, ghost.
 void inspector_overlays(struct inspector *in);
 
-/// Finds the rigs that are shown among those that there are.
+/// Finds the shown rigs in the document.
 void inspector_find_rig(struct inspector *in);
 /// The tail or chain that is shown; NULL where there is none.
 const struct rig *inspector_shown(const struct inspector *in);

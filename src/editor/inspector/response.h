@@ -28,7 +28,7 @@ struct filter filter_of(enum filter_kind kind, double hz, double damping, double
 /// 20 log₁₀ |H(e^{2πj·hz·step})|; hz may be negative. Finite also at a pole on the unit circle.
 double filter_decibels(const struct filter *filter, double hz);
 
-/// What the figure shows of a response at frequencies from 0 to half the sample rate.
+/// Curves of the figure, at frequencies from 0 to half the sample rate.
 struct passband {
     double peak;  ///< dB
     double zero;  ///< response at zero frequency relative to the peak, dB

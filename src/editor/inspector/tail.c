@@ -349,7 +349,7 @@ static void build_twin(struct inspector *in)
     if (ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
 }
 
-/// What a chain is made of, its place in the list of chains aside; and the buttons that make its twin and take it away.
+/// A chain's bones and sides, and the button that mirrors it.
 static void build_chain(struct inspector *in)
 {
     const struct chain *chain = &inspector_shown(in)->chain;

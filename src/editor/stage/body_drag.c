@@ -434,7 +434,7 @@ static void release(struct stage *stage, struct core *core, bool keep)
     record_forget(stage);
 }
 
-/// A body that is to be recorded is so from the first movement on.
+/// An armed recording starts with the first movement.
 static void move(void *room, struct core *core)
 {
     struct stage *stage = room;

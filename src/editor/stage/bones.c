@@ -9,9 +9,8 @@
 #include <math.h>
 #include <string.h>
 
-static const float REACH = 12; ///< pixels from a bone
-static const float OVERLAP =
-    4; ///< pixels within which bones lie over each other: the one nearest to the eye is meant
+static const float REACH = 12;      ///< pixels from a bone
+static const float OVERLAP = 4;     ///< pixels within which bones overlap: the one nearest to the eye wins
 static const float AS_DEEP = 0.02f; ///< of the depth: bones this close in depth are at the same one
 static const float AS_FAR = 0.5f;   ///< pixels: bones this close in distance are as near
 

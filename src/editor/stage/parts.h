@@ -70,7 +70,7 @@ struct stage_model *models_show(struct stage *stage, const struct core *core, in
 
 /// The one of a rig as it was last shown, or NULL.
 const struct shown_strand *strand_of(const struct stage *stage, int rig);
-/// Poses one with what is moved by hand; `change` may be NULL. false if it, or its model, is missing.
+/// Poses one with the movement by hand; `change` may be NULL. false if it, or its model, is missing.
 bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
                  const struct what_if *change, struct rig_pose *pose);
 /// Where a point of it is on the screen: `fraction` 0 … 1 of the way from joint to joint + 1. false where it is behind the eye.
@@ -96,7 +96,7 @@ void bones_add(struct stage *stage, int model, const struct rig_pose *pose);
 /// Marks those of a chain of a model rig.
 void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones);
 
-/// The bone that is meant by a point of the stage: HOVER_JOINT of its chain, else HOVER_BONE, or HOVER_NONE.
+/// The bone under a point of the stage: HOVER_JOINT of its chain, else HOVER_BONE, or HOVER_NONE.
 struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y);
 /// A click where the pointer went down: selects the bone there, or none.
 void bone_click(const struct stage *stage, struct core *core);
@@ -177,7 +177,7 @@ void drag_inertia_add(const struct stage *stage, const struct document *document
 void record_begin(struct stage *stage, struct core *core);
 /// Records the body's place up to the playhead; stops at the end of the played range.
 void record_advance(struct stage *stage, const struct core *core);
-/// The path of the body that is pointed at or held, and the way that is being recorded.
+/// The path of the body under the pointer or in hand, and the motion recorded so far.
 void record_show(struct stage *stage, struct core *core);
 /// Whether a motion was recorded.
 bool record_has_motion(const struct stage *stage);

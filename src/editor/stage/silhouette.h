@@ -24,7 +24,7 @@ void silhouette_clear(struct silhouette *silhouette);
 void silhouette_widen(struct silhouette *silhouette, const float middle[2], float radius);
 /// Opens the grid for all discs; false where none is on the stage.
 bool silhouette_open(struct silhouette *silhouette, struct rect stage);
-/// Two discs and what is between them.
+/// Two discs and the area between them.
 void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],
                          float to_radius);
 /// A triangle whose corners are that far inside, pixels.

@@ -243,7 +243,7 @@ static bool add_motion(const struct stage *stage, const struct core *core, int r
     return any;
 }
 
-/// Keeps where its motion is in the picture, from the middle of the stage in heights of it, as the camera stands now.
+/// Notes where its motion is in the picture, from the middle of the stage in its heights, by the present camera.
 static void note_figure(struct stage *stage, struct rect place, const float lo[3], const float hi[3])
 {
     const struct rect unit = {-0.5f * place.w / place.h, -0.5f, place.w / place.h, 1};
