@@ -138,7 +138,7 @@ static const char *obstacle(const struct spline *spline)
     if (spline_mode(spline) == WIGGLY_CUBIC) return "A cubic does not swing. Press M to change the kind.";
     if (p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0)
         return "Frequency or damping follows another spline. Give it a number first.";
-    if (spline->knot_count < WIGGLY_FEWEST_EXPLAINED) return "A frequency can be found from four knots or more.";
+    if (spline->knot_count < WIGGLY_FEWEST_EXPLAINED) return "Four knots or more are needed to find a frequency.";
     return NULL;
 }
 
