@@ -130,9 +130,8 @@ static void report(const struct coordinate *to, const struct analyzed *analyzed,
     printf("    frequency %.4g Hz, damping ratio %.3g; mostly along %s, %.3g m at most\n", c->frequency, c->damping,
            along, c->reach);
     report_spline(analyzed, c);
-    printf(
-        "    lag over the surface: from %.0f to %.0f degrees, beyond which 5 %% of the motion lie on either side\n",
-        printable_number(c->first_lag, 1), printable_number(c->last_lag, 1));
+    printf("    lag over the surface: from %.0f to %.0f degrees, with 5 %% of the motion beyond each end\n",
+           printable_number(c->first_lag, 1), printable_number(c->last_lag, 1));
 }
 
 static void report_motion(const struct job *job, const struct motion *motion, const struct analysis *a, double fps)
@@ -142,7 +141,7 @@ static void report_motion(const struct job *job, const struct motion *motion, co
     if (a->drift_share > 0) {
         char along[DIRECTION_SIZE];
         print_direction(a->drift, speed, along);
-        printf("  taken out: a steady drift, %.1f %% of the motion; on average %.3g m/s along %s\n",
+        printf("  removed a steady drift: %.1f %% of the motion, on average %.3g m/s along %s\n",
                100 * fmin(a->drift_share, 1), speed, along);
     }
     if (a->count < job->modes)
@@ -156,7 +155,7 @@ static void warn_of_speed(const struct motion *motion, const struct analysis *a,
     for (int k = 0; k < a->count; k++) fast |= a->components[k].frequency > fast_pole * fps / 2;
     if (fast) {
         print_line(stderr,
-                   "%s: warning: some of it moves faster than %g fps can show (%.1f %% of the motion above %.4g Hz); "
+                   "%s: warning: parts move faster than %g fps can show (%.1f %% of the motion above %.4g Hz); "
                    "simulate with more frames per second",
                    motion->path, fps, 100 * a->fast_share, fast_pole * fps / 2);
     }
@@ -166,11 +165,10 @@ static void warn_of_speed(const struct motion *motion, const struct analysis *a,
 static void warn_of_cancelling(const struct motion *motion, const struct analysis *a)
 {
     if (a->cancelled == 0) return;
-    print_line(
-        stderr,
-        "%s: warning: left out %d pole%s whose motion others would only cancel; where something drives the mesh, "
-        "say with --from since when nothing does, or take --method cpca",
-        motion->path, a->cancelled, a->cancelled > 1 ? "s" : "");
+    print_line(stderr,
+               "%s: warning: left out %d pole%s that only cancel others; if something drives the mesh, "
+               "set --from to the second when it stops, or use --method cpca",
+               motion->path, a->cancelled, a->cancelled > 1 ? "s" : "");
 }
 
 static bool check_motion(const struct job *job, const struct motion *motion, const struct character *rest,
@@ -323,9 +321,9 @@ static const char *check(struct job *job)
     if (!job->rest) return "--rest mesh.obj is missing: name the mesh at rest";
     if (!job->output) return "-o creature.glb is missing: name the file to write";
     if (job->from > 0 && method_of(job) == ANALYSIS_CPCA)
-        return "--from says where poles are looked for, and --method cpca looks for none";
+        return "--from has no effect with --method cpca: leave one out";
     if (!read_directions(job, files))
-        return "--shake: expected up, side, front or a vector x,y,z, one for all files or one each with : between";
+        return "--shake: expected up, side, front or a vector x,y,z; one for all files, or one per file (up:side)";
     return NULL;
 }
 
@@ -341,19 +339,19 @@ int command_analyze(int argc, char **argv)
         {"--fps", NULL, "N", "frames per second; required for .npy and .pc2", OPTION_REAL, &job.fps, 1e-3, 100000},
         {"--modes", NULL, "K", "coordinates per motion, most important first (1)", OPTION_INT, &job.modes, 1,
          MODES_MAX},
-        {"--no-normals", NULL, NULL, "leave out how coordinates turn normals: a smaller file, the same on our stage",
+        {"--no-normals", NULL, NULL, "leave out the morph targets' normals: a smaller file, the same in wiggly",
          OPTION_FLAG, &job.no_normals, 0, 0},
         {"--shake", NULL, "DIR",
          "direction of the shake: up, side, front or x,y,z; one for all or one per file (up:side)", OPTION_TEXT,
          &job.shake, 0, 0},
-        {"--method", NULL, "poles|cpca", "a coordinate a pole (default), or complex principal components",
+        {"--method", NULL, "poles|cpca", "one coordinate per pole (default), or complex principal components",
          OPTION_WORD, &job.method, 0, 0},
-        {"--from", NULL, "S", "the second from which on nothing drives the motion: poles are found there (0)",
-         OPTION_REAL, &job.from, 0, 1e6},
-        {"--scene", NULL, "FILE", "write a scene too, with knots that move the character as the motions did",
-         OPTION_OUTPUT, &job.scene, 0, 0},
-        {"--coordinates", NULL, "FILE", "write each coordinate's time series and its spline's, as CSV", OPTION_OUTPUT,
-         &job.coordinates, 0, 0},
+        {"--from", NULL, "S", "the second when the drive stops: poles are found from there on (0)", OPTION_REAL,
+         &job.from, 0, 1e6},
+        {"--scene", NULL, "FILE", "also write a scene whose knots repeat the motions", OPTION_OUTPUT, &job.scene, 0,
+         0},
+        {"--coordinates", NULL, "FILE", "also write the time series of each coordinate and its spline, as CSV",
+         OPTION_OUTPUT, &job.coordinates, 0, 0},
     };
     const struct usage usage = {
         .command = "analyze",

@@ -114,8 +114,7 @@ int command_check(int argc, char **argv)
     const struct usage usage = {
         .command = "check",
         .operands = "scene.json",
-        .summary =
-            "Prints every problem in a scene file, with its line; of a character, its clips, bones and chains.",
+        .summary = "Prints every problem in a scene file, with its line, or a character's clips, bones and chains.",
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &path);

@@ -99,7 +99,7 @@ static enum options_result check(const struct usage *usage, struct job *job)
     if (job->frames && !read_frames(job->frames, &job->options))
         return options_wrong(usage, "--frames: expected FIRST:LAST, such as 0:48, got '%s'", job->frames);
     if (job->options.rate > 0 && job->options.substeps > 0)
-        return options_wrong(usage, "--fps and --substeps both say how many keys there are: give one");
+        return options_wrong(usage, "--fps and --substeps both set the number of keys: give one");
     job->options.is_cubic = job->keys == CUBIC;
     return OPTIONS_RUN;
 }
@@ -113,23 +113,25 @@ int command_export(int argc, char **argv)
          "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .mp4, .webm, .gif or .png", OPTION_TEXT,
          &job.output, 0, 0},
         {"--frames", NULL, "A:B", "frames A to B (default: all)", OPTION_TEXT, &job.frames, 0, 0},
-        {"--fps", NULL, "N",
-         "N keys or pictures per second (default: one per sample; pictures: the scene's frame rate)", OPTION_REAL,
-         &o->rate, 1e-3, 1e5},
-        {"--substeps", NULL, "N", "N keys per frame, instead of --fps", OPTION_INT, &o->substeps, 1, 1024},
-        {"--clip", NULL, "NAME", "the animation's name (default: the clip that is played, else the scene's name)",
-         OPTION_TEXT, &o->clip, 0, 0},
-        {"--rig", NULL, "NAME", "that rig alone (default: all that the format can hold)", OPTION_TEXT, &o->rig, 0, 0},
+        {"--fps", NULL, "N", "keys or pictures per second (default: a key per sample, a picture per frame)",
+         OPTION_REAL, &o->rate, 1e-3, 1e5},
+        {"--substeps", NULL, "N", "keys per frame, instead of --fps", OPTION_INT, &o->substeps, 1, 1024},
+        {"--clip", NULL, "NAME", "the animation's name (default: the clip's, else the scene's)", OPTION_TEXT,
+         &o->clip, 0, 0},
+        {"--rig", NULL, "NAME", "export only this rig (default: all that the format can hold)", OPTION_TEXT, &o->rig,
+         0, 0},
         {"--signed", NULL, NULL, "one morph target instead of two, with weights of either sign; Blender clamps them",
          OPTION_FLAG, &o->is_signed, 0, 0},
-        {"--keys", NULL, "linear|cubic", "cubic: with tangents (.glb, .gltf)", OPTION_WORD, &job.keys, 0, 0},
-        {"--size", NULL, "WxH", "of films and pictures (1280x720; .gif 640x360)", OPTION_SIZE, o->size, 16, 8192},
-        OPTION_THEME(&job.theme, "of films and pictures (dark)"),
+        {"--keys", NULL, "linear|cubic", "interpolation; cubic adds tangents (linear; .glb, .gltf)", OPTION_WORD,
+         &job.keys, 0, 0},
+        {"--size", NULL, "WxH", "size of films and pictures (1280x720; .gif 640x360)", OPTION_SIZE, o->size, 16,
+         8192},
+        OPTION_THEME(&job.theme, "colours of films and pictures (dark)"),
         {"--loops", NULL, "N", "films: play a looping scene N times, each time without its last frame", OPTION_INT,
          &o->loops, 1, 10000},
-        {"--transparent", NULL, NULL, "the rigs alone, without ground and shadows (.png, .webm)", OPTION_FLAG,
+        {"--transparent", NULL, NULL, "only the rigs, no ground and no shadows (.png, .webm)", OPTION_FLAG,
          &o->transparent, 0, 0},
-        {"--paint", NULL, NULL, "the paint of a character in place of its motion (.npy)", OPTION_FLAG, &job.paint, 0,
+        {"--paint", NULL, NULL, "export a character's paint instead of its motion (.npy)", OPTION_FLAG, &job.paint, 0,
          0},
         {"--quiet", NULL, NULL, "print nothing but errors and warnings", OPTION_FLAG, &job.quiet, 0, 0},
     };

@@ -50,8 +50,7 @@ struct usage {
 /// Of an enum solver_choice.
 #define OPTION_SOLVER(solver)                                                                                        \
     {                                                                                                                \
-        "--solver", NULL, "chain|band",                                                                              \
-            "condenses stretches between knots, or factors all samples (default: band to 4096 samples)",             \
+        "--solver", NULL, "chain|band", "chain: fast, band: reference (default: band up to 4096 samples)",           \
             OPTION_WORD, solver, 0, 0                                                                                \
     }
 /// Of 1 + an enum theme_kind.

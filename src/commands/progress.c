@@ -8,7 +8,7 @@
 #include <stdio.h>
 #include <unistd.h>
 
-/// Calls nothing that may not be called in the midst of anything.
+/// A signal handler: calls only async-signal-safe functions.
 static void end_at_once(int signal_number)
 {
     static const char text[] = "interrupted; nothing half-written is left\n";

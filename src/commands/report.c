@@ -18,8 +18,8 @@ static void tell_pin(const struct pin_left *left, int rig, int pin, report_tell 
         snprintf(sentence, sizeof sentence, "rigs[%d].pins[%d]: the point stays %.3g m from its place", rig, pin,
                  away);
     } else {
-        snprintf(sentence, sizeof sentence, "rigs[%d].pins[%d]: there is no such point, so nothing is held", rig,
-                 pin);
+        snprintf(sentence, sizeof sentence, "rigs[%d].pins[%d]: there is no such point, so the pin has no effect",
+                 rig, pin);
     }
     tell(user, sentence);
 }
@@ -47,9 +47,10 @@ static void tell_spline(const struct document *document, const struct evaluation
 
 static void tell_passed_over(const struct document *document, int spline, report_tell *tell, void *user)
 {
-    char sentence[80];
+    char sentence[96];
     if (!pins_move_spline(document, spline) || !spline_is_limited(document->splines[spline])) return;
-    snprintf(sentence, sizeof sentence, "splines[%d].limits: pins and floors pass over them", spline);
+    snprintf(sentence, sizeof sentence, "splines[%d].limits: ignored, because pins or a floor move this spline",
+             spline);
     tell(user, sentence);
 }
 
@@ -105,7 +106,7 @@ static void print_chains(const struct gltf *gltf)
         const int last = begins_chain(gltf, n) ? chain_end(gltf, n, &error) : -1;
         if (last < 0 || last == n) continue;
         if (!chain_find(gltf, gltf->nodes[n].name, gltf->nodes[last].name, &bones, &error)) continue;
-        if (!any) puts("ways down to a tip, for --chain:");
+        if (!any) puts("chains you can use with --chain:");
         print_line(stdout, "  %s:%s (%d bones)", gltf->nodes[n].name, gltf->nodes[last].name, bones.count);
         any = true;
     }

@@ -13,7 +13,7 @@ typedef void report_tell(void *user, const char *sentence);
 void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_tell *tell,
                        void *user);
 
-/// Prints what a glTF character holds, for a user who does not know the file: its clips, its bones and other nodes, each under its parent, the ways down to a tip that chains can be made of, and what is not shown.
+/// Prints what a glTF character holds, for a user who does not know the file: its clips, its bones and other nodes, each under its parent, the chains that can be made, and what is not shown.
 void contents_print(const struct gltf *gltf);
 
 #endif

@@ -107,23 +107,21 @@ int command_rig(int argc, char **argv)
 {
     struct job job = {0};
     const struct option_spec options[] = {
-        {"--chain", "-c", "A:B",
-         "makes a chain of the bones from A to B, or to the tip below A; can be given more than once", OPTION_LIST,
-         &job.chains, 0, 0},
+        {"--chain", "-c", "A:B", "make a chain of the bones from A to B, or to the tip below A; can be repeated",
+         OPTION_LIST, &job.chains, 0, 0},
         {"--output", "-o", "FILE", "scene to write (.json), or the character with its motion (.glb, …)", OPTION_TEXT,
          &job.output, 0, 0},
-        {"--clip", NULL, "NAME", "the clip that it plays (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
+        {"--clip", NULL, "NAME", "clip to play (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
         {"--frequency", NULL, "HZ", "swings per second (default: by the chain's length)", OPTION_REAL,
          &job.wish.frequency, 1e-3, 1e3},
-        {"--damping", NULL, "RATIO", "0 rings on, 1 is critical (default: 0.12)", OPTION_REAL, &job.wish.damping,
-         1e-6, 1},
+        {"--damping", NULL, "RATIO", "damping ratio: 0 swings forever, 1 is critical (default: 0.12)", OPTION_REAL,
+         &job.wish.damping, 1e-6, 1},
         {"--lag", NULL, "DEGREES", "how far each bone lags behind the one before", OPTION_REAL, &job.wish.lag, 1e-6,
          360},
         {"--own-splines", NULL, NULL,
-         "every chain has splines of its own (default: a left and a right one share theirs, mirrored)", OPTION_FLAG,
+         "give every chain its own splines (default: left and right share them, mirrored)", OPTION_FLAG,
          &job.wish.own, 0, 0},
-        {"--plain", NULL, NULL, "do not follow the clip: knots alone will move the chains", OPTION_FLAG, &job.plain,
-         0, 0},
+        {"--plain", NULL, NULL, "do not follow the clip: only knots move the chains", OPTION_FLAG, &job.plain, 0, 0},
     };
     const struct usage usage = {
         .command = "rig",

@@ -34,7 +34,7 @@ static bool start_drive(struct job *job, const struct soft *soft, struct error *
     struct drive *drive = &job->drive;
     if (!job->drive_text) return true;
     if (soft->pinned == 0)
-        return fail(error, ERROR_USAGE, "%s: --drive moves what is pinned, and --pin none pins nothing", job->mesh);
+        return fail(error, ERROR_USAGE, "%s: --drive moves the pinned part, but --pin none pins nothing", job->mesh);
     if (drive->kind == DRIVE_NONE && !drive_read_track(drive, job->drive_text, error)) return false;
     memcpy(drive->direction, job->shake.shake.direction, sizeof drive->direction);
     drive->size = drive->kind == DRIVE_TRACK ? 1 : job->shake.shake.amplitude * soft->height;
@@ -130,7 +130,7 @@ static const char *set_material(struct soft_options *soft)
     const struct soft_options usual = soft_default_options();
     if (soft->young > 0 && soft->frequency > 0) return "--young and --frequency both set the stiffness: give one";
     if (soft->density > 0 && soft->young == 0)
-        return "--density needs --young: with --frequency the stiffness follows the mass, and the motion stays the "
+        return "--density needs --young: with --frequency the stiffness follows the mass and the motion stays the "
                "same";
     if (soft->frequency == 0) soft->frequency = usual.frequency;
     if (soft->density == 0) soft->density = usual.density;
@@ -208,35 +208,37 @@ int command_simulate(int argc, char **argv)
         {"--drive", NULL, "WHAT",
          "shake the pinned base instead: sine, burst, sweep, or a track of seconds,metres in FILE.csv", OPTION_TEXT,
          &job.drive_text, 0, 0},
-        {"--drive-frequency", NULL, "HZ", "of the sine, the burst, the sweep's middle (the shaken mode's)",
-         OPTION_REAL, &job.drive.frequency, 1e-3, 1e3},
-        {"--world", NULL, NULL, "write what a still observer sees, not the base", OPTION_FLAG, &shake->world, 0, 0},
+        {"--drive-frequency", NULL, "HZ",
+         "frequency of sine or burst, or the middle of the sweep (the shaken mode's)", OPTION_REAL,
+         &job.drive.frequency, 1e-3, 1e3},
+        {"--world", NULL, NULL, "write the motion as seen from outside, not from the base", OPTION_FLAG,
+         &shake->world, 0, 0},
         {"--seconds", NULL, "S", "duration in seconds (4)", OPTION_REAL, &shake->seconds, 1e-3, 3600},
         {"--fps", NULL, "N", "frames per second (24)", OPTION_REAL, &shake->fps, 1, 1000},
-        {"--accuracy", NULL, "E", "error of the motion allowed, relative to its size; sets the steps (0.02)",
+        {"--accuracy", NULL, "E", "allowed error, relative to the size of the motion; sets the steps (0.02)",
          OPTION_REAL, &shake->accuracy, 1e-4, 1},
-        {"--budget", NULL, "M", "millions of element-steps after which the search for that ends (20: half a minute)",
+        {"--budget", NULL, "M", "end the search for those steps after M million element-steps (20: half a minute)",
          OPTION_REAL, &job.budget, 0, 1e6},
         {"--substeps", NULL, "N", "integrator steps per frame, instead of --accuracy", OPTION_INT, &shake->substeps,
          1, 1000},
         {"--tets", NULL, "N", "approximate number of tetrahedra (3000)", OPTION_INT, &job.soft.tets, 50, 200000},
         {"--pin", NULL, "WHERE",
-         "pin up to a height (1/20 of all), none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r, color:RRGGBB", OPTION_TEXT,
-         &job.pin_text, 0, 0},
-        {"--frequency", NULL, "HZ",
-         "frequency of the mode that is shaken most (--modal: the lowest); sets the stiffness (2)", OPTION_REAL,
-         &job.soft.frequency, 1e-3, 1e3},
+         "pin below a height (1/20 of the mesh), none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r, color:RRGGBB",
+         OPTION_TEXT, &job.pin_text, 0, 0},
+        {"--frequency", NULL, "HZ", "frequency of the most shaken mode (--modal: the lowest); sets the stiffness (2)",
+         OPTION_REAL, &job.soft.frequency, 1e-3, 1e3},
         {"--young", NULL, "E", "Young's modulus in Pa, instead of --frequency", OPTION_REAL, &job.soft.young, 1e-6,
          1e15},
-        {"--soft", NULL, "MAP", "soften by distance (from the pin), color (brightness) or FILE.npy (0 to 1 a vertex)",
-         OPTION_TEXT, &job.soft.softness.from, 0, 0},
+        {"--soft", NULL, "MAP",
+         "soften by distance (from the pin), color (brightness) or FILE.npy (0 to 1 per vertex)", OPTION_TEXT,
+         &job.soft.softness.from, 0, 0},
         {"--softness", NULL, "N", "how many times softer where the map is 1 (8)", OPTION_REAL,
          &job.soft.softness.times, 1e-3, 1e3},
         {"--poisson", NULL, "NU", "Poisson's ratio (0.35)", OPTION_REAL, &job.soft.poisson, 0, 0.49},
         {"--density", NULL, "RHO", "density in kg/m^3, only with --young (1000)", OPTION_REAL, &job.soft.density,
          1e-6, 1e9},
         {"--damping", NULL, "Z", "damping ratio at the shaken mode (0.03)", OPTION_REAL, &job.soft.damping, 0, 1},
-        {"--gravity", NULL, "G", "downwards, m/s^2 (0); what is pinned starts at rest under it", OPTION_REAL,
+        {"--gravity", NULL, "G", "gravity in m/s^2 (0); a pinned body starts at rest under it", OPTION_REAL,
          &shake->loads.gravity, 0, 1e4},
         {"--floor", NULL, "H", "a smooth floor at H above the lowest point", OPTION_REAL, &job.floor, 0, 1e6},
         {"--modal", NULL, "K", "write the K lowest normal modes instead of a shake", OPTION_INT, &modes, 1, 200},
