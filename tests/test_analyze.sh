@@ -106,8 +106,8 @@ rest="--rest $scratch/box.obj"
     refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake up:side
     refused 2 "--method: expected poles or cpca" "$scratch/up.npy" $rest --fps 30 --method pca
     refused 2 "--from has no effect with --method cpca" "$scratch/up.npy" $rest --fps 30 --method cpca --from 1
-    refused 1 "up.npy: expected 8 frames or more that nothing drives, got 6" "$scratch/up.npy" $rest --fps 30 --from 1.8
-    refused 1 "up.npy: expected 8 frames or more that nothing drives, got 0" "$scratch/up.npy" $rest --fps 30 --from 1e6
+    refused 1 "up.npy: expected 8 frames or more after the drive stops, got 6" "$scratch/up.npy" $rest --fps 30 --from 1.8
+    refused 1 "up.npy: expected 8 frames or more after the drive stops, got 0" "$scratch/up.npy" $rest --fps 30 --from 1e6
     refused 2 "an argument is missing" $rest
     refused 2 "--modes: expected a whole number from 1 to 8" "$scratch/up.npy" $rest --modes 9
     refused 1 "expected 4 vertices as $scratch/small.obj has, got 8" "$scratch/up.npy" --rest "$scratch/small.obj" --fps 30

@@ -143,6 +143,6 @@ CHARACTER_TEST(test_what_is_no_chain)
     assert_int_equal(chain_end(gltf, 1, &error), -1);
     assert_string_equal(
         error.text,
-        "\"bone_3\" branches into \"bone_4\" and \"spur\": choose the bone where the chain is to begin or end");
+        "\"bone_3\" branches into \"bone_4\" and \"spur\": choose the bone where the chain begins or ends");
     assert_int_equal(chain_end(gltf, 4, &error), BONES + 1);
 }

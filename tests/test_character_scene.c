@@ -68,7 +68,7 @@ TEST(bad_characters_are_refused)
         {SCENE("{\"type\": \"character\", \"model\": \"a.glb\", \"position\": [1, 2]}"),
          "scene.json:3: rigs[0].position: expected [x, y, z], got 2 elements"},
         {SCENE("{\"type\": \"tail\", \"name\": \"a\"}, {\"type\": \"character\", \"name\": \"a\", \"model\": \"b\"}"),
-         "scene.json:3: rigs[1].name: expected a name of its own, got \"a\" as rigs[0] has"},
+         "scene.json:3: rigs[1].name: expected a unique name, got \"a\", the name of rigs[0]"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         struct error error = {0};

@@ -59,7 +59,7 @@ PINNED_TEST(test_what_would_not_load_is_refused)
 {
     struct pin pin = world->document->rigs[0]->pins[1];
     assert_refused(world, edit_pin_add(world_edit(world), 0, &pin, &world->error),
-                   "t: pins: expected a sample of its own for each pin of a point, got frame 30 again");
+                   "t: pins: expected one pin per point and sample, got another at frame 30");
     pin.frame = 49;
     assert_refused(world, edit_pin_set(world_edit(world), 0, &pin, &world->error),
                    "t: pins: expected a frame from 0 to 48, got 49");
@@ -79,8 +79,7 @@ PINNED_TEST(test_what_would_not_load_is_refused)
     assert_refused(world, edit_track(world, UP, PARAMETER_EQUILIBRIUM, SIDE),
                    "t: pins: expected splines that do not follow each other, got \"up\", which follows \"side\"");
     assert_refused(world, edit_track(world, BASE, PARAMETER_EQUILIBRIUM, SIDE),
-                   "t: pins: expected splines that are not solved before and after each other, got \"up\", which "
-                   "follows \"base\"");
+                   "t: pins: expected splines without a cycle, got \"up\", which follows \"base\"");
     assert_refused(world, edit_bend(world, 0, 1, BASE, -1, -1),
                    "t: pins: expected splines with a swing of their own, got \"base\", which is cubic");
     assert_refused(world, edit_frames(world, 0, 20), "t: pins: expected a frame from 0 to 20, got 30");

@@ -47,7 +47,7 @@ tail -c +$((size + 29)) assets/models/dog.glb >"$scratch/beside/dog.bin"
 expect 0 "a character in two files" "$WIGGLY" rig "$scratch/beside/dog.gltf" --chain tail_1 -o "$scratch/beside/walk.json"
 expect 0 "is exported beside them" "$WIGGLY" export "$scratch/beside/walk.json" -o "$scratch/beside/out.gltf"
 expect 1 "but to no other folder" "$WIGGLY" export "$scratch/beside/walk.json" -o "$scratch/away/out.gltf"
-says "which is explained" "names files beside it: export it to the same folder, or as .glb" "$err"
+says "which is explained" "refers to files beside it: export it to the same folder, or as .glb" "$err"
 
 expect 2 "no file to write" "$WIGGLY" export $scenes/tail.json
 expect 2 "an ending that nobody knows" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.fbx"

@@ -39,7 +39,7 @@ static const struct {
      "extensionsRequired[0]: expected meshes that are not compressed, got KHR_draco"},
     {"\"extensionsRequired\":[\"x\",\"EXT_meshopt_compression\"]",
      "extensionsRequired[1]: expected meshes that are not compressed, got EXT_meshopt"},
-    {"\"nodes\":[{\"mesh\":0}]", "nodes[0].mesh: expected none, for there are none in the file"},
+    {"\"nodes\":[{\"mesh\":0}]", "nodes[0].mesh: expected none, because the file has none"},
     {POSITION "0}}]}],\"nodes\":[{\"mesh\":1}]", "nodes[0].mesh: expected a number from 0 to 0, got 1"},
     {POSITION "0}}]}],\"nodes\":[{\"mesh\":-1}]", "nodes[0].mesh: expected a number from 0 to 0, got -1"},
     {"\"nodes\":[{\"children\":[1]},{\"children\":[0]}]", "nodes: expected a tree, got a node that is below itself"},
@@ -359,9 +359,9 @@ static void decode_table(int codes, size_t cut, const char *says)
 TEST(tables_of_a_jpeg)
 {
     decode_table(256, 0, "unknown image type");
-    decode_table(257, 0, "a part of it is larger than it may be");
-    decode_table(300, 0, "a part of it is larger than it may be");
-    decode_table(256, 1, "a part of it is larger than it may be");
+    decode_table(257, 0, "a part of it is too large");
+    decode_table(300, 0, "a part of it is too large");
+    decode_table(256, 1, "a part of it is too large");
 }
 
 TEST(chunks_of_a_png)
@@ -374,8 +374,7 @@ TEST(chunks_of_a_png)
     assert_int_equal(image.pixels[0], 0x50);
     free(image.pixels);
     file[33] = 0x19; // 419 million bytes more
-    assert_refusal(gltf_decode_image(file, sizeof file - 1, 1 << 20, &image, &error),
-                   "a part of it is larger than it may be");
+    assert_refusal(gltf_decode_image(file, sizeof file - 1, 1 << 20, &image, &error), "a part of it is too large");
     memcpy(file + 33, "\0\0\0\0IDATcrc!\0\0\0\1IDAT\x78", 21); // data that begins with an empty chunk
     assert_refusal(gltf_decode_image(file, sizeof file - 1, 1 << 20, &image, &error), "or empty");
 }

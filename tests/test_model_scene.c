@@ -229,7 +229,7 @@ WORLD_TEST(chains_keep_to_their_model, world_open_scene(world, whole))
     assert_reversible(world, EDIT(edit_rig_name, CAT, "cat"));
     assert_string_equal(world->document->rigs[EAR]->chain.model, "models/cat.glb");
     assert_refused(world, EDIT(edit_rig_name, WALK, "models/cat.glb"),
-                   "models/cat.glb is the file by which a model is found");
+                   "expected a name that is no model's file, got models/cat.glb");
     assert_refused(world, EDIT(edit_rig_name, EAR, "tail"), "there is a rig called tail already");
     assert_refused(world, EDIT(edit_rig_name, EAR, NULL), "a chain needs a name");
     assert_reversible(world, EDIT(edit_rig_remove, EAR));

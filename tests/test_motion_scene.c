@@ -232,7 +232,8 @@ STAND_TEST(a_motion_keeps_to_its_joint)
     const struct param *wag = &document->splines[WAG]->parameter[PARAMETER_EQUILIBRIUM];
     assert_string_equal(wag->motion->model, "wolf");
     assert_string_equal(wag->motion->chain, "brush");
-    assert_refused(world, EDIT(edit_rig_name, DOG, "dog.glb"), "dog.glb is the file by which a model is found");
+    assert_refused(world, EDIT(edit_rig_name, DOG, "dog.glb"),
+                   "expected a name that is no model's file, got dog.glb");
     document->folder = strdup("/films");
     size_t size;
     char *text = scene_print_for(document, "/films/deeper", NULL, &size);

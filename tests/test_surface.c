@@ -140,10 +140,10 @@ TEST(stl_merges_corners)
     assert_memory_equal(s.indices, indices, sizeof indices);
     surface_free(&s);
     bytes[0] = 'x';
-    assert_refused("cut.stl", bytes, 150, "expected 184 bytes for 2 facets, got 150: it is not whole");
+    assert_refused("cut.stl", bytes, 150, "expected 184 bytes for 2 facets, got 150: the file is cut off");
     const size_t size = make_stl(bytes, 4000000000u);
     bytes[0] = 'x';
-    assert_refused("lie.stl", bytes, size, "it is not whole");
+    assert_refused("lie.stl", bytes, size, "the file is cut off");
     const char *text =
         "solid a thing\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1e0 1 0\nendloop\n"
         "endfacet\nfacet normal 0 0 1\n outer loop\n vertex -0 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\n"

@@ -283,7 +283,7 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
     basis_free(&basis);
     if (!done) return false;
     if (w->plan->method == ANALYSIS_POLES && w->pole_count == 0)
-        return fail(error, ERROR_INPUT, "%s: expected an oscillation, found none; the method cpca takes any motion",
+        return fail(error, ERROR_INPUT, "%s: expected an oscillation, got none; --method cpca takes any motion",
                     w->motion->path);
     a->fast_share = fast_share(w->gram, frames);
     if (!spectrum_real_shares(w->lapack, w->gram, frames, ANALYSIS_MODES_MAX, shares) ||
@@ -308,7 +308,7 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
         return fail(error, ERROR_INPUT, "%s: expected %d to %d frames, got %d", motion->path, ANALYSIS_FRAMES_MIN,
                     ANALYSIS_FRAMES_MAX, motion->frames);
     if (motion->frames - plan->first < ANALYSIS_FRAMES_MIN)
-        return fail(error, ERROR_INPUT, "%s: expected %d frames or more that nothing drives, got %d", motion->path,
+        return fail(error, ERROR_INPUT, "%s: expected %d frames or more after the drive stops, got %d", motion->path,
                     ANALYSIS_FRAMES_MIN, motion->frames > plan->first ? motion->frames - plan->first : 0);
     const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 5; // a pair of frames
     if (!need_has_room(numbers * n * n * sizeof *work.gram)) return fail_frames(error, motion);

@@ -83,7 +83,7 @@ static bool choose_frames(struct film *film, const struct document *document, co
     const double steps = (last - first) / film->spacing;
     const double count = in_rounds && last > first ? fmax(1, round(rounds * steps)) : floor(steps + 1e-6) + 1;
     if (count > MAX_PICTURES)
-        return fail(error, ERROR_INPUT, "expected at most %d pictures, got %.0f: ask for fewer frames or loops",
+        return fail(error, ERROR_INPUT, "expected at most %d pictures, got %.0f: choose fewer frames or loops",
                     MAX_PICTURES, count);
     film->shape.count = (long)count;
     return true;

@@ -136,7 +136,7 @@ static bool choose_keys(struct export_range *range, struct export_report *report
     range->spacing = options->rate > 0 ? document->fps / options->rate : 1.0 / substeps;
     const double keys = floor((last - first) / range->spacing + 1e-6) + 1;
     if (keys > MAX_KEYS)
-        return fail(error, ERROR_INPUT, "expected at most %d keys, got %.0f: ask for fewer frames or keys a second",
+        return fail(error, ERROR_INPUT, "expected at most %d keys, got %.0f: choose fewer frames or keys per second",
                     MAX_KEYS, keys);
     range->key_count = (int)keys;
     range->total = (long)range->key_count * range->rig_count;

@@ -116,7 +116,7 @@ static bool check_place(const struct export_range *range, const struct glb *sour
     const bool same = path_folder(source->path, folder) && path_resolve(folder, ".", from) &&
                       path_folder(range->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
     if (same) return true;
-    return fail(error, ERROR_INPUT, "%s: names files beside it: export it to the same folder, or as .glb",
+    return fail(error, ERROR_INPUT, "%s: refers to files beside it: export it to the same folder, or as .glb",
                 source->path);
 }
 
@@ -211,7 +211,7 @@ bool gltf_model_write(struct export_range *range, FILE *out, struct error *error
     if (bones > 0) {
         snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", bones, range->key_count);
     } else {
-        snprintf(range->summary, FORMAT_SUMMARY, "what is in the file as it was, because no chain moves it");
+        snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, because no chain moves it");
     }
     form_close(&form);
     return done;

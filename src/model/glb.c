@@ -44,7 +44,7 @@ static bool read_chunks(struct glb *glb, size_t size, struct error *error)
     if (!is_glb) return expected(glb, "a binary glTF 2.0 file (.glb)", error);
     size_t length = word_at(glb->data + HEADER), end = HEADER + CHUNK_HEADER + length;
     if (word_at(glb->data + 8) > size || end > size)
-        return fail(error, ERROR_INPUT, "%s: expected a file of %u bytes, got %zu: it is not whole", glb->path,
+        return fail(error, ERROR_INPUT, "%s: expected a file of %u bytes, got %zu: the file is cut off", glb->path,
                     word_at(glb->data + 8), size);
     if (word_at(glb->data + HEADER + 4) != GLB_JSON) return expected(glb, "JSON in the first chunk", error);
     if (end + CHUNK_HEADER <= size && word_at(glb->data + end + 4) == GLB_BIN) {

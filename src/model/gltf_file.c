@@ -172,7 +172,7 @@ bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *ou
     if (!text) {
         return fail(error, ERROR_ENVIRONMENT,
                     fits ? "not enough memory, or a name is not UTF-8"
-                         : "a glTF file holds 2 GB: ask for fewer keys or frames");
+                         : "a glTF file holds at most 2 GB: choose fewer keys or frames");
     }
     if (binary) {
         write_binary(file, text, out);

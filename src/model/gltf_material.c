@@ -127,7 +127,7 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
 {
     int channels, length = size <= INT_MAX ? (int)size : 0;
     if (!is_sound(bytes, size))
-        return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is larger than it may be, or empty");
+        return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is too large, or empty");
     starved = false;
     if (!stbi_info_from_memory(bytes, length, &image->width, &image->height, &channels))
         return starved ? fail_starved(error)

@@ -47,10 +47,11 @@ bool gltf_index(struct gltf_reader *r, const json_t *object, const char *key, in
     *index = -1;
     if (!member) return true;
     if (value < 0 || value >= limit)
-        return limit == 0 ? gltf_bad(r, ".%s: expected none, for there are none in the file", key)
-                          : gltf_bad(r, ".%s: expected a number from 0 to %d, got %s%.0f", key, limit - 1,
-                                     json_is_number(member) ? "" : "something else than a number, not ",
-                                     json_number_value(member));
+        return limit == 0 ? gltf_bad(r, ".%s: expected none, because the file has none", key)
+               : !json_is_number(member)
+                   ? gltf_bad(r, ".%s: expected a number from 0 to %d, got something else", key, limit - 1)
+                   : gltf_bad(r, ".%s: expected a number from 0 to %d, got %.10g", key, limit - 1,
+                              json_number_value(member));
     *index = (int)value;
     return true;
 }

@@ -67,7 +67,7 @@ static bool read_either(struct words *w, struct surface_builder *b)
     if (solid && size != whole) return read_text(w, b);
     if (size < HEAD) return fail(w->error, ERROR_INPUT, "%s: expected an STL file, got something else", w->path);
     if (whole <= size) return read_binary(w, count, b);
-    return fail(w->error, ERROR_INPUT, "%s: expected %zu bytes for %u facets, got %zu: it is not whole", w->path,
+    return fail(w->error, ERROR_INPUT, "%s: expected %zu bytes for %u facets, got %zu: the file is cut off", w->path,
                 whole, count, size);
 }
 

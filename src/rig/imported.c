@@ -161,13 +161,13 @@ int chain_end(const struct gltf *gltf, int from, struct error *error)
         if (child < 0) return last;
         if (other >= 0) {
             fail(error, ERROR_INPUT,
-                 "\"%s\" branches into \"%s\" and \"%s\": choose the bone where the chain is to begin or end",
+                 "\"%s\" branches into \"%s\" and \"%s\": choose the bone where the chain begins or ends",
                  gltf->nodes[last].name, gltf->nodes[child].name, gltf->nodes[other].name);
             return -1;
         }
         last = child;
     }
-    fail(error, ERROR_INPUT, "below \"%s\" there are more than %d bones: choose the one where the chain is to end",
+    fail(error, ERROR_INPUT, "below \"%s\" there are more than %d bones: choose the one where the chain ends",
          gltf->nodes[from].name, ANGLES_MAX_JOINTS);
     return -1;
 }

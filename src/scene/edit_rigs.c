@@ -95,7 +95,7 @@ static bool check_name(const struct document *document, int rig, const char *nam
         return fail(error, ERROR_INPUT, "there is a rig called %s already", name);
     }
     if (kind == RIG_MODEL && is_file_of_any(document, name)) {
-        return fail(error, ERROR_INPUT, "%s is the file by which a model is found", name);
+        return fail(error, ERROR_INPUT, "expected a name that is no model's file, got %s", name);
     }
     return true;
 }

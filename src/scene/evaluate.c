@@ -24,7 +24,7 @@ bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *
     } else if (status != WIGGLY_INEXACT) {
         snprintf(text, EVALUATION_SENTENCE, "%s", wiggly_status_text(status));
     } else if (error > 1) {
-        snprintf(text, EVALUATION_SENTENCE, "%s: no digit of it is certain", wiggly_status_text(status));
+        snprintf(text, EVALUATION_SENTENCE, "%s: no digit is certain", wiggly_status_text(status));
     } else {
         snprintf(text, EVALUATION_SENTENCE, "%s: %.1e of the curve's size", wiggly_status_text(status), error);
     }

@@ -158,7 +158,7 @@ static void check_knots(struct reader *reader, const struct where *knots_at, str
         struct where at = {.parent = knots_at, .index = knot->id - first_id};
         struct where frame_at = {.parent = &at, .key = "frame"};
         if (before && document_sample(document, before->frame) == document_sample(document, knot->frame)) {
-            reader_fail(reader, &frame_at, "expected a sample of its own, got that of knots[%u]",
+            reader_fail(reader, &frame_at, "expected a sample without a knot, got that of knots[%u]",
                         before->id - first_id);
         }
     }
@@ -277,7 +277,7 @@ static void index_names(struct reader *reader, const struct where *splines_at)
         if (strcmp(name[-1].name, name->name) != 0) continue;
         struct where spline_at = {.parent = splines_at, .index = (size_t)name->spline};
         struct where at = {.parent = &spline_at, .key = "name"};
-        reader_fail(reader, &at, "expected a name of its own, got \"%s\" as splines[%d] has", name->name,
+        reader_fail(reader, &at, "expected a unique name, got \"%s\", the name of splines[%d]", name->name,
                     name[-1].spline);
     }
 }

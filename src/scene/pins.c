@@ -105,8 +105,8 @@ static bool check_place(const struct document *document, const struct rig *rig, 
     trouble->member = "frame";
     if (!document_has_frame(document, frame, pins_last_sample(document, rig), &trouble->error)) return false;
     return find_same(document, rig, at) < 0 ||
-           fail(&trouble->error, ERROR_INPUT,
-                "expected a sample of its own for each pin of a point, got frame %.10g again", frame);
+           fail(&trouble->error, ERROR_INPUT, "expected one pin per point and sample, got another at frame %.10g",
+                frame);
 }
 
 /// Why pins cannot pull a spline; NULL: they can.
@@ -181,8 +181,8 @@ static void name_cycle(const struct document *document, const int *group, const 
     trouble->rig = pinned_rig_of(document, is_pinned ? cycle->spline : cycle->leader);
     trouble->member = member_that_holds(document->rigs[trouble->rig]);
     const bool together = is_pinned && group[cycle->spline] == group[cycle->leader];
-    fail(&trouble->error, ERROR_INPUT, "expected splines that %s each other, got \"%s\", which follows \"%s\"",
-         together ? "do not follow" : "are not solved before and after", name, leader);
+    fail(&trouble->error, ERROR_INPUT, "expected splines %s, got \"%s\", which follows \"%s\"",
+         together ? "that do not follow each other" : "without a cycle", name, leader);
 }
 
 bool pins_check_order(const struct document *document, struct pin_trouble *trouble)

@@ -139,7 +139,7 @@ static void check_name(struct reader *reader, const struct where *rig_at, int in
     struct where at = {.parent = rig_at, .key = "name"};
     for (int i = 0; i < index && rigs[index]->name; i++) {
         if (!rigs[i]->name || strcmp(rigs[i]->name, rigs[index]->name) != 0) continue;
-        reader_fail(reader, &at, "expected a name of its own, got \"%s\" as rigs[%d] has", rigs[i]->name, i);
+        reader_fail(reader, &at, "expected a unique name, got \"%s\", the name of rigs[%d]", rigs[i]->name, i);
         return;
     }
 }

@@ -383,9 +383,8 @@ void warning_say(const struct warning *warning, char text[WARNING_SENTENCE])
         break;
     case WARNING_DRIFT:
         snprintf(text, WARNING_SENTENCE,
-                 "Bandwidth %.3g is too wide for the %.1f periods between frames %.6g and %.6g: the swing drifts out "
-                 "of phase.",
-                 warning->limit, warning->amount, warning->from, warning->to);
+                 "Frames %.6g to %.6g: the swing drifts, because bandwidth %.3g is too wide for %.1f periods.",
+                 warning->from, warning->to, warning->limit, warning->amount);
         break;
     case WARNING_FORCED:
         snprintf(text, WARNING_SENTENCE,
@@ -397,7 +396,8 @@ void warning_say(const struct warning *warning, char text[WARNING_SENTENCE])
         break;
     case WARNING_PHASE:
         snprintf(text, WARNING_SENTENCE,
-                 "Frame %.6g: the pose holds its value alone, as only complex mode has a phase.", warning->frame);
+                 "Frame %.6g: the pose holds only its value, because only Wiggly splines have a phase.",
+                 warning->frame);
         break;
     }
 }
