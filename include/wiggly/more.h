@@ -1,10 +1,10 @@
 /// What few programs need besides wiggly.h: pins and bounds, the frequency that explains knots, curves by position,
 /// another method, poles.
 ///
-/// A variation, too, whose amount is in wiggly_desc: `variation` 0.3 lets the curve stray by about 0.3 of its
-/// farthest knot's way from the equilibrium, through the same knots, as if chance had pushed what swings;
-/// `variation_seed` says which of these motions it is. It needs WIGGLY_OSCILLATOR, a frequency above 0, no track on
-/// frequency, damping or bandwidth, and is passed over in cubic mode.
+/// And variations: `variation` 0.3 in wiggly_desc lets the curve stray by about 0.3 of the farthest knot's distance
+/// from the equilibrium, through the same knots, as if random pushes moved it; `variation_seed` chooses one of these
+/// motions. A variation needs WIGGLY_OSCILLATOR, a frequency above 0, and no track on frequency, damping or bandwidth;
+/// cubic mode ignores it.
 #ifndef WIGGLY_MORE_H
 #define WIGGLY_MORE_H
 
@@ -22,22 +22,22 @@ typedef struct wiggly_pull {
     double c[3][2];
 } wiggly_pull;
 
-/// A point that is to be somewhere at a sample. `to` is its way there from where it is without any x: the sum of its
-/// pulls' Re(c x).
+/// A point and its place at one sample. `to` is the offset from where the point is with every x at 0 to that place:
+/// the sum of its pulls' Re(c x).
 typedef struct wiggly_pin {
     int sample;
-    const wiggly_pull *pulls; ///< each of another spline
+    const wiggly_pull *pulls; ///< at most one per spline
     int pull_count;
     double to[3];
-    double left[3]; ///< filled: what it does not reach
+    double left[3]; ///< filled: the offset that remains
 } wiggly_pin;
 
-/// A side on which a point is to stay at a sample: the sum of Re(c x) over the group's splines is at least `least`.
+/// A side on which a point stays at one sample: the sum of Re(c x) over the group's splines is at least `least`.
 typedef struct wiggly_bound {
     int sample;
     const double (*c)[2]; ///< (re, im), one a spline
     double least;
-    double push; ///< filled: how hard it presses, half of what the weighed energy rises by as `least` does; ≥ 0
+    double push; ///< filled: how hard it presses, half the derivative of the weighted energy by `least`; ≥ 0
     double left; ///< filled: what is missing; ≤ 0: nothing
 } wiggly_bound;
 
@@ -60,39 +60,39 @@ void wiggly_group_destroy(wiggly_group *group);
 
 /// Solves descs[s] into curves[s] so that the sum of weights[s] times the energy of spline s is least, through their
 /// knots and the pins. Weights are above 0 and make the energies comparable: the mean of |c|² over what a spline
-/// moves serves. A pin counts as a knot where a spline that it moves starts and ends; that spline's limits are passed
-/// over. What the splines can barely reach they reach in part: see `left`. Returns the largest status of
+/// moves serves. A spline's pins count as knots where it starts and ends; its limits are then ignored. A place that
+/// the splines can barely reach is met only in part; `left` holds the remaining offset. Returns the largest status of
 /// wiggly_solve(). WIGGLY_ERROR_PIN: a pin is outside a spline's samples, or on a spline that is cubic, of calm 0, or
 /// of frequency 0 from its first knot or pin to its last. Allocates nothing.
 wiggly_status wiggly_group_solve(wiggly_group *group, const wiggly_desc *descs, const double *weights,
                                  wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count);
 
 /// The same with bounds; the curves must have total, re and im. A bound does not count as a knot, and one that
-/// presses nothing changes nothing. Behind a complex spline's last knot it presses what moves by itself. What knots
-/// and pins leave no way to meet is met in part.
+/// presses nothing changes nothing. After a complex spline's last knot it presses on the motion that goes on by
+/// itself. A bound that knots and pins leave no way to meet is met in part.
 wiggly_status wiggly_group_solve_bounded(wiggly_group *group, const wiggly_desc *descs, const double *weights,
                                          wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count,
                                          wiggly_bound *bounds, int bound_count);
 
-/// What part of what moves a bound's point the knots and pins of the last solve leave free at its sample, 0 … 1.
+/// How free the knots and pins of the last solve leave a bound's point at its sample: 0 (not at all) … 1.
 double wiggly_group_reach(const wiggly_group *group, const wiggly_bound *bound);
 
 // --- the frequency of knots ------------------------------------------------------------------------------------------
 
-/// An oscillation that knots may be of.
+/// An oscillation that may explain knots.
 typedef struct wiggly_explanation {
     double frequency; ///< Hz
     double damping;   ///< ratio
     double cost;      ///< the lower the better; a difference of 1 is e times less likely
 } wiggly_explanation;
 
-/// Knots from which a frequency can be told.
+/// The fewest knots that determine a frequency.
 #define WIGGLY_FEWEST_EXPLAINED 4
 
 /// The frequency and damping that explain a description's knots best, and the runner-up. Returns how many it found, 0
 /// … 2; 0 where there are too few knots, all are at the equilibrium, or the description is not valid. In real mode
-/// for that mode, else for complex mode without bandwidth. It looks from half a swing over all knots to a little
-/// above half a swing over the smallest gap, at the first 48 knots. Allocates nothing.
+/// for that mode, else for complex mode without bandwidth. It searches from half a swing over all knots to a little
+/// more than half a swing over the smallest gap, and uses the first 48 knots. Allocates nothing.
 int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2]);
 
 /// Frequency, Hz, and damping ratio of a spring k, 1/s², and a friction gamma, 1/s (eq. 12), neither below 0: √k/2π
@@ -111,10 +111,10 @@ void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, in
 
 // --- inside ----------------------------------------------------------------------------------------------------------
 
-/// How a solver solves: the same curves but for rounding.
+/// How a solver solves; the curves are the same but for rounding.
 typedef enum wiggly_method {
-    WIGGLY_CHAIN = 0, ///< from knot to knot where the parameters are constant, else the band: the fastest
-    WIGGLY_BAND       ///< always the band of all samples: the paper's way
+    WIGGLY_CHAIN = 0, ///< fast: from knot to knot where the parameters are constant, else the band
+    WIGGLY_BAND       ///< reference: always the band of all samples, as in the paper
 } wiggly_method;
 
 /// Sets the method of all later solves; a new solver, and a new group, has WIGGLY_CHAIN.
@@ -128,7 +128,7 @@ typedef struct wiggly_poles {
     double z[2][2];
 } wiggly_poles;
 
-/// Poles of a description at one of its samples; 0 where it is not valid.
+/// The poles of a description at a sample; 0 where it is not valid.
 wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample);
 
 #ifdef __cplusplus

@@ -2,7 +2,7 @@
 ///
 /// After "Interactive Spacetime Constraints: Wiggly Splines" (Kass, Anderson). A spline has N samples, a step apart.
 /// At each, x swings about an equilibrium y; the curve that you key and show is the total y + Re x. Of all curves
-/// through the knots it is the one that takes the least force beside that of a damped oscillator.
+/// through the knots, it needs the least force on top of a damped oscillator's.
 ///
 ///     wiggly_knot knots[] = {{.sample = 0, .value = 0}, {.sample = 36, .value = 1}};
 ///     wiggly_desc desc = {.size = sizeof desc, .knots = knots, .knot_count = 2, .samples = 121, .frequency = {1.5}};
@@ -26,10 +26,10 @@
 extern "C" {
 #endif
 
-/// Of this header.
+/// The version of this header.
 #define WIGGLY_VERSION "1.0.0"
 
-/// Of the library that runs, "major.minor.patch": a shared one may be newer than the header.
+/// The version of the library at run time, "major.minor.patch"; a shared library may be newer than the header.
 const char *wiggly_version(void);
 
 // --- what a call returns ---------------------------------------------------------------------------------------------
@@ -43,7 +43,7 @@ typedef enum wiggly_status {
     WIGGLY_SINGULAR, ///< not solved: straight lines join the knots
 
     WIGGLY_ERROR_ARGUMENT = 16, ///< a pointer is missing or a count is out of range
-    WIGGLY_ERROR_SIZE,          ///< a `size` is not set, too small, or of a version that has more than this one
+    WIGGLY_ERROR_SIZE,          ///< a `size` is not set or too small, or asks for members that this version lacks
     WIGGLY_ERROR_MEMORY,        ///< out of memory
     WIGGLY_ERROR_CAPACITY,      ///< more samples or knots than the solver has room for
     WIGGLY_ERROR_NUMBER,        ///< a number of the description is NaN, infinite or out of its range
@@ -72,35 +72,35 @@ typedef enum wiggly_mode {
 typedef enum wiggly_start {
     WIGGLY_FREE = 0, ///< mid-swing, at the earliest knot; before it x stands still
     WIGGLY_REST,     ///< at rest, at sample 0
-    WIGGLY_LOOP      ///< round: the last sample is the first one again
+    WIGGLY_LOOP      ///< goes round: the last sample is the first one again
 } wiggly_start;
 
-/// What moves by itself: after the last knot, and as the equilibrium moves.
+/// How the curve moves by itself: after the last knot, and when the equilibrium moves.
 typedef enum wiggly_passive {
     WIGGLY_OSCILLATOR = 0, ///< a damped oscillator: it swings on and dies away
     WIGGLY_FILTER          ///< the paper's filter: in complex mode its two poles ring up together first
 } wiggly_passive;
 
-/// A number, or where `track` is set one number a sample: N of them, yours, read during the solve only. Numbers
-/// beyond their range are taken as its end.
+/// A number or, where `track` is set, your N numbers, one per sample, which are read only during the solve. Numbers
+/// out of range are clamped.
 typedef struct wiggly_param {
     double value;
     const double *track;
 } wiggly_param;
 
-/// A knot fixes the total at its sample. Its phase, Im x, stays free, unless it has one: then it is a pose, and holds
-/// every part that lags, too. At a still knot the motion comes to rest and begins again from rest.
-/// (What a later version adds to knots will be arrays of their own in wiggly_desc.)
+/// A knot fixes the total at its sample. Its phase, Im x, stays free unless has_phase is set: that makes it a pose,
+/// which holds lagging parts too. At a still knot the motion comes to rest and begins again from rest.
+/// (This structure never grows: later versions will add arrays to wiggly_desc.)
 typedef struct wiggly_knot {
     int sample;                       ///< 0 … N − 1; of a loop, to N − 2
     bool has_slope, has_phase, still; ///< a still knot has neither
-    double value;                     ///< of the total; not read of a still knot
+    double value;                     ///< of the total; ignored at a still knot
     double slope;                     ///< value per second; read where has_slope
-    double stiffness;                 ///< 1/s, what missing the slope costs; 0: 1000, which is firm
+    double stiffness;                 ///< 1/s, the cost of missing the slope; 0: 1000, which is firm
     double phase;                     ///< Im x, like a value; read where has_phase, in complex mode
 } wiggly_knot;
 
-/// What to solve. Zeroes with `size` set are valid; what 0 means is said here. In an array, every element has the
+/// What to solve. Zeroes with `size` set are valid; the comments say what 0 means. In an array, every element has the
 /// size of the first.
 typedef struct wiggly_desc {
     size_t size;              ///< sizeof(wiggly_desc)
@@ -115,7 +115,7 @@ typedef struct wiggly_desc {
     wiggly_param damping;     ///< ratio: 0 swings on, 1 is critical, more (in real mode only) creeps
     wiggly_param bandwidth;   ///< 0 … 1, how far the frequency may shift, as a fraction of it; complex mode only
     wiggly_param equilibrium; ///< y, what it swings about
-    double calm;              ///< 0 … 1, what a swing at the start costs; 0: 1, but with has_calm it costs nothing
+    double calm;              ///< 0 … 1, the cost of a swing at the start; 0 means 1 unless has_calm is set
     double low, high;         ///< limits of the total; read where has_low, has_high
     double variation;         ///< another motion through the same knots (wiggly/more.h); 0: none
     bool has_calm, has_low, has_high;
@@ -127,8 +127,8 @@ wiggly_desc wiggly_default_desc(void);
 
 // --- solving ---------------------------------------------------------------------------------------------------------
 
-/// A solved spline: your arrays of N numbers each, which a solve fills; those that are NULL it leaves out. In an
-/// array, every element has the size of the first.
+/// A solved spline: a solve fills your arrays of N numbers each and skips those that are NULL. In an array, every
+/// element has the size of the first.
 typedef struct wiggly_curve {
     size_t size;   ///< sizeof(wiggly_curve)
     double *total; ///< y + Re x; at knots exactly the knot's value
@@ -143,19 +143,19 @@ typedef struct wiggly_curve {
     int samples;      ///< N
     int first;        ///< before this sample no knot moves x
     double step;      ///< seconds
-    double before[2]; ///< Re and Im x there, but for what the equilibrium's motion adds
+    double before[2]; ///< Re and Im x there, without what the equilibrium's motion adds
     wiggly_mode mode;
     wiggly_start start;
     double error;    ///< estimated largest error, as a part of the total's range or of its size, whichever is larger
     int refinements; ///< sweeps of iterative refinement
-    int knot;        ///< of an error: index of the knot that it is about; else -1
+    int knot;        ///< index of the knot that an error is about; else -1
 } wiggly_curve;
 
 /// Memory for solves, which you can use for any number of splines.
 typedef struct wiggly_solver wiggly_solver;
 
 /// A solver for up to `samples` ≥ 1 samples and `knots` ≥ 0 knots. A sample that a limit holds needs the room of a
-/// knot: with limits, samples more are always enough. WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_MEMORY.
+/// knot: with limits, knots + samples is always enough. WIGGLY_ERROR_ARGUMENT, WIGGLY_ERROR_MEMORY.
 wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver);
 
 /// Bytes for wiggly_create_at(); 0 where an argument is out of range or the size does not fit.
@@ -168,18 +168,18 @@ wiggly_status wiggly_create_at(void *memory, size_t size, int samples, int knots
 /// Frees what wiggly_create() made; NULL is fine.
 void wiggly_destroy(wiggly_solver *solver);
 
-/// Solves one spline, in time proportional to N. The same description gives the same bits. Any status but
+/// Solves one spline, in time proportional to N. The same description gives the same bits. Returns any status but
 /// WIGGLY_ERROR_MEMORY and WIGGLY_ERROR_PIN.
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
 
 // --- reading a curve -------------------------------------------------------------------------------------------------
 
-/// A curve at one time, in parts: the total is y + re. Or what each part changes by in a second.
+/// A curve at one time, in parts: the total is y + re. Or the change of each part per second.
 typedef struct wiggly_value {
     double y, re, im;
 } wiggly_value;
 
-/// The curve at a time in seconds; sample i is at i × step. `per_second` receives how it changes there, or is NULL.
+/// The curve at a time in seconds; sample i is at i × step. `per_second` receives its change there, or is NULL.
 /// Before the first sample and after the last the curve stands still; a loop goes round. At samples it is what was
 /// solved; in between, x turns by the band's centre. The curve must have y, re and im, in complex mode omega, too:
 /// without one of them all is NaN. Of a curve that was never solved all is 0.
@@ -209,7 +209,7 @@ wiggly_status wiggly_batch_create_at(void *memory, size_t size, int samples, int
 void wiggly_batch_destroy(wiggly_batch *batch);
 
 /// Solves desc[i] into curve[i] for each i < count: the same bits as wiggly_solve(), on any number of threads.
-/// status[i] receives what it would have said; `status` may be NULL. Returns the largest one. WIGGLY_ERROR_ARGUMENT
+/// status[i] receives the status of each; `status` may be NULL. Returns the largest one. WIGGLY_ERROR_ARGUMENT
 /// and WIGGLY_ERROR_SIZE without touching anything.
 wiggly_status wiggly_batch_solve(wiggly_batch *batch, const wiggly_desc *desc, wiggly_curve *curve,
                                  wiggly_status *status, int count);
@@ -221,7 +221,7 @@ typedef struct wiggly_numbers {
     ptrdiff_t by_spline, by_number;
 } wiggly_numbers;
 
-/// The same, to be filled: no two splines in one place.
+/// The same for output: no two splines may share memory.
 typedef struct wiggly_rows {
     double *at;
     ptrdiff_t by_spline, by_number;
@@ -231,7 +231,7 @@ typedef struct wiggly_rows {
 typedef struct wiggly_many {
     size_t size;                  ///< sizeof(wiggly_many)
     int count;                    ///< splines
-    int knot_count;               ///< numbers of knots that a spline has in the arrays: the most that it can have
+    int knot_count;               ///< knots per spline in the arrays: the most that a spline can have
     wiggly_numbers sample;        ///< of each knot, rounded to a whole one; NaN: no knot
     wiggly_numbers value;         ///< the others as in wiggly_knot
     wiggly_numbers slope;         ///< NaN: none
