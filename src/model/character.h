@@ -48,8 +48,8 @@ bool character_create(struct character *character, struct surface *surface, int 
 /// there are none. The first node that shows the mesh places it. Errors name the file, the place in it, what was expected and what was found.
 bool character_read(const char *path, struct character *character, struct error *error);
 
-/// Writes a .glb, whole or not at all. Without `turn_normals` targets move vertices alone: two fifths smaller, and the same to
-/// whoever has figure_derive().
+/// Writes a .glb, whole or not at all. Without `turn_normals` targets move vertices alone: two fifths smaller, and and
+/// figure_derive() makes up for it.
 bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error);
 
 /// Leaves an empty character.

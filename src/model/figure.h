@@ -69,9 +69,10 @@ void figure_free(struct figure *figure);
 /// Index of the coordinate of that name, or −1.
 int figure_find(const struct figure *figure, const char *name);
 
-/// Fewer triangles over the same vertices, so that whatever these carry stays as it is. Writes at most `triangles` triangles (more if the surface would fold or open) that look like
-/// the character's own to `indices`, which has room for all of those. Vertices collapse onto neighbours, starting with those
-/// that change shape and colour least. `sources` (NULL: nobody asks) says which of the character's triangles each was.
+/// Decimates a mesh, but keeps its vertices and their data. Writes at most `triangles` triangles (more if the surface would
+/// fold or open) that look like the character's own to `indices`, which has room for all of those. Vertices collapse onto
+/// neighbours, starting with those that change shape and colour least. `sources` (may be NULL) says which of the character's
+/// triangles each was.
 void decimate(const struct character *character, int triangles, uint32_t *indices, uint32_t *sources,
               int *index_count);
 

@@ -1,4 +1,4 @@
-/// A character of somebody else's: what a glTF 2.0 file holds that can be shown, and its poses.
+/// An imported character: what wiggly shows of a glTF 2.0 file, and its poses.
 ///
 /// Units and axes are the file's: metres, y up, right-handed. Matrices are column-major. Nothing here is changed after reading.
 #ifndef MODEL_GLTF_H

@@ -13,7 +13,7 @@ struct opened {
 /// Reads a scene, or makes one for a glTF character, and reads its models and paint. On failure nothing is left to free.
 bool opened_read(struct opened *opened, const char *path, struct error *error);
 
-/// The same for what needs no more than the splines: models are read only where an equilibrium follows a joint or a point is pinned.
+/// The same for commands that need only the splines: models are read only if an equilibrium follows a joint or a point is pinned.
 bool opened_read_splines(struct opened *opened, const char *path, struct error *error);
 
 /// Solves all splines, with the motions that they follow; again after edits.

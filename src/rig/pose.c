@@ -20,22 +20,22 @@ double channel_moves(const struct channel *channel, wiggly_value value, int n, e
     return angles_at(&channel->gain, 0, 1) * wiggly_lagged(value, lag);
 }
 
-/// What the body bears, degrees and percent: however wild a spline, it stays a fox.
+/// Limits of the body's parts, degrees and percent, so that no spline breaks the fox.
 static const struct {
     double lowest, highest;
-} bearable[AXES] = {
+} limits[AXES] = {
     [AXIS_LOOK] = {-70, 70},   [AXIS_NOD] = {-35, 35},     [AXIS_EARS] = {-30, 60},
     [AXIS_BREATH] = {-15, 25}, [AXIS_STRETCH] = {-40, 40}, [AXIS_BLINK] = {0, 100},
 };
 
-/// Sum of the channels of an axis for a part's n-th joint, within what the body bears.
+/// Sum of the channels of an axis for a part's n-th joint, within the limits.
 static double moved(const struct tail *tail, const wiggly_value *values, enum look look, enum axis axis, int n)
 {
     double sum = 0;
     for (int c = 0; c < tail->channel_count; c++) {
         if (tail->channels[c].axis == axis) sum += channel_moves(&tail->channels[c], values[c], n, look);
     }
-    return fmin(fmax(sum, bearable[axis].lowest), bearable[axis].highest);
+    return fmin(fmax(sum, limits[axis].lowest), limits[axis].highest);
 }
 
 /// How the body's parts are moved, and how far that moves the tail's base, metres.

@@ -72,7 +72,7 @@ double channel_bend(const struct channel *channel, wiggly_value value, int n, in
 /// How far a channel moves a part of the body, degrees or percent: gain·(y + Re(e^{−j·n·lag} x)), for its n-th joint from 1 on.
 double channel_moves(const struct channel *channel, wiggly_value value, int n, enum look look);
 
-/// What the scene solves pins, floors and motions from, of the document's models, which must stay where they are. `models` may be NULL.
+/// The document's models as the scene's source for pins, floors and motions; they must not move in memory. `models` may be NULL.
 struct model_source models_source(struct models *models);
 
 /// Poses a soft character: its complex normal coordinates, each turned and scaled by its own drive (the paper's

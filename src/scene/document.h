@@ -1,7 +1,7 @@
 /// The document: a scene file (docs/scene-format.md) in memory. Everything on screen is a function of it.
 ///
-/// It is a value: document_copy() shares its splines and rigs, which count their holders. What has a second holder is never written to;
-/// edit.h, which alone changes a document that is loaded, clones it first. Knots are sorted by sample, at most one on each.
+/// A document is a value: document_copy() shares splines and rigs by reference count (`holders`). Shared ones are never written to; edit.h,
+/// the only code that changes a loaded document, clones them first. Knots are sorted by sample, at most one on each.
 #ifndef SCENE_DOCUMENT_H
 #define SCENE_DOCUMENT_H
 
@@ -41,7 +41,7 @@ struct knot {
 };
 
 struct spline {
-    atomic_int holders; ///< documents, and whoever remembers it
+    atomic_int holders; ///< documents and other owners
     char *name;
     struct param parameter[PARAMETER_COUNT];
     struct knot *knots; ///< by sample
@@ -63,7 +63,7 @@ static inline enum wiggly_start spline_start(const struct spline *spline)
 
 struct document {
     char *path;      ///< of its own file, NULL for an untitled one; not saved
-    unsigned serial; ///< set by whoever opens documents, to tell them apart; not saved
+    unsigned serial; ///< tells opened documents apart; not saved
     char *about;     ///< what the scene shows and what to try, or NULL
     double fps;
     int substeps;
@@ -74,7 +74,7 @@ struct document {
     int rig_count;
     char *folder;     ///< where relative paths start; NULL: the working folder
     unsigned next_id; ///< of a knot, pin, spline or rig
-    uint64_t edits;   ///< another number after every edit, undone or not, than any document had; not saved
+    uint64_t edits;   ///< new after every edit: no other state of any document has it; not saved
     struct json_t *extra;
     struct json_t *owned; ///< what `extra` pointers point into; never changed once loaded
 };
@@ -88,19 +88,19 @@ void document_destroy(struct document *document);
 /// A copy that shares splines and rigs, for another thread too.
 struct document *document_copy(const struct document *document);
 
-/// Makes a document what another one is, which ends.
+/// Moves `other` into a document; `other` is destroyed.
 void document_become(struct document *document, struct document *other);
 
 /// Whether two are the same value: the same splines and rigs in the same frames.
 bool document_equals(const struct document *a, const struct document *b);
 
-/// Gives it another number of `edits`: for whoever writes to it but for its splines and rigs.
+/// Gives `edits` a new number; call it after writing to a document outside of its splines and rigs.
 void document_touch(struct document *document);
 
 /// Sets the path of the document's own file; "" or NULL: untitled.
 void document_set_path(struct document *document, const char *path);
 
-/// Bytes of what a document holds and another does not, unknown keys aside; NULL: of all.
+/// Bytes that a document holds and `other` (NULL: none) does not, without unknown keys.
 size_t document_bytes_beside(const struct document *document, const struct document *other);
 
 /// A spline without knots and a name, with the file format's defaults. It has one holder, as has a clone.
@@ -110,31 +110,31 @@ struct spline *spline_hold(struct spline *spline);
 /// NULL is fine.
 void spline_drop(struct spline *spline);
 
-/// The spline or rig at an index, to be written to: where it has another holder, a clone takes its place.
+/// The spline or rig at an index, for writing: a shared one is replaced by a clone.
 struct spline *document_own_spline(struct document *document, int spline);
 struct rig *document_own_rig(struct document *document, int rig);
 
-/// Puts a spline, whose holder the document becomes, before the one at an index, and a rig behind all others.
+/// Inserts a spline before the one at an index, or appends a rig; the document becomes its holder.
 void document_insert_spline(struct document *document, int at, struct spline *spline);
 void document_add_rig(struct document *document, struct rig *rig);
 
-/// Takes one out, which the document lets go.
+/// Removes one and drops it.
 void document_remove_spline(struct document *document, int at);
 void document_remove_rig(struct document *document, int at);
 
 /// Number of samples N of every spline.
 int document_samples(const struct document *document);
 
-/// Whether so many splines may have that many samples each; `limited`: one of them has a low or high limit.
+/// Whether `splines` splines may have `samples` samples each; `limited`: one of them has a low or high limit.
 bool document_check_samples(int splines, long long samples, bool limited, struct error *error);
 
-/// The most frames from first to last that the splines there are may have.
+/// The largest number of frames that the document's splines allow.
 int document_longest(const struct document *document);
 
 /// Whether the equilibrium of any spline follows a joint.
 bool document_has_motions(const struct document *document);
 
-/// Whether a spline of the document loops: then what is new loops too.
+/// Whether a spline of the document loops; new splines then loop too.
 bool document_loops(const struct document *document);
 
 /// Whether a spline of the document has a low or high limit.
@@ -201,7 +201,7 @@ void spline_values(const struct spline *spline, int first, int end, double range
 
 /// Index of the knot with that id, or -1.
 int spline_find_id(const struct spline *spline, unsigned id);
-/// A value, or the limit that is in its way.
+/// The value, clamped to the spline's limits.
 double spline_within(const struct spline *spline, double value);
 
 /// "x", "y" or "z".

@@ -1,7 +1,7 @@
 /// Edits: the only way to change a document that is loaded.
 ///
-/// Each is a function that changes the document and returns true, or leaves it as it was and says why not. What the document shares with
-/// others stays theirs: it is cloned first. An edit that would change nothing changes nothing. history.h keeps what was before.
+/// Each function changes the document and returns true, or leaves it as it was and says why. Data that is shared with other documents is
+/// cloned first. An edit without effect changes nothing. history.h keeps the documents before each edit.
 #ifndef SCENE_EDIT_H
 #define SCENE_EDIT_H
 
@@ -12,7 +12,7 @@
 /// Inserts a knot; id 0: a new one is given.
 bool edit_knot_insert(struct document *document, int spline, const struct knot *knot, struct error *error);
 bool edit_knot_remove(struct document *document, int spline, unsigned id, struct error *error);
-/// The knot of that id gets the frame and what the knot holds.
+/// Sets frame and contents of the knot with that id.
 bool edit_knot_set(struct document *document, int spline, const struct knot *knot, struct error *error);
 
 // --- splines -------------------------------------------------------------------------------------------------------------
@@ -71,7 +71,7 @@ bool edit_angles(struct document *document, struct channel_place at, enum angle_
 /// Replaces a channel.
 bool edit_channel(struct document *document, struct channel_place at, const struct channel *channel,
                   struct error *error);
-/// One more, the last.
+/// Appends a channel.
 bool edit_channel_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
                       struct error *error);
 bool edit_channel_remove(struct document *document, struct channel_place at, struct error *error);
@@ -82,15 +82,15 @@ bool edit_joints(struct document *document, int rig, int count, struct error *er
 bool edit_tail_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
                    struct error *error);
 
-/// Replaces what drives a coordinate of a character, but for its name; index -1: it becomes one more, the last.
+/// Replaces the drive of a coordinate of a character, but for its name; index -1 appends one.
 bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error);
 bool edit_drive_remove(struct document *document, int rig, int index, struct error *error);
 
-/// Replaces a character's paint by one that changes nothing, for its model's coordinates and vertices.
+/// Replaces a character's paint by plain paint, for its model's coordinates and vertices.
 bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error);
 bool edit_paint(struct document *document, int rig, const struct dab *dab, struct error *error);
 
-/// A pin, whose id is given; the frame, point and place of the pin of that id; and away with it.
+/// Adds a pin and gives it an id; sets frame, point and place of the pin with that id; removes it.
 bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error);
 bool edit_pin_set(struct document *document, int rig, const struct pin *pin, struct error *error);
 bool edit_pin_remove(struct document *document, int rig, unsigned id, struct error *error);

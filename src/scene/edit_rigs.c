@@ -102,7 +102,7 @@ static bool check_name(const struct document *document, int rig, const char *nam
 
 static void set_text(char **text, const char *value)
 {
-    char *copy = value ? need_text(value) : NULL; // whoever saves the work where memory runs out reads the old one
+    char *copy = value ? need_text(value) : NULL; // first: need_text() may save the document if memory runs out
     free(*text);
     *text = copy;
 }

@@ -26,18 +26,18 @@ struct evaluation {
     long solved_splines;       ///< solved by the last update
     long solved_samples;
     long solved_knots;
-    struct model_source models; ///< set it before each update. Zero: pins are passed over, and motions are 0
+    struct model_source models; ///< set it before each update. Zero: pins are ignored, and motions are 0
     struct storage *storage;    ///< private (storage.h)
 };
 
 enum { EVALUATION_SENTENCE = 200 };
 
-/// What to tell of a spline that is not simply solved, into `text` of EVALUATION_SENTENCE bytes, with the estimated error where that is
-/// why; false where there is nothing to tell.
+/// Writes why a spline was not simply solved into `text` of EVALUATION_SENTENCE bytes, with the estimated error if that is the reason;
+/// false if it was.
 bool evaluation_sentence(const struct evaluation *evaluation, int spline, char *text);
 
 /// Solves the splines that are not the ones solved last, and those that follow them by tracks; a new number of splines or samples solves
-/// all. Allocates nothing where what it has room for fits. `cubic` solves every spline as a cubic on the same knots, keeping its
+/// all. Allocates only if it needs more room. `cubic` solves every spline as a cubic on the same knots, keeping its
 /// equilibrium and, behind the last knot, its value; changing it solves all.
 void evaluation_update(struct evaluation *evaluation, const struct document *document, bool cubic);
 void evaluation_free(struct evaluation *evaluation);
@@ -49,11 +49,11 @@ bool evaluation_is_of(const struct evaluation *evaluation, const struct document
 wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
                                 wiggly_knot *knots);
 
-/// Which way its splines go, and what that is called: "chain" or "band".
+/// The method that solves its splines, and its name: "chain" or "band".
 wiggly_method evaluation_method(const struct evaluation *evaluation);
 const char *evaluation_solver(const struct evaluation *evaluation);
 
-/// What the joint does that a spline's equilibrium follows, with gain: one number a sample. NULL if it follows none.
+/// The motion of the joint that a spline's equilibrium follows, times gain: one number per sample. NULL if it follows none.
 const double *evaluation_motion(const struct evaluation *evaluation, int spline);
 
 /// A spline's value at a position in samples, possibly between two. Zeros if there is no such spline or `evaluation` is NULL.
@@ -63,11 +63,11 @@ wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, doub
 struct pin_left {
     bool is_found; ///< false: there is no such point, as where the model is missing
     double at[3];  ///< where it is, metres
-    double way[3]; ///< what is left to where it is to be
+    double way[3]; ///< offset that remains to its place
     double size;   ///< of its rig
 };
 
-/// Of the pin at an index of a rig's; NULL where nothing is known, as in a document that has changed since.
+/// The result for a pin of a rig; NULL if there is none, for example because the document has changed since.
 const struct pin_left *evaluation_pin(const struct evaluation *evaluation, const struct document *document, int rig,
                                       int pin);
 
@@ -77,7 +77,7 @@ struct floor_left {
     int sample;
 };
 
-/// Where a rig was deepest below its floor in the last update; NULL where nothing is known.
+/// Where a rig was deepest below its floor in the last update; NULL if there is no result.
 const struct floor_left *evaluation_floor(const struct evaluation *evaluation, int rig);
 
 /// The slope at a sample that, keyed there with the curve's value, leaves the curve as it is.

@@ -264,7 +264,7 @@ static void print_row(struct members *members, const struct document *document, 
     }
 }
 
-/// Whether it is not printed, because it is as usual or there is none.
+/// Whether it is not printed, because it has its default or is missing.
 static bool is_left_out(const struct field *field, const void *object)
 {
     const void *at = look(object, field->place);

@@ -62,13 +62,13 @@ struct field {
     enum field_kind kind;
     size_t place, size;       ///< in its structure; the size of a list is that of an element
     struct range range;       ///< of numbers; how many elements a list may have
-    double usual[3];          ///< where a file does not say
+    double usual[3];          ///< defaults, where the file lacks the member
     const char *const *words; ///< ended by NULL; an empty one is none
     const struct field *rows; ///< of a list's elements
     size_t count;             ///< place of the number of a list's elements
     size_t flag;              ///< place of a bool: whether there is a number (0: always), or a model is a file
     bool is_required;         ///< in the file
-    bool is_quiet;            ///< not printed where it is as usual
+    bool is_quiet;            ///< not printed if it has its default
     bool is_apart;            ///< does not count where two are compared
     /// Instead of what the kind does.
     void (*load)(struct reader *reader, const struct value *object, void *at);
@@ -94,13 +94,13 @@ struct field {
         0, INFINITY, true                                                                                            \
     }
 
-/// All is as usual.
+/// Sets all members to their defaults.
 void fields_reset(const struct field *fields, void *at);
 
 /// Reads the members; unknown keys of tracks and ramps go into `*extra`, which is made if it is NULL, by key.
 void fields_load(struct reader *reader, const struct value *object, const struct field *fields, void *at,
                  json_t **extra);
-/// Reads a whole object with its unknown keys. As usual is what it does not say.
+/// Reads a whole object with its unknown keys. Members that it lacks get their defaults.
 void object_load(struct reader *reader, const struct value *object, const struct field *fields, void *at);
 /// Reads and prints the list that the row is about.
 void list_load(struct reader *reader, const struct value *object, const struct field *field, void *at);

@@ -1,7 +1,7 @@
 /// History: the documents that were, with what was done between them, and which of them is current.
 ///
-/// A step is what one undo takes back: edits that belong together. The document on the table is edited in the open step; what it shares with
-/// the history stays as it was. A drag makes its edits again in every frame: history_restart() goes back to where the step began.
+/// A step is a group of edits that one undo takes back. The open step edits the current document; data that is shared with the history is
+/// never changed. A drag repeats its edits in every frame: history_restart() goes back to where the step began.
 #ifndef SCENE_HISTORY_H
 #define SCENE_HISTORY_H
 
@@ -57,7 +57,7 @@ void history_mark_saved(struct history *history);
 void history_mark_unsaved(struct history *history);
 bool history_is_saved(const struct history *history);
 
-/// The document got what is no edit, as paint that was read from its file: the current state has it, too. No step may be open.
+/// Takes over a change that is no edit, such as paint read from its file, into the current state. No step may be open.
 void history_amend(struct history *history);
 /// Sets the path of the document's own file, also where undo and redo come back to it.
 void history_set_path(struct history *history, const char *path);

@@ -25,7 +25,7 @@ struct document *scene_parse(const char *name, const char *text, size_t size, st
 /// reads back equal. scene_parse() of it gives an equal document. The caller frees it.
 char *scene_print(const struct document *document, size_t *size);
 
-/// Whose work a recovery file has, as its last member says:
+/// The scene that a recovery file belongs to, its last member:
 ///
 ///     "recovers": { "file": "/home/me/walk.json", "content": "5f3a91c07be2d846" }
 ///
@@ -49,7 +49,7 @@ bool scene_save(const struct document *document, const char *path, struct error 
 bool scene_save_for(const struct document *document, const char *path, const struct scene_origin *origin,
                     struct error *error);
 
-/// Reads the paint that a scene names as .npy files and has not inside. If a file is missing or broken, it reads the others
+/// Reads the paint that a scene keeps in .npy files. If a file is missing or broken, it reads the others
 /// and returns false with the first error; the character then moves as its model does, and the name stays in the document.
 bool scene_read_paint(struct document *document, struct error *error);
 

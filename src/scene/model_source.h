@@ -1,5 +1,5 @@
-/// What solving asks of models: where pinned points and floors are, how splines move them, and what joints do in clips. Answered by a
-/// layer above, which knows models.
+/// What the solver needs to know of models: where pinned points and floors are, how splines move them, and how joints move in clips.
+/// Implemented by a layer above (rig/posing.h).
 #ifndef SCENE_MODEL_SOURCE_H
 #define SCENE_MODEL_SOURCE_H
 
@@ -37,17 +37,17 @@ enum { LOW_POINT_ROOM = 3 * (CHARACTER_MAX_DRIVES + 1) }; ///< numbers that find
 
 struct model_source {
     /// Finds a pin's point as the splines are in `evaluation`, and how `count` splines move it from there (`c` may be NULL if
-    /// there are none). false: its model is missing, or has no such point. NULL: pins are passed over.
+    /// there are none). false: its model is missing, or has no such point. NULL: pins are ignored.
     bool (*find)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
                  const struct pin *pin, const int *splines, int count, pin_pull *c, struct pin_point *point);
     /// Adds to each spline's weight the mean of |c|² over the surface of a rig at rest.
     void (*weigh)(void *context, const struct document *document, int rig, const int *splines, int count,
                   double *weights);
-    /// Finds a character's lowest vertex at every sample; those not below `ceiling` may be passed over (then the height is that,
+    /// Finds a character's lowest vertex at every sample; those not below `ceiling` may be skipped (then the height is that,
     /// and the vertex -1). `room` is for LOW_POINT_ROOM numbers for each of low_point_samples(). false: its model is missing.
     bool (*lowest)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
                    double ceiling, double *room, struct low_point *low);
-    /// Writes what a joint does at each of the document's samples, in degrees or metres, without gain. false, or NULL: it is 0.
+    /// Writes the motion of a joint at each of the document's samples, in degrees or metres, without gain. false, or NULL: it is 0.
     bool (*follow)(void *context, const struct document *document, const struct joint_motion *motion,
                    double *samples);
     void *context;

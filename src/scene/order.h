@@ -1,4 +1,4 @@
-/// Which splines are named where, and the order in which to solve them: each after those that it follows by tracks.
+/// References to splines, and the order in which to solve them: each after those that it follows by tracks.
 #ifndef SCENE_ORDER_H
 #define SCENE_ORDER_H
 

@@ -214,7 +214,7 @@ static bool find_point(const struct pinned *pinned, int rig, const struct pin *p
                         c ? pinned->count : 0, c, point);
 }
 
-/// Solves the group with its pins, or without any, and shows the curves to whoever finds points.
+/// Solves the group with its pins, or without any, and publishes the curves, from which points are found.
 static wiggly_status solve_round(struct pinned *pinned, bool with_pins)
 {
     const wiggly_status status = wiggly_group_solve(pinned->solver, pinned->descs, pinned->weights, pinned->curves,
@@ -312,7 +312,7 @@ static void weigh_pulls(wiggly_pin *pin, wiggly_pull *pulls, double least)
 
 /// Sets where x is to take a point that is at `from`, where Σ Re(c x) is `passed`; `ease` is pin_ease() without pins. A tail's or chain's is
 /// taken only part of its way where it is far or hard to move, and its conditions (also in `pulls`, which are the pin's) are weighed so
-/// that what hardly moves it, as the motion is without pins, gives way. All of it is continuous in `to` and `from`.
+/// that splines that barely move it, as the motion is without pins, give way. All of it is continuous in `to` and `from`.
 ///
 /// With C = Σ c cᵀ of the pulls at the pose of a round, r what a point can be from its base, and v its way, first cut to r/2:
 ///

@@ -1,4 +1,4 @@
-/// What an evaluation keeps: its memory, what was solved, and the groups of splines that pins and floors have solved together. Private to
+/// The private data of an evaluation: memory, solved splines, and the groups of splines that pins and floors join. Private to
 /// src/scene.
 #ifndef SCENE_STORAGE_H
 #define SCENE_STORAGE_H

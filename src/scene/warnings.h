@@ -44,10 +44,10 @@ struct warnings {
 /// Adds where a solved spline without limits swings furthest beyond its knots, if it does. Allocates nothing.
 void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
                       struct warnings *found);
-/// And where its poses force the swing.
+/// Adds where its poses force the swing.
 void warnings_add_forced(const struct document *document, const struct evaluation *evaluation, int of,
                          struct warnings *found);
-/// What is left in a solution of a far swing, a fast rate or poses out of step: 1 or less where it is gone.
+/// How much of a far swing, a fast rate or poses out of step a solution still has; 1 or less: it is gone.
 double warning_left(const struct warning *warning, const struct document *document,
                     const struct evaluation *evaluation);
 /// Adds all that is wrong with a solved spline, up to WARNINGS_MAX, spans in the order of time. Allocates nothing.

@@ -1,6 +1,6 @@
 /// The imaginary rows of a short spline: ω Σ (Im x_k)², which the chain leaves out, as a load on its nodes.
 //
-// Below two periods they hold Im x enough to be felt, and still so little that the first order is all of it: at the x that was
+// Below two periods they hold Im x enough to matter, but so little that the first order suffices: at the x that was
 // found without them each sample pulls with −ω j Im x_k, and what that comes to at the nodes,
 //
 //     Σ (∂x_k / ∂s)* (−ω j Im x_k),

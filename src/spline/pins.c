@@ -357,7 +357,7 @@ static bool respond(wiggly_group *g, int spline_count)
     return all;
 }
 
-/// What can hardly be reached gives way.
+/// Directions that can barely be reached give way.
 static void soften(wiggly_group *g)
 {
     const int n = g->rows.count;

@@ -73,7 +73,7 @@ static double phase_of(wiggly_solver *solver, const problem *p)
     return problem_filter(solver, p)->at.natural * (intervals * p->desc->step);
 }
 
-/// Whether a chain takes the imaginary rows as a pull on its nodes: they are felt.
+/// Whether a chain takes the imaginary rows as a pull on its nodes.
 static bool pulls_imaginary(wiggly_solver *solver, const problem *p)
 {
     return p->desc->mode == WIGGLY_COMPLEX && (problem_is_loose(p) || phase_of(solver, p) < least_unpulled_phase);
