@@ -1,5 +1,5 @@
 /// One complex coordinate of a motion, its time series R and its complex normal coordinate Ñ with S ≈ Re(R Ñ), and the wiggly spline
-/// that does what it did.
+/// that repeats it.
 #ifndef ANALYSIS_COMPONENT_H
 #define ANALYSIS_COMPONENT_H
 
@@ -45,7 +45,7 @@ void component_fit(struct component *component, double fps);
 /// Finds `first_lag`, `last_lag` and `reach`.
 void component_lags(struct component *component);
 
-// The wiggly spline that does what a coordinate did: few knots, a frequency, a damping.
+// The wiggly spline that repeats a coordinate's motion: few knots, a frequency, a damping.
 
 enum { KNOTS_MOST = 5 };
 

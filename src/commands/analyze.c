@@ -148,7 +148,7 @@ static void report_motion(const struct job *job, const struct motion *motion, co
         printf("  %d of %d coordinates: the motion has no more poles that matter\n", a->count, job->modes);
 }
 
-/// A frame rate shows nothing faster than half of it, and what comes near badly.
+/// A frame rate shows no frequency above half of it, and those just below it badly.
 static void warn_of_speed(const struct motion *motion, const struct analysis *a, double fps)
 {
     bool fast = a->fast_share > fast_warning;

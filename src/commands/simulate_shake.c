@@ -81,7 +81,7 @@ static double estimate_error(const struct record *fine, const struct record *coa
     return motion > 0 ? sqrt(difference / motion) / (first_order ? ratio - 1 : ratio * ratio - 1) : 0;
 }
 
-/// Steps a frame for the first try: 48 for a period of what moves fastest of what we know of.
+/// Steps per frame for the first try: 48 per period of the fastest known motion.
 static int first_substeps(const struct shake_job *job, const struct soft *soft)
 {
     enum { STEPS_A_PERIOD = 48 };
@@ -92,7 +92,7 @@ static int first_substeps(const struct shake_job *job, const struct soft *soft)
     return (int)fmax(1, ceil(STEPS_A_PERIOD * frequency / job->fps));
 }
 
-/// Simulates until the error is small enough, or until what is left of the budget allows no steps that are worth it. On return `fine` is
+/// Simulates until the error is small enough, or until the rest of the budget allows no useful steps. On return `fine` is
 /// the motion; `error_left` is −1 where it was not measured.
 static bool refine(const struct shake_job *job, struct soft *soft, struct record *fine, struct record *coarse,
                    double *error_left, struct error *error)

@@ -72,7 +72,7 @@ void form_close(struct form *form)
 
 #define STEP (1.0 / 16) /* of differences, in keys */
 
-/// Who poses what.
+/// Poses one rig at any key.
 struct sampler {
     const struct export_range *range;
     const struct form *form;

@@ -27,7 +27,7 @@ struct sidecars {
 bool sidecars_add(struct sidecars *sidecars, const char *folder, const char *name, const void *data, size_t size,
                   struct error *error);
 
-/// Gives all files their names. False with a sentence, and what was there before is there still.
+/// Gives all files their names. On failure the old files stay.
 bool sidecars_commit(struct sidecars *sidecars, struct error *error);
 
 /// Removes what was written, committed or not, unless it has replaced something.
@@ -217,7 +217,7 @@ void keys_free(struct keys *keys);
 /// A quaternion and its negative are the same rotation: makes `q` the one nearer to `before`.
 void keys_turn_short_way(const float before[4], float q[4]);
 
-/// Makes the last row the first where they differ by next to nothing, as in a clip whose length is rounded.
+/// Makes the last row equal the first if they nearly are, as in a clip whose length is rounded.
 void keys_close_loop(float *rows, int width, int count);
 
 #endif

@@ -13,8 +13,8 @@ struct usda_names {
     int count;
 };
 
-/// A joint is a node; or, where its scale stands still and is no half, which is what UsdSkel's keys of scales are, two of them: one
-/// that moves, and below it one that scales.
+/// A node is one joint; or two, if its scale is constant and no half-precision number, as UsdSkel's scales are: one that moves, and
+/// below it one that scales.
 enum usda_joint_part { JOINT_WHOLE, JOINT_UNSCALED, JOINT_SCALE };
 
 struct usda_joint {
@@ -34,14 +34,14 @@ struct usda_model {
     bool is_own;               ///< not an imported character: the only clip of its model has its keys
     struct gltf_place *places; ///< [key · nodes + node], rotations the short way
     float *weights;            ///< [key · weights + weight]
-    char (*shapes)[FORM_NAME]; ///< of each weight: what its blend shape is called
+    char (*shapes)[FORM_NAME]; ///< of each weight: the name of its blend shape
     struct usda_joint *joints; ///< parents before their children
     int joint_count;
     int *joint_of;                ///< of each node: the last of its joints; −1: none
     int *slot_of;                 ///< of each node: which joint of skin `slots` it is; −1: none
     int slots;                    ///< −1: none yet
-    char (*materials)[FORM_NAME]; ///< what they are called
-    char (*prims)[FORM_NAME];     ///< what is in the rig's prim is called; the skeletons first
+    char (*materials)[FORM_NAME]; ///< their names
+    char (*prims)[FORM_NAME];     ///< names in the rig's prim; the skeletons first
     int prim_count;
     struct usda_names prim_names;
 };

@@ -62,7 +62,7 @@ static void write_vertices(const struct run *run, const char *declaration, write
     fputs("]", out);
 }
 
-/// Says that an array goes by vertex, with `each` elements for one; 0: it need not be said.
+/// Marks an array as one per vertex, with `each` elements for each; 0: one.
 static void end_by_vertex(FILE *out, int each)
 {
     fputs(" (\n", out);

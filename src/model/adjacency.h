@@ -36,7 +36,7 @@ void spots_first(const struct spot *spots, int count, uint32_t *first);
 
 // Which triangle lies on the other side of each edge.
 
-enum { NEIGHBOUR_NONE = -1, NEIGHBOUR_CUT = -2 }; ///< the mesh ends; what it looks like does
+enum { NEIGHBOUR_NONE = -1, NEIGHBOUR_CUT = -2 }; ///< the mesh ends; its look changes
 
 /// Per index, of the edge from it to its triangle's next one: the triangle on its other side, or NEIGHBOUR_NONE. Vertices at the
 /// same place, but for rounding, are one. Where sheets lie back to back, a triangle's neighbour is the next of its own sheet; its own back only where that ends.

@@ -14,7 +14,7 @@ struct gltf_looks {
     json_t *materials, *textures, *images;
     struct gltf_picture *pictures; ///< of each texture: pictures that are the same are written once
     bool has_plain, has_polygons;
-    json_int_t plain; ///< the material of what has none
+    json_int_t plain; ///< the material of parts that have none
 };
 
 /// A morph target: `scale` times `position`, and `turn` times `normal`; NULL: it leaves normals as they are.
@@ -38,13 +38,13 @@ struct gltf_shape {
     const struct looks *looks;         ///< of these; NULL: they have no materials, and are no polygons
     struct gltf_shape_target *targets; ///< of a character two a coordinate, Re Ñ and −Im Ñ, and then any others
     int target_count;
-    const struct character *character; ///< what is known of its coordinates is said in the extras; NULL: it has none
+    const struct character *character; ///< its coordinates go into the extras; NULL: none
 };
 
 /// The JSON of a mesh, with a primitive for each material that triangles have, and one for those without, which share the vertices.
 json_t *gltf_shape_json(struct gltf_looks *looks, const struct gltf_shape *shape);
 
-/// Adds materials, textures, images and what extensions are used to the JSON of the file.
+/// Adds materials, textures, images and the list of used extensions to the JSON of the file.
 void gltf_looks_complete(struct gltf_looks *looks, json_t *root);
 void gltf_looks_free(struct gltf_looks *looks);
 

@@ -23,7 +23,7 @@ static inline vec3s triangle_normal(const float a[3], const float b[3], const fl
     return glms_vec3_cross(glms_vec3_sub(vec3_from(b), from), glms_vec3_sub(vec3_from(c), from));
 }
 
-/// The inverse; of a matrix that is flat, as a bone's of scale 0 is, what undoes it along the axes that it has left.
+/// The inverse; of a flat matrix, as of a bone with scale 0, the inverse along the axes that are left.
 static inline mat3s mat3_inverse(mat3s m)
 {
     const float det = glms_mat3_det(m);

@@ -93,7 +93,7 @@ static bool add_spline(const struct plan *plan, const char *axis, struct error *
            set(plan, spline, PARAMETER_START, param_number(plan->loops ? WIGGLY_LOOP : WIGGLY_REST), error);
 }
 
-/// Makes a spline's equilibrium what the chain's tip does in the clip, carried stiffly.
+/// Lets a spline's equilibrium follow the tip of the stiff chain through the clip.
 static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, struct error *error)
 {
     struct joint_motion motion = {

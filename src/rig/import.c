@@ -58,7 +58,7 @@ static double frame_rate(const struct gltf_clip *clip)
     return best;
 }
 
-/// 1, or what makes a tiny or huge character as tall as others, to one digit.
+/// The scale, to one digit, that makes a tiny or huge character as tall as others; else 1.
 static double scale_of(const struct gltf *gltf)
 {
     double size = 0;

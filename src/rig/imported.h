@@ -30,15 +30,15 @@ struct imported {
 /// Reads a .glb or .gltf. On error nothing is left to free.
 bool imported_read(struct imported *imported, const char *path, struct error *error);
 
-/// Makes all else of one whose `gltf` is there. False if memory is short.
+/// Derives everything else from `gltf`. False if memory is short.
 bool imported_complete(struct imported *imported);
 void imported_free(struct imported *imported);
 
 /// Where a bone begins and ends in a pose, in the character's space.
 void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3]);
 
-/// Where an animal's back is, as x and z from its middle: where its tail ends, else away from glTF's front, +z. False for what is met from
-/// the front: it has no bone with "tail" in its name, and is wider than long, or has no bones.
+/// Where an animal's back is, as x and z from its middle: where its tail ends, else away from glTF's front, +z. False for a
+/// character that is seen from the front: no bone has "tail" in its name, and it is wider than long or has no bones.
 bool imported_back(const struct imported *imported, float back[2]);
 
 // --- bones of a chain

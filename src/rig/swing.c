@@ -1,4 +1,4 @@
-/// Steps what a spline answers while its base is moved by hand.
+/// Steps a spline's response while its base is moved by hand.
 #include "rig/swing.h"
 #include "rig/strand.h"
 #include "spline/poles.h"

@@ -25,8 +25,8 @@ struct swing_filter {
     double peak;     ///< largest |x| after a sudden move of the base by 1
 };
 
-/// What a spline answers by whose parameters are `parameter` at the time shown, with a damping ratio of at least 0.05, so that it
-/// comes to rest. false if nothing pulls it back: cubics, frequency 0.
+/// The response of a spline with these parameters at the time shown, and a damping ratio of at least 0.05, so that it comes to
+/// rest. false if nothing pulls it back: cubics, frequency 0.
 bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_COUNT], struct swing_filter *filter);
 
 /// The base's velocity changes by `kick`, then `dt` seconds pass.

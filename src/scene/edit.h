@@ -51,7 +51,7 @@ bool edit_range(struct document *document, int first, int last, enum range_fit f
 
 // --- rigs ----------------------------------------------------------------------------------------------------------------
 
-/// Adds a rig like that, which becomes the last. Its name, or what it goes by, gets a number if it is taken.
+/// Appends a copy of a rig. Its name, or the title that it has without one, gets a number if it is taken.
 bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error);
 /// Refused while a chain or a spline needs it.
 bool edit_rig_remove(struct document *document, int rig, struct error *error);

@@ -1,4 +1,4 @@
-/// History: the documents that were, with what was done between them, and which of them is current.
+/// Undo history: earlier documents, the steps between them, and which one is current.
 ///
 /// A step is a group of edits that one undo takes back. The open step edits the current document; data that is shared with the history is
 /// never changed. A drag repeats its edits in every frame: history_restart() goes back to where the step began.

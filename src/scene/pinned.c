@@ -175,7 +175,7 @@ static void still_bases(const struct pinned *pinned)
     }
 }
 
-/// The splines of the group and what is asked of each.
+/// Lists and describes the splines of the group.
 static void find_members(struct pinned *pinned)
 {
     const struct evaluation *evaluation = pinned->evaluation;
@@ -285,7 +285,7 @@ static double find_way(const struct pin_point *from, const double to[3], double 
     return sqrt(dot(way, way));
 }
 
-/// Takes off a way what would ask much of x.
+/// Shortens an offset where it would need a large x.
 static void damp(const wiggly_pull *pulls, int count, double damping, double way[3])
 {
     double l[3][3], left[3] = {way[0], way[1], way[2]};

@@ -50,7 +50,7 @@ bool angles_equal(const struct angles *a, const struct angles *b);
 
 enum { SCENE_MAX_CHANNELS = 64 }; ///< of one rig
 
-/// About what a joint bends. Tails do not twist; but the rest, which move the body, are theirs alone.
+/// What a channel does: bend joints about an axis, or move a part of the body. Tails do not twist; only tails move parts of a body.
 enum axis {
     AXIS_SIDE,
     AXIS_UP,
@@ -225,17 +225,17 @@ static inline bool rig_has_floor(const struct rig *rig)
 int rig_input_count(const struct rig *rig);
 int rig_input(const struct rig *rig, int input);
 
-/// The same of what moves the points of a rig that pins hold; −1 for an input that moves but the body. And the first of these, −1: none.
+/// The same for inputs that move points which pins can hold; −1 for an input that moves only the body. And the first such spline; −1: none.
 int rig_point_input(const struct rig *rig, int input);
 int rig_point_spline(const struct rig *rig);
 
 /// Its channels and how many; NULL and 0 for a kind that has none.
 struct channel *rig_channels(const struct rig *rig, int *count);
 
-/// What a point that can be pinned is called in the file, "vertex" or "joint"; NULL: such a rig takes no pins.
+/// The file's word for a point that can be pinned, "vertex" or "joint"; NULL: such a rig has no pins.
 const char *rig_pin_key(const struct rig *rig);
 
-/// A rig of a kind as a file has it that says no more, without a name or an id. It has one holder.
+/// A rig of a kind with the file format's defaults, without a name or an id. It has one holder.
 struct rig *rig_create(enum rig_kind kind);
 
 /// A clone has one holder; what it holds is its own, but for paint and what is known of its file, which are counted.

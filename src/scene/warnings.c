@@ -1,4 +1,4 @@
-/// Finds what is wrong with a solved spline, and says it.
+/// Finds the problems of a solved spline and puts them into words.
 #include "scene/warnings.h"
 #include <math.h>
 #include <stdio.h>
@@ -245,7 +245,7 @@ static double degrees_if_free(double angle, const struct knot *knot, double y)
     return fmax(0, degrees_between(angle, knot->value < y ? M_PI : 0) - 90);
 }
 
-/// By what angle x turns from one knot to the next if it is left to itself, ∫ω dt.
+/// The angle by which x turns by itself from one knot to the next, ∫ω dt.
 static double turn_of(const struct look *look, const struct knot_span *span)
 {
     const double *omega = look->curve->omega;

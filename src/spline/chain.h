@@ -170,7 +170,7 @@ static inline cplx chain_end_d(const chain_node *node)
     return (cplx){node->d_re, node->d_im};
 }
 
-/// Weight times what a slope's speed is too large, at the nodes' present state: seen with a jet that the stretch before makes `jet`, as
+/// Weight times the excess of a slope's speed, at the nodes' present state: seen with a jet that the stretch before makes `jet`, as
 /// far as V₁₁ of its form holds it; 0 and 1 where there is none.
 double chain_slope_pull(const chain *chain, const chain_node *node, cplx jet, double v11);
 

@@ -1,7 +1,7 @@
 /// The nodes' system of a chain, one row at a time: what a chain and a loop share.
 ///
 /// Unknowns of a row are (Im x, Re d, Im d), a diagonal block is 00 01 02 11 12 22, a coupling A_{j+1,j} row-major. In cubic and real mode
-/// Re d is the only unknown: what else these functions compute is then looked at by nobody, and the compiler leaves it out.
+/// Re d is the only unknown; the compiler then drops the unused results of these functions.
 #ifndef SPLINE_CHAIN_NODES_H
 #define SPLINE_CHAIN_NODES_H
 
@@ -30,7 +30,7 @@ typedef struct kernel_slope {
     double x_re, x_im, d_re, d_im, r_re, r_im;
 } kernel_slope;
 
-/// It as a row of the unknowns before and at the node, and what it lacks with all of these 0.
+/// The slope as a row of the unknowns before and at the node, and its residual if all of these are 0.
 typedef struct kernel_link {
     double before[3], at[3], weight, miss;
 } kernel_link;

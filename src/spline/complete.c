@@ -1,4 +1,4 @@
-/// What follows once x is found: whether it can be meant, the samples outside the system, the total and what else a curve holds.
+/// The steps after x is found: whether it is plausible, the samples outside the system, the total and the rest of the curve.
 #include "spline/problem.h"
 #include "spline/wide.h"
 #include <math.h>

@@ -1,4 +1,4 @@
-/// A description as the solver reads it, and its members, listed once: who looks at all of them goes by this list. Private to the
+/// A description as the solver reads it, and its members, listed once for all code that visits each of them. Private to the
 /// project.
 #ifndef SPLINE_DESC_H
 #define SPLINE_DESC_H

@@ -1,7 +1,7 @@
 /// Pins: splines solved together, so that points which they move are where they must be (docs/mathematics.md, Pins).
 //
-// Each spline is solved as it is but for where it starts and ends, and asked what a pull on Re x and on Im x at each pinned sample makes
-// of x at all of them. With R_s the rows' coefficients of spline s and Z_s its compliance,
+// Each spline is solved without pins, but starts and ends as with them; and for unit pulls on Re x and Im x at each pinned sample, whose
+// effect on x is read at all of them. With R_s the rows' coefficients of spline s and Z_s its compliance,
 //
 //     S = Σ_s R_sᵀ Z_s R_s / w_s,     (S + diag(φ S_max)) λ = want − Σ_s R_s x_s⁰,
 //
@@ -12,11 +12,11 @@
 #include <math.h>
 #include <string.h>
 
-/// Rounds in which what the rows still miss is asked for again, and what they may miss, as a part of the largest.
+/// Rounds that correct what the rows still miss, and how much they may miss, as a part of the largest.
 enum { MAX_ROUNDS = 3 };
 static const double near_enough = 1e-10;
 
-// --- what is asked ---------------------------------------------------------------------------------------------------
+// --- arguments -------------------------------------------------------------------------------------------------------
 
 static bool is_finite3(const double *v) { return isfinite(v[0]) && isfinite(v[1]) && isfinite(v[2]); }
 
@@ -337,7 +337,7 @@ static bool respond_alone(pulled *of, double *compliance, double *alone)
     return true;
 }
 
-/// What each spline answers: S and what is missed without pulls. false where one cannot be solved.
+/// Solves each spline for S and for the miss without pulls. false where one cannot be solved.
 static bool respond(wiggly_group *g, int spline_count)
 {
     const int n = g->rows.count;

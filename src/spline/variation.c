@@ -1,4 +1,4 @@
-/// Noise through the filter: what the jet engine would make of chance, sample by sample, of spread 1, times amount and size.
+/// Variations: noise through the filter, sample by sample, of spread 1, times amount and size.
 #include "spline/problem.h"
 #include <math.h>
 #include <stdint.h>
