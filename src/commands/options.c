@@ -158,7 +158,7 @@ static enum options_result store(const struct usage *usage, const struct option_
         struct option_list *list = option->target;
         if (!*text) return options_wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
         if (list->count == OPTION_LIST_MOST)
-            return options_wrong(usage, "%s: expected at most %d, got more", option->name, OPTION_LIST_MOST);
+            return options_wrong(usage, "%s: expected at most %d times, got more", option->name, OPTION_LIST_MOST);
         list->text[list->count++] = text;
         return OPTIONS_RUN;
     }
