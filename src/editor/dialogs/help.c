@@ -174,9 +174,7 @@ static void find(const struct dialogs *dialogs, struct commands_found *found)
 bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
 {
     struct help *help = &dialogs->help;
-    const bool release =
-        event->kind == EVENT_KEY && event->action == ACTION_RELEASE; // of a key that was pressed before
-    if (!help->open || release || event->kind == EVENT_POINTER || event->kind > EVENT_WHEEL) return false;
+    if (!help->open || !typing_concerns(event)) return false;
     struct commands_found found;
     find(dialogs, &found);
     const struct page page = page_of(dialogs, &found, core->layout.window);

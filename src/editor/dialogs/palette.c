@@ -147,9 +147,7 @@ static void press(struct palette *palette, const struct commands_found *found, c
 bool palette_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
 {
     struct palette *palette = &dialogs->palette;
-    const bool release =
-        event->kind == EVENT_KEY && event->action == ACTION_RELEASE; // of a key that was pressed before
-    if (!palette->open || release || event->kind == EVENT_POINTER || event->kind > EVENT_WHEEL) return false;
+    if (!palette->open || !typing_concerns(event)) return false;
     struct commands_found found;
     commands_find(&dialogs->commands, core, &palette->filter, &found);
     const struct sheet sheet = sheet_of(core->layout.window, found.count);
