@@ -5,6 +5,7 @@
 #include "documents.h"
 
 #include "app/table.h"
+#include "base/file.h"
 #include "ui/font.h"
 #include <ctype.h>
 
@@ -219,6 +220,16 @@ static inline void session_open(struct session *session, const char *scene)
     editor_open(session->editor, &session->world);
     if (session->editor->core.playback.playing) session_key(session, KEY_SPACE, 0);
     session_frame(session);
+}
+
+/// Opens the scene that the app starts with.
+static inline void session_open_start(struct session *session)
+{
+    char *text;
+    size_t size;
+    assert_done(file_read("assets/scenes/tail.json", 1 << 20, &text, &size, &error));
+    session_open(session, text);
+    free(text);
 }
 
 /// A test in a session that `opens` opens and that is closed at its end: SESSION_TEST(name, session_open(s, scene)) { … }.

@@ -1,15 +1,5 @@
 /// A curve that one pose sends far beyond its knots: said at once, also while it is dragged on the stage, and held by one click.
-#include "base/file.h"
 #include "panel_session.h"
-
-static void open_start_scene(struct session *s)
-{
-    char *text;
-    size_t size;
-    assert_done(file_read("assets/scenes/tail.json", 1 << 20, &text, &size, &error));
-    session_open(s, text);
-    free(text);
-}
 
 /// A jump within a frame, in a scene of that last frame; with more in the spline, and before it in the list.
 static void print_jump(int last, const char *more, const char *before, char text[1024])
@@ -50,7 +40,7 @@ static void drag_far(struct session *s)
     for (int i = 0; i < 60; i++) session_frame(s);
 }
 
-TEST_OF(struct session, s, open_start_scene(s), session_close(s),
+TEST_OF(struct session, s, session_open_start(s), session_close(s),
         test_a_drag_on_the_stage_says_that_the_curve_swings_far)
 {
     double knot;
@@ -67,7 +57,7 @@ TEST_OF(struct session, s, open_start_scene(s), session_close(s),
 }
 
 /// One click leaves what swings least, as one step.
-TEST_OF(struct session, s, open_start_scene(s), session_close(s), test_one_click_holds_what_swings_far)
+TEST_OF(struct session, s, session_open_start(s), session_close(s), test_one_click_holds_what_swings_far)
 {
     double knot;
     drag_far(s);

@@ -1,7 +1,6 @@
 /// What is seen when a tail or a chain is let go stays there, for every joint, whatever is changed later.
 #include "panel_session.h"
 
-#include "base/file.h"
 #include "beast.h"
 #include "folder.h"
 #include "scene/edit.h"
@@ -101,16 +100,7 @@ static void pull_at(struct session *session, double frame, const char *target, f
     assert_near(hypotf(after[0] - before[0], after[1] - before[1]), 0, 0.01); // letting go moves nothing
 }
 
-static void open_tail(struct session *session)
-{
-    char *text;
-    size_t size;
-    assert_done(file_read("assets/scenes/tail.json", 1 << 20, &text, &size, &error));
-    session_open(session, text);
-    free(text);
-}
-
-SESSION_TEST(a_tail_that_is_let_go_is_held, open_tail(s))
+SESSION_TEST(a_tail_that_is_let_go_is_held, session_open_start(s))
 {
     const char *before = session_saved(s);
     pull_at(s, 60, "tail(tail,0.9)", 60, -40);
