@@ -151,7 +151,7 @@ void palette_show(const struct dialogs *dialogs, struct core *core);
 /// A press on the card takes it away and is used up; so do Esc, an edit and the help.
 bool welcome_event(struct dialogs *dialogs, const struct event *event);
 
-/// Whether an event concerns a page on which one types: not the pointer's way, nor the release of a key that was pressed before.
+/// Whether an event is for a page that one types on. Pointer movements are not, nor releases of keys that were pressed before it opened.
 static inline bool typing_concerns(const struct event *event)
 {
     const bool release = event->kind == EVENT_KEY && event->action == ACTION_RELEASE;
