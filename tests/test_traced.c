@@ -8,6 +8,7 @@
 #include "app/recovery.h"
 #include "base/file.h"
 #include "commands/commands.h"
+#include "commands/progress.h"
 #include "scene/paint.h"
 
 #if !defined __x86_64__ || defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
@@ -283,6 +284,30 @@ TEST(exports)
         torment(output->files[output->files[1] ? 1 : 0], &job);
         for (int i = 0; i < MOST_FILES; i++) free(expected[i].data);
         memset(expected, 0, sizeof expected);
+    }
+}
+
+static int write_one(void *user)
+{
+    struct file_output one;
+    struct error error;
+    (void)user;
+    progress_end_when_interrupted();
+    if (!file_output_open(&one, work("one"), &error)) return 9;
+    fputs("one", one.stream);
+    return file_output_commit(&one, &error) ? 0 : 9;
+}
+
+TEST(a_command_that_is_told_to_end_leaves_no_temporary_file)
+{
+    int count = 0;
+    command("rm -rf %s/work && mkdir %s/work");
+    assert_int_equal(trace(write_one, NULL, (struct trouble){-1, -SIGTERM}, &count), 0);
+    for (int n = 0; n < count; n++) {
+        command("rm -f %s/work/one");
+        const int status = trace(write_one, NULL, (struct trouble){n, -SIGTERM}, NULL);
+        assert_true(status == 3 || n == count - 1);
+        command("test -z \"$(find %s/work -name '.wiggly*')\"");
     }
 }
 #endif

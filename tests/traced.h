@@ -17,7 +17,8 @@ enum { CAN_TRACE = 1 };
 
 typedef int traced(void *user);
 
-/// What is to go wrong: the `n`th of the calls that count (from 0 on; negative: none) fails with `error` or, 0, is the last.
+/// What is to go wrong: the `n`th of the calls that count (from 0 on; negative: none) fails with `error` or, 0, is the last. Below 0 the
+/// call is done, and then the signal −`error` comes.
 struct trouble {
     int n, error;
 };
@@ -80,7 +81,10 @@ static inline int trace(traced *run, void *user, struct trouble trouble, int *co
         }
         struct user_regs_struct registers;
         ptrace(PTRACE_GETREGS, stopped, NULL, &registers);
-        if (hit == stopped && trouble.error) {
+        if (hit == stopped && trouble.error < 0) {
+            kill(child, -trouble.error);
+            hit = 0;
+        } else if (hit == stopped && trouble.error) {
             registers.rax = (unsigned long long)-trouble.error;
             ptrace(PTRACE_SETREGS, stopped, NULL, &registers);
             hit = 0;
@@ -89,9 +93,9 @@ static inline int trace(traced *run, void *user, struct trouble trouble, int *co
             while (waitpid(-1, &status, __WALL) > 0) continue;
             return -1;
         } else if (registers.rax == (unsigned long long)-ENOSYS) { // at the call's start
-            const bool counts = trouble.error ? can_fail(registers.orig_rax) : changes_files(registers.orig_rax);
+            const bool counts = trouble.error > 0 ? can_fail(registers.orig_rax) : changes_files(registers.orig_rax);
             if (counts && n++ == trouble.n) hit = stopped;
-            if (hit != stopped || !trouble.error) continue;
+            if (hit != stopped || trouble.error <= 0) continue;
             registers.orig_rax = (unsigned long long)-1;
             ptrace(PTRACE_SETREGS, stopped, NULL, &registers);
         }

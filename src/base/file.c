@@ -201,6 +201,7 @@ static int create_beside(const char *target, bool is_folder, mode_t mode, char *
         char name[64];
         snprintf(name, sizeof name, ".wiggly-%ld-%d.tmp", (long)getpid(), i);
         *temporary = beside(target, name);
+        if (!is_folder) replace_unfinished(NULL, *temporary); // a signal may come as soon as the file is there
         int file = !is_folder                     ? open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode)
                    : mkdir(*temporary, mode) == 0 ? open(*temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
                                                   : -1;
@@ -209,6 +210,7 @@ static int create_beside(const char *target, bool is_folder, mode_t mode, char *
             return file;
         }
         int cause = errno;
+        replace_unfinished(*temporary, NULL);
         free(*temporary);
         *temporary = NULL;
         errno = cause;
@@ -289,7 +291,6 @@ static int open_output(const char *path, struct file_output *output)
     if (!output->target) return -1;
     sweep(output->target);
     int file = create_beside(output->target, false, exists ? 0600 : 0666, &output->temporary);
-    if (file >= 0) replace_unfinished(NULL, output->temporary);
     if (file >= 0 && exists && !keep_rights(file, path, &old)) {
         close(file);
         return -1;
