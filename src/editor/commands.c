@@ -1,4 +1,4 @@
-/// All commands in one table, for keys, F1 and the palette. docs/keys.md lists them.
+/// The table of all commands, for keys, F1 and the palette. docs/keys.md lists them.
 #include "editor/commands.h"
 #include "editor/core/bones.h"
 #include "editor/core/characters.h"
@@ -15,7 +15,7 @@
 #include "ui/theme.h"
 #include <math.h>
 
-/// Asks the app, or first the user, where to or whether work may be lost.
+/// Passes a request to the app. Some first need a file name, or an answer about unsaved work.
 static void ask_for(struct editor *editor, enum request_kind kind, int number)
 {
     const struct request request = {.kind = kind, .number = number};
@@ -54,7 +54,7 @@ static bool has_pin(const struct editor *editor)
     return pins_selected(&editor->core, &rig) != NULL;
 }
 
-/// Puts the brush away; without one, stops to pick a bone, ends presenting, lets go of the bone or pin that is selected, or clears the selection.
+/// Escape undoes one mode at a time: brush, bone picking, presenting, selected bone, selected pin, selection.
 static void run_select_none(struct editor *e, int argument)
 {
     (void)argument;
@@ -92,7 +92,7 @@ static void run_frame(struct editor *e, int argument)
 
 enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_DUPLICATE };
 
-/// Not while a value is typed: Ctrl+C then means the text.
+/// Not while a value is typed: Ctrl+C then copies text.
 static void run_clipboard(struct editor *e, int argument)
 {
     if (inspector_ui(e->inspector)->typing) return;
@@ -112,7 +112,6 @@ static void run_brush(struct editor *e, int argument)
     if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
 }
 
-/// Sections of the inspector, as arguments of run_section().
 enum section_name {
     SECTION_SPLINE,
     SECTION_RIGS,
@@ -149,11 +148,10 @@ static void run_theme(struct editor *e, int argument)
     theme_use((theme_in_use() + 1) % THEME_COUNT);
 }
 
-/// Arguments of run_pan(), run_orbit() and run_nudge().
 enum way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };
 
-static const double PAN = 0.1;  ///< of the panel's size
-static const double ZOOM = 0.8; ///< of the view, a step
+static const double PAN = 0.1;  ///< of the plot
+static const double ZOOM = 0.8; ///< per step
 static const float TURN = 0.1f; ///< radians
 static const int way_sign[][2] = {
     [WAY_LEFT] = {-1, 0}, [WAY_RIGHT] = {1, 0}, [WAY_UP] = {0, -1}, [WAY_DOWN] = {0, 1}};
@@ -187,7 +185,7 @@ static void run_fit_stage(struct editor *editor, int argument)
     stage_fit(editor->stage, &editor->core);
 }
 
-/// By a frame or 1 % of the visible values, a pin by 1 % of the view; with Shift ten times that, with Ctrl a tenth.
+/// One frame or 1 % of the visible values; a pin, 1 % of the view. Shift: ten times, Ctrl: a tenth.
 static void run_nudge(struct editor *editor, int way)
 {
     const unsigned mods = editor->core.mods;
@@ -218,7 +216,7 @@ static void change_list(struct core *core, int change)
     if (change >= LIST_UP) spline_list_move(core, core->active, core->active + (change == LIST_UP ? -1 : 1));
 }
 
-/// The first of the sizes that is clearly larger than the present one, round the end.
+/// The first of the sizes clearly above the present one, then the smallest again.
 static double next_size(const double sizes[3], double present)
 {
     int next = 0;
@@ -256,7 +254,7 @@ enum {
             __VA_ARGS__                                                                                              \
         }                                                                                                            \
     }
-/// A row that only F1 shows: a gesture or a held key, and its effect.
+/// A row only in F1: a gesture or held key.
 #define GESTURE(gestured, named, heading, places)                                                                    \
     {                                                                                                                \
         .name = (named), .about = ABOUT_##heading, .at = (places), .gesture = (gestured)                             \
@@ -439,7 +437,7 @@ const struct command commands[] = {
     COMMAND("A creature held by its hands", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 9, {'9', CTRL}),
     COMMAND("A fox in a meadow", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 10, {'0', CTRL}),
 
-    // Without a line in F1.
+    // Not in F1.
     COMMAND("Open Spline: kind, equilibrium, start", NOTHING, 0, SPLINE, 0, .run = run_section, SECTION_SPLINE, {0}),
     COMMAND("Open Rigs", NOTHING, 0, NOTHING, 0, .run = run_section, SECTION_RIGS, {0}),
     COMMAND("Open Imported character: clip, bones", NOTHING, 0, MODEL, 0, .run = run_section, SECTION_MODEL, {0}),

@@ -1,14 +1,14 @@
-/// The table of everything that can be done. Private to src/editor.
+/// The table of all commands. Private to src/editor.
 #ifndef EDITOR_COMMANDS_H
 #define EDITOR_COMMANDS_H
 
 #include "editor/core/command.h"
 
-/// Under each heading in the order in which F1 lists them.
+/// Sorted by heading, in the order of F1.
 extern const struct command commands[];
 extern const int command_count;
 
-/// Runs a command. A key runs it whatever it needs; the function then says what is missing.
+/// Runs a command even if something it needs is missing; the function then says what.
 void command_run(struct editor *editor, const struct command *command);
 
 #endif

@@ -52,7 +52,7 @@ void editor_resize(struct editor *editor, float width, float height, float scale
 {
     editor->core.layout.window = (struct rect){0, 0, width > 1 ? width : 1, height > 1 ? height : 1};
     const float before = editor->core.scale, now = scale > 0 ? scale : 1;
-    if (before > 0) { // the pointer stays where it is on the screen
+    if (before > 0) { // the scene keeps its place under the pointer
         editor->core.pointer_x *= before / now;
         editor->core.pointer_y *= before / now;
     }
@@ -60,7 +60,6 @@ void editor_resize(struct editor *editor, float width, float height, float scale
     core_layout(&editor->core);
 }
 
-/// The panels start anew with a document.
 static void open_panels(struct editor *editor)
 {
     editor->seen.serial = editor->core.serial;

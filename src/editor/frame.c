@@ -1,4 +1,4 @@
-/// One frame of the editor: events go to panels, time passes, everything is drawn.
+/// One frame of the editor: passes events to panels, advances time, draws.
 #include "editor/commands.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
@@ -21,7 +21,6 @@ static const struct drag_owner divider_drags[] = {
     [DIVIDER_INSPECTOR] = {.cursor = CURSOR_HORIZONTAL, .move = move_divider},
 };
 
-/// A divider between the panels follows the pointer.
 static void move_divider(void *room, struct core *core)
 {
     (void)room;
@@ -43,7 +42,7 @@ static void press(struct editor *editor, const struct event *event)
     }
 }
 
-/// Ends a running edit of the inspector before the document changes or the app quits.
+/// Ends a running edit in the inspector first.
 void editor_leave(struct editor *editor, const struct request *request)
 {
     inspector_let_go(editor->inspector);
@@ -58,7 +57,7 @@ static void turn_wheel(struct editor *editor, const struct event *event)
     if (panel == PANEL_STAGE) stage_wheel(editor->stage, &editor->core, event);
 }
 
-/// Events that neither a dialog nor a running drag nor the inspector wanted.
+/// For events that no dialog, drag or inspector used.
 static void dispatch(struct editor *editor, const struct event *event)
 {
     struct request request = {.kind = event->kind == EVENT_CLOSE ? REQUEST_QUIT : REQUEST_OPEN};
@@ -88,7 +87,7 @@ static void dispatch(struct editor *editor, const struct event *event)
     }
 }
 
-/// Remembers pointer and modifiers; a press dismisses an error.
+/// Stores pointer and modifiers; a press dismisses an error.
 static void note(struct editor *editor, const struct event *event)
 {
     bool has_pointer = event->kind == EVENT_POINTER || event->kind == EVENT_BUTTON || event->kind == EVENT_WHEEL;
@@ -110,7 +109,7 @@ void editor_let_go(struct editor *editor)
     inspector_let_go(editor->inspector);
 }
 
-/// Asks core's question. When something opens over the panels, ends any drag and lets go of held keys.
+/// Opens core's question. A new overlay ends any drag and releases held keys.
 static void ask(struct editor *editor)
 {
     if (dialogs_ask(editor->dialogs, &editor->core)) inspector_let_go(editor->inspector);
@@ -120,15 +119,15 @@ static void ask(struct editor *editor)
     editor->core.space_down = false;
 }
 
-/// Keys and buttons hide a tooltip; moving the pointer does not.
+/// Whether an event hides a tooltip.
 static bool is_interruption(const struct event *event)
 {
     const bool pressed = (event->kind == EVENT_KEY || event->kind == EVENT_BUTTON) && event->action != ACTION_RELEASE;
     return pressed || event->kind == EVENT_TEXT || event->kind == EVENT_WHEEL || event->kind == EVENT_SIZE;
 }
 
-/// Events go to what lies over the panels first, then to a running drag, then to the inspector. A field that is typed in takes
-/// all keys but Ctrl chords and F keys, a focused slider the arrows, Enter and digits, an open dialog all.
+/// Overlays get events first, then a running drag, then the inspector. A text field takes all keys except Ctrl chords and F keys; a focused
+/// slider arrows, Enter and digits; an open dialog all.
 void editor_event(struct editor *editor, const struct event *event)
 {
     note(editor, event);
@@ -156,7 +155,7 @@ void editor_advance(struct editor *editor, double dt)
     const struct ui *ui = inspector_ui(editor->inspector);
     const bool busy =
         ui->typing || inspector_is_dragging(editor->inspector) || ui->popup.id || dialogs_cover(editor->dialogs);
-    editor->press = (struct press){.used = false}; // its text comes in the same frame
+    editor->press = (struct press){.used = false}; // the text event comes in the same frame
     if (message->seconds_left > 0) {
         message->seconds_left -= dt;
         if (message->seconds_left <= 0) message->text[0] = 0;
@@ -195,7 +194,7 @@ void editor_pose_alone(struct editor *editor, double frame, float width, float h
     editor_pose(editor);
 }
 
-/// Finds the item under the pointer now, because things move under it.
+/// Every frame, because things move under the pointer.
 static void update_hover(struct editor *editor)
 {
     if (editor->core.drag.owner) return;
@@ -208,7 +207,6 @@ static void update_hover(struct editor *editor)
     if (panel == PANEL_STATUS) editor->core.hover = transport_hover(&editor->core, x, y);
 }
 
-/// The grip in the middle shows that it can be dragged.
 static void show_divider(struct editor *editor, enum divider divider)
 {
     enum { LENGTH = 36, THICKNESS = 3 };
@@ -228,7 +226,7 @@ static void show_divider(struct editor *editor, enum divider divider)
                                : theme()->text_dim);
 }
 
-/// A control that the pointer is on explains itself; else the one that has the keyboard.
+/// For the control under the pointer, else for the focused one.
 static void show_tooltip(struct editor *editor)
 {
     struct core *core = &editor->core;
@@ -242,7 +240,7 @@ static void show_tooltip(struct editor *editor)
     tooltip_show(&editor->tooltip, core->layout.window, &core->list);
 }
 
-/// All panels; while presenting, those that have not slid away.
+/// While presenting, only the panels that have not slid away.
 static void show_panels(struct editor *editor)
 {
     const struct presenter *presenter = &editor->core.presenter;

@@ -15,7 +15,7 @@ const struct command *keys_command(int key, unsigned mods)
     return NULL;
 }
 
-/// Runs the command of a chord, unless it excludes key repeats or running drags; true if there is one.
+/// Runs the chord's command, unless it excludes key repeats or drags; true if there is one.
 static bool run(struct editor *editor, int key, unsigned mods, bool repeated)
 {
     const struct command *command = keys_command(key, mods);
@@ -25,7 +25,7 @@ static bool run(struct editor *editor, int key, unsigned mods, bool repeated)
     return command != NULL;
 }
 
-/// Space plays on release, unless it was used to pan.
+/// Space plays on release, unless it panned.
 static void space_event(struct editor *editor, const struct event *event)
 {
     if (event->action == ACTION_PRESS) {
@@ -39,7 +39,7 @@ static void space_event(struct editor *editor, const struct event *event)
 
 static bool is_held_letter(int key) { return key == 'L' || parameter_of_letter(key) != PARAMETER_COUNT; }
 
-/// The character of a key that was used elsewhere, say to close the help, is no command.
+/// Text of a key used elsewhere (to close the help, say) runs no command.
 static bool text_event(struct editor *editor, const struct event *event)
 {
     const struct press *press = &editor->press;
@@ -72,6 +72,6 @@ bool keys_event(struct editor *editor, const struct event *event)
     if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->core.held_key = event->key;
     const bool bound = run(editor, event->key, mods, event->action == ACTION_REPEAT);
     editor->press.opened = inspector_ui(editor->inspector)->popup.id != 0;
-    editor->press.used |= bound && mods & MOD_ALT; // some systems still send the character of such a key
+    editor->press.used |= bound && mods & MOD_ALT; // some systems still send the key's text
     return bound;
 }

@@ -1,4 +1,4 @@
-/// The keyboard: from keys and typed characters to commands. Private to src/editor.
+/// Maps keys and typed characters to commands. Private to src/editor.
 #ifndef EDITOR_KEYS_H
 #define EDITOR_KEYS_H
 
@@ -6,12 +6,12 @@
 
 struct command;
 
-/// The command of a key with exactly these modifiers, or with CHORD_TYPED of a typed character: every layout has punctuation on other keys,
-/// and what AZERTY, QWERTZ or Nordic layouts type only with AltGr has a key as well. NULL: there is none.
+/// The command of a key with exactly these modifiers, or with CHORD_TYPED of a typed character. Punctuation is matched as a character
+/// because its key depends on the layout; what some layouts type only with AltGr also has a key. NULL: none.
 const struct command *keys_command(int key, unsigned mods);
-/// Keys with one meaning whatever has the focus; true where the event is used up.
+/// Keys that work whatever has the focus; true if used.
 bool keys_first(struct editor *editor, const struct event *event);
-/// Keys and characters; true where the event is used up.
+/// true if used.
 bool keys_event(struct editor *editor, const struct event *event);
 
 #endif

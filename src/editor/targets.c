@@ -1,4 +1,4 @@
-/// Names for places on the screen, for replays; they survive a new layout: "knot(sway,2)", "tail(tail,0.9)".
+/// Names for places on the screen, as replays use them: "knot(sway,2)", "tail(tail,0.9)". They survive layout changes.
 #include "editor/core/bones.h"
 #include "editor/curves/curves.h"
 #include "editor/editor.h"
@@ -10,18 +10,18 @@
 
 enum { MAX_NUMBERS = 2, MAX_NAME = 256 };
 
-/// A target taken apart: kind(name,number,…); the name may hold anything, the numbers are what follows the last
-/// commas. Then what of the document has that name, as its kind says.
+/// A parsed target, kind(name,number,…), and the part of the document it names. The name may hold anything; the numbers follow the last
+/// commas.
 struct target {
     char name[MAX_NAME];
     double number[MAX_NUMBERS];
     int spline;
     const struct knot *knot;
-    int rig, nth; ///< which of all, and of its kind
+    int rig, nth; ///< index among all rigs; among its kind
     const struct pin *pin;
 };
 
-/// The editor is as it was after all: inspector_target() lays its widgets out to find one.
+/// Not const because inspector_target() lays out its widgets; the editor ends up unchanged.
 typedef bool find_place(struct editor *editor, const struct target *target, float xy[2]);
 
 static bool in_plot(const struct editor *editor, double frame, double value, float xy[2])
@@ -39,13 +39,13 @@ static bool find_knot(struct editor *editor, const struct target *target, float 
                    core_knot_value(&editor->core, target->spline, target->knot), xy);
 }
 
-/// A knot's mark on the dope sheet: mark(sway,2).
+/// mark(sway,2): a knot on the dope sheet.
 static bool find_mark(struct editor *editor, const struct target *target, float xy[2])
 {
     return curves_mark_point(editor->curves, &editor->core, target->spline, (int)target->number[0], xy);
 }
 
-/// The end of a knot's slope handle: handle(sway,2,1), 0 before and 1 after the knot.
+/// handle(sway,2,1): a slope handle's end, 0 before and 1 after the knot.
 static bool find_handle(struct editor *editor, const struct target *target, float xy[2])
 {
     curves_handle(editor->curves, &editor->core, target->knot, target->number[1] > 0, xy);
@@ -57,7 +57,7 @@ static bool find_curve(struct editor *editor, const struct target *target, float
     return in_plot(editor, target->number[0], target->number[1], xy);
 }
 
-/// A handle of the box round the selected knots: box(1,0) is the middle of its right edge, box(-1,-1) the upper left corner.
+/// box(1,0): a handle of the selection box, here the middle of its right edge; box(-1,-1) is the upper left corner.
 static bool find_box(struct editor *editor, const struct target *target, float xy[2])
 {
     return curves_box_point(editor->curves, &editor->core, (int)target->number[0], (int)target->number[1], xy);
@@ -84,7 +84,7 @@ static bool find_stage(struct editor *editor, const struct target *target, float
     return true;
 }
 
-/// From where the pointer is, in heights of the stage: pointer(0.1,0).
+/// pointer(0.1,0): relative to the pointer, in heights of the stage.
 static bool find_pointer(struct editor *editor, const struct target *target, float xy[2])
 {
     const struct core *core = &editor->core;
@@ -93,7 +93,7 @@ static bool find_pointer(struct editor *editor, const struct target *target, flo
     return true;
 }
 
-/// A place along the row of joints of a tail or chain: 0 is the first, 1 the tip.
+/// A place along a tail or chain: 0 is the first joint, 1 the tip.
 static bool find_along(struct editor *editor, const struct target *target, float xy[2])
 {
     const int joints = bones_joints(&editor->core, target->rig);
@@ -102,7 +102,7 @@ static bool find_along(struct editor *editor, const struct target *target, float
     return stage_project(editor->stage, &editor->core, target->rig, joint, along - joint, xy);
 }
 
-/// The part after a character's own name and a slash, or else all of a text.
+/// The text after the character's name and a slash, or the whole text.
 static const char *bone_name(const struct rig *character, const char *text)
 {
     const char *title = rig_title(character);
@@ -110,7 +110,7 @@ static const char *bone_name(const struct rig *character, const char *text)
     return strncmp(text, title, length) == 0 && text[length] == '/' ? text + length + 1 : text;
 }
 
-/// A bone of the imported characters: bone(tail_1), the first that there is, or bone(dog 2/tail_1).
+/// bone(tail_1): the first such bone of all characters; bone(dog 2/tail_1): that character's.
 static bool find_bone(struct editor *editor, const struct target *target, float xy[2])
 {
     const struct document *document = editor->core.document;
@@ -128,26 +128,25 @@ static bool find_body(struct editor *editor, const struct target *target, float 
     return stage_body_point(editor->stage, &editor->core, target->nth, xy);
 }
 
-/// A point of a character's surface: character(up,0.5,0.8), where it is now. u goes across and v up the box of the character
-/// at rest, seen from the front.
+/// character(up,0.5,0.8): a surface point where it is now. u runs across and v up the rest pose's box, seen from the front.
 static bool find_character(struct editor *editor, const struct target *target, float xy[2])
 {
     return stage_character_point(editor->stage, target->nth, target->number, xy);
 }
 
-/// The edge of a character's floor: floor(creature).
+/// floor(creature): the edge of a character's floor.
 static bool find_floor(struct editor *editor, const struct target *target, float xy[2])
 {
     return stage_floor_point(editor->stage, &editor->core, target->nth, xy);
 }
 
-/// The marker of a pin on the stage: pin(tail,0), in the order of frames.
+/// pin(tail,0): a pin's marker on the stage, counted by frame.
 static bool find_pin(struct editor *editor, const struct target *target, float xy[2])
 {
     return stage_pin_point(editor->stage, &editor->core, target->pin, xy);
 }
 
-/// Its mark on the ruler: pintime(tail,0).
+/// pintime(tail,0): its mark on the ruler.
 static bool find_pin_time(struct editor *editor, const struct target *target, float xy[2])
 {
     return curves_pin_point(editor->curves, &editor->core, target->pin, xy);
@@ -167,16 +166,16 @@ static bool find_widget(struct editor *editor, const struct target *target, floa
     return inspector_target(editor->inspector, target->name, &xy[0], &xy[1]);
 }
 
-/// Whose name a target has.
+/// What a target's name belongs to.
 enum target_of { OF_NOBODY, OF_ITSELF, OF_SPLINE, OF_KNOT, OF_RIG, OF_PIN };
 
 static const struct target_kind {
     const char *kind;
     enum target_of of;
     enum rig_kind rig; ///< OF_RIG
-    int numbers;       ///< how many there are behind the name
+    int numbers;       ///< how many follow the name
     find_place *find;
-    const char *missing; ///< why there is no such place, although its subject exists
+    const char *missing; ///< why the subject has no such place
 } kinds[] = {
     {"knot", OF_KNOT, 0, 1, find_knot, "that knot is not in the visible part of the curves"},
     {"mark", OF_KNOT, 0, 1, find_mark, "the dope sheet does not show that knot"},
@@ -200,7 +199,7 @@ static const struct target_kind {
     {"widget", OF_ITSELF, 0, 0, find_widget, "the inspector does not show it"},
 };
 
-/// Finds the spline of the target's name, and its knot where the kind asks for one.
+/// Finds the spline of the name, and its knot if the kind needs one.
 static bool find_spline(const struct document *document, const struct target_kind *kind, struct target *target,
                         struct error *error)
 {
@@ -216,7 +215,7 @@ static bool find_spline(const struct document *document, const struct target_kin
     return true;
 }
 
-/// Finds the rig of the kind that has the target's name, or one with such a pin. A character without a name goes by its model.
+/// Finds the rig of the kind and name, or one with such a pin. An unnamed character goes by its model.
 static bool find_rig(const struct document *document, const struct target_kind *kind, struct target *target,
                      struct error *error)
 {
@@ -233,7 +232,7 @@ static bool find_rig(const struct document *document, const struct target_kind *
     return fail(error, ERROR_INPUT, "there is no %s \"%s\"", rig_word(kind->rig), target->name);
 }
 
-/// Cuts the last ",number" off `text`; false where there is none.
+/// Cuts the last ",number" off `text`; false if there is none.
 static bool cut_number(char *text, double *number)
 {
     char *comma = strrchr(text, ',');

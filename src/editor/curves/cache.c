@@ -1,4 +1,4 @@
-/// Solved splines → polylines: one vertex per pixel column, and one exactly on each knot.
+/// Turns solved splines into polylines: one vertex per pixel column, and one exactly on each knot.
 #include "base/hash.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -8,7 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-/// Inputs of the polylines.
 static uint64_t cache_key(const struct curves *curves, const struct core *core)
 {
     uint64_t revision[2] = {history_revision(core->history), core->evaluation ? core->evaluation->revision : 0};
@@ -23,7 +22,7 @@ static uint64_t cache_key(const struct curves *curves, const struct core *core)
     return key ? key : 1;
 }
 
-/// Puts the column next to each knot of the active spline exactly on it, if it is next to no other.
+/// Moves the nearest column onto each knot of the active spline, unless several knots share that column.
 static void hit_knots(struct curves *curves, const struct core *core, double first, double by)
 {
     struct curve_cache *cache = &curves->cache;
@@ -38,14 +37,14 @@ static void hit_knots(struct curves *curves, const struct core *core, double fir
             k + 1 < spline->knot_count
                 ? floor((document_sample(core->document, spline->knots[k + 1].frame) - first) / by + 0.5)
                 : INFINITY;
-        // Of several knots at a column none is hit: its lowest and highest samples say where they are.
+        // Where knots share a column, its lowest and highest samples show them.
         if (column >= 0 && column != before && column != after) cache->position[(int)column] = sample;
         before = column;
     }
 }
 
-/// Where a column stands for many samples: the highest of them, in the next column the lowest, so that an oscillation
-/// that is finer than a pixel is drawn as the band that it fills and not as some slow wave that it is not.
+/// A column that covers many samples shows their maximum, the next column their minimum. An oscillation finer than a pixel then fills a
+/// band instead of aliasing to a slow wave.
 static double outermost(const struct evaluation *evaluation, int spline, double position, double by, bool highest)
 {
     if (by <= 1 || spline < 0 || spline >= evaluation->count) return position;
@@ -54,7 +53,7 @@ static double outermost(const struct evaluation *evaluation, int spline, double 
     return first <= end ? evaluation_extreme(evaluation, spline, first, end, highest) : position;
 }
 
-/// Columns of the part of the scene's range that can be seen.
+/// Columns of the visible part of the scene's range.
 static void place_columns(struct curves *curves, const struct core *core)
 {
     struct curve_cache *cache = &curves->cache;
@@ -80,7 +79,7 @@ static double frame_of(const struct document *document, double position)
     return document->first_frame + position / document->substeps;
 }
 
-/// Lags (radians) that the fan shows: evenly along the tail or chain that the active spline moves. How many there are.
+/// Spreads the fan's lags (radians) evenly along the tail or chain that the active spline moves. Returns how many.
 static int fan_lags(const struct core *core, double lags[CURVES_FAN])
 {
     int rig, number;
@@ -94,8 +93,7 @@ static int fan_lags(const struct core *core, double lags[CURVES_FAN])
     return CURVES_FAN;
 }
 
-/// Whether a line whose points are the highest and the lowest of their columns in turn swings in most of them: the next point is far,
-/// and the next but one is not.
+/// Whether a line of alternating maxima and minima swings in most columns: the next point is far away, the one after it near.
 static bool is_band(const struct curve_cache *cache, const polyline line)
 {
     static const float least = 4; // pixels
@@ -107,11 +105,10 @@ static bool is_band(const struct curve_cache *cache, const polyline line)
     return cache->by > 1 && 2 * swings > cache->count;
 }
 
-/// What the columns on both sides of a band's point cover: with less, a swing as long as two columns would be lost where each of them
-/// shows its other half.
+/// A band's point covers the columns on both sides. Otherwise a swing two columns long would vanish.
 static double widened(const struct curve_cache *cache) { return 2 * cache->by; }
 
-/// A spline's total as a band: the highest and the lowest sample about each column in turn.
+/// A spline's total as a band: maximum and minimum around each column.
 static void draw_band(const struct curves *curves, const struct core *core, int spline, struct value_map map,
                       polyline line)
 {
@@ -125,7 +122,7 @@ static void draw_band(const struct curves *curves, const struct core *core, int 
     }
 }
 
-/// Im x as a band: of every sample, or of sixteen or so where there are more.
+/// Im x as a band, from at most about sixteen samples a column.
 static void draw_imaginary_band(struct curves *curves, const struct core *core)
 {
     struct curve_cache *cache = &curves->cache;
@@ -142,7 +139,7 @@ static void draw_imaginary_band(struct curves *curves, const struct core *core)
     }
 }
 
-/// Whether the active spline's knots in sight are nearer to each other than its lagged copies could be told apart.
+/// Whether the active spline's visible knots are too close together to tell its lagged copies apart.
 static bool is_crowded(const struct curves *curves, const struct core *core)
 {
     static const int apart = 3; // columns
@@ -178,7 +175,7 @@ static void draw_active(struct curves *curves, const struct core *core)
     }
     cache->band = is_band(cache, cache->re);
     if (!cache->band) return;
-    cache->fan_count = 0; // its copies would fill the same band
+    cache->fan_count = 0; // the copies would fill the same band
     draw_band(curves, core, core->active, (struct value_map){1, 0}, cache->re);
     draw_imaginary_band(curves, core);
 }

@@ -1,4 +1,4 @@
-/// The curves panel: its beginning and end, hover, presses, boxes round knots, and the active spline's limits.
+/// The curves panel: its life, hover, presses, box selection, and the active spline's limits.
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -33,7 +33,7 @@ void curves_open(struct curves *curves)
 bool curves_wants_frames(const struct curves *curves) { return curves->following.moves; }
 
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
-static const double ZOOM_STEP = 0.15; ///< of a wheel's notch, as a power of e
+static const double ZOOM_STEP = 0.15; ///< exponent of e per notch of the wheel
 
 float nearest_knot(const struct curves *curves, const struct core *core, int of, float row, float x, float y,
                    float reach, struct hover *hover)
@@ -50,7 +50,7 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
     return best;
 }
 
-/// Knots of the other curves that are drawn: a press on one makes its spline the active one.
+/// Knots of the other drawn curves.
 static void nearest_other_knot(const struct curves *curves, const struct core *core, float x, float y,
                                struct hover *hover)
 {
@@ -61,7 +61,7 @@ static void nearest_other_knot(const struct curves *curves, const struct core *c
     }
 }
 
-/// A press that did not move was a click on empty; `keep` false brings the former selection back.
+/// A press that did not move deselects; `keep` false restores the former selection.
 static void end(void *room, struct core *core, bool keep)
 {
     const struct curves *curves = room;
@@ -99,7 +99,7 @@ static void nearest_warning(const struct curves *curves, const struct core *core
     }
 }
 
-/// The nearest curve straight above or below, the active one first.
+/// The nearest curve directly above or below, the active one first.
 static void nearest_curve(const struct curves *curves, const struct core *core, float x, float y, struct hover *hover)
 {
     double position = core_position(core->document, curves_frame(curves, core, x));
@@ -115,11 +115,10 @@ static void nearest_curve(const struct curves *curves, const struct core *core, 
     }
 }
 
-static const float REACH = 5; ///< pixels from a line at which it is hit
+static const float REACH = 5; ///< pixels
 
 static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PARAMETER_LOW; }
 
-/// A line of a limit of the spline near that height.
 static void limits_hover(const struct curves *curves, const struct core *core, const struct spline *spline, float y,
                          struct hover *hover)
 {
@@ -152,7 +151,7 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     return hover;
 }
 
-/// A press on a knot: Shift adds or removes it, else it is dragged with all that are selected.
+/// Shift adds or removes the knot. Without Shift a drag moves all selected knots.
 static void press_knot(struct curves *curves, struct core *core, const struct hover *hover, const struct event *event)
 {
     unsigned id = hover->knot;
@@ -172,7 +171,7 @@ static void press_knot(struct curves *curves, struct core *core, const struct ho
         selection_set(&core->selection, id, true);
     }
     drag_begin_knots(curves, core, id, event);
-    core->drag.lock_x = rect_contains(core->layout.sheet, event->x, event->y); // marks are dragged in time alone
+    core->drag.lock_x = rect_contains(core->layout.sheet, event->x, event->y); // the dope sheet has only time
     curves->knot_drag.collapse = selected && !(event->mods & MOD_SHIFT);
 }
 
@@ -214,7 +213,6 @@ static void press_ruler(struct curves *curves, struct core *core, const struct e
     playback_seek(core, drag_snaps(core, event->mods) ? round(frame) : frame);
 }
 
-/// The limit goes where the pointer is; knots stay within.
 static void apply(void *room, struct core *core)
 {
     const struct curves *curves = room;
@@ -228,11 +226,11 @@ static void apply(void *room, struct core *core)
         if (spline->knots[k].still) continue;
         value = drag->handle ? fmax(value, knot) : fmin(value, knot);
     }
-    if (drag->handle ? value <= other : value >= other) return; // without knots: they do not pass each other
+    if (drag->handle ? value <= other : value >= other) return; // the two limits must not cross, knots or not
     core_set_parameter(core, core->active, limit_of(drag->handle), value);
 }
 
-/// Starts to drag the low limit (0) or the high one (1).
+/// `handle`: 0 is the low limit, 1 the high one.
 static void limits_begin_drag(struct curves *curves, struct core *core, int handle, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply};
@@ -297,7 +295,7 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
     double factor = exp(-ZOOM_STEP * fmin(fmax(notches, -20), 20));
     double time = event->mods & MOD_SHIFT && !(event->mods & MOD_CTRL) ? 1 : factor;
     double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
-    if (rect_contains(sheet_area(core), event->x, event->y)) value = 1; // which has only time
+    if (rect_contains(sheet_area(core), event->x, event->y)) value = 1; // the dope sheet zooms time only
     curves_zoom(curves, core, event->x, event->y, time, value);
 }
 
@@ -307,7 +305,7 @@ static struct rect box_rect(const struct drag *drag)
                          fabsf(drag->y - drag->start_y)};
 }
 
-/// Selects or deselects the knots of one spline in the box, in the plot or, with the height of its row, on the sheet.
+/// Selects or deselects one spline's knots in the box: in the plot (`row` NAN), or on its row of the dope sheet.
 static void take_inside(const struct curves *curves, struct core *core, int s, float row)
 {
     const struct rect box = box_rect(&core->drag);
@@ -321,7 +319,6 @@ static void take_inside(const struct curves *curves, struct core *core, int s, f
     }
 }
 
-/// Selects the knots in the box.
 static void move(void *room, struct core *core)
 {
     const struct curves *curves = room;

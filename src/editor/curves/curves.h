@@ -8,57 +8,50 @@ struct curves;
 
 struct curves *curves_create(void);
 void curves_destroy(struct curves *curves);
-/// Lays the dope sheet out, which takes its room from the plot.
+/// Lays out the dope sheet; the plot shrinks by its height.
 void sheet_update(struct curves *curves, struct core *core);
-/// Where a knot's mark is on the dope sheet; false where it is out of sight.
+/// Centre of a knot's mark on the dope sheet; false if it is not visible.
 bool curves_mark_point(const struct curves *curves, const struct core *core, int spline, int knot, float xy[2]);
-/// Finds the item under a point of the panel.
 struct hover curves_hover(const struct curves *curves, const struct core *core, float x, float y);
-/// A press in the panel.
 void curves_press(struct curves *curves, struct core *core, const struct event *event);
-/// The wheel over the panel.
 void curves_wheel(struct curves *curves, struct core *core, const struct event *event);
-/// A new document is on the table.
+/// Resets the panel for a new document.
 void curves_open(struct curves *curves);
-/// Whether the view moves.
+/// Whether the view is still moving.
 bool curves_wants_frames(const struct curves *curves);
-/// Ends of a knot's slope handle: before (0) or after (1) the knot.
+/// Position of a slope handle's end: before (0) or after (1) the knot.
 void curves_handle(const struct curves *curves, const struct core *core, const struct knot *knot, int end,
                    float xy[2]);
-/// The whole panel into the draw list. The playhead comes last: nothing before it depends on the time shown.
+/// Draws the panel. The playhead comes last, so that nothing before it depends on the time.
 void curves_show(struct curves *curves, struct core *core);
-/// Another spline has become active than `before`: keeps the picture as it is.
+/// Keeps the picture in place when another spline than `before` becomes active.
 void curves_activate(struct curves *curves, struct core *core, int before);
-/// Fixes the first warning.
 void curves_remedy_first(struct curves *curves, struct core *core, int unused);
-/// Starts to scale the selected knots with the pointer: about the middle of the selection, or their values about the
-/// equilibrium. P goes on to the next pivot.
+/// Starts scaling the selected knots with the pointer, about the selection's middle or about the equilibrium; P changes the pivot.
 void curves_scale(struct curves *curves, struct core *core, int about_equilibrium);
-/// Where a handle of the box round the selected knots is: column and row −1 … 1, 0 0 is none. false where it is not shown.
+/// Position of a handle of the selection box: column and row −1 … 1, not both 0. false if it is not shown.
 bool curves_box_point(const struct curves *curves, const struct core *core, int column, int row, float xy[2]);
-/// Moves the selected knots by frames, and by hundredths of the values in sight; repeated nudges are one undo step.
+/// Moves the selected knots by frames and by hundredths of the visible values. Repeated nudges are one undo step.
 void curves_nudge(const struct curves *curves, struct core *core, double frames, double hundredths);
-/// Frame to logical pixels, within a few thousand of the plot.
+/// Frame to logical pixels, clamped to a few thousand around the plot.
 float curves_x(const struct curves *curves, const struct core *core, double frame);
-/// Value to logical pixels, within a few thousand of the plot.
+/// Value to logical pixels, clamped likewise.
 float curves_y(const struct curves *curves, const struct core *core, double value);
-/// Shows everything.
 void curves_frame_all(struct curves *curves, struct core *core);
-/// Shows the selected knots with room around them (everything where none is selected).
+/// Shows the selected knots with a margin, or everything if none is selected.
 void curves_frame_selection(struct curves *curves, struct core *core);
-/// Pans just far enough to show a frame and value.
 void curves_reveal(struct curves *curves, struct core *core, double frame, double value);
-/// After the solve: widens the view to edits that left the panel.
+/// Call after the solve: widens the view to edits that left the panel.
 void follow_edits(struct curves *curves, struct core *core);
-/// Time passes: the view goes on to where it is to be.
+/// Moves the view towards its target.
 void curves_advance(struct curves *curves, struct core *core, double dt);
-/// Moves the view with the pointer, by logical pixels.
+/// By logical pixels.
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy);
-/// Zooms about a point of the panel; factors below 1 come closer.
+/// Zooms about a point of the panel; factors below 1 zoom in.
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor);
-/// Where the mark of a pin is on the ruler; false where it is out of sight.
+/// Position of a pin's mark on the ruler; false if it is not visible.
 bool curves_pin_point(const struct curves *curves, const struct core *core, const struct pin *pin, float xy[2]);
-/// Where a warning's marker is on the screen; false where there is none.
+/// Position of a warning's marker; false if there is none.
 bool curves_warning(const struct curves *curves, const struct core *core, double number, float xy[2]);
 
 #endif

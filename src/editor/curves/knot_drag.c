@@ -1,4 +1,4 @@
-/// Drags of knots and of their slopes: edits made anew from the originals at every step. With ripple the later knots move along.
+/// Drags of knots and slopes. Each step starts again from the original knots. Ripple moves the later knots too.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
@@ -8,9 +8,8 @@
 #include <stdio.h>
 
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
-static const double LENGTH_SLACK = 8; ///< pixels by which a handle may be pulled before it says more than a slope
+static const double LENGTH_SLACK = 8;        ///< pixels; a longer pull also changes the stiffness
 
-/// Copies all knots that move: the edits of the drag start from them.
 static void collect(const struct curves *curves, struct core *core)
 {
     core_collect(core, curves->knot_drag.ripple);
@@ -31,8 +30,7 @@ static void toggle_ripple(struct curves *curves, struct core *core)
                               : "Ripple off: later knots stay.");
 }
 
-/// The furthest shift of the first original of a spline to the left, in frames: to the first frame, or with ripple to just after
-/// the knot that stays.
+/// How far left a spline's first original may go, in frames: to the first frame or, with ripple, just after the unmoved knot before it.
 static double least_frames(const struct curves *curves, const struct document *document, const struct original *first)
 {
     const struct spline *spline = document->splines[first->spline];
@@ -43,7 +41,7 @@ static double least_frames(const struct curves *curves, const struct document *d
     return document_frame(document, least) - document_frame(document, sample);
 }
 
-/// The shifts, in frames, by which all originals stay inside the range.
+/// The range of shifts, in frames, that keeps all originals inside the scene's range.
 static void shift_limits(const struct curves *curves, const struct originals *originals,
                          const struct document *document, double *least, double *most)
 {
@@ -59,8 +57,7 @@ static void shift_limits(const struct curves *curves, const struct originals *or
     }
 }
 
-/// The shift in frames that the pointer asks for: whole frames for the knot that is held, inside the range for all; `why` it is
-/// no more.
+/// The pointer's shift in frames: the held knot snaps to whole frames and all knots stay in range. `why` says what stopped it.
 static double wanted_frames(const struct curves *curves, const struct core *core, char why[STOPPED_SIZE])
 {
     const struct drag *drag = &core->drag;
@@ -79,7 +76,7 @@ static double wanted_frames(const struct curves *curves, const struct core *core
     return fmax(fmin(frames, most), least);
 }
 
-/// Moves knots in time, and the selected ones on the screen, in values of the active spline.
+/// Moves knots in time; selected ones also in value, measured in values of the active spline.
 struct moving {
     const struct curves *curves;
     const struct core *core;
@@ -111,7 +108,7 @@ static void apply_knots(void *of, struct core *core)
     drag_say_stopped(core, why);
 }
 
-/// The slope that lets the held end of the handle point at the pointer; pulled out or pushed in, also the stiffness.
+/// Turns the held end of the handle towards the pointer. Its length sets the stiffness.
 static void apply_slope(void *of, struct core *core)
 {
     const struct curves *curves = of;
@@ -142,7 +139,7 @@ static enum drag_answer knots_event(void *room, struct core *core, const struct 
     return event->key == 'R' || drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
 }
 
-/// Brings the dragged knots into view. A click on a selected knot selects it alone.
+/// A click on one of several selected knots selects it alone.
 static void end_knots(void *room, struct core *core, bool keep)
 {
     struct curves *curves = room;
@@ -192,7 +189,7 @@ void curves_nudge(const struct curves *curves, struct core *core, double frames,
     char why[STOPPED_SIZE] = "";
     if (history_is_open(core->history)) return;
     core_collect(core, false);
-    // over the knots that are in the way
+    // jump over knots in the way
     while (frames != 0 && (room = originals_room(core, moved, &moving, why)) == ROOM_OCCUPIED)
         moving.frames += frames;
     if (room == ROOM_OUTSIDE) moving.frames = 0;

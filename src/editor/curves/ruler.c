@@ -1,4 +1,4 @@
-/// Grids, numbers and the ruler, with the played part and a mark for each pin, to be dragged in time.
+/// Grids, numbers and the ruler, with the played range and a draggable mark for each pin.
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
 #include "editor/curves/state.h"
@@ -11,7 +11,7 @@
 
 static const float MIN_FRAME_STEP = 64, MIN_VALUE_STEP = 34, TAG_GAP = 3; ///< pixels between numbers
 
-/// A round distance between numbers, and how many parts it has.
+/// A round distance between numbers, and how many subdivisions it has.
 struct grid_step {
     double size;
     int parts;
@@ -35,10 +35,10 @@ static struct grid_step round_step(double least)
     return step;
 }
 
-/// To whole device pixels, so that hairlines stay sharp at every scale.
+/// Rounds to device pixels, so that hairlines stay sharp at every scale.
 static float sharp(const struct core *core, float at) { return roundf(at * core->scale) / core->scale; }
 
-/// Panels with this axis of time: the dope sheet and the plot.
+/// The panels that share the time axis: dope sheet and plot.
 static struct rect field_of(const struct core *core)
 {
     const struct rect *sheet = &core->layout.sheet, *plot = &core->layout.plot;
@@ -59,7 +59,6 @@ static void horizontal(const struct curves *curves, struct core *core, double va
     drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1}, color);
 }
 
-/// Darkens the plot before and after the scene's range.
 static void shade_outside(const struct curves *curves, struct core *core)
 {
     const struct rect field = field_of(core);
@@ -72,7 +71,7 @@ static void shade_outside(const struct curves *curves, struct core *core)
         drawlist_rect(&core->list, (struct rect){last, field.y, right - last, field.h}, theme()->outside);
 }
 
-/// `unit`: frames that one of the ruler's numbers counts.
+/// `unit`: frames per unit of the ruler.
 static void draw_lines(const struct curves *curves, struct core *core, struct grid_step times, double unit,
                        struct grid_step values)
 {
@@ -94,7 +93,6 @@ static void draw_lines(const struct curves *curves, struct core *core, struct gr
     }
 }
 
-/// Numbers of the value axis, right-aligned beside the plot.
 static void number_values(const struct curves *curves, struct core *core, struct grid_step step)
 {
     const struct rect *axis = &core->layout.value_axis;
@@ -127,10 +125,10 @@ static void show_units(struct core *core)
                   core->hover.kind == HOVER_UNITS ? theme()->text : theme()->text_dim, text);
 }
 
-/// Frames a unit of the ruler.
+/// Frames per unit of the ruler.
 static double ruler_unit(const struct core *core) { return core->curves.seconds ? core->document->fps : 1; }
 
-/// Numbers of the ruler, centred over their grid lines; the one under the playhead's tag makes room for it.
+/// Centred over the grid lines. The number under the playhead's tag is left out.
 static void number_frames(const struct curves *curves, struct core *core, struct grid_step step)
 {
     const struct rect *ruler = &core->layout.ruler;
@@ -147,7 +145,7 @@ static void number_frames(const struct curves *curves, struct core *core, struct
     }
 }
 
-/// A press that did not move plays all again; `keep` false brings the former part back.
+/// A press that did not move plays the whole scene again; `keep` false restores the former range.
 static void end(void *room, struct core *core, bool keep)
 {
     const double *before = ((const struct curves *)room)->range_before;
@@ -159,7 +157,7 @@ static void end(void *room, struct core *core, bool keep)
     }
 }
 
-/// Marks the part that is played on the ruler, and tints it in the plot; nothing where all is.
+/// Marks the played range on the ruler and tints it in the plot, unless it is the whole scene.
 static void show_range(const struct curves *curves, struct core *core)
 {
     const struct rect *plot = &core->layout.plot, *ruler = &core->layout.ruler;
@@ -199,7 +197,6 @@ void grid_show(const struct curves *curves, struct core *core)
     drawlist_set_clip(&core->list, clip);
 }
 
-/// The part goes from where the drag began to the pointer.
 static void move(void *room, struct core *core)
 {
     const double from = round(curves_frame(room, core, core->drag.start_x));
@@ -215,10 +212,9 @@ void range_begin(struct curves *curves, struct core *core, const struct event *e
     memcpy(curves->range_before, core->playback.range, sizeof curves->range_before);
 }
 
-static const float REACH = 6;                        ///< pixels beside a mark
-static const float RADIUS = 4, ABOVE = 9, BELOW = 6; ///< of a mark on the ruler's lower edge: how far it is taken
+static const float REACH = 6;                        ///< pixels at which a mark is hit
+static const float RADIUS = 4, ABOVE = 9, BELOW = 6; ///< pixels around a mark on the ruler's lower edge
 
-/// Where its mark is.
 static void place(const struct curves *curves, const struct core *core, const struct pin *pin, float xy[2])
 {
     const struct rect *ruler = &core->layout.ruler;
@@ -246,7 +242,6 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
     return hover;
 }
 
-/// The pin goes to the pointer's frame, and the playhead goes along.
 static void apply(void *room, struct core *core)
 {
     struct curves *curves = room;
@@ -262,7 +257,7 @@ static void apply(void *room, struct core *core)
     sample = sample < 0 ? 0 : sample > last ? last : sample;
     const int there = pins_find(document, document->rigs[rig], pin->point, sample);
     if (there < 0 || document->rigs[rig]->pins[there].id == pin->id)
-        drag->free_frame = document_frame(document, sample); // else it stays where it last was free
+        drag->free_frame = document_frame(document, sample); // else it stays at the last free frame
     moved.frame = drag->free_frame;
     if (!pins_set(core->document, rig, &moved, &core->error)) return;
     playback_seek(core, moved.frame);

@@ -1,8 +1,7 @@
-/// Scaling the selected knots in time and value: S, then the pointer or a typed factor, or a handle of their box; one undo step.
+/// Scales the selected knots in time and value, by S and the pointer, by typed factors, or by a handle of their box.
 ///
-/// A knot (t, v) goes to (p + a·(t − p), q + b·(v − q)) about the pivot (p, q), its slope to slope·b/a, so that the shape
-/// between the knots scales with them. About the equilibrium, q is the equilibrium of the knot's own spline at the knot: what
-/// swings about it swings b times as far.
+/// A knot (t, v) goes to (p + a·(t − p), q + b·(v − q)) about the pivot (p, q); its slope is multiplied by b/a, so the curve's shape
+/// scales too. "About the equilibrium" takes q from the knot's own spline at the knot.
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
@@ -13,12 +12,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double LEAST_REACH = 40; ///< pixels from the pivot that count as factor 1, or nothing could be aimed at
-static const double LEAST_SIDE = 8;   ///< the same of a box that is dragged by its handle
+static const double LEAST_REACH = 40; ///< pixels from the pivot for factor 1, so that small movements stay precise
+static const double LEAST_SIDE = 8;   ///< likewise for a box dragged by its handle
 static const double SLOPE_RESOLUTION = 1e-6; ///< of the visible values, a second
-static const double MOST = 1e4;              ///< factor
+static const double MOST = 1e4;              ///< largest factor
 
-/// The edges of the selection: lowest and highest frame, and value as it is drawn.
+/// Lowest and highest frame and drawn value of the selection.
 static void measure(const struct curves *curves, const struct core *core, double frames[2], double values[2])
 {
     frames[0] = values[0] = INFINITY;
@@ -34,7 +33,7 @@ static void measure(const struct curves *curves, const struct core *core, double
     }
 }
 
-/// Keeps the equilibria as they are before any edit.
+/// Stores the equilibria before any edit changes them.
 static void note_equilibria(struct curves *curves, struct core *core)
 {
     struct scaling *scaling = &curves->scaling;
@@ -53,7 +52,7 @@ static void note_equilibria(struct curves *curves, struct core *core)
     scaling->balance[1] = evaluation_at(evaluation, core->active, core_position(core->document, middle)).y;
 }
 
-/// The equilibrium, as it is drawn, of the knot that is as high as the held edge: that one stays under the pointer.
+/// The equilibrium, as drawn, of the knot at the held edge. That knot stays under the pointer.
 static double edge_equilibrium(const struct curves *curves, const struct core *core)
 {
     for (int i = 0; i < core->originals.count; i++) {
@@ -95,7 +94,7 @@ static const char *pivot_name(const struct scaling *scaling, enum pivot pivot)
     return time_only && pivot == PIVOT_EQUILIBRIUM ? names[PIVOT_MIDDLE] : names[pivot];
 }
 
-/// "time × 1.2", and in brackets why it is no more.
+/// "time × 1.2 (what stopped it)"
 static void say_factor(char out[128], const char *what, double factor, const char *stopped)
 {
     snprintf(out, 128, *stopped ? "%s × %.3g (%s)" : "%s × %.3g", what, factor, stopped);
@@ -114,7 +113,7 @@ static void say(struct curves *curves, const struct core *core)
              pivot_name(scaling, scaling->pivot), pivot_name(scaling, next_pivot(scaling)), keys);
 }
 
-/// How many times further from the pivot the pointer is than when scaling began, along one axis.
+/// Distance of the pointer from the pivot relative to its distance at the start, along one axis.
 static double along(double pivot, double start, double now)
 {
     double reach = start - pivot;
@@ -124,14 +123,13 @@ static double along(double pivot, double start, double now)
 
 static double clamped(double factor) { return fmin(fmax(factor, -MOST), MOST); }
 
-/// Brings the scaled knots into view.
 static void end(void *room, struct core *core, bool keep)
 {
     (void)room;
     if (keep && core->drag.moved) core_edited(core, -1);
 }
 
-/// Takes typed factors over: one for both axes, or one for time and one for value.
+/// One typed factor scales both axes; two scale time and value.
 static void read_typed(const char *typed, struct factors *by)
 {
     char *end;
@@ -143,7 +141,7 @@ static void read_typed(const char *typed, struct factors *by)
     if (end != rest) by->value = second;
 }
 
-/// The factor that keeps an edge of the box under the pointer, both in pixels from the pivot.
+/// The factor that keeps an edge of the box under the pointer. Distances are pixels from the pivot.
 static double pulled(double reach, double by, int direction)
 {
     return 1 + by / (fabs(reach) < LEAST_SIDE ? direction * LEAST_REACH : reach);
@@ -160,7 +158,7 @@ static struct factors pulled_box(const struct curves *curves, const struct core 
                             row ? pulled(down, drag->moved_y, row) : 1};
 }
 
-/// Factors from the pointer, after S.
+/// Factors from the pointer after S.
 static struct factors pulled_freely(const struct curves *curves, const struct core *core)
 {
     const struct drag *drag = &core->drag;
@@ -183,7 +181,6 @@ static struct factors wanted(const struct curves *curves, const struct core *cor
     return (struct factors){drag->lock_y ? 1 : clamped(by.time), drag->lock_x ? 1 : clamped(by.value)};
 }
 
-/// A value scaled about the pivot.
 static double scaled_value(const struct curves *curves, const struct core *core, const struct original *original,
                            double factor)
 {
@@ -195,7 +192,6 @@ static double scaled_value(const struct curves *curves, const struct core *core,
     return core_round(pivot + factor * (original->knot.value - pivot), resolution);
 }
 
-/// Applies the factors to a knot.
 struct scale {
     const struct curves *curves;
     const struct core *core;
@@ -211,7 +207,7 @@ static struct knot scaled(const void *how, const struct original *original)
     struct knot to = original->knot;
     if (by.time != 1) to.frame = core->drag.snap ? round(frame) : frame;
     if (by.value != 1) to.value = scaled_value(curves, core, original, by.value);
-    to.phase *= by.time < 0 ? -by.value : by.value; // turned round, the swing goes the other way
+    to.phase *= by.time < 0 ? -by.value : by.value; // time runs backwards, so the swing does
     if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * core->visible);
     return to;
 }
@@ -239,7 +235,7 @@ static void apply(void *room, struct core *core)
     say(curves, core);
 }
 
-/// Digits, sign and point of a factor, and the space before a second one; by character, because keyboards differ.
+/// Accepts digits, sign, point, and a space before a second factor. Characters, because keyboard layouts differ.
 static bool type(struct scaling *scaling, uint32_t c)
 {
     size_t length = strlen(scaling->typed);
@@ -253,7 +249,6 @@ static bool type(struct scaling *scaling, uint32_t c)
     return true;
 }
 
-/// Deletes the last character.
 static void erase(struct scaling *scaling)
 {
     size_t length = strlen(scaling->typed);
@@ -284,7 +279,7 @@ static enum drag_answer press_key(struct curves *curves, struct core *core, cons
     return DRAG_USED;
 }
 
-/// Events while it runs, but the pointer's: axes, pivot, a typed factor, the end.
+/// Keys and clicks while scaling: axes, pivot, typed factors, the end.
 static enum drag_answer take_event(void *room, struct core *core, const struct event *event)
 {
     struct curves *curves = room;
@@ -307,7 +302,7 @@ static enum drag_answer take_event(void *room, struct core *core, const struct e
 
 enum { TAG_PAD = 8, LINE = 16, MARGIN = 4, MOST_LINES = 4 };
 
-/// The words beside the pointer.
+/// The text beside the pointer.
 struct tag {
     int count;
     struct {
@@ -316,7 +311,7 @@ struct tag {
     } line[MOST_LINES];
 };
 
-/// A factor, and on a second line why it stopped.
+/// A factor, and what stopped it on a second line.
 static void add_factor(struct tag *tag, const char *what, double factor, const char *stopped)
 {
     snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s × %.3g", what, factor);
@@ -325,9 +320,8 @@ static void add_factor(struct tag *tag, const char *what, double factor, const c
     snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s", stopped);
 }
 
-static const float BESIDE = 16, BELOW = 20; ///< of the pointer
+static const float BESIDE = 16, BELOW = 20; ///< pixels from the pointer
 
-/// Beside the pointer, inside the panel.
 static void show_tag(struct core *core, const struct tag *tag)
 {
     const struct rect panel = core->layout.curves;
@@ -358,7 +352,6 @@ static void show_pivot(const struct curves *curves, struct core *core)
     if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
 }
 
-/// The pivot, the line from it to the pointer, and both factors beside it.
 static void scale_show(void *room, struct core *core)
 {
     const struct curves *curves = room;
@@ -373,11 +366,11 @@ static void scale_show(void *room, struct core *core)
     show_tag(core, &tag);
 }
 
-/// Begun by S without a button and ended by a click or Enter, or of a handle of the box round the knots.
+/// Started by S (a click or Enter ends it) or by pressing a handle of the selection box.
 static const struct drag_owner owner = {
     .cursor = CURSOR_MOVE, .apply = apply, .event = take_event, .end = end, .show = scale_show};
 
-/// The drag has begun: about a pivot, by a handle of the box (-1: none).
+/// `handle`: of the selection box, or -1 for S.
 static void begin(struct curves *curves, struct core *core, enum pivot pivot, int handle)
 {
     curves->scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
@@ -413,19 +406,19 @@ void scale_begin_handle(struct curves *curves, struct core *core, int handle, co
     core->hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = handle};
 }
 
-static const float PAD = 12;   ///< from a knot to the edge: outside the knot's own target
-static const float REACH = 7;  ///< of a handle
-static const float HANDLE = 6; ///< its size
-static const float INSIDE = 4; ///< that the box stays inside of the plot, where handles can be taken
-static const float LEAST = 2;  ///< pixels between the outermost knots, below which there is nothing to scale
+static const float PAD = 12;   ///< from the outermost knots: outside their own targets
+static const float REACH = 7;  ///< pixels at which a handle is hit
+static const float HANDLE = 6; ///< size in pixels
+static const float INSIDE = 4; ///< pixels from the plot's edge, so that handles stay reachable
+static const float LEAST = 2;  ///< pixels; knots closer than this cannot be scaled apart
 
-/// The box as it is drawn, in the visible part of the plot; which ways its knots lie apart.
+/// The selection box inside the visible plot, and the axes along which its knots differ.
 struct knot_box {
     struct rect area;
     bool wide, high;
 };
 
-/// false where fewer than two knots are selected, or none of them is in sight.
+/// false with fewer than two knots selected, or none visible.
 static bool find_knot_box(const struct curves *curves, const struct core *core, struct knot_box *box)
 {
     float left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
@@ -446,7 +439,7 @@ static bool find_knot_box(const struct curves *curves, const struct core *core, 
     return box->area.w > 0 && box->area.h > 0;
 }
 
-/// Where a handle is; false where there is nothing to scale that way.
+/// false if the box has no extent along the handle's axis.
 static bool handle_place(const struct knot_box *box, int handle, float xy[2])
 {
     const int column = box_column(handle), row = box_row(handle);

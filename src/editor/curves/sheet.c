@@ -1,4 +1,4 @@
-/// The dope sheet (F7): a row a spline between the ruler and the curves, with its knots as marks that are dragged in time.
+/// The dope sheet (F7): one row per spline between ruler and curves. Its knots are marks you drag in time.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
@@ -7,12 +7,12 @@
 #include "ui/theme.h"
 #include <math.h>
 
-enum { ROW = 16, PAD = 3, MOST_ROWS = 6 }; ///< pixels, pixels above and below, rows; more rows scroll
+enum { ROW = 16, PAD = 3, MOST_ROWS = 6 }; ///< pixels; padding above and below; more rows scroll
 
-static const float LEAST_PLOT = 90; ///< pixels that the curves keep
-static const float REACH = 7;       ///< of a mark
+static const float LEAST_PLOT = 90; ///< least height of the curves, in pixels
+static const float REACH = 7;       ///< pixels at which a mark is hit
 
-/// The splines of all rows that are shown; how many there are.
+/// Lists the splines of all shown rows; returns how many.
 static int list_rows(const struct core *core, int first, int *splines, int most)
 {
     int count = 0;
@@ -24,7 +24,7 @@ static int list_rows(const struct core *core, int first, int *splines, int most)
     return count;
 }
 
-/// Which of all rows the active spline has, or -1.
+/// The active spline's row, or -1.
 static int active_row(const struct core *core)
 {
     int row = 0;
@@ -40,7 +40,7 @@ void sheet_update(struct curves *curves, struct core *core)
     const int total = core->curves.sheet ? list_rows(core, 0, NULL, 0) : 0;
     int rows = total < MOST_ROWS ? total : MOST_ROWS;
     if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
-    if (sheet->active != core->active_id) { // which may be out of sight
+    if (sheet->active != core->active_id) { // scroll its row into view
         const int active = active_row(core);
         if (active >= 0 && active < sheet->first) sheet->first = active;
         if (active >= sheet->first + rows) sheet->first = active - rows + 1;
@@ -56,13 +56,12 @@ void sheet_update(struct curves *curves, struct core *core)
     core_layout(core);
 }
 
-/// The middle of a row.
 static float row_y(const struct core *core, int row)
 {
     return core->layout.sheet.y + PAD + ((float)row + 0.5f) * ROW;
 }
 
-/// The spline of the row at a height, or -1.
+/// The spline of the row at height `y`, or -1.
 static int row_spline(const struct curves *curves, const struct core *core, float y)
 {
     const int row = (int)floorf((y - core->layout.sheet.y - PAD) / ROW);
@@ -121,7 +120,7 @@ bool sheet_wheel(struct curves *curves, struct core *core, const struct event *e
     if (!rect_contains(sheet_area(core), event->x, event->y)) return false;
     if (event->mods || sheet->total <= sheet->rows) return false;
     sheet->first += event->dy > 0 ? -1 : 1;
-    if (sheet->first < 0) sheet->first = 0; // its other end: sheet_update()
+    if (sheet->first < 0) sheet->first = 0; // sheet_update() bounds the other end
     return true;
 }
 
@@ -136,12 +135,12 @@ bool curves_mark_point(const struct curves *curves, const struct core *core, int
     return false;
 }
 
-/// A row: its band where it is the active one, a line from the first mark to the last one, the marks, and the name behind them.
+/// Draws a row: a tint if it is active, a line from first to last mark, the marks, and the name.
 static void show_row(const struct curves *curves, struct core *core, int row)
 {
     const struct document *document = core->document;
     const int s = curves->sheet.spline[row];
-    if (s >= document->spline_count) return; // undone in this frame
+    if (s >= document->spline_count) return; // an undo in this frame removed it
     const struct spline *spline = document->splines[s];
     const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
     const bool active = s == core->active, hot = core->hover.kind == HOVER_ROW && core->hover.spline == s;
@@ -162,7 +161,7 @@ static void show_row(const struct curves *curves, struct core *core, int row)
                       theme_readable(color, theme()->panel, 4.5f), spline->name);
 }
 
-/// Says that there are more rows above or below.
+/// Marks that more rows lie above or below.
 static void show_more(const struct curves *curves, struct core *core)
 {
     const struct dope_sheet *sheet = &curves->sheet;
@@ -173,7 +172,7 @@ static void show_more(const struct curves *curves, struct core *core)
     drawlist_rounded(&core->list, (struct rect){area->x - 7, y, 3, length}, 1.5f, theme()->control);
 }
 
-/// A small triangle in the ruler's corner: points down while the sheet is open.
+/// The triangle in the ruler's corner points down while the sheet is open.
 static void show_switch(struct core *core)
 {
     const struct rect r = sheet_switch(core);

@@ -12,13 +12,14 @@
 enum { MAX_LABELS = CURVES_MAX_OTHERS + 2 };
 
 static const float KNOT_RADIUS = 4.5f, OTHER_RADIUS = 3, HOVER_RADIUS = 7.125f, HANDLE_REACH = 130, HANDLE_RADIUS = 3;
-static const double FIRM_LENGTH = 48, DECADE_LENGTH = 12; ///< of a handle; of ten times the stiffness
-static const float MARK_STEP = 12;                        ///< columns from mark to mark in a band
-static const float MARK_RADIUS = 3.5f;                    ///< on the dope sheet
-static const float CROWDED = 3;                           ///< pixels between knots below which one stands for several
+static const double FIRM_LENGTH = 48,
+                    DECADE_LENGTH = 12; ///< pixels: a firm handle; longer for ten times the stiffness
+static const float MARK_STEP = 12;      ///< columns between marks in a band
+static const float MARK_RADIUS = 3.5f;  ///< on the dope sheet
+static const float CROWDED = 3;         ///< pixels; closer knots share one mark
 static const float LABEL_STEP = 15;
 static const float FAN_NEAR = 0.24f,
-                   FAN_STEP = 0.03f; ///< opacity of the least lagged copy, and less of each further one
+                   FAN_STEP = 0.03f; ///< opacity of the first lagged copy, and how much each further one loses
 
 /// A name beside the right end of its curve.
 struct label {
@@ -54,7 +55,7 @@ static bool shows_imaginary(const struct core *core, const struct spline *spline
     return core->curves.phase && spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
 }
 
-/// Lines in painter's order, the active one last.
+/// In painter's order, the active line last.
 static void show_lines(struct curves *curves, struct core *core)
 {
     const struct curve_cache *cache = &curves->cache;
@@ -100,7 +101,6 @@ void curves_handle(const struct curves *curves, const struct core *core, const s
     xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
 }
 
-/// The ring around the item under the pointer.
 static void hover_ring(struct drawlist *list, float x, float y)
 {
     drawlist_circle(list, (const float[2]){x, y}, HOVER_RADIUS, 1.25f, theme()->playhead);
@@ -119,7 +119,7 @@ static void show_handle(const struct curves *curves, struct core *core, const st
     }
 }
 
-/// Marks of knots: a diamond for a value, a circle for a pose, a square for a still one; with an outline or 0.
+/// A diamond for a value, a circle for a pose, a square for a still pose; filled, or with an outline.
 static void knot_mark(struct drawlist *list, const struct knot *knot, float x, float y, float r, uint32_t color,
                       uint32_t outline)
 {
@@ -136,7 +136,7 @@ static void knot_mark(struct drawlist *list, const struct knot *knot, float x, f
     if (outline) drawlist_line(list, xy, 5, 1.5f, outline);
 }
 
-/// A short stroke that says "this knot has a slope" without the handle's length.
+/// A short stroke in place of a slope handle.
 static void show_tick(const struct curves *curves, struct core *core, const struct knot *knot, uint32_t color)
 {
     float ends[2][2], x = curves_knot_x(curves, core, knot);
@@ -154,7 +154,7 @@ static bool is_hovered(const struct core *core, const struct knot *knot)
     return core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
 }
 
-/// The knot to draw after one, where knots are crowded: the next that is selected or under the pointer, or at least `gap` pixels on.
+/// The next knot to draw where knots are crowded: a selected or hovered one, or the first at least `gap` pixels away.
 static int crowd_next(const struct curves *curves, const struct core *core, int spline, int knot, float gap)
 {
     const struct spline *of = core->document->splines[spline];
@@ -167,7 +167,7 @@ static int crowd_next(const struct curves *curves, const struct core *core, int 
     return of->knot_count;
 }
 
-/// The knot to draw of first … end − 1, all in one pixel column: the hovered one, else a selected one.
+/// Of the knots first … end − 1 in one pixel column, the one to draw: hovered, else selected.
 static int column_knot(const struct core *core, const struct knot *knots, int first, int end)
 {
     int shown = first;
@@ -179,14 +179,14 @@ static int column_knot(const struct core *core, const struct knot *knots, int fi
     return shown;
 }
 
-/// The pixel column of a knot: columns begin at the scene's first frame, so that they stay as the view is moved.
+/// A knot's pixel column, counted from the scene's first frame so that panning does not regroup knots.
 static double column_of(const struct curves *curves, const struct core *core, const struct knot *knot)
 {
-    const double pixels = curves_pixels_per_frame(curves, core) / core->document->substeps; // a sample
+    const double pixels = curves_pixels_per_frame(curves, core) / core->document->substeps; // of a sample
     return floor(document_sample(core->document, knot->frame) * pixels);
 }
 
-/// A stroke over the values of all knots in one pixel column, for those that are not drawn.
+/// A vertical stroke over the values of all knots in one pixel column, for those without a mark.
 static void show_column(const struct curves *curves, struct core *core, int first, int end, float x, uint32_t color)
 {
     double range[2];
@@ -203,12 +203,11 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
     if (knot->has_slope && selected) show_handle(curves, core, knot, color);
     if (knot->has_slope && !selected) show_tick(curves, core, knot, color);
     knot_mark(&core->list, knot, x, y, KNOT_RADIUS, selected ? color : theme()->panel,
-              selected ? theme()->playhead : color); // one that is not selected is hollow
+              selected ? theme()->playhead : color); // hollow unless selected
     if (is_hovered(core, knot)) hover_ring(&core->list, x, y);
 }
 
-/// Whether the knots of one column go without a mark, because the marks of their neighbours would cover it: in a band, which goes through
-/// all of them, only some columns have one.
+/// Whether a column of knots in a band gets no mark, because marks so close would cover each other.
 static bool is_lost(const struct curves *curves, const struct core *core, int first, int shown)
 {
     const struct knot *knots = core->document->splines[core->active]->knots;
@@ -240,7 +239,6 @@ static void show_knots(const struct curves *curves, struct core *core)
     }
 }
 
-/// A click on one makes its spline the active one.
 void knots_show(const struct curves *curves, struct core *core, int s, float row)
 {
     const struct spline *spline = core->document->splines[s];
@@ -272,7 +270,7 @@ static void insert_label(struct label *labels, int *count, struct label label)
     labels[i] = label;
 }
 
-/// Moves labels apart, downwards first and then back up from the panel's bottom.
+/// Moves labels apart: downwards, then back up from the panel's bottom.
 static void spread_labels(struct label *labels, int count, float top, float bottom)
 {
     for (int i = 0; i < count; i++) labels[i].y = fmaxf(labels[i].y, i ? labels[i - 1].y + LABEL_STEP : top);
@@ -280,13 +278,13 @@ static void spread_labels(struct label *labels, int count, float top, float bott
     for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
 }
 
-/// A spline's colour, as far as it can be read as text.
+/// A spline's colour with enough contrast for text.
 static uint32_t label_color(const struct core *core, int spline)
 {
     return theme_readable(spline_list_color(core->document, spline), theme()->panel, 4.5f);
 }
 
-/// Labels of the curves that are drawn, at most `most`, the active one's first; by height. How many there are.
+/// Labels of at most `most` drawn curves, the active one always among them, sorted by height. Returns how many.
 static int place_labels(const struct curves *curves, const struct core *core, struct label *labels, int most)
 {
     const struct curve_cache *cache = &curves->cache;
@@ -344,7 +342,7 @@ struct rect playhead_tag(const struct curves *curves, const struct core *core)
     return (struct rect){left, ruler->y + 3, width, 16};
 }
 
-/// The line at the playhead and its frame number; drawn alone, so that playing redraws nothing else.
+/// Drawn separately, so that playing redraws nothing else.
 static void show_playhead(const struct curves *curves, struct core *core)
 {
     const struct rect *plot = &core->layout.plot, *sheet = &core->layout.sheet;
@@ -358,7 +356,7 @@ static void show_playhead(const struct curves *curves, struct core *core)
     drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
 }
 
-/// A hint where there is nothing to edit yet, and no swinging equilibrium that the text would cover.
+/// The hint of an empty panel, unless a swinging equilibrium would be under the text.
 static void show_empty(struct core *core)
 {
     const struct spline *spline = core_active_spline(core);
@@ -376,7 +374,7 @@ static void show_empty(struct core *core)
     drawlist_text(&core->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
 }
 
-/// Says above the curves' names where they are not shown as the document has them (V, N) and where knots do not snap (G).
+/// Notes above the curves' names: phase curve (V), normalised (N), no snapping (G).
 static void show_state(struct core *core)
 {
     static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
@@ -404,7 +402,7 @@ void curves_show(struct curves *curves, struct core *core)
         knots_show(curves, core, curves->cache.other_spline[i], NAN);
     }
     show_knots(curves, core);
-    if (!core->drag.owner) scale_box_show(curves, core, true); // else it would change with every step
+    if (!core->drag.owner) scale_box_show(curves, core, true); // it would change with every step of a drag
     warnings_update(curves, core);
     warnings_show(curves, core);
     show_empty(core);

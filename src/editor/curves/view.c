@@ -1,15 +1,12 @@
-/// What the panel shows of the curves: pans and zooms, curves of different sizes made as high as the active one, and the way to what is
-/// edited.
-///
-/// Let a … b be the values that the active curve takes and c … d those of another: normalised, the other's value v is drawn where the
-/// active one's a + (v − c)·(b − a)/(d − c) is.
+/// The visible part of the curves panel: panning, zooming, normalised curves, and following edits. A normalised curve with values c … d is
+/// drawn over the active curve's a … b: v at a + (v − c)·(b − a)/(d − c).
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
 #include <limits.h>
 #include <math.h>
 
-/// Pixels further from the plot than this are the same to the eye, and bounded ones are safe as floats.
+/// Pixels from the plot. Points further away look the same, and clamped ones are safe as floats.
 static const double FAR_PIXELS = 4000;
 
 static double bounded(double pixels, double lo, double hi)
@@ -62,7 +59,7 @@ double curves_value(const struct curves *curves, const struct core *core, double
     return curves->view.value1 - (y - core->layout.plot.y) / curves_pixels_per_value(curves, core);
 }
 
-/// Keeps the visible part wider than rounding and narrower than anyone needs.
+/// Keeps the view wider than rounding errors and within a sensible maximum.
 static void keep_sane(struct curves *curves, struct core *core)
 {
     struct view *view = &curves->view;
@@ -75,7 +72,7 @@ static void keep_sane(struct curves *curves, struct core *core)
     core->visible = view->value1 - view->value0;
 }
 
-/// Before anything is included.
+/// An empty view, before anything is included.
 static const struct view NOTHING = {INFINITY, -INFINITY, INFINITY, -INFINITY};
 
 static void include_value(struct view *part, double value)
@@ -85,7 +82,7 @@ static void include_value(struct view *part, double value)
     part->value1 = fmax(part->value1, value);
 }
 
-/// Widens a part to a knot as it is drawn.
+/// Widens a view to a knot.
 static void include_knot(const struct curves *curves, const struct core *core, struct knot_place at,
                          struct view *part)
 {
@@ -96,7 +93,7 @@ static void include_knot(const struct curves *curves, const struct core *core, s
     include_value(part, map.scale * core_knot_value(core, at.spline, knot) + map.offset);
 }
 
-/// Widens a part to the values, as they are drawn, that a curve takes from a sample to another.
+/// Widens a view to the drawn values of a curve between two samples.
 static void include_curve(const struct curves *curves, const struct core *core, int spline, double first, double last,
                           struct view *part)
 {
@@ -110,7 +107,7 @@ static void include_curve(const struct curves *curves, const struct core *core, 
     }
 }
 
-/// The same as far as it is in sight.
+/// The same for the visible part of those samples.
 static void include_seen(const struct curves *curves, const struct core *core, int spline, double first, double last,
                          struct view *part)
 {
@@ -119,7 +116,7 @@ static void include_seen(const struct curves *curves, const struct core *core, i
     include_curve(curves, core, spline, fmax(first, fmax(left, 0)), fmin(last, right), part);
 }
 
-/// Sets the visible values to those of a part with a margin; flat ones get a unit around them.
+/// Fits the visible values to those of `part` with a margin; a flat part gets one unit.
 static void show_values(struct view *view, const struct view *part)
 {
     const double span = part->value1 - part->value0, largest = fmax(fabs(part->value0), fabs(part->value1));
@@ -129,7 +126,7 @@ static void show_values(struct view *view, const struct view *part)
     view->value1 = known ? part->value1 + margin : 1;
 }
 
-/// Makes room for the phase curve and the equilibrium of the active spline.
+/// Includes the phase curve and the equilibrium of the active spline.
 static void include_rest(struct curves *curves, const struct core *core)
 {
     enum { COLUMNS = 200 };
@@ -146,14 +143,13 @@ static void include_rest(struct curves *curves, const struct core *core)
     if (part.value1 > view->value1) view->value1 = part.value1 + margin * span;
 }
 
-/// The view stops following edits.
 static void follow_stop(struct curves *curves, struct core *core)
 {
     curves->following = (struct following){0};
     core->edited = (struct edited){0};
 }
 
-/// Shows a part, within limits, and stops following edits.
+/// Sets the view within limits, and stops following edits.
 static void view_set(struct curves *curves, struct core *core, struct view view)
 {
     follow_stop(curves, core);
@@ -231,7 +227,7 @@ void curves_zoom(struct curves *curves, struct core *core, float x, float y, dou
 
 static bool has_height(const double range[2]) { return range[1] - range[0] > 1e-12 * fmax(1, fabs(range[0])); }
 
-/// Where the values of one spline are drawn as those of another.
+/// Maps the values of one spline to those of another.
 static struct value_map map_between(const struct curves *curves, const struct core *core, int active, int spline)
 {
     const struct value_map as_it_is = {1, 0};
@@ -284,12 +280,12 @@ void curves_activate(struct curves *curves, struct core *core, int before)
                            (view->value1 - map.offset) / map.scale});
 }
 
-static const double RATE = 14;     ///< of the remaining distance, a second
-static const double CLOSE = 0.25;  ///< pixels: it is there
-static const double MARGIN = 0.06; ///< of the view, beyond the edit
-static const double WIDEST = 1.7;  ///< of the visible frames: farther edits are panned to
+static const double RATE = 14;     ///< share of the remaining distance per second
+static const double CLOSE = 0.25;  ///< pixels: close enough to stop
+static const double MARGIN = 0.06; ///< of the view, around the edit
+static const double WIDEST = 1.7;  ///< of the visible frames; further edits pan instead
 
-/// Widens a part to a knot, and the curve from the knot before to the one after it.
+/// Widens a view to a knot and to the curve between its neighbours.
 static void include_around(const struct curves *curves, const struct core *core, struct knot_place at,
                            struct view *part)
 {
@@ -302,7 +298,7 @@ static void include_around(const struct curves *curves, const struct core *core,
     include_seen(curves, core, at.spline, first, last, part);
 }
 
-/// The frames and values of all that was edited since the last picture; of splines only values, where they are in sight.
+/// Frames and values of everything edited since the last frame; for splines only the visible values.
 static struct view edited_part(const struct curves *curves, const struct core *core)
 {
     const struct edited *edited = &core->edited;
@@ -313,7 +309,7 @@ static struct view edited_part(const struct curves *curves, const struct core *c
     return part;
 }
 
-/// Moves the edges of the view out to the edit; where that would be too wide, pans.
+/// Widens the view to the edit, or pans if that would be too wide.
 static void widen(double *low, double *high, const double part[2], double widest)
 {
     const double least = fmin(*low, part[0]), most = fmax(*high, part[1]), span = *high - *low;
@@ -349,7 +345,7 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
 {
     keep_ghost(curves, core);
     struct following *following = &curves->following;
-    const bool is_measured = core->drag.owner && core->drag.room == curves; // which must hold still then
+    const bool is_measured = core->drag.owner && core->drag.room == curves; // curves must not rescale during a drag
     if (!following->moves || is_measured) return;
     const double share = 1 - exp(-RATE * fmax(dt, 0));
     const struct view *view = &curves->view, *goal = &following->goal;

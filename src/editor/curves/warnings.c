@@ -10,8 +10,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/// Of the other curves in sight only that one swings far beyond its knots, as an edit elsewhere may make it. While a drag runs nothing else is
-/// said, because it would change with every step.
+/// Other curves, and during a drag the active one too, warn only when they swing far beyond their knots. The other warnings would change at
+/// every step of a drag.
 void warnings_update(struct curves *curves, const struct core *core)
 {
     struct warnings *warnings = &curves->warnings;
@@ -38,8 +38,7 @@ void warnings_update(struct curves *curves, const struct core *core)
         warnings_add_far(document, evaluation, curves_other(curves, document, i), warnings);
 }
 
-// What is done about warnings: each makes its edit in a document, which need not be the one on the table, and says what it does, to stand behind
-// "Click to" and "Done:".
+// The remedies. Each edits any document and describes itself in a text that fits after "Click to" and "Done:".
 
 static bool set(struct document *document, const struct warning *warning, enum parameter parameter, double value,
                 struct error *error)
@@ -63,7 +62,7 @@ static bool set_limits(struct document *document, const struct warning *warning,
            set(document, warning, PARAMETER_HIGH, warning->high, error);
 }
 
-/// A pose, but a plain knot outside complex mode.
+/// Adds a pose, or outside complex mode a plain knot.
 static bool add_knot(struct document *document, const struct warning *warning, char text[FIX_TEXT],
                      struct error *error)
 {
@@ -77,7 +76,7 @@ static bool add_knot(struct document *document, const struct warning *warning, c
     return edit_knot_insert(document, warning->spline, &knot, error);
 }
 
-/// It keeps the motion as it is.
+/// Keeps the motion.
 static bool add_substeps(struct document *document, const struct warning *warning, char text[FIX_TEXT],
                          struct error *error)
 {
@@ -101,7 +100,7 @@ static bool narrow_bandwidth(struct document *document, const struct warning *wa
     return set(document, warning, PARAMETER_BANDWIDTH, warning->remedy, error);
 }
 
-/// The knot at a frame loses its slope, or its phase.
+/// Frees the slope or the phase of the knot at a frame.
 static bool free_knot(struct document *document, const struct warning *warning, double frame, bool slope,
                       struct error *error)
 {
@@ -153,9 +152,9 @@ static bool drop_slope(struct document *document, const struct warning *warning,
     return free_knot(document, warning, warning->frame, true, error);
 }
 
-/// What helps against each kind, the gentlest first. Of several, one has to be better than those before, and than nothing, by a factor.
+/// Remedies for each kind of warning, the gentlest first. A later one must beat those before it, and doing nothing, by a factor.
 static const struct cure {
-    const char *label; ///< of the step
+    const char *label; ///< of the undo step
     remedy *remedies[4];
     double worth;
 } cures[] = {
@@ -169,8 +168,8 @@ static const struct cure {
 
 static bool has_choice(const struct warning *warning) { return cures[warning->kind].remedies[1] != NULL; }
 
-/// What a remedy leaves of a problem, in a copy of the document; infinity where that is not possible. A remedy without others is
-/// enough. Only what differs from what was tried before in `trial` is solved.
+/// What is left of a problem after a remedy, tried in a copy; infinity if it cannot apply. A kind's only remedy counts as enough.
+/// `trial` keeps earlier results, so only what differs is solved.
 static double left_with(const struct core *core, const struct warning *warning, struct fix *fix,
                         struct evaluation *trial)
 {
@@ -188,7 +187,7 @@ static double left_with(const struct core *core, const struct warning *warning, 
     return left;
 }
 
-/// The first remedy if it is enough, else the best one.
+/// The first remedy if it suffices, else the best.
 static struct fix choose(const struct core *core, const struct warning *warning)
 {
     const struct cure *cure = &cures[warning->kind];
@@ -206,7 +205,7 @@ static struct fix choose(const struct core *core, const struct warning *warning)
     return best;
 }
 
-/// The fix for a warning, tried once.
+/// The chosen fix, cached.
 static const struct fix *fix_of(struct curves *curves, const struct core *core, int index)
 {
     struct fix *fix = &curves->fixes[index];
@@ -240,7 +239,8 @@ void warning_remedy(struct curves *curves, struct core *core, int index)
     if (good || !fix.apply) core_message(core, false, good ? text : NO_REMEDY);
 }
 
-static const float SIZE = 7, LIFT = 16, EDGE = 12; ///< half a marker; above its place; from the plot's border
+static const float SIZE = 7, LIFT = 16,
+                   EDGE = 12; ///< pixels: half a marker; distance above its point; distance from the plot's edge
 
 bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning, float xy[2])
 {

@@ -1,4 +1,4 @@
-/// Overlays that take events first, and the dialogs: open, save as, questions.
+/// The dialogs for opening and saving, and the order in which overlays get events.
 #include "base/file.h"
 #include "base/need.h"
 #include "editor/core/core.h"
@@ -27,14 +27,13 @@ static void list_folder(struct dialog *dialog, const char *folder)
     dialog->name_count = count > 0 ? count : 0;
 }
 
-/// Whether a name begins with the text after the folder.
 static bool begins(const struct dialog *dialog, const char *name)
 {
     const char *typed = path_name(dialog->ui.text.bytes);
     return strncmp(name, typed, strlen(typed)) == 0;
 }
 
-/// Whether a name holds the text; of two passes the first takes those that begin with it, the second the others.
+/// Pass 0 takes names that begin with the text, pass 1 those that hold it elsewhere.
 static bool fits(const struct dialog *dialog, const struct ui_filter *filter, const char *name, int pass)
 {
     const enum fit fit = ui_filter_fit(filter, name);
@@ -42,8 +41,7 @@ static bool fits(const struct dialog *dialog, const struct ui_filter *filter, co
     return fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0);
 }
 
-/// Lists the folder of the path where it is a new one, and picks the names that fit what is typed after it; in front of them, unless a folder is
-/// typed, the recent files that fit.
+/// Lists a new folder and picks the names that match the text after it. Matching recent files come first unless a folder is typed.
 static void dialog_match(struct dialog *dialog)
 {
     char folder[UI_TEXT_SIZE];
@@ -53,7 +51,7 @@ static void dialog_match(struct dialog *dialog)
     list_folder(dialog, folder);
     dialog->match_count = 0;
     dialog->choice = -1;
-    // While the whole name is selected, the next character replaces it: everything is still open.
+    // A fully selected name is about to be replaced, so everything matches.
     if (!dialog->ui.text.all) snprintf(filter.typed, sizeof filter.typed, "%s", name);
     const int recent = dialog->kind == DIALOG_OPEN && !folder[0] ? dialog->recent_count : 0;
     for (int i = 0; i < recent; i++) {
@@ -130,7 +128,6 @@ bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct req
     return true;
 }
 
-/// Asks the app to open or save the typed path.
 static void confirm(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;
@@ -164,7 +161,7 @@ static void answer(struct dialogs *dialogs, struct core *core, int given)
     if (changes) answered(dialogs, core, given);
 }
 
-/// A letter that answers brings its character along, which is no part of a path that is typed next.
+/// An answer's letter also arrives as text; skip_text keeps it out of a path.
 static bool question_event(struct dialogs *dialogs, struct core *core, int key)
 {
     int given = question_key(&dialogs->dialog, key);
@@ -190,14 +187,14 @@ static void set_name(struct dialog *dialog, const char *name, size_t length)
     dialog_match(dialog);
 }
 
-/// The recent file that a match is, or NULL.
+/// The recent file of a match, or NULL.
 static const struct dialog_recent *dialog_recent_of(const struct dialog *dialog, int match)
 {
     int recent = dialog->match[match] - DIALOG_MAX_NAMES;
     return recent >= 0 ? &dialog->recent[recent] : NULL;
 }
 
-/// Tab: completes as far as all matching names agree.
+/// Tab: completes up to where the matching names differ.
 static void dialog_complete(struct dialog *dialog)
 {
     const char *first = NULL;
@@ -210,7 +207,7 @@ static void dialog_complete(struct dialog *dialog)
         while (same < common && other[same] == first[same]) same++;
         common = same;
     }
-    while (first && common > 0 && ((unsigned char)first[common] & 0xC0) == 0x80) common--; // never half a character
+    while (first && common > 0 && ((unsigned char)first[common] & 0xC0) == 0x80) common--; // never split a character
     if (first && (common > 0 || dialog->ui.text.all)) set_name(dialog, first, common);
 }
 
@@ -225,7 +222,7 @@ static bool take_recent(struct dialog *dialog, const struct dialog_recent *recen
     return true;
 }
 
-/// Puts the chosen match into the path; true where it is a file (a folder is listed instead, of one that is gone it is said).
+/// Puts a match into the path. true for a file; a folder is listed, a missing file reported.
 static bool dialog_take(struct dialog *dialog, int match)
 {
     const struct dialog_recent *recent = dialog_recent_of(dialog, match);
@@ -237,7 +234,7 @@ static bool dialog_take(struct dialog *dialog, int match)
     return !folder;
 }
 
-/// The match that Enter takes though none is chosen: the only one, if it begins as typed; else −1.
+/// The match that Enter takes without a choice: the only one, if it begins with the text; else −1.
 static int dialog_only(const struct dialog *dialog)
 {
     const bool single = dialog->kind != DIALOG_SAVE_AS && dialog->match_count == 1 && !dialog_recent_of(dialog, 0);
@@ -269,7 +266,7 @@ static bool path_key(struct dialogs *dialogs, struct core *core, int key)
     }
 }
 
-/// The second press of a double-click on a name, which the first one has put into the path.
+/// The second press of a double-click on a name.
 static bool is_confirmed(const struct dialog *dialog, struct rect list)
 {
     const struct ui *ui = &dialog->ui;
@@ -279,7 +276,7 @@ static bool is_confirmed(const struct dialog *dialog, struct rect list)
     return twice && rect_contains(list, event->x, event->y) && *path_name(ui->text.bytes);
 }
 
-/// A recent file: its name, and right of it the folder that it is in.
+/// A recent file's name, with its folder to the right.
 static void label_recent(struct ui *ui, struct rect r, const struct dialog_recent *recent)
 {
     char folder[PATH_LIMIT];
@@ -293,7 +290,7 @@ static void label_recent(struct ui *ui, struct rect r, const struct dialog_recen
                    recent->missing ? "no longer exists" : folder, theme()->text_dim);
 }
 
-/// Lays out one match of the list; true where it was pressed.
+/// Lays out a match; true if it was pressed.
 static bool dialog_row(struct dialog *dialog, struct rect r, int match)
 {
     char name[32];
@@ -318,12 +315,11 @@ static void build_list(struct dialogs *dialogs, struct core *core)
         if (first + row < dialog->match_count && dialog_row(dialog, r, first + row)) taken = first + row;
     }
     if (taken >= 0) dialog->error[0] = '\0';
-    bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // a recent file is opened by one click
+    bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // one click opens a recent file
     bool done = taken >= 0 && !confirmed && dialog_take(dialog, taken);
     if (confirmed || (done && direct)) confirm(dialogs, core);
 }
 
-/// Whether the path is one of the names listed.
 static bool dialog_exists(const struct dialog *dialog)
 {
     const char *name = path_name(dialog->ui.text.bytes);
@@ -376,13 +372,13 @@ static void build(struct dialogs *dialogs, struct core *core)
     } else if (dialog->kind == DIALOG_EXPORT) {
         export_build(dialogs, core);
     } else {
-        ui->focus = ui_id("dialog.path"); // the path is all there is to type in
+        ui->focus = ui_id("dialog.path"); // the path is the only text field
         build_path(dialogs, core);
     }
     ui_space(ui, 12);
 }
 
-/// The dialog's rectangle: as high as its content, in the middle of the window.
+/// Centred, as high as its content.
 static struct rect dialog_box(struct dialogs *dialogs, struct core *core)
 {
     struct rect window = core->layout.window;
@@ -396,7 +392,7 @@ static struct rect dialog_box(struct dialogs *dialogs, struct core *core)
     return (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 3), w, h};
 }
 
-/// true for every event while a dialog is open, but for EVENT_SIZE and EVENT_EXPOSE.
+/// true for every event while a dialog is open, except EVENT_SIZE and EVENT_EXPOSE.
 static bool dialog_event(struct dialogs *dialogs, struct core *core, const struct event *event)
 {
     struct dialog *dialog = &dialogs->dialog;
@@ -406,7 +402,7 @@ static bool dialog_event(struct dialogs *dialogs, struct core *core, const struc
         return false;
     }
     bool key = event->kind == EVENT_KEY;
-    if (key && event->action == ACTION_RELEASE) return false; // of a key that was pressed before the dialog came
+    if (key && event->action == ACTION_RELEASE) return false; // the key was pressed before the dialog opened
     bool typed_by_answer = dialog->skip_text && event->kind == EVENT_TEXT;
     dialog->skip_text = false;
     const bool exports = dialog->kind == DIALOG_EXPORT;
@@ -425,7 +421,6 @@ static bool dialog_event(struct dialogs *dialogs, struct core *core, const struc
     return true;
 }
 
-/// Draws the dialog, where one is open.
 static void dialog_show(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;

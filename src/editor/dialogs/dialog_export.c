@@ -8,17 +8,17 @@
 #include <string.h>
 #include <strings.h>
 
-enum { STEM_MORE = 32 }; ///< bytes that a name may grow by
+enum { STEM_MORE = 32 }; ///< bytes that an extension may add
 enum { LEAST_ROWS = 3, CHOICE_ROWS = 3, NUMBER_WIDTH = 72, ENDING_WIDTH = 56, NOTE_HEIGHT = 40, MAX_SIDE = 8192 };
 
 static const char path_field[] = "export.path", clip_field[] = "export.clip";
 
-/// Everything else on this dialog but its lists and buttons, height included.
+/// Height of everything but lists and buttons.
 static const float FRAME_HEIGHT = 300;
 
 static bool is_running(const struct dialog *dialog) { return dialog->awaited == REQUEST_EXPORT; }
 
-/// The format that a path's ending says, or -1.
+/// The format of a path's extension, or -1.
 static int format_by_ending(const struct dialog_files *files, const char *path)
 {
     const char *dot = strrchr(path, '.');
@@ -33,7 +33,7 @@ static const struct dialog_format *format_of(const struct dialogs *dialogs)
     return &dialogs->dialog.files.formats[dialogs->exporting.format];
 }
 
-/// A path with the ending of a format in place of that of another; false where it is too long.
+/// Replaces a path's extension by a format's; false if the path gets too long.
 static bool with_ending(const struct dialog_files *files, const char *path, int format, char full[PATH_LIMIT])
 {
     const size_t length = strlen(path);
@@ -49,11 +49,11 @@ static void choose_format(struct dialogs *dialogs, int format)
     if (with_ending(&dialogs->dialog.files, exporting->memory.path, format, full))
         memcpy(exporting->memory.path, full, sizeof full);
     exporting->format = format;
-    exporting->typed = 0; // the field takes the new text
+    exporting->typed = 0; // reload the text into the field
     dialogs->dialog.error[0] = '\0';
 }
 
-/// An absolute path without the ending of its file's name; false where it is too long for a dialog.
+/// An absolute path without its extension; false if it is too long.
 static bool stem_of(const char *folder, const char *path, char stem[PATH_LIMIT])
 {
     if (!path_resolve(folder, path, stem) || strlen(stem) >= PATH_LIMIT - STEM_MORE) return false;
@@ -62,7 +62,7 @@ static bool stem_of(const char *folder, const char *path, char stem[PATH_LIMIT])
     return true;
 }
 
-/// Beside the scene's file and called like it, or else like its character; but never like that character's own file.
+/// Names the file after the scene, or else after the character, but never like that character's own file.
 static void name_export(char path[PATH_LIMIT], const struct core *core)
 {
     const struct document *document = core->document;
@@ -76,7 +76,7 @@ static void name_export(char path[PATH_LIMIT], const struct core *core)
         strcat(path, "-animated");
 }
 
-/// Another scene: in the format of last time.
+/// For another scene: keeps the last format.
 static void begin_memory(struct dialogs *dialogs, const struct core *core)
 {
     struct export_memory *memory = &dialogs->exporting.memory;
@@ -160,7 +160,7 @@ bool export_key(struct dialogs *dialogs, struct core *core, int key)
     if (key == KEY_ESCAPE && !ui->typing && !ui->held) {
         stop(dialogs, core);
     } else if (is_running(&dialogs->dialog)) {
-        return key != KEY_ENTER && key != KEY_SPACE; // which press the button
+        return key != KEY_ENTER && key != KEY_SPACE; // Enter and Space press the button
     } else if (key == KEY_ENTER && in_text) {
         confirm(dialogs, core);
     } else if (key == KEY_UP && in_text) {
@@ -173,7 +173,7 @@ bool export_key(struct dialogs *dialogs, struct core *core, int key)
     return true;
 }
 
-/// A line of text that keeps its own content while others are typed in.
+/// A text field that keeps its content while another one has the focus.
 static bool build_text(struct dialogs *dialogs, struct rect r, const char *name, char *text, size_t size)
 {
     struct exporting *exporting = &dialogs->exporting;
@@ -182,7 +182,7 @@ static bool build_text(struct dialogs *dialogs, struct rect r, const char *name,
     const struct ui_text others = ui->text;
     if (exporting->typed == id && ui->focus != id) exporting->typed = 0;
     if (exporting->typed != id) ui_text_set(&ui->text, text);
-    if (exporting->typed != id && ui->focus == id) ui->text.all = true; // by Tab, or as the dialog opens
+    if (exporting->typed != id && ui->focus == id) ui->text.all = true; // focused by Tab or on opening
     const bool changed = ui_text_field(ui, r, name);
     if (changed) {
         snprintf(text, size, "%s", ui->text.bytes);
@@ -205,7 +205,7 @@ static void build_path(struct dialogs *dialogs)
     if (format >= 0) exporting->format = format;
 }
 
-/// A whole number; `value` changes at once, and back where a drag is cancelled.
+/// A whole-number field. `value` changes at once; cancelling a drag restores it.
 static bool build_number(struct dialogs *dialogs, struct rect r, struct ui_number number, double *value)
 {
     struct exporting *exporting = &dialogs->exporting;
@@ -240,7 +240,7 @@ static struct rect labelled(struct ui *ui, struct rect *row, float width, const 
     return field;
 }
 
-/// Two numbers with a word in between.
+/// The second of two number fields, with a word between.
 static struct rect second(struct ui *ui, struct rect first, const char *word)
 {
     const float x = first.x + first.w + UI_GAP;
@@ -293,13 +293,12 @@ static void build_keys(struct dialogs *dialogs, const struct document *document,
 static bool is_offered(const struct rig *rig, unsigned choices)
 {
     if (choices & CHOICE_JOINTS) return rig->kind == RIG_TAIL || rig->kind == RIG_CHAIN;
-    return rig->kind != RIG_CHAIN; // it goes with its character
+    return rig->kind != RIG_CHAIN; // exported with its character
 }
 
-/// Name of the clip in an export.
 static const char *label_of(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
 
-/// The next of the scene's rigs after that one; "" after the last where all may go in.
+/// The next rig to export; "" for all after the last, where the format allows that.
 static void next_rig(struct export_wish *wish, const struct document *document, unsigned choices)
 {
     int current = -1, first = -1, next = -1;
@@ -324,7 +323,7 @@ static void build_rig(struct dialogs *dialogs, const struct document *document, 
         offered++;
         has_chosen = has_chosen || strcmp(label_of(document->rigs[i]), wish->rig) == 0;
     }
-    if (!has_chosen) wish->rig[0] = '\0'; // the last was of another format, or has another name now
+    if (!has_chosen) wish->rig[0] = '\0'; // the rig belonged to another format or was renamed
     if (offered < 2) return;
     if ((choices & CHOICE_ONE) && !wish->rig[0]) next_rig(wish, document, choices);
     const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH + 48, "rig");
@@ -351,14 +350,14 @@ static void build_flags(struct dialogs *dialogs, const struct document *document
     if (choices & CHOICE_ALPHA) build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
 }
 
-/// The clip's name where none is typed: an imported character keeps that of the clip it plays.
+/// The default clip name: for an imported character, its current clip's.
 static const char *usual_clip(const struct document *document)
 {
     const int rig = document_next_rig(document, RIG_MODEL, 0);
     return rig >= 0 && document->rigs[rig]->model.clip ? document->rigs[rig]->model.clip : "as the scene";
 }
 
-/// Always as many rows, so that nothing jumps when the format changes.
+/// Has the same number of rows for every format, so that nothing jumps.
 static void build_choices(struct dialogs *dialogs, const struct document *document)
 {
     struct export_memory *memory = &dialogs->exporting.memory;
@@ -390,7 +389,7 @@ static void build_formats(struct dialogs *dialogs, float room)
                      : fitting > files->format_count ? files->format_count
                                                      : fitting;
     const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
-    // Where not all fit, the chosen one is in sight as soon as it is typed.
+    // Scroll to the format being typed.
     if (ui->focus == ui_id(path_field))
         exporting->scroll.offset =
             fmaxf(fminf(exporting->scroll.offset, (float)chosen * UI_ROW), (float)(chosen + 1 - rows) * UI_ROW);
@@ -409,7 +408,6 @@ static void build_formats(struct dialogs *dialogs, float room)
     if (taken >= 0) choose_format(dialogs, taken);
 }
 
-/// Contents of the file, progress, or an error.
 static void build_note(struct dialogs *dialogs, const struct document *document)
 {
     const struct dialog *dialog = &dialogs->dialog;

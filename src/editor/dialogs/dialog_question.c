@@ -1,4 +1,4 @@
-/// Dialogs that ask a question: those of core, and about unsaved, changed and recovered work.
+/// Question dialogs: core's own, and those about unsaved, changed and recovered work.
 #include "editor/dialogs/state.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -70,7 +70,7 @@ bool dialogs_ask(struct dialogs *dialogs, struct core *core)
     return adds;
 }
 
-/// A question with these answers, to be given its words.
+/// A question with these answers and still without a text.
 #define QUESTION(list, what)                                                                                         \
     ((struct question){.answers = (list), .count = sizeof(list) / sizeof(list)[0], .answered = (what)})
 

@@ -1,5 +1,5 @@
-/// The overlay with all keys (F1): ten about what the pointer is over, then all, or those that typing finds; in as many columns as the
-/// window has room for, scrolled where it is low.
+/// The key overlay (F1): ten commands for the place under the pointer, then all, or those matching the typed text. It uses as many columns
+/// as fit and scrolls in low windows.
 #include "editor/core/core.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
@@ -20,16 +20,16 @@ enum {
     HERE = 10, ///< rows about the place under the pointer
     MARGIN = 24,
     KEYS_GAP = 12,
-    WHEEL = 48 ///< pixels a notch
+    WHEEL = 48 ///< pixels per notch
 };
 
-/// Which groups are in which column, from the top: column c holds groups first[c] … first[c + 1] − 1.
+/// Groups per column: column c holds groups first[c] … first[c + 1] − 1.
 struct flow {
     int columns, first[MAX_COLUMNS + 1];
-    float row, height; ///< of a row, of the highest column
+    float row, height; ///< height of a row; of the highest column
 };
 
-/// The first command under a heading; they stand together.
+/// The first command under a heading. Commands of one heading are contiguous.
 static const struct command *first_of(const struct command_list *list, int about)
 {
     const struct command *command = list->commands;
@@ -49,7 +49,7 @@ static float group_height(const struct command_list *list, int about, float row)
     return HEADER + row * (float)row_count(list, about) + GROUP_GAP;
 }
 
-/// Fills column after column up to a height; false where there are too few columns.
+/// Fills the columns up to a height; false if there are too few.
 static bool fill(const struct command_list *list, struct flow *flow, float limit)
 {
     int column = 0;
@@ -69,7 +69,7 @@ static bool fill(const struct command_list *list, struct flow *flow, float limit
     return true;
 }
 
-/// The lowest columns that hold all groups in their order.
+/// The lowest columns that hold all groups in order.
 static struct flow flow_of(const struct command_list *list, int columns, float row)
 {
     const float step = 4;
@@ -81,15 +81,14 @@ static struct flow flow_of(const struct command_list *list, int columns, float r
     return flow;
 }
 
-/// How it is laid out in a window, in a box that is as large as it may be.
+/// The layout for a window.
 struct page {
     struct rect box, body;
     struct flow flow;
-    float here;   ///< height of the rows about the place under the pointer, with the gap below
-    float height; ///< of all that is in the body
+    float here;   ///< height of the rows for the place under the pointer, with the gap below
+    float height; ///< height of the whole content
 };
 
-/// Rows that are laid out evenly in columns.
 static int grid_rows(int count, int columns) { return (count + columns - 1) / columns; }
 
 static struct page page_of(const struct dialogs *dialogs, const struct commands_found *found, struct rect window)
@@ -109,12 +108,12 @@ static struct page page_of(const struct dialogs *dialogs, const struct commands_
     return page;
 }
 
-/// How far it can be scrolled.
+/// The largest scroll offset.
 static float range_of(const struct page *page) { return fmaxf(page->height + MARGIN / 2 - page->body.h, 0); }
 
 static float scrolled(const struct page *page, float offset) { return fmaxf(0, fminf(offset, range_of(page))); }
 
-/// Pixels by which a key or the wheel scrolls; 0 for all others.
+/// Pixels scrolled by a key or the wheel; 0 for other events.
 static float scroll_of(const struct event *event, const struct page *page)
 {
     if (range_of(page) <= 0) return 0;
@@ -134,7 +133,6 @@ static float scroll_of(const struct event *event, const struct page *page)
     }
 }
 
-/// The place under the pointer.
 static enum place place_of(const struct core *core)
 {
     const enum panel panel = core_panel_at(core, core->pointer_x, core->pointer_y);
@@ -196,7 +194,7 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
     drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
 }
 
-/// A row at `r`, its keys in a column `keys` wide.
+/// `keys`: width of the key column.
 static void show_row(struct drawlist *list, struct rect r, float keys, const struct command *command)
 {
     char text[COMMAND_KEYS];
@@ -205,7 +203,7 @@ static void show_row(struct drawlist *list, struct rect r, float keys, const str
     paint_line(list, (struct rect){r.x + keys, r.y, r.w - keys, r.h}, FONT_LABEL, theme()->text_dim, command->name);
 }
 
-/// One group at `r`, whose height is that of a row; returns the group's height.
+/// Draws a group from `r`, one row high; returns the group's height.
 static float show_group(struct drawlist *list, struct rect r, float keys, const struct command_list *commands,
                         int about)
 {
@@ -230,7 +228,7 @@ static void show_title(struct drawlist *list, const struct page *page, const str
     commands_show_field(list, field, &help->filter, "Type to search");
 }
 
-/// Widest keys of some rows, with a gap; at most half of a column.
+/// Width of the widest keys with a gap, at most half a column.
 static float keys_width(const struct command *const *rows, int count, float column)
 {
     float widest = 0;
@@ -247,7 +245,7 @@ static float column_width(const struct page *page)
     return (page->box.w - (float)(MARGIN * (page->flow.columns + 1))) / (float)page->flow.columns;
 }
 
-/// Rows evenly in columns, column after column, from `y` on.
+/// Draws rows in even columns from `y` on.
 static void show_grid(struct drawlist *list, const struct page *page, float y, const struct command *const *rows,
                       int count)
 {
@@ -261,7 +259,6 @@ static void show_grid(struct drawlist *list, const struct page *page, float y, c
     }
 }
 
-/// The rows about the place under the pointer.
 static void show_here(struct drawlist *list, const struct dialogs *dialogs, const struct page *page, float y)
 {
     static const struct {

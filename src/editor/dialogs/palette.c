@@ -1,4 +1,4 @@
-/// The command palette (F3): every command, found by typing, with its keys or its unmet need.
+/// The command palette (F3): type to find a command. Each row shows its keys or what it still needs.
 #include "editor/core/command.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
@@ -9,7 +9,7 @@
 
 enum { WIDTH = 640, ROW = 26, ROWS = 12, FIELD = 34, PAD = 12, GAP = 16 };
 
-/// How well a command fits: by its name, or it has such a key.
+/// How a command matches: by name or by key.
 static enum fit fit_of(const struct command *command, const struct ui_filter *filter)
 {
     char keys[COMMAND_KEYS];
@@ -18,13 +18,12 @@ static enum fit fit_of(const struct command *command, const struct ui_filter *fi
     return fit < FIT_INSIDE && ui_filter_fit(filter, keys) >= FIT_WORD ? FIT_INSIDE : fit;
 }
 
-/// Whether a command is listed at all.
 static bool is_listed(const struct command *command, bool gestures)
 {
     return command->name && (gestures ? command->about != ABOUT_NOTHING : command_runs(command));
 }
 
-/// Adds the commands of one fit, with an unmet need or without.
+/// Adds the commands of one fit, either those that can run or those that cannot.
 static void add(const struct command_list *commands, const enum fit *fits, enum fit fit, const char *const *missing,
                 bool lacking, struct commands_found *found)
 {
@@ -82,10 +81,9 @@ const struct command *dialogs_take_command(struct dialogs *dialogs)
     return chosen;
 }
 
-/// How it is laid out in a window.
 struct sheet {
     struct rect box, field, list;
-    int rows; ///< in sight
+    int rows; ///< visible
 };
 
 static struct sheet sheet_of(struct rect window, int found)
@@ -95,7 +93,7 @@ static struct sheet sheet_of(struct rect window, int found)
     sheet.rows = (int)fmaxf(fminf(floorf(room / ROW), ROWS), 1);
     const float w = fminf(WIDTH, window.w - 16), rest = FIELD + 3 * PAD;
     const float top = roundf(window.y + (window.h - rest - (float)(sheet.rows * ROW)) / 3);
-    if (found < sheet.rows) sheet.rows = found > 0 ? found : 1; // the field stays where it is
+    if (found < sheet.rows) sheet.rows = found > 0 ? found : 1; // the field keeps its place
     const float h = rest + (float)(sheet.rows * ROW);
     sheet.box = (struct rect){roundf(window.x + (window.w - w) / 2), top, w, h};
     sheet.field = (struct rect){sheet.box.x + PAD, sheet.box.y + PAD, w - 2 * PAD, FIELD};
@@ -103,7 +101,7 @@ static struct sheet sheet_of(struct rect window, int found)
     return sheet;
 }
 
-/// Chooses a row, which then is in sight.
+/// Chooses a row and scrolls to it.
 static void choose(struct palette *palette, int choice, int count, int rows)
 {
     palette->choice = choice >= count ? count - 1 : choice;
@@ -112,7 +110,7 @@ static void choose(struct palette *palette, int choice, int count, int rows)
     if (palette->first < palette->choice - rows + 1) palette->first = palette->choice - rows + 1;
 }
 
-/// Runs the command of a row, where it can be done.
+/// Runs the row's command if it can run.
 static void take(struct palette *palette, const struct commands_found *found)
 {
     if (palette->choice >= found->count) return;
@@ -169,7 +167,6 @@ static void show_text(struct drawlist *list, struct rect r, uint32_t color, cons
                       color, text);
 }
 
-/// Name, unmet need, keys.
 static void show_row(struct core *core, struct rect r, const struct commands_found *found, int row, bool chosen)
 {
     struct drawlist *list = &core->list;

@@ -1,5 +1,4 @@
-/// What an audience sees of a user's hands: keys and buttons as they are pressed, in a pill that fades; in a demo a pointer and a
-/// caption as well.
+/// Shows an audience the pressed keys and buttons in a fading pill. A demo also shows a pointer and captions.
 #include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/state.h"
@@ -10,11 +9,11 @@
 #include <string.h>
 
 static const double HOLD = 1.4, FADE = 0.35; ///< seconds after the release
-static const double GLIDE = 0.08;            ///< seconds that the demo's pointer is behind
-static const float DRAG_FROM = 3;            ///< logical pixels; less is a click
+static const double GLIDE = 0.08;            ///< seconds that the demo's pointer lags
+static const float DRAG_FROM = 3;            ///< logical pixels; shorter movements are clicks
 enum { HEIGHT = 36, PAD = 18, MARGIN = 14, GAP = 8 };
 
-/// Shows a word with the modifiers before it. The same again counts.
+/// Shows a word after its modifiers. Repeats are counted.
 static void tell(struct pressed *pressed, unsigned mods, const char *word, bool counts)
 {
     char text[sizeof pressed->text];
@@ -82,7 +81,7 @@ bool dialogs_want_frames(const struct dialogs *dialogs, const struct core *core)
     return is_shown(dialogs, core) && dialogs->pressed.seconds > 0;
 }
 
-/// A pill in the middle of the free part of the stage, its lower edge at `bottom`.
+/// A pill centred in the free part of the stage.
 static void show_pill(struct core *core, float bottom, const char *text, float alpha, uint32_t color)
 {
     const struct rect open = core->layout.open;
@@ -96,7 +95,7 @@ static void show_pill(struct core *core, float bottom, const char *text, float a
                       theme_fade(color, alpha), text);
 }
 
-/// The demo's pointer, with a ring while a button is down.
+/// The demo's pointer, ringed while a button is down.
 static void show_pointer(const struct pressed *pressed, struct core *core)
 {
     const float x = pressed->pointer[0], y = pressed->pointer[1];
@@ -122,7 +121,7 @@ void dialogs_show_input(const struct dialogs *dialogs, struct core *core)
         show_pill(core, bottom, text, (float)fmin(pressed->seconds / FADE, 1), theme()->accent);
         bottom -= HEIGHT + GAP;
     }
-    if (message->text[0] && core->presenter.on && core->presenter.below == 0) // the status line is out of sight
+    if (message->text[0] && core->presenter.on && core->presenter.below == 0) // the status line is hidden
         show_pill(core, bottom, message->text, 1, message->is_error ? theme()->error : theme()->text);
     if (pressed->is_demo) show_pointer(pressed, core);
 }

@@ -1,5 +1,4 @@
-/// What lies over the panels: dialogs, help, the card for newcomers; their state, and what their files give each other. Private to the room,
-/// and to tests.
+/// State of the overlays and functions their files share. Private to this folder and tests.
 #ifndef EDITOR_DIALOGS_STATE_H
 #define EDITOR_DIALOGS_STATE_H
 
@@ -14,33 +13,33 @@ struct command_list {
 
 enum { COMMANDS_MOST = 256 };
 
-/// The commands that match the typed text, the best ones first.
+/// The commands that match the typed text, best first.
 struct commands_found {
     const struct command *list[COMMANDS_MOST];
-    const char *missing[COMMANDS_MOST]; ///< as command_missing() says
+    const char *missing[COMMANDS_MOST]; ///< from command_missing()
     int count;
 };
 
-/// All keys (F1).
+/// The key overlay (F1).
 struct help {
     bool open;
-    float offset; ///< pixels that it is scrolled by, where the window is too low for all of it
-    unsigned at;  ///< place of the pointer when it opened, of enum place
+    float offset; ///< scrolled pixels
+    unsigned at;  ///< enum place under the pointer when it opened
     struct ui_filter filter;
 };
 
-/// All commands (F3).
+/// The command palette (F3).
 struct palette {
     bool open;
     struct ui_filter filter;
-    int choice, first;            ///< the row that Enter runs, the first in sight
-    const struct command *chosen; ///< to be run; NULL: none
+    int choice, first;            ///< the row that Enter runs; the first visible row
+    const struct command *chosen; ///< command to run, or NULL
 };
 
 enum dialog_kind {
     DIALOG_NONE,
     DIALOG_OPEN,
-    DIALOG_ADD, ///< a path, as the one before
+    DIALOG_ADD, ///< a path, like DIALOG_OPEN
     DIALOG_SAVE_AS,
     DIALOG_UNSAVED,
     DIALOG_RECOVER,
@@ -51,50 +50,49 @@ enum dialog_kind {
 
 enum { DIALOG_MAX_NAMES = 256, DIALOG_NAME_SIZE = 256, DIALOG_ERROR_SIZE = 400 };
 
-/// The dialog on the screen; zero is a valid start (none, no access to folders).
+/// The open dialog. Zero: none, and no access to folders.
 struct dialog {
     enum dialog_kind kind;
     struct ui ui; ///< its text is the path
     struct dialog_files files;
-    struct question question;  ///< its `choice` is the one that Enter gives
-    struct request after;      ///< request to carry out once the work is saved or discarded, or REQUEST_NONE
-    enum request_kind awaited; ///< request without an answer yet, or REQUEST_NONE
-    bool saving;               ///< DIALOG_CHANGED: the user has asked to save
-    bool skip_text;            ///< a letter has answered: the character that comes with it is no part of a path
+    struct question question;  ///< its `choice` is the answer that Enter gives
+    struct request after;      ///< runs after saving or discarding, or REQUEST_NONE
+    enum request_kind awaited; ///< request that waits for an answer, or REQUEST_NONE
+    bool saving;               ///< DIALOG_CHANGED: the user asked to save
+    bool skip_text;            ///< ignore the text event of an answer's letter
     char error[DIALOG_ERROR_SIZE];
-    char listed[UI_TEXT_SIZE]; ///< folder whose names are in `names`
+    char listed[UI_TEXT_SIZE]; ///< folder of `names`
     char names[DIALOG_MAX_NAMES][DIALOG_NAME_SIZE];
-    int name_count; ///< -1: nothing is listed
+    int name_count; ///< -1: not listed
     struct dialog_recent recent[DIALOG_MAX_RECENT];
     int recent_count;
-    /// Names that begin with the text after the folder; before them, as DIALOG_MAX_NAMES + n, recent files.
+    /// Indices of matching names; recent files are DIALOG_MAX_NAMES + n.
     int match[DIALOG_MAX_NAMES + DIALOG_MAX_RECENT];
     int match_count;
-    int choice; ///< highlighted match (-1: none), or answer of a question
+    int choice; ///< highlighted match (-1: none)
 };
 
-/// The Export dialog: its choices, and the last export.
 struct exporting {
-    struct export_memory memory; ///< as it is being edited
-    unsigned serial;             ///< of the document that it is about
-    int format;                  ///< among the dialog's: that of the path's ending, or the last one
-    uint32_t typed;              ///< the field whose text is in `ui.text`; 0: none
-    const char *dragged;         ///< the number that the pointer drags, and its value before
+    struct export_memory memory; ///< as edited
+    unsigned serial;             ///< of its document
+    int format;                  ///< index of the format: by the path's extension, else the last one used
+    uint32_t typed;              ///< the field that `ui.text` holds; 0: none
+    const char *dragged;         ///< the dragged number, and its value before
     double before;
-    struct ui_scroll scroll; ///< of the list of formats
+    struct ui_scroll scroll; ///< of the format list
     long done, total;
 };
 
-/// The last pressed keys, for an audience.
+/// The last pressed keys, as shown to an audience.
 struct pressed {
     char text[64];
     int times;
-    double seconds; ///< that it is still shown for
+    double seconds; ///< seconds it stays visible
     bool is_down, is_drag;
     enum event_button button;
     float x, y;       ///< of the press
-    float pointer[2]; ///< as a demo shows it: it glides where the recording jumps
-    bool is_demo;     ///< nobody's hands: the pointer is shown as well
+    float pointer[2]; ///< a demo's pointer; glides where the recording jumps
+    bool is_demo;     ///< also shows the pointer
 };
 
 struct dialogs {
@@ -105,53 +103,47 @@ struct dialogs {
     struct palette palette;
     struct pressed pressed;
     char caption[160]; ///< of a demo
-    bool welcome;      ///< the card for newcomers is shown
-    struct rect card;  ///< where it is
+    bool welcome;      ///< the card for new users is shown
+    struct rect card;  ///< its rectangle
 };
 
-/// Shows a dialog with a path, or "".
+/// `path` may be "".
 void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path);
-/// Closes whichever is shown.
 void dialog_close(struct dialogs *dialogs);
-/// Carries out the request that had to wait; REQUEST_OPEN without a path asks for one.
+/// Carries out a request that had to wait; REQUEST_OPEN without a path asks for one.
 void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct request *after);
-/// Asks something of the app; the dialog takes nothing until dialogs_answer().
+/// Sends a request to the app; the dialog ignores input until dialogs_answer().
 void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
 
-/// The Export dialog's keys: true where it has used one. They also come while the app is at work, as all its events do.
+/// The Export dialog's keys; true if used. They also arrive while the app is busy.
 bool export_key(struct dialogs *dialogs, struct core *core, int key);
-/// Lays it out.
 void export_build(struct dialogs *dialogs, struct core *core);
 
 enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
 
-/// Lays the dialog's question out; returns the answer that was pressed, or QUESTION_OPEN.
+/// Lays out the question; returns the pressed answer, or QUESTION_OPEN.
 int question_build(struct dialog *dialog);
-/// Effect of a key: an answer, QUESTION_OPEN where it moved the choice, or QUESTION_UNUSED.
+/// A key's effect: an answer, QUESTION_OPEN if it moved the choice, or QUESTION_UNUSED.
 int question_key(struct dialog *dialog, int key);
 
-/// The commands that fit, those that can be done now before others that fit as well. Without `core`: all rows of F1, in their order.
+/// Finds matching commands, those that can run now first. Without `core`: all rows of F1 in table order.
 void commands_find(const struct command_list *commands, const struct core *core, const struct ui_filter *filter,
                    struct commands_found *found);
-/// A text field with its text, or a hint.
+/// Draws a text field with its text, or `empty` as a hint.
 void commands_show_field(struct drawlist *list, struct rect r, const struct ui_filter *filter, const char *empty);
 
-/// Typing searches; wheel, ↑ ↓ and PgUp PgDn scroll; Esc, Enter or a click closes it. While it is open help_event() is true for keys,
-/// text, buttons and the wheel.
+/// Typing searches, wheel and arrows scroll, Esc, Enter or a click closes. true for keys, text, buttons and wheel while it is open.
 bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
-/// Draws it, where it is open.
 void help_show(const struct dialogs *dialogs, struct core *core);
 
-/// Typing searches; ↑ ↓ and the wheel choose; Enter or a click runs a command; Esc closes it. While it is open palette_event() is true for
-/// keys, text, buttons and the wheel.
+/// Typing searches, ↑ ↓ and the wheel choose, Enter or a click runs a command, Esc closes. true for the same events while it is open.
 bool palette_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
-/// Draws it, where it is open.
 void palette_show(const struct dialogs *dialogs, struct core *core);
 
-/// A press on the card takes it away and is used up; so do Esc, an edit and the help.
+/// A press on the card, Esc, an edit or F1 closes it; true if the event is used.
 bool welcome_event(struct dialogs *dialogs, const struct event *event);
 
-/// Whether an event is for a page that one types on. Pointer movements are not, nor releases of keys that were pressed before it opened.
+/// Whether an overlay with a text field uses the event: not pointer movements, nor releases of keys pressed before it opened.
 static inline bool typing_concerns(const struct event *event)
 {
     const bool release = event->kind == EVENT_KEY && event->action == ACTION_RELEASE;

@@ -1,4 +1,4 @@
-/// The card for new users: it goes away with the first edit, the first look at the help, Esc, or a click.
+/// The card for new users. The first edit, F1, Esc or a click closes it.
 #include "editor/core/rigs.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
@@ -7,10 +7,10 @@
 
 enum { MARGIN = 16, PAD = 14, LINE = 20, GAP = 16, BAND_MARGIN = 6, TITLE = 40 };
 
-/// Hints of a card; the width of a stage with room beside tails, the height of one with room for two hints.
+/// Hints per card; least stage width for a card beside tails; least stage height for two hints in the band.
 enum { HINTS = 4, WIDE = 900, TALL = 250 };
 
-/// By the scene's first rig; an empty row is about knots.
+/// Hints by the kind of the scene's first rig. An empty row shows a hint about knots.
 static const struct hint {
     const char *what, *why;
 } hints[LEADS][HINTS] = {
@@ -53,17 +53,17 @@ bool dialogs_is_welcoming(const struct dialogs *dialogs) { return dialogs->welco
 
 static float width_of(enum font font, const char *text) { return font_width(font, THEME_TEXT_NORMAL, text); }
 
-/// Layouts: two columns; each reason below its action; or the first hints alone, in a band at the upper edge.
+/// Two columns; each reason below its action; or only the first hints in a band at the top.
 enum form { FORM_WIDE, FORM_UPRIGHT, FORM_BAND };
 
 struct card {
     enum form form;
     struct rect rect;
-    float before; ///< of the reasons, from the left
+    float before; ///< left edge of the reasons
     int hints;
 };
 
-/// Widths of the widest thing to do, and of the widest reason.
+/// Widths of the widest action and the widest reason.
 static void measure(const struct document *document, int count, float *what, float *why)
 {
     *what = *why = 0;
@@ -74,7 +74,6 @@ static void measure(const struct document *document, int count, float *what, flo
     }
 }
 
-/// A card in a lower corner of the stage.
 static struct card corner_card(const struct core *core, enum form form, bool right)
 {
     const struct rect *stage = &core->layout.stage;
@@ -90,7 +89,7 @@ static struct card corner_card(const struct core *core, enum form form, bool rig
     return card;
 }
 
-/// Hints across the upper edge, in place of the description: the camera leaves so much free.
+/// Hints in a band at the top, in place of the description. The camera keeps that height free.
 static struct card band_card(const struct core *core, int count)
 {
     const struct rect *stage = &core->layout.stage;
@@ -104,7 +103,7 @@ static struct card band_card(const struct core *core, int count)
     return card;
 }
 
-/// Whether a card covers neither the rigs nor the title of the scene's description.
+/// Whether a card covers neither the rigs nor the description's title.
 static bool is_clear(const struct core *core, const struct card *card, struct rect figure)
 {
     const struct rect *r = &card->rect;
@@ -112,14 +111,14 @@ static bool is_clear(const struct core *core, const struct card *card, struct re
     return beside && r->y >= core->layout.stage.y + TITLE;
 }
 
-/// Tails swing to and fro over a wide stage, but high above its corners.
+/// Tails swing across a wide stage, but high above its corners.
 static struct card place_card(const struct core *core, struct rect figure)
 {
     static const struct {
         enum form form;
         bool right;
     } places[] = {{FORM_WIDE, false}, {FORM_UPRIGHT, false}, {FORM_UPRIGHT, true}, {FORM_WIDE, true}};
-    const bool legend = core->characters.mapped || core->brush.on; // that of the phase map is at the left hand
+    const bool legend = core->characters.mapped || core->brush.on; // the phase map's legend is at the left
     const bool roomy = core->layout.stage.w >= WIDE && rigs_lead(core->document) != LEAD_CHARACTER;
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         const struct card card = corner_card(core, places[i].form, places[i].right);
@@ -150,7 +149,7 @@ static void show_right(struct core *core, const struct card *card, float y, enum
     show_text(core, card->rect.x + card->rect.w - PAD - width_of(font, text), y, font, color, text);
 }
 
-/// How to close it, below the hints, or in the band behind them.
+/// The note on how to close the card, below the hints or behind them in the band.
 static void show_closing(struct core *core, const struct card *card, float y)
 {
     if (card->form != FORM_BAND) {

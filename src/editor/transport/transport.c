@@ -55,7 +55,6 @@ bool transport_event(struct core *core, const struct event *event)
     return true;
 }
 
-/// A triangle while it plays, else two bars.
 static void paint_play_state(struct drawlist *list, float x, float y, bool playing, bool hot)
 {
     uint32_t color = playing ? theme()->accent : hot ? theme()->text : theme()->text_dim;
@@ -77,7 +76,6 @@ static void paint_word(struct core *core, struct rect r, enum font font, const c
     drawlist_text(&core->list, x, y, font, size, color, text);
 }
 
-/// A screen on its foot.
 static void paint_screen(struct drawlist *list, struct rect r, bool on, bool hot)
 {
     const uint32_t color = on ? theme()->accent : hot ? theme()->text : theme()->text_dim;
@@ -107,8 +105,8 @@ static float controls_show(struct core *core)
     return present.x + present.w;
 }
 
-static const double REFRESH = 0.5; ///< seconds between changes of the figures at the right
-static const double SOLVED = 5;    ///< µs; shorter times only checked whether anything had to be solved
+static const double REFRESH = 0.5; ///< seconds between updates of the performance figures
+static const double SOLVED = 5;    ///< µs; shorter times solved nothing
 
 void transport_advance(struct core *core, double dt)
 {
@@ -120,7 +118,7 @@ void transport_advance(struct core *core, double dt)
     status->dropped = core->playback.dropped;
 }
 
-/// A hint where nothing is under the pointer; about knots only where there are some.
+/// The hint with nothing under the pointer.
 static const char *lead_hint(const struct document *document)
 {
     static const char *const hints[LEADS][2] = {
@@ -141,7 +139,6 @@ static const char *lead_hint(const struct document *document)
     return hints[lead][rigs_have_knots(document)];
 }
 
-/// Hints by the item under the pointer.
 static const char *const hover_hints[] = {
     [HOVER_KNOT] = "Drag it (X, Y: one axis, R: later ones too, Shift: fine, Ctrl: off frames)",
     [HOVER_SLOPE] = "Drag to turn the slope, pull to make it firmer; T removes it",
@@ -206,7 +203,7 @@ static void paint_text(struct drawlist *list, struct rect r, enum font font, uin
     drawlist_text_fit(list, r.x, y, r.w, font, size, color, text);
 }
 
-/// Frame and time, in a column whose width does not depend on them; returns the column's right end.
+/// Frame and time, in a column of constant width; returns its right end.
 static float show_time(struct core *core, struct rect bar, float x)
 {
     char text[64];
@@ -217,7 +214,7 @@ static float show_time(struct core *core, struct rect bar, float x)
     return x + width;
 }
 
-/// The scene's name, with a dot while it has unsaved changes.
+/// The scene's name, with a dot for unsaved changes.
 struct title {
     char text[256 + 8];
     float width;
@@ -231,7 +228,7 @@ static struct title title_of(const struct core *core, bool saved, float room)
     return title;
 }
 
-/// Frames a second only while it plays: at rest frames come as events do, and their number would say nothing.
+/// Shows frames per second only while playing. At rest frames follow events, so their rate means nothing.
 static void figures_text(const struct core *core, char *text, size_t size)
 {
     const struct status *status = &core->status;
@@ -251,14 +248,14 @@ enum { GAP = 24, STATUS_MARGIN = 12 };
 
 static const char unkept[] = "Autosave fails: save now (Ctrl+S)";
 
-/// The mark at the right end while unsaved work has no recovery file.
+/// The mark at the right end for unsaved work without a recovery file.
 static struct rect unkept_rect(struct rect bar)
 {
     const float width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, unkept);
     return (struct rect){bar.x + bar.w - STATUS_MARGIN - width, bar.y + 1, width, bar.h - 1};
 }
 
-/// In a narrow window it covers the controls.
+/// In a narrow window the mark covers the controls.
 static void show_unkept(struct core *core, struct rect bar)
 {
     const struct rect r = unkept_rect(bar);
@@ -278,7 +275,7 @@ void transport_show(struct core *core, const char *hint)
     figures_text(core, figures, sizeof figures);
     const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
     const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
-    // The message is shown in full: the figures make room for it and for the scene's name, and the name for the message.
+    // The message is never cut: figures and name give way to it, figures first.
     const float needed = message->text[0] ? GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text) : 0;
     const bool saved = history_is_saved(core->history);
     const struct title title = title_of(core, saved, fminf(bar.w / 5, fmaxf(end - x, 0)));
