@@ -8,27 +8,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double least_drift = 0.02; ///< share of the motion's variance from which on a drift is one
-static const double least_swing = 1e-9; ///< what is left without a drift: less is the rounding of float data
-static const double cancelling = 2;  ///< times the motion's power: what a component's part has only against another's
-static const double fast_from = 0.8; ///< of half the frame rate
-static const double least_gain = 0.002; ///< of the motion's power, that a steady pole explains beside the others
-/// The same after a drive: what moved much under it may have all but died away.
+static const double least_drift = 0.02; ///< share of the motion's variance from which a drift counts
+static const double least_swing = 1e-9; ///< share left without the drift; less is the rounding of float data
+static const double cancelling = 2;     ///< times the motion's power: a larger component only cancels another
+static const double fast_from = 0.8;    ///< of half the frame rate
+static const double least_gain = 0.002; ///< share of the motion's power that a steady pole must explain
+/// The same after a drive, when much of the motion may have died away.
 static const double least_gain_afterwards = 0.0002;
 
-/// What is worked with, all on frames alone.
+/// An analysis in progress. Nothing here is per vertex.
 struct work {
     const struct lapack *lapack;
     const struct motion *motion;
     const struct analysis_plan *plan;
-    double *gram; ///< of the motion without its drift, from find_drift() on
-    double *free; ///< of the frames that nothing drives, if these are not all
-    double power; ///< its trace
+    double *gram; ///< of the motion; from find_drift() on without its drift
+    double *free; ///< of the undriven frames, if some are driven
+    double power; ///< trace of `gram`
     struct pole poles[SUBSPACE_POLES_MAX];
     int pole_count;
     struct drift drift;
-    double *
-        weights; ///< of the frames, 2 a component: Re Ñ and Im Ñ of the motion without its drift; then one for the drift
+    double *weights; ///< rows over the frames: Re Ñ and Im Ñ of each component without the drift, then the drift's
 };
 
 static double trace(const double *gram, int frames)
@@ -38,8 +37,7 @@ static double trace(const double *gram, int frames)
     return sum;
 }
 
-/// Share of the power at frequencies above `fast_from` of half the frame rate: those of the discrete Fourier transform, on the
-/// sums g_d of G's diagonals.
+/// Share of the power above `fast_from` of half the frame rate, in the discrete Fourier transform, from the sums g_d of G's diagonals.
 static double fast_share(const double *gram, int frames)
 {
     size_t n = (size_t)frames;
@@ -78,7 +76,7 @@ static const double *cut_gram(struct work *w)
     return w->free;
 }
 
-/// Finds poles and drift where nothing drives the motion, and takes the drift out of G.
+/// Finds poles and drift in the undriven frames, and removes the drift from G.
 static bool find_drift(struct work *w, struct basis *basis, struct error *error)
 {
     int first = w->plan->first, frames = w->motion->frames - first;
@@ -118,7 +116,7 @@ static void create_components(struct analysis *a, const struct work *w, int coun
     }
 }
 
-/// A component a principal component of the analytic signal.
+/// One component per principal component of the analytic signal.
 static bool find_principal(struct analysis *a, struct work *w)
 {
     int frames = w->motion->frames, count = w->plan->modes < frames ? w->plan->modes : frames;
@@ -135,7 +133,7 @@ static bool find_principal(struct analysis *a, struct work *w)
     return true;
 }
 
-/// The last of the components whose part only others cancel; -1: none.
+/// The last component so large that others must cancel it; -1: none.
 static int find_cancelled(const struct time_series *series, double power)
 {
     int k = series->count - 1;
@@ -143,7 +141,7 @@ static int find_cancelled(const struct time_series *series, double power)
     return k;
 }
 
-/// Time series of the first poles, without those whose parts others cancel.
+/// Fits time series to the first poles, dropping those that others cancel.
 static void find_series(struct analysis *a, struct work *w, struct time_series *series)
 {
     for (;;) {
@@ -160,7 +158,7 @@ static void find_series(struct analysis *a, struct work *w, struct time_series *
     }
 }
 
-/// A component a pole.
+/// One component per pole.
 static void find_swinging(struct analysis *a, struct work *w)
 {
     struct time_series series;
@@ -180,7 +178,7 @@ static void find_swinging(struct analysis *a, struct work *w)
     time_series_free(&series);
 }
 
-/// What any time series would leave of all the motion, from the weights of Ñ.
+/// From the weights of Ñ: the numbers that give the error of any time series on the whole motion.
 static void fill_metric(struct component *c, const struct work *w, const double *weights)
 {
     size_t n = (size_t)c->frames;
@@ -194,8 +192,8 @@ static void fill_metric(struct component *c, const struct work *w, const double 
     m->power = w->power;
 }
 
-/// What component l does along Ñ_k in every frame, Re(R_l Ñ_l)·Ñ_k = (R_l Ñ_l·Ñ_k + R̄_l conj(Ñ_l)·Ñ_k) / 2. Returns Σ_t of
-/// its product with what component k does.
+/// The motion of component l along Ñ_k in every frame, Re(R_l Ñ_l)·Ñ_k = (R_l Ñ_l·Ñ_k + R̄_l conj(Ñ_l)·Ñ_k) / 2. Returns Σ_t of
+/// its product with the motion of component k.
 static double find_overlap(const struct component *k, const struct component *l, const double *weights,
                            double complex *along)
 {
@@ -213,7 +211,7 @@ static double find_overlap(const struct component *k, const struct component *l,
     return product;
 }
 
-/// Gives each component its own motion, from what there is of all: Σ |s − Σ_l Re(R_l Ñ_l)|² over the l that are not k.
+/// Restricts each component's metric to its own motion, the whole minus the others': |s − Σ_l Re(R_l Ñ_l)|² over all l ≠ k.
 static void share_motion(struct analysis *a, const struct work *w)
 {
     size_t n = (size_t)w->motion->frames;
@@ -242,7 +240,7 @@ static void share_motion(struct analysis *a, const struct work *w)
     free(along);
 }
 
-/// Ñ of every component and the drift, by one more pass over the motion.
+/// Ñ of every component and the drift, in a second pass over the motion.
 static bool form_shapes(struct analysis *a, struct work *w, struct error *error)
 {
     size_t frames = (size_t)w->motion->frames, columns = 3 * (size_t)w->motion->vertices, count = (size_t)a->count;
@@ -310,7 +308,7 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     if (motion->frames - plan->first < ANALYSIS_FRAMES_MIN)
         return fail(error, ERROR_INPUT, "%s: expected %d frames or more after the drive stops, got %d", motion->path,
                     ANALYSIS_FRAMES_MIN, motion->frames > plan->first ? motion->frames - plan->first : 0);
-    const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 5; // a pair of frames
+    const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 5; // per pair of frames
     if (!need_has_room(numbers * n * n * sizeof *work.gram)) return fail_frames(error, motion);
     a->mean = need((size_t)motion->vertices, sizeof *a->mean);
     work.gram = need(n * n, sizeof *work.gram);

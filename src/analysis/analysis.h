@@ -9,23 +9,21 @@
 
 enum {
     ANALYSIS_FRAMES_MIN = 8,
-    ANALYSIS_FRAMES_MAX =
-        4096, ///< the memory grows with the square of the frames: 100 n² bytes by CPCA, 40 n² by poles
+    ANALYSIS_FRAMES_MAX = 4096, ///< n frames need 100 n² bytes by CPCA, 40 n² by poles
     ANALYSIS_MODES_MAX = TIME_SERIES_MAX,
 };
 
 enum analysis_method {
-    ANALYSIS_POLES, ///< one coordinate a pole: frequency and damping of its own, whatever the frame rate
+    ANALYSIS_POLES, ///< one coordinate per pole, with its own frequency and damping, whatever the frame rate
     ANALYSIS_CPCA,  ///< the paper's: complex principal components of the analytic signal
 };
 
-/// What to find.
 struct analysis_plan {
     enum analysis_method method;
     double fps;              ///< frames per second
-    int modes;               ///< at most so many components, 1 … ANALYSIS_MODES_MAX
+    int modes;               ///< at most this many components, 1 … ANALYSIS_MODES_MAX
     const double *direction; ///< three numbers that fix the gauge (see component_turn()), or NULL
-    int first; ///< the frame from which on nothing drives the motion, where poles are looked for; 0 by CPCA
+    int first;               ///< first frame without a drive, from which poles are found; 0 by CPCA
 };
 
 struct analysis {
@@ -33,18 +31,17 @@ struct analysis {
     double (*mean)[3]; ///< each vertex's mean position, metres
     struct component *components;
     int count;
-    int cancelled; ///< poles that matter, but whose parts were larger than the motion because others cancel them; left out
-    double left;      ///< relative error of the motion with all components, 0 … 1
-    double real_left; ///< the same with as many of real PCA's
-    double drift
-        [3]; ///< m/s: the mean velocity of the vertices, where the motion has a steady drift that was taken out, else 0
-    double drift_share; ///< of the motion's variance, 0 … 1; 0 where none is worth a word
+    int cancelled;      ///< poles left out because others nearly cancel them
+    double left;        ///< relative error of the motion with all components, 0 … 1
+    double real_left;   ///< the same with as many real principal components
+    double drift[3];    ///< m/s: the mean velocity of the vertices if a steady drift was removed, else 0
+    double drift_share; ///< of the motion's variance, 0 … 1; 0 if too small to report
     double fast_share;  ///< of the motion's power above four fifths of half the frame rate, 0 … 1
 };
 
-/// Finds the components, most important first; fewer than asked for where the motion has fewer poles. Reads the motion twice;
-/// needs memory for frames² numbers, a slab of 8 MiB and the result. Errors: too few or too many frames, nothing moves or
-/// swings, a number that is not finite, not enough memory for so many frames.
+/// Finds the components, most important first; fewer than asked for if the motion has fewer poles. Reads the motion twice; needs
+/// memory for frames² numbers, a slab of 8 MiB and the result. Errors: too few or too many frames, nothing moves or oscillates, a
+/// number that is not finite, not enough memory.
 bool analysis_create(struct analysis *analysis, const struct lapack *lapack, const struct motion *motion,
                      const struct analysis_plan *plan, struct error *error);
 void analysis_free(struct analysis *analysis);

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double dependent = 1e-12; ///< what is left of a sequence that the others span, relative to it
+static const double dependent = 1e-12; ///< a sequence with less than this share left is a combination of the others
 
 void basis_create(struct basis *b, int frames, int capacity)
 {

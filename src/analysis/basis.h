@@ -4,8 +4,6 @@
 
 #include <stdbool.h>
 
-// Sequences over the frames, and least squares on them.
-
 double basis_dot(const double *a, const double *b, int count);
 
 /// B: `count` sequences, each of `frames` numbers. B = L Q with orthonormal rows of Q and L lower triangular.
@@ -19,22 +17,22 @@ struct basis {
 void basis_create(struct basis *basis, int frames, int capacity);
 void basis_free(struct basis *basis);
 
-/// Appends a sequence; one that the others span counts as zero.
+/// Appends a sequence; if it is a combination of the others, it counts as zero.
 void basis_append(struct basis *basis, const double *sequence);
 
-/// How much of the motion's power Σ S² its last `last` sequences explain beyond those before; `gram` is G = S Sᵀ.
+/// How much of the power Σ S² the last `last` sequences explain beyond those before; `gram` is G = S Sᵀ.
 double basis_gain(const struct basis *basis, int last, const double *gram);
 
 /// W = (B Bᵀ)⁻¹ B, count × frames: S ≈ Bᵀ (W S) with the least sum of squares.
 void basis_weights(const struct basis *basis, double *weights);
 
-// The steady drift of a motion, every vertex along a line at a speed of its own, and the position that it swings about.
+// The steady drift of a motion: each vertex moves along a line at its own speed, and swings about it.
 
-/// Taking it out is a matrix on the frames: S′ = (1 − D) S, D = p₀ w₀ᵀ + p₁ w₁ᵀ, with p₀ = 1 and p₁ the frame number from the
-/// middle.
+/// Removing it is a matrix on the frames: S′ = (1 − D) S, D = p₀ w₀ᵀ + p₁ w₁ᵀ, with p₀ = 1 and p₁ the frame number counted from
+/// the middle.
 struct drift {
     int frames;
-    double *weights; ///< w₀ and w₁: w₁ S is what each column drifts by a frame
+    double *weights; ///< w₀ and w₁: w₁ S is each column's drift per frame
     double share;    ///< of the motion's power, 0 … 1
 };
 
@@ -45,19 +43,19 @@ void drift_append(struct basis *basis);
 void drift_create(struct drift *drift, const struct basis *basis, const double *gram);
 void drift_free(struct drift *drift);
 
-/// From one of the frames from `first` on to one of all of them, whose G is `gram`.
+/// Extends a drift of the frames from `first` on to all frames, whose G is `gram`.
 void drift_extend(struct drift *drift, int first, const double *gram);
 
-/// Keeps each column's mean: D = p₁ w₁ᵀ from now on.
+/// From now on the drift keeps each column's mean: D = p₁ w₁ᵀ.
 void drift_keep_means(struct drift *drift);
 
-/// No drift at all: D = 0.
+/// No drift: D = 0.
 void drift_keep_all(struct drift *drift);
 
 /// G becomes (1 − D) G (1 − D)ᵀ.
 void drift_remove(const struct drift *drift, double *gram);
 
-/// Weights of S′ become the weights of S that do the same: `rows` of them, each `frames` long.
+/// Turns weights of S′ into the same weights of S: `rows` rows of `frames` numbers.
 void drift_adapt(const struct drift *drift, double *weights, int rows);
 
 #endif

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-static const double tail_share = 0.05; ///< of the motion beyond each end of the range of lags
+static const double tail_share = 0.05; ///< share of the motion beyond each end of the range of lags
 
 double component_error(const struct component *c, const double complex *series)
 {
@@ -54,7 +54,7 @@ static bool power_step(double moment[3][3], double v[3])
     return length > 0;
 }
 
-/// The direction that moves most: the largest eigenvector of M = Re Σ ñ ñᴴ.
+/// The direction with the most motion: the largest eigenvector of M = Re Σ ñ ñᴴ.
 static void find_direction(const struct component *c, double direction[3])
 {
     enum { STEPS = 60 };
@@ -96,7 +96,7 @@ void component_turn(struct component *c, const double direction[3])
     change_gauge(c, turn);
 }
 
-/// Weighted sums for the slopes of straight lines through two sequences over the same frames.
+/// Weighted sums for the slopes of lines fitted to two sequences over the same frames.
 struct slopes {
     double weight, t, tt, y[2], ty[2];
 };

@@ -1,4 +1,4 @@
-/// The drift of a motion, found by least squares together with its oscillations: half a swing is no drift.
+/// The drift of a motion, fitted together with its oscillations: half a swing alone would look like a drift.
 #include "analysis/basis.h"
 #include "base/need.h"
 #include <stdlib.h>
@@ -6,7 +6,6 @@
 
 enum { ROWS = 2 };
 
-/// p_r at a frame.
 static double part(int frames, int row, int frame) { return row == 0 ? 1 : frame - (frames - 1) / 2.0; }
 
 void drift_append(struct basis *basis)
@@ -48,7 +47,7 @@ void drift_extend(struct drift *d, int first, const double *gram)
     for (size_t t = from; t < n; t++) {
         const double position = d->weights[t - from], speed = d->weights[n - from + t - from];
         weights[t] =
-            position - first / 2.0 * speed; // the middle of all frames lies first / 2 before that of the last ones
+            position - first / 2.0 * speed; // the middle of all frames is first / 2 before that of the last ones
         weights[n + t] = speed;
     }
     free(d->weights);
@@ -78,8 +77,8 @@ void drift_remove(const struct drift *d, double *gram)
     for (int row = 0; row < ROWS; row++) {
         const double *w = d->weights + (size_t)row * n;
         double twice = 0;
-        // With g = G w, G − p gᵀ − g pᵀ + (wᵀ g) p pᵀ: both halves at once, so that G stays symmetric. The two rows do
-        // not mix, as w₀ᵀ p₁ = w₁ᵀ p₀ = 0.
+        // With g = G w the result is G − p gᵀ − g pᵀ + (wᵀ g) p pᵀ, filled in both halves at once so that G stays symmetric. The two rows
+        // do not mix, as w₀ᵀ p₁ = w₁ᵀ p₀ = 0.
         for (size_t t = 0; t < n; t++) {
             product[t] = 0;
             for (size_t s = 0; s < n; s++) product[t] += gram[t * n + s] * w[s];

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { DRIFT = 2 }; ///< sequences of the drift, which the basis begins with
+enum { DRIFT = 2 }; ///< sequences of the drift at the start of the basis
 
-static const double steady = 0.05;        ///< how far a pole of the motion may wander
-static const double wanderer_gain = 0.01; ///< of the motion's power, at least, by a pole that wanders
-static const double cancelling = 4; ///< times the motion's power: what a pole's own part has only against another's
+static const double steady = 0.05;        ///< how far a steady pole may wander
+static const double wanderer_gain = 0.01; ///< share of the motion's power that a wandering pole must explain
+static const double cancelling = 4;       ///< times the motion's power: a larger part only cancels another
 
 void exponentials_fill(double complex z, int frames, double *rows)
 {
@@ -28,8 +28,8 @@ static void append(struct basis *basis, double complex z, double *room)
     basis_append(basis, room + basis->frames);
 }
 
-/// The largest power that the part of one pole has on its own, Σ (Bᵀ W S)² over its two sequences: tr(B Bᵀ W G Wᵀ) with
-/// B Bᵀ = L Lᵀ. The first two sequences are those of the drift. `weights` is room for all of W.
+/// The largest power of one pole's part on its own, Σ (Bᵀ W S)² over its two sequences: tr(B Bᵀ W G Wᵀ) with
+/// B Bᵀ = L Lᵀ. The first two sequences are the drift's. `weights` has room for all of W.
 static double largest_part(const struct basis *basis, const double *gram, double *weights)
 {
     size_t n = (size_t)basis->frames;
@@ -51,7 +51,7 @@ static double largest_part(const struct basis *basis, const double *gram, double
     return largest;
 }
 
-/// Of poles[first …], the one that explains most beside those of the basis; its gain.
+/// Finds the pole in poles[first …] that explains most beside those of the basis; returns its gain.
 static int find_best(const struct pole *poles, int first, int count, const double *gram, struct basis *basis,
                      double *room, double *gain)
 {
@@ -69,8 +69,8 @@ static int find_best(const struct pole *poles, int first, int count, const doubl
     return best;
 }
 
-/// Appends the best of poles[chosen … count), as long as one gains `least` of the power or there are fewer than `needed`. Returns
-/// the new number of chosen ones.
+/// Appends the best of poles[chosen … count) while it explains `least` of the power or fewer than `needed` are chosen. Returns the
+/// new number of chosen poles.
 static int choose_among(struct pole *poles, int chosen, int count, int needed, int most, double least,
                         const double *gram, double power, struct basis *basis, double *room)
 {

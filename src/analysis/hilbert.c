@@ -5,24 +5,22 @@
 ///     ──╯  ╰─╯   ╰╮   ╭─ |─╯   ╰─╯   ╰─╯   ╰─|─╯   ╰─╯  ╰──
 ///        before: n/2     |     frames: n     |  after: n − n/2
 ///
-/// The continuation is linear prediction. The columns of a motion that swings freely are sums of the same few damped
-/// oscillations, and such a sum obeys one recurrence x_t = −Σ a_i x_{t−iq} whatever its amplitudes and phases. It is fitted to
-/// all columns together, from G = S Sᵀ alone. Burg's reflection coefficients lie within the unit circle, so
-/// the continuation never grows. Mirroring would be right only for a shake that starts displaced and at rest;
-/// after a blow it is off by a quarter period.
+/// The continuation is linear prediction. The columns of a free motion are sums of the same few damped oscillations, and every such
+/// sum obeys one recurrence x_t = −Σ a_i x_{t−iq}, whatever its amplitudes and phases. It is fitted to all columns together, from
+/// G = S Sᵀ alone. Burg's reflection coefficients lie within the unit circle, so the continuation never grows.
 #include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// Share of the power that must be left for another coefficient to be worth it: less is the rounding of float data.
+/// Another coefficient needs this share of the power left to predict; less is the rounding of float data.
 static const double least_power = 1e-9;
 
 enum { TERMS = HILBERT_ORDER_MAX + 1 };
 
-/// An eighth of the mean period, by the pooled correlation of neighbouring frames: cos ω = Σ ⟨x_t, x_{t−1}⟩ / Σ |x_t|².
-/// In much shorter steps every oscillation looks like a straight line, and Burg's damping is no longer the data's.
+/// An eighth of the mean period, from the pooled correlation of neighbouring frames: cos ω = Σ ⟨x_t, x_{t−1}⟩ / Σ |x_t|².
+/// In much shorter steps every oscillation looks like a straight line, and Burg's damping is wrong.
 static int find_stride(const double *gram, int frames)
 {
     size_t n = (size_t)frames;
@@ -37,7 +35,7 @@ static int find_stride(const double *gram, int frames)
     return stride < 1 ? 1 : stride < longest ? (int)stride : longest;
 }
 
-/// C_ij = Σ_{t=mq}^{n−1} ⟨x_{t−iq}, x_{t−jq}⟩ for i, j ≤ m, from that of m − 1; q is the stride.
+/// Updates C_ij = Σ_{t=mq}^{n−1} ⟨x_{t−iq}, x_{t−jq}⟩ for i, j ≤ m from order m − 1; q is the stride.
 static void advance_lags(const double *gram, int n, int m, int q, double lags[TERMS][TERMS])
 {
     for (int i = 0; i < m; i++) {
@@ -54,7 +52,7 @@ static void advance_lags(const double *gram, int n, int m, int q, double lags[TE
 }
 
 /// Burg's step from order m − 1 to m, with f_t = Σ a_i x_{t−iq} and b_{t−q} = Σ a_i x_{t−(m−i)q}:
-/// k = −2 Σ ⟨f_t, b_{t−q}⟩ / Σ (|f_t|² + |b_{t−q}|²). NaN where no more power than `least` is left.
+/// k = −2 Σ ⟨f_t, b_{t−q}⟩ / Σ (|f_t|² + |b_{t−q}|²). NaN if no more power than `least` is left.
 static double reflection(const double *a, int m, double lags[TERMS][TERMS], double least)
 {
     double product = 0, power = 0;
@@ -85,8 +83,7 @@ struct predictor hilbert_predictor(const double *gram, int frames)
     return p;
 }
 
-/// Adds −Σ a_i x_{at − i·step} to the row of a sample outside. A sample is its row of `rows` or, inside, the unit row of
-/// its own.
+/// Adds −Σ a_i x_{at − i·step} to the row of a continued sample. Each x is a row of `rows` or, for a given sample, a unit row.
 static void predict(const struct predictor *p, int frames, int at, int step, double *rows)
 {
     size_t n = (size_t)frames;
@@ -106,7 +103,7 @@ static void predict(const struct predictor *p, int frames, int at, int step, dou
 /// Half a cosine from 1 beside the given samples to 0 at the end: sample i of `count`, counted from the inside.
 static double fade(int i, int count) { return 0.5 + 0.5 * cos(M_PI * (i + 0.5) / count); }
 
-/// The continuation as rows in terms of the given samples: those before in their order, then those after.
+/// The continuation in terms of the given samples: rows for the samples before, in order, then for those after.
 static void continue_samples(const struct predictor *p, int frames, double *rows)
 {
     size_t n = (size_t)frames;

@@ -3,18 +3,18 @@
 ///
 ///     Σ_t |s_t − Re(x_t Ñ)|² = power − 2 bᵀv + vᵀA v        b_i = Σ_t Re(φ_i s_t·Ñ),  A_ij = Σ_t Re(φ_i φ̄_j |Ñ|² + φ_i φ_j Ñ·Ñ) / 2
 ///
-/// and the solver answers in microseconds. The rest is search: one knot after the other where it helps most, then every frame
-/// and parameter in turn by shorter and shorter steps, all in a fixed order.
+/// in microseconds. The rest is search, in a fixed order: add one knot after the other where it helps most, then move every frame
+/// and parameter in turn by shrinking steps.
 #include "analysis/component.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-static const double near_enough = 1.02;     ///< times the component's own error: no further knot
-static const double close_enough = 1.05;    ///< the same, for no other kind of spline
-static const double worth = 1e-4;           ///< relative change of the error that counts
-static const double simpler = 0.97;         ///< slopes, or real mode, which knows no lags, must be that much better
+static const double near_enough = 1.02;     ///< times the component's own error: no more knots needed
+static const double close_enough = 1.05;    ///< likewise: no other kind of spline needed
+static const double worth = 1e-4;           ///< a relative change of the error that counts
+static const double simpler = 0.97;         ///< slopes, or real mode without lags, must reduce the error to this
 static const double slope_stiffness = 1000; ///< the format's default
 
 enum { CANDIDATES = 48, HALVINGS = 5, SWEEPS = 4, EXCHANGES = 3, UNKNOWNS = 2 * KNOTS_MOST };
@@ -27,7 +27,7 @@ struct search {
     double *re, *im;
 };
 
-/// x as the knots say; false where the solver gives up.
+/// x for these knots; false if the solver fails.
 static bool solve(const struct search *s, const struct knots *k, double complex *series)
 {
     wiggly_knot knots[KNOTS_MOST];
@@ -53,7 +53,7 @@ static bool solve(const struct search *s, const struct knots *k, double complex 
     return true;
 }
 
-/// φ of value i or, from `count` on, of slope i − count: in units in which both are about as large.
+/// φ of value i or, from `count` on, of slope i − count, scaled so that both are about as large.
 static bool respond(const struct search *s, const struct knots *k, int unknown, double complex *series)
 {
     struct knots unit = *k;
@@ -66,7 +66,7 @@ static bool respond(const struct search *s, const struct knots *k, int unknown, 
     return solve(s, &unit, series);
 }
 
-/// Solves A v = b by Cholesky; an unknown that does nothing gets 0. Returns bᵀv.
+/// Solves A v = b by Cholesky; an unknown without effect gets 0. Returns bᵀv.
 static double solve_unknowns(double a[UNKNOWNS][UNKNOWNS], const double *b, int count, double *v)
 {
     double gain = 0;
@@ -92,7 +92,7 @@ static double solve_unknowns(double a[UNKNOWNS][UNKNOWNS], const double *b, int 
     return gain;
 }
 
-/// Finds the best values and slopes, and the error with them; infinite where the solver gives up.
+/// Finds the best values and slopes, and their error; infinite if the solver fails.
 static double evaluate(const struct search *s, struct knots *k)
 {
     const struct series_metric *m = &s->component->metric;
@@ -117,7 +117,7 @@ static double evaluate(const struct search *s, struct knots *k)
     return k->error = sqrt(fmax(left, 0) / m->power);
 }
 
-/// Keeps a change that makes the error smaller.
+/// Keeps a change that reduces the error.
 static bool keep_better(const struct search *s, struct knots *k, struct knots *changed)
 {
     if (!(evaluate(s, changed) < k->error * (1 - worth))) return false;
@@ -125,7 +125,7 @@ static bool keep_better(const struct search *s, struct knots *k, struct knots *c
     return true;
 }
 
-/// Frames from one knot to the next: beside a neighbour a slope would do nothing.
+/// Frames from one knot to the next. A slope right beside a neighbour would have no effect.
 static int least_gap(const struct knots *k) { return k->sloped ? 3 : 1; }
 
 static bool try_frame(const struct search *s, struct knots *k, int knot, int frame)
@@ -137,7 +137,7 @@ static bool try_frame(const struct search *s, struct knots *k, int knot, int fra
     return keep_better(s, k, &changed);
 }
 
-/// Frequency by a relative step, damping and bandwidth by an absolute one.
+/// The frequency changes by a relative step, damping and bandwidth by an absolute one.
 static bool try_parameters(const struct search *s, struct knots *k, double frequency, double damping,
                            double bandwidth)
 {
@@ -148,7 +148,7 @@ static bool try_parameters(const struct search *s, struct knots *k, double frequ
     return keep_better(s, k, &changed);
 }
 
-/// Every frame and parameter in turn, as long as that helps, with steps that halve; the first knot stays.
+/// Tries every frame and parameter in turn while that helps, with steps that halve. The first knot stays.
 static void refine(const struct search *s, struct knots *k, int stride)
 {
     double step = 0.08;
@@ -167,14 +167,14 @@ static void refine(const struct search *s, struct knots *k, int stride)
     }
 }
 
-/// Adds the knot that helps most, of one frame in `stride`. False where none does.
+/// Adds the knot that helps most, from one frame in `stride`. False if none helps.
 static bool add_knot(const struct search *s, struct knots *k, int stride)
 {
     struct knots best = *k;
     int gap = least_gap(k);
     for (int frame = 1; frame < s->component->frames; frame += stride) {
         struct knots changed = *k;
-        int at = k->count; // the first knot, at 0, stays the first
+        int at = k->count; // the first knot stays at 0
         while (at > 1 && k->frame[at - 1] > frame) at--;
         if (frame < k->frame[at - 1] + gap || (at < k->count && frame > k->frame[at] - gap)) continue;
         memmove(changed.frame + at + 1, changed.frame + at, (size_t)(k->count - at) * sizeof *changed.frame);
@@ -187,7 +187,7 @@ static bool add_knot(const struct search *s, struct knots *k, int stride)
     return added;
 }
 
-/// Takes the other one where it is worth it.
+/// Takes the other spline if it is clearly better.
 static void prefer(struct knots *k, const struct knots *other)
 {
     if (other->error < simpler * k->error) *k = *other;
@@ -202,7 +202,7 @@ static void shorten_all(double *values, int count)
     for (int i = 0; i < count && largest > 0; i++) values[i] = rounded(values[i], pow(10, 3 - floor(log10(largest))));
 }
 
-/// The numbers as a person writes them, to a thousandth of the largest or finer.
+/// Rounds the numbers to a thousandth of the largest, as a person would write them.
 static void shorten(struct knots *k)
 {
     shorten_all(k->value, k->count);
@@ -218,7 +218,7 @@ static void remove_knot(struct knots *k, int knot)
     memmove(k->frame + knot, k->frame + knot + 1, (size_t)(k->count - knot) * sizeof *k->frame);
 }
 
-/// Puts each knot in turn where it helps most, from anywhere: refine() finds only what lies near. False where nothing is better.
+/// Moves each knot in turn to its best frame anywhere, where refine() looks only nearby. False if nothing is better.
 static bool exchange(const struct search *s, struct knots *k, int stride)
 {
     bool better = false;

@@ -1,4 +1,4 @@
-/// The poles of a motion: by which oscillations it moves, which of them matter, and their time series.
+/// The poles of a motion: finding them, choosing those that matter, and their time series.
 #ifndef ANALYSIS_POLES_H
 #define ANALYSIS_POLES_H
 
@@ -10,31 +10,30 @@
 
 enum { SUBSPACE_ORDER_MAX = 24, SUBSPACE_POLES_MAX = SUBSPACE_ORDER_MAX / 2 };
 
-/// One oscillation, z^t at frame t, and how sure it is.
+/// One oscillation, z^t at frame t.
 struct pole {
     double complex z; ///< Im z > 0
-    double
-        wander; ///< how far it moves as the order grows, |Δs| / |s|: a pole of the motion stays, one of chance does not
+    double wander;    ///< how far it moves as the order grows, |Δs| / |s|: small for a true pole of the motion
 };
 
-/// Finds the oscillations of all columns of S together, from G (frames × frames, row after row, both halves), the steadiest
-/// first. Whatever is constant or grows linearly with time takes no part. Overdamped and growing ones are left out.
-/// Returns their number, at most SUBSPACE_POLES_MAX; -1 where LAPACK has no memory.
+/// Finds the oscillations that all columns of S share, from G (frames × frames, row after row, both halves), the steadiest first.
+/// Constant and linear parts are removed first. Overdamped and growing oscillations are left out.
+/// Returns their number, at most SUBSPACE_POLES_MAX; -1 if LAPACK has no memory.
 int subspace_poles(const struct lapack *lapack, const double *gram, int frames, struct pole *poles);
 
-// A motion as a sum of damped oscillations that nothing disturbs: which poles matter.
+// A motion as a sum of undisturbed damped oscillations: which poles matter.
 
 /// Re z^t and −Im z^t over the frames, largest |z^t| = 1: two rows of `frames` numbers each.
 void exponentials_fill(double complex z, int frames, double *rows);
 
-/// Moves those of the poles to the front that explain the motion best, each beside those before it, and appends them to
-/// `basis`, which has drift_append()'s two sequences and room for two a pole. Steady poles come before those that wander. At
-/// most `most`, at least one where there is any; those that explain less than `least` of the motion's power, or only by cancelling
-/// each other, stay behind. Returns their number.
+/// Moves the poles that explain the motion best to the front, each judged beside those before it, and appends them to `basis`, which
+/// has drift_append()'s two sequences and room for two per pole. Steady poles come before wandering ones. Chooses at most `most`,
+/// and at least one if there is any; leaves out poles that explain less than `least` of the motion's power or only cancel each other.
+/// Returns their number.
 int exponentials_choose(struct pole *poles, int count, int most, double least, const double *gram,
                         struct basis *basis);
 
-// One complex coordinate a pole: their time series, and the weights of the frames that give their shapes.
+// One complex coordinate per pole: time series, and the weights of the frames that give the shapes.
 
 enum { TIME_SERIES_MAX = 8 };
 
@@ -44,12 +43,11 @@ struct time_series {
     int frames, count;
     double complex pole[TIME_SERIES_MAX]; ///< z_k, R_k ~ z_k^t
     double *rows, *weights;               ///< 2 count × frames
-    double part[TIME_SERIES_MAX];         ///< Σ_t |Re(R_k Ñ_k)|²: above that of the motion where others cancel it
+    double part[TIME_SERIES_MAX];         ///< Σ_t |Re(R_k Ñ_k)|²: larger than the motion's if others cancel it
 };
 
-/// Fits the time series of `count` poles. `gram` is G = S Sᵀ of a motion without drift. A time series swings at its pole, and leaves that
-/// as far as the motion asks for it, as where a force acts. The first shapes are those of the frames from `first` on, which nothing
-/// drives.
+/// Fits time series to `count` poles. `gram` is G = S Sᵀ of a motion without drift. A time series oscillates at its pole and deviates
+/// only as the motion requires, for example under a force. The first shapes come from the undriven frames, those from `first` on.
 void time_series_create(struct time_series *series, const struct lapack *lapack, const double *gram, int frames,
                         int first, const double complex *poles, int count);
 void time_series_free(struct time_series *series);

@@ -20,7 +20,7 @@ static void remove_means(double *slab, int frames, int count, double *means)
 /// Some columns of S.
 struct slab {
     const struct motion *motion;
-    int columns, width, first, count; ///< of all; of a slab at most; of this one
+    int columns, width, first, count; ///< columns in all; in a slab; the slab's first; in this slab
     double *numbers;
 };
 
@@ -32,7 +32,7 @@ static struct slab before_first(const struct motion *motion)
     return slab;
 }
 
-/// Reads the next one; false behind the last and where it cannot be read.
+/// Reads the next slab; false after the last one or on an error.
 static bool read_next(struct slab *slab, double *means, struct error *error)
 {
     const int left = slab->columns - slab->first - slab->count;
@@ -47,7 +47,7 @@ static bool read_next(struct slab *slab, double *means, struct error *error)
     return true;
 }
 
-/// Whether all were read.
+/// Whether all slabs were read.
 static bool end(const struct slab *slab)
 {
     free(slab->numbers);

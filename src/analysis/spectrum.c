@@ -17,7 +17,7 @@ static void covariance(const struct lapack *lapack, const double *h, const doubl
     lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, frames, frames, frames, 1, hg, frames, h, frames, 1,
                   hgh, frames);
     for (size_t i = 0; i < n; i++) {
-        for (size_t j = 0; j < n; j++) // columns first, as LAPACK has it
+        for (size_t j = 0; j < n; j++) // column-major, as LAPACK needs it
             result[j * n + i] = hgh[i * n + j] + I * (hg[i * n + j] - hg[j * n + i]);
     }
     free(hg);
@@ -40,7 +40,7 @@ bool spectrum_real_shares(const struct lapack *lapack, const double *gram, int f
     return done;
 }
 
-/// LAPACK sorts upwards.
+/// LAPACK sorts ascending.
 static void turn_round(struct spectrum *s)
 {
     size_t n = (size_t)s->frames;
@@ -56,7 +56,7 @@ static void turn_round(struct spectrum *s)
     }
     s->total = 0;
     for (size_t i = 0; i < n; i++) {
-        if (s->values[i] < 0) s->values[i] = 0; // by rounding
+        if (s->values[i] < 0) s->values[i] = 0; // rounding
         s->total += s->values[i];
     }
 }

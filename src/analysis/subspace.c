@@ -1,36 +1,33 @@
-/// Windows of L = n/2 frames, one starting at each of J = n − L + 1 frames. For a sum of oscillations every window of every
-/// column lies in the span of the sequences z_k^i, i < L, and leaving out the first or the last frame of that span differs by
-/// Z = diag(z_k):
+/// ESPRIT. Windows of L = n/2 frames start at each of J = n − L + 1 frames. In a sum of oscillations every window of every column
+/// lies in the span of the sequences z_k^i, i < L. That span without its first frame and without its last differ by Z = diag(z_k):
 ///
 ///     C = Σ_j  G[j … j+L−1, j … j+L−1]        all windows of all columns, L × L: running sums along G's diagonals
 ///     C = U Λ Uᵀ,  U_r the r largest           U_r = V T,  V_ik = z_k^i
 ///     Φ = U_top⁺ U_bottom = T⁻¹ Z T            so the eigenvalues of Φ are the poles
 ///
-/// U_topᵀ U_top = 1 − u uᵀ with u the last row of U_r, so (Sherman, Morrison) Φ = A + u (uᵀA)/(1 − uᵀu), A = U_topᵀ U_bottom,
-/// and A of a smaller order is a corner of that of a larger one. White noise adds a multiple of 1 to C and leaves U alone.
+/// U_topᵀ U_top = 1 − u uᵀ with u the last row of U_r, so (Sherman, Morrison) Φ = A + u (uᵀA)/(1 − uᵀu), A = U_topᵀ U_bottom.
+/// A of a smaller order is a corner of A. White noise adds a multiple of 1 to C and does not change U.
 ///
-/// A constant and a drift t = j + i would be a double pole at 1 that pulls slow poles towards itself. Both are known
-/// beforehand: taking the parts that are constant and linear in j out of every row of windows removes them from the span, and
-/// nothing else.
+/// A constant and a drift t = j + i would be a double pole at 1, which pulls slow poles towards itself. So the parts that are
+/// constant or linear in j are removed from every row of windows first.
 ///
-/// A motion that is not quite a sum of oscillations (large displacements, a force) needs more poles than it has. Those that chance
-/// puts where something is left to explain move as the order grows; those of the body stay, to three digits at any rate.
+/// Large displacements or a force make a motion need more poles than it has. Spurious poles move as the order grows; those of the
+/// body stay, to at least three digits.
 #include "analysis/poles.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/// Eigenvalues of C below this share of the largest are the rounding of float data and what is too weak to matter.
+/// Smaller eigenvalues of C, as a share of the largest, are rounding of float data or too weak to matter.
 static const double least_share = 1e-6;
-/// Noise makes a plain of eigenvalues; what rises this far above its middle is motion.
+/// Noise gives eigenvalues of about equal size; those this many times above their median are motion.
 static const double above_noise = 1.6;
-static const double growth_most =
-    0.02; ///< negative damping ratio of a steady motion's pole, by noise or a force that grows
+static const double growth_most = 0.02; ///< negative damping ratio that noise or a growing force may cause
 
 enum { ORDER_STEP = 2, ORDER_STEPS = 3, ORDER_LARGEST = SUBSPACE_ORDER_MAX + ORDER_STEP * ORDER_STEPS };
 
-/// C_ij over all windows; both halves.
+/// Sums C_ij over all windows; fills both halves.
 static void sum_windows(const double *gram, size_t n, size_t length, double *c)
 {
     size_t windows = n - length + 1;
@@ -51,8 +48,8 @@ static double trend(int windows, bool linear, int j)
     return linear ? (j - middle) / sqrt(windows * (windows * (double)windows - 1) / 12) : 1 / sqrt(windows);
 }
 
-/// Takes out what is constant or linear in the window's start j: C −= B G Bᵀ, where row i of B holds the trend over j, `i` frames
-/// late. `room` is for 2 L n numbers.
+/// Removes what is constant or linear in the window's start j: C −= B G Bᵀ, where row i of B is the trend over j, delayed by i
+/// frames. `room` holds 2 L n numbers.
 static void project(const struct lapack *lapack, const double *gram, int n, int length, bool linear, double *room,
                     double *c)
 {
@@ -66,7 +63,7 @@ static void project(const struct lapack *lapack, const double *gram, int n, int 
     lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, length, length, n, -1, bg, n, b, n, 1, c, length);
 }
 
-/// White noise of a power of `noise` a window and frame lost what project() took out; gives that back, so that it is white again.
+/// Restores what project() removed of white noise with a power of `noise` per window and frame, so that it is white again.
 static void whiten(double noise, int windows, int length, double *c)
 {
     for (int d = 0; d < length; d++) {
@@ -82,7 +79,7 @@ static void whiten(double noise, int windows, int length, double *c)
     }
 }
 
-/// How many eigenvalues (ascending) are motion rather than noise or rounding.
+/// How many eigenvalues (ascending) are motion, not noise or rounding.
 static int find_order(const double *values, int length)
 {
     double least = fmax(above_noise * fmax(values[length / 2], 0), least_share * values[length - 1]);
@@ -91,7 +88,7 @@ static int find_order(const double *values, int length)
     return order < 2 ? 2 : order;
 }
 
-/// Row i of U_r, i.e. a number of each of the largest eigenvectors (columns first, ascending).
+/// Entry (i, k) of U_r. LAPACK stores columns first, eigenvalues ascending.
 static double entry(const double *vectors, int length, int i, int k)
 {
     return vectors[(size_t)(length - 1 - k) * (size_t)length + (size_t)i];
@@ -109,7 +106,7 @@ static void shift_products(const double *vectors, int length, int most, double a
     }
 }
 
-/// All eigenvalues of Φ of an order; 0 or LAPACK's error.
+/// All eigenvalues of Φ of one order; returns 0 or LAPACK's error.
 static int eigenvalues(const struct lapack *lapack, const double *vectors, int length, int order,
                        double a[ORDER_LARGEST][ORDER_LARGEST], double complex *z)
 {
@@ -151,7 +148,7 @@ static double distance_to_nearest(double complex z, const double complex *others
     return nearest;
 }
 
-/// The poles of the motion's order, measured by those of larger orders.
+/// The poles of the motion's order, and how far each wanders at larger orders.
 static int find_poles(const struct lapack *lapack, const double *vectors, const double *values, int length,
                       struct pole *poles)
 {

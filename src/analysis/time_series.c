@@ -2,14 +2,13 @@
 ///
 ///     Σ_t |s_t − Σ_k Re(R_k,t Ñ_k)|²  +  Σ_k μ_k Σ_t |R_k,t+1 − z_k R_k,t|²        μ_k = |Ñ_k|² / 2 (β |ln z_k|)²
 ///
-/// The first sum is what they leave of the motion s_t, the second what pushes them: as in a wiggly spline, but with one pole each.
-/// Motion that nothing disturbs costs no push, so that R is z^t and the fit is that of exponentials. A force changes R at rates up
-/// to about β of the pole's frequency; what is faster belongs to other poles, or is noise. Before the frame from which on nothing
-/// drives the motion free swings are no law, and μ is 3 % of that.
+/// The first sum is the part of the motion s_t left unexplained, the second the push, as in a wiggly spline but with one pole each.
+/// Undisturbed motion needs no push, so R is z^t and the fit is one of exponentials. A force changes R at rates up to about β of the
+/// pole's frequency; faster changes belong to other poles or are noise. While something drives the motion, μ is 3 % of that.
 ///
-/// In turn, R given Ñ and Ñ given R are linear least squares, and each makes the sum smaller. Ñ = W S with weights W of the frames,
-/// so all that is needed of the motion is G = S Sᵀ: Ñᵢ·s_t = (W G)_it and Ñᵢ·Ñⱼ = (W G Wᵀ)_ij. R given Ñ is
-/// block tridiagonal over the frames, 2 × 2 a pole.
+/// Finding R for given Ñ and Ñ for given R are both linear least squares, and alternate. Ñ = W S with weights W of the frames, so
+/// they need nothing of the motion but G = S Sᵀ: Ñᵢ·s_t = (W G)_it and Ñᵢ·Ñⱼ = (W G Wᵀ)_ij. The system for R is block tridiagonal
+/// over the frames, with 2 × 2 blocks per pole.
 #include "analysis/basis.h"
 #include "analysis/poles.h"
 #include "base/need.h"
@@ -17,14 +16,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double freedom = 0.4;      ///< β
-static const double driven = 0.03;      ///< of μ, where something drives the motion: R changes six times as fast
-static const double settled = 1e-4;     ///< change of what is left, as a share of the power, that ends the turns
-static const double least_push = 1e-12; ///< so that a shape of zero keeps the equations definite
+static const double freedom = 0.4;  ///< β
+static const double driven = 0.03;  ///< of μ, while something drives the motion: R changes six times as fast
+static const double settled = 1e-4; ///< stop when the unexplained power changes by less than this share of the total
+static const double least_push = 1e-12; ///< keeps the equations definite if a shape is zero
 
 enum { TURNS_MAX = 30, ROWS_MAX = 2 * TIME_SERIES_MAX, BLOCK = ROWS_MAX * ROWS_MAX };
 
-/// Room for the turns.
 struct fit {
     struct time_series *series;
     const struct lapack *lapack;
@@ -32,14 +30,14 @@ struct fit {
     struct basis basis;
     double *pull;         ///< W G, 2 count × frames
     double metric[BLOCK]; ///< W G Wᵀ
-    int first;            ///< the frame from which on nothing drives the motion
+    int first;            ///< the first undriven frame
     double *band;         ///< the system of all frames, 2 d × d n; then its right side
 };
 
-/// How much of μ counts between frame t and the next.
+/// The share of μ that counts between frame t and the next.
 static double firmness(const struct fit *f, int t) { return t < f->first ? driven : 1; }
 
-/// μ_k of every pole, and z_k so that it does not grow.
+/// μ_k of every pole, and z_k limited so that it does not grow.
 static void weigh_pushes(const struct fit *f, double *push, double complex *z)
 {
     int d = 2 * f->series->count;
@@ -52,13 +50,13 @@ static void weigh_pushes(const struct fit *f, double *push, double complex *z)
     }
 }
 
-/// Adds to a number of the lower band, column after column; blocks of two neighbouring frames lie in it.
+/// Adds to an entry of the lower band, column after column; blocks of two neighbouring frames fit in it.
 static void put(double *band, int d, int row, int column, double value)
 {
     band[column * 2 * d + row - column] += value;
 }
 
-/// What pushes a pole between frame t and the next: μ |R_t+1 − z R_t|² in a = Re R, b = −Im R, as
+/// The push on a pole between frame t and the next: μ |R_t+1 − z R_t|² in a = Re R, b = −Im R, as
 /// Re(conj(R_t+1) z R_t) = (a a' + b b') Re z + (a' b − b' a) Im z.
 static void put_push(double *band, int d, int t, int k, double push, double complex z)
 {
@@ -72,8 +70,8 @@ static void put_push(double *band, int d, int t, int k, double push, double comp
     put(band, d, next + 1, a, push * cimag(z));
 }
 
-/// R given Ñ.
-static void solve_courses(struct fit *f)
+/// Finds R for given Ñ.
+static void solve_series(struct fit *f)
 {
     const int n = f->series->frames, d = 2 * f->series->count;
     double push[TIME_SERIES_MAX], *band = f->band, *x = band + 2 * d * d * n;
@@ -93,7 +91,7 @@ static void solve_courses(struct fit *f)
     }
 }
 
-/// Each R to a largest modulus of 1, so that the push's weight means the same in every turn.
+/// Scales each R to a largest modulus of 1, so that the push's weight is the same in every iteration.
 static void scale_series(struct time_series *c)
 {
     for (int k = 0; k < c->count; k++) {
@@ -106,7 +104,7 @@ static void scale_series(struct time_series *c)
     }
 }
 
-/// Ñ given R; returns what both explain of Σ |s_t|².
+/// Finds Ñ for given R; returns how much both explain of Σ |s_t|².
 static double solve_shapes(struct fit *f)
 {
     int n = f->series->frames, d = 2 * f->series->count;
@@ -141,7 +139,7 @@ static void take_turns(struct fit *f)
     for (int t = 0; t < n; t++) power += f->gram[(size_t)t * (size_t)(n + 1)];
     for (int turn = 0; turn < TURNS_MAX; turn++) {
         before = explained;
-        solve_courses(f);
+        solve_series(f);
         explained = solve_shapes(f);
         if (fabs(explained - before) < settled * power) break;
     }

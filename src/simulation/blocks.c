@@ -1,4 +1,4 @@
-/// Sums blocks, and solves by preconditioned conjugate gradients.
+/// Builds the block matrix and solves by preconditioned conjugate gradients.
 #include "simulation/blocks.h"
 #include "base/need.h"
 #include <stdint.h>

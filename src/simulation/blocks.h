@@ -1,9 +1,8 @@
 /// Sparse symmetric matrices of 3×3 blocks, one block row per node, both triangles stored, and their solution by conjugate gradients,
 /// preconditioned by the inverses of the diagonal blocks.
 ///
-/// Why no factorisation: in a time step the matrix is κM + K, whose first term keeps the condition low. Some twenty products
-/// of a matrix that fits the cache replace a factorisation whose fill would not (times in README.md), and no library is
-/// needed.
+/// No factorisation: in a time step the matrix is κM + K, and κM keeps the condition number low. Some twenty products with a
+/// matrix that fits the cache are faster than a factorisation with its fill-in (times in README.md), and need no library.
 #ifndef SIMULATION_BLOCKS_H
 #define SIMULATION_BLOCKS_H
 

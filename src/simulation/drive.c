@@ -9,7 +9,7 @@
 
 enum { FILE_LIMIT = 1 << 26, BURST_PERIODS = 3, SWELL_PERIODS = 2 };
 
-/// A track's numbers, and its least step in seconds: within them no acceleration overflows.
+/// The largest number in a track, and the shortest step in seconds. Within them no acceleration overflows.
 static const double TRACK_LIMIT = 1e9, TRACK_STEP = 1e-9;
 
 /// 0 … 1 with vanishing first and second derivatives at both ends.
@@ -26,7 +26,7 @@ static double sweep_phase(const struct drive *d, double t)
     return 2 * M_PI * d->frequency / 2 * expm1(rate * t) / rate;
 }
 
-/// The natural cubic spline, straight on beyond its ends.
+/// The natural cubic spline; beyond its ends it is a straight line.
 static double track_at(const struct drive *d, double t, int derivative)
 {
     int low = 0, high = d->count - 1;
@@ -81,7 +81,7 @@ double drive_end(const struct drive *d)
     return d->kind == DRIVE_TRACK ? d->time[d->count - 1] : INFINITY;
 }
 
-/// Second derivatives of the natural cubic spline: a tridiagonal system, swept forwards and back.
+/// Second derivatives of the natural cubic spline, by the usual tridiagonal elimination.
 static void bend_track(struct drive *d, double *above)
 {
     const double *t = d->time, *y = d->value;

@@ -16,16 +16,16 @@ enum drive_kind {
 struct drive {
     enum drive_kind kind;
     double direction[3]; ///< of length 1
-    double size;         ///< the largest displacement of all kinds but the track, which it multiplies; m
+    double size;         ///< the largest displacement, m; for a track, the factor it is multiplied by
     double frequency;    ///< Hz
-    double seconds;      ///< of the whole motion: how long a sweep takes
+    double seconds;      ///< length of the whole motion; a sweep takes this long
     int count;           ///< of the track's samples
     double *time;        ///< s, ascending
-    double *value;       ///< at those times
-    double *curvature;   ///< second derivatives there, of the natural cubic spline
+    double *value;
+    double *curvature; ///< second derivatives of the natural cubic spline at the samples
 };
 
-/// Reads a track: "seconds,displacement" a line, headings and blank lines left out. Sets kind and samples.
+/// Reads a track, one "seconds,displacement" a line; headings and blank lines are skipped. Sets kind and samples.
 bool drive_read_track(struct drive *drive, const char *path, struct error *error);
 void drive_free(struct drive *drive);
 
@@ -35,7 +35,7 @@ double drive_place(const struct drive *drive, double time);
 /// Its second derivative, m/s².
 double drive_acceleration(const struct drive *drive, double time);
 
-/// The second from which on nothing drives the base; infinite where that never ends.
+/// The second at which the drive ends; infinite if it never ends.
 double drive_end(const struct drive *drive);
 
 #endif

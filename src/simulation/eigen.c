@@ -7,7 +7,7 @@
 
 enum { SWEEPS_MAX = 60 };
 
-/// The rotation that makes entry (p, q) zero, from both sides; rows of `vectors` turn along. False if it is zero already.
+/// Rotates rows and columns p and q so that entry (p, q) becomes zero, and the same rows of `vectors`. False if it is zero already.
 static bool rotate(int n, double *a, double *vectors, int p, int q)
 {
     double pq = a[p * n + q], pp = a[p * n + p], qq = a[q * n + q];
@@ -110,8 +110,7 @@ static void order_columns(double a[3][3], double v[3][3], int p, int q)
     rotate_columns(v, p, q, 0, -1);
 }
 
-/// The unit vector along `a` without its part along the unit vector `first`; if nothing is left, any one orthogonal to
-/// `first`.
+/// The unit vector along `a` minus its part along the unit vector `first`; if that is zero, any unit vector orthogonal to `first`.
 static void unit_across(const double first[3], const double a[3], double smallest, double out[3])
 {
     double along = vec3_dot(first, a);

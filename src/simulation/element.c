@@ -11,7 +11,7 @@ struct material material_from(double young, double poisson)
                              .lambda = young * poisson / ((1 + poisson) * (1 - 2 * poisson))};
 }
 
-/// L(σ); near rest with all digits of σ − 1.
+/// L(σ). log1p keeps all digits of σ − 1 near rest.
 static double logarithm(double sigma)
 {
     return sigma >= MATERIAL_CLAMP ? log1p(sigma - 1) : log(MATERIAL_CLAMP) + sigma / MATERIAL_CLAMP - 1;
@@ -31,7 +31,7 @@ static double log_volume(const double sigma[3])
 double material_energy(const struct material *material, const double sigma[3])
 {
     double shear = 0, volume = log_volume(sigma);
-    for (int i = 0; i < 3; i++) { // ½(σ² − 1) − L(σ) with σ = 1 + e, which cancels less near rest
+    for (int i = 0; i < 3; i++) { // ½(σ² − 1) − L(σ) with σ = 1 + e: less cancellation near rest
         double e = sigma[i] - 1;
         shear += e + 0.5 * e * e - logarithm(sigma[i]);
     }
@@ -44,13 +44,13 @@ void material_stress(const struct material *material, const double sigma[3], dou
     for (int i = 0; i < 3; i++) stress[i] = material->mu * sigma[i] + pressure * slope(sigma[i]);
 }
 
-/// Eigenvalues below zero become zero.
+/// Sets negative eigenvalues to zero.
 static void project(double a[3][3])
 {
     double minor = a[0][0] * a[1][1] - a[0][1] * a[0][1];
     double determinant =
         a[2][2] * minor - a[0][0] * a[1][2] * a[1][2] - a[1][1] * a[0][2] * a[0][2] + 2 * a[0][1] * a[0][2] * a[1][2];
-    if (a[0][0] > 0 && minor > 0 && determinant > 0) return; // Sylvester: it is definite as it stands
+    if (a[0][0] > 0 && minor > 0 && determinant > 0) return; // Sylvester: already definite
     double vectors[9], values[3];
     eigen_symmetric(3, &a[0][0], values, vectors);
     for (int i = 0; i < 3; i++) {
@@ -73,7 +73,7 @@ void material_stiffness(const struct material *material, const double sigma[3], 
     for (int k = 0; k < 3; k++) {
         int i = pairs[k][0], j = pairs[k][1];
         double difference = sigma[i] - sigma[j], sum = sigma[i] + sigma[j]; // both ≥ 0 in this order
-        // Two eigenvalues: of the symmetric shear, (Pᵢ − Pⱼ)/(σᵢ − σⱼ), and of the turn, (Pᵢ + Pⱼ)/(σᵢ + σⱼ).
+        // Two eigenvalues: (Pᵢ − Pⱼ)/(σᵢ − σⱼ) of the symmetric shear, (Pᵢ + Pⱼ)/(σᵢ + σⱼ) of the rotation.
         double shear = difference > 1e-6 ? (stress[i] - stress[j]) / difference
                                          : 0.5 * (stretch[i][i] + stretch[j][j]) - stretch[i][j];
         double turn = (stress[i] + stress[j]) / fmax(sum, 1e-6);
@@ -145,7 +145,7 @@ double element_force(const struct element *element, const struct material *mater
     return element->volume * element->stiffness * material_energy(material, svd->sigma);
 }
 
-/// Row i, column k: Σ_jl (∂P_ij/∂F_kl) p_j q_l in principal axes, where only the entries below are not zero.
+/// Entry (i, k) is Σ_jl (∂P_ij/∂F_kl) p_j q_l in principal axes; all other entries of ∂P/∂F are zero.
 static void contract(const struct principal_stiffness *c, const double p[3], const double q[3], double out[3][3])
 {
     for (int i = 0; i < 3; i++) {

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Each triangle gives a third of its area to its corners.
+/// A vertex gets a third of the area of each of its triangles.
 static void add_areas(const struct surface *surface, double *area)
 {
     double normal[3], middle[3];
@@ -19,7 +19,7 @@ static void add_areas(const struct surface *surface, double *area)
 void floor_create(struct floor *f, const struct lattice *lattice, const struct surface *surface, double height,
                   double young, double density)
 {
-    const double stiffer = 10; // than the body's own layer of cells: sinks in by a tenth of what the feet give way
+    const double stiffer = 10; // than a layer of cells: the floor gives way a tenth as much as the feet
     size_t count = (size_t)surface->vertex_count + 1;
     *f = (struct floor){.lattice = lattice, .height = height};
     f->spring = need_zeroed(count, sizeof *f->spring);
@@ -83,7 +83,7 @@ double floor_push(struct floor *f, double risen, const double (*x)[3], double (*
         f->touched[i] = depth > 0;
         f->pushed[i] = push > 0;
         energy += spring;
-        // Where it would pull, the potential stays at its least.
+        // Where the damper would pull, the potential stays at its minimum.
         const double origin = fmax(f->origin[i], 0), both = drag * f->spring[i] / (drag + f->spring[i]);
         f->drag += push > 0 ? 0.5 * drag * sunk * sunk : 0.5 * both * origin * origin - spring;
         for (int a = 0; push > 0 && a < 4; a++) force[node[a]][1] += l->weight[i][a] * push;

@@ -1,12 +1,12 @@
-/// A smooth floor that the surface rests on: a spring under each vertex that pushes once the vertex is below it.
+/// A smooth floor under the surface: each vertex below it is pushed up by a spring.
 ///
-/// The springs are part of the potential that a time step minimises, so a stiff floor takes no shorter steps. They belong
-/// to vertices, weighted by the area around them, and act on the nodes of the vertex' tetrahedron: their stiffness
-/// w_a w_b k y yᵀ has a place in the body's matrix. There is no friction.
+/// The springs are part of the potential that a time step minimises, so a stiff floor needs no shorter steps. Each spring belongs
+/// to a vertex, is weighted by the area around it, and acts on the nodes of that vertex's tetrahedron: its stiffness
+/// w_a w_b k y yᵀ fits the pattern of the body's matrix. There is no friction.
 ///
-/// A vertex that was below at the step's start is damped, too, with the impedance √(E ρ) of its area, by which a floor of the same
-/// stuff would swallow a wave; else a vertex that lands lightly would go in and out with every step. Its depth at the step's end
-/// being d, the push is
+/// A vertex that was below at the step's start is also damped, by the impedance √(E ρ) of its area: a floor of the same material
+/// would absorb a wave like this. Without it, a vertex that lands lightly bounces with every step. With depth d at the step's end
+/// the push is
 ///
 ///   max(0, k max(d, 0) + c r (d − q)),    r (d − q) the speed by which it sinks
 ///
@@ -35,13 +35,13 @@ void floor_create(struct floor *floor, const struct lattice *lattice, const stru
                   double young, double density);
 void floor_free(struct floor *floor);
 
-/// Notes which vertices are below the floor at a step's start, where floor_push() was called last.
+/// Call after the floor_push() at a step's start: remembers which vertices are below the floor.
 void floor_start(struct floor *floor);
 
-/// Says how fast nodes at y move at the step's end, `rate` (y − q), and the floor, `risen` m higher there, upwards.
+/// Sets the velocities at the step's end: `rate` (y − q) for nodes at y, `speed` upwards for the floor, which is `risen` m higher then.
 void floor_aim(struct floor *floor, double rate, const double (*q)[3], double risen, double speed);
 
-/// Adds to `force` what pushes the nodes up at the positions x, the floor being `risen` m higher. Returns the energy, J.
+/// Adds the springs' forces on the nodes at the positions x to `force`; the floor is `risen` m higher. Returns the energy, J.
 double floor_push(struct floor *floor, double risen, const double (*x)[3], double (*force)[3]);
 
 /// Adds −∂f/∂x at the last floor_push() to the body's stiffness.

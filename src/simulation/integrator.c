@@ -7,14 +7,14 @@
 
 enum { NEWTON_MAX = 60, GRADIENTS_MAX = 2000 };
 
-// Looser costs more Newton iterations, each with an assembly; tighter saves none.
+// A looser tolerance costs more Newton iterations, each with an assembly; a tighter one saves none.
 static const double linear_tolerance = 1e-3;
 
-// Without a drive the energy cannot rise; this part of it is allowed for rounding and the scheme's ripple.
+// Without a drive the energy cannot rise. This share is allowed for rounding and the scheme's ripple.
 static const double growth_allowed = 0.01;
 
 struct integrator_work {
-    double (*a)[3];         ///< accelerations; the start of the memory of all vectors
+    double (*a)[3];         ///< accelerations; one allocation for all vectors starts here
     double (*y)[3];         ///< the unknown: positions at the step's end
     double (*target)[3];    ///< t
     double (*origin)[3];    ///< q
@@ -25,13 +25,13 @@ struct integrator_work {
     double (*moved)[3];     ///< y − q
     double (*drag)[3];      ///< K (y − q)
     struct blocks lagged;   ///< K at the step's start: the pattern is the body's, the blocks are its own
-    bool started;           ///< there are accelerations
-    double least;           ///< energy so far, the loads' potential included; with a drive: at the step's start; J
-    double scale;           ///< strain and kinetic energy at the step's start; with a drive: the largest so far; J
+    bool started;           ///< accelerations are known
+    double least;           ///< lowest energy so far, loads included; with a drive: energy at the step's start; J
+    double scale;           ///< strain and kinetic energy at the step's start; with a drive: the highest so far; J
     double potential;       ///< of the loads at the step's start, J
 };
 
-/// How much higher the floor is, seen from the base.
+/// How much higher the floor is, in the base's frame.
 static double floor_rise(const struct loads *loads, double time)
 {
     return loads->drive ? -drive_place(loads->drive, time) * loads->drive->direction[1] : 0;
@@ -56,7 +56,7 @@ static double loads_forces(const struct loads *loads, const struct body *body, d
     return energy;
 }
 
-/// Before a step that ends at `time`: what the floor has to know of it. Nodes at y move with `rate` (y − q) at its end.
+/// Prepares the floor for a step that ends at `time`. Nodes at y then move at `rate` (y − q).
 static void loads_aim(const struct loads *loads, double time, double step, double rate, const double (*q)[3])
 {
     if (!loads->floor) return;
@@ -126,7 +126,7 @@ void integrator_free(struct integrator *integrator)
     *integrator = (struct integrator){0};
 }
 
-/// Forces of strain and loads at the positions x, 0 at pinned nodes. Returns the energy, the loads' part apart.
+/// Forces of strain and loads at the positions x, 0 at pinned nodes. Returns the strain energy; the loads' goes to `potential`.
 static double add_up(struct integrator *m, double time, const double (*x)[3], double (*force)[3], double *potential)
 {
     double energy = body_forces(m->body, x, force);
@@ -137,7 +137,7 @@ static double add_up(struct integrator *m, double time, const double (*x)[3], do
     return energy;
 }
 
-/// The potential at y, whose gradient's negative goes to work->downhill:
+/// Returns the potential at y, and its negative gradient in work->downhill:
 /// κ/2 |y − t|²_M + r/2 (y − q)ᵀ C (y − q) + Ψ(y)
 static double evaluate(struct integrator *m, const struct scheme *scheme, const double (*y)[3])
 {
@@ -164,7 +164,7 @@ static double evaluate(struct integrator *m, const struct scheme *scheme, const 
     return energy;
 }
 
-/// κ M + r C + K(y), where the potential was last evaluated, into the body's matrix.
+/// The body's matrix becomes κ M + r C + K(y), with y from the last evaluate().
 static void assemble(struct integrator *m, const struct scheme *scheme)
 {
     struct blocks *a = &m->body->stiffness;
@@ -181,7 +181,7 @@ static void assemble(struct integrator *m, const struct scheme *scheme)
     }
 }
 
-/// dᵀ∇ of the potential, d being the Newton step: negative if it leads down.
+/// dᵀ∇ of the potential for the Newton step d: negative if it leads down.
 static double slope_along(const struct integrator *m)
 {
     double slope = 0;
@@ -189,9 +189,9 @@ static double slope_along(const struct integrator *m)
     return slope;
 }
 
-/// Goes from y along the Newton step until the potential has fallen enough: by Armijo's condition or, where the fall
-/// drowns in rounding, by the slope (Hager and Zhang 2005, the approximate Wolfe condition). Returns the largest move of a
-/// node, 0 if no step leads down. A step below the tolerance is taken as it is.
+/// Line search along the Newton step, until the potential has fallen enough: by Armijo's condition or, where rounding hides the
+/// fall, by the slope (Hager and Zhang 2005, approximate Wolfe condition). Returns the largest move of a node, 0 if no step leads
+/// down. A step below the tolerance is taken unchecked.
 static double search(struct integrator *m, const struct scheme *scheme, double *energy)
 {
     enum { HALVINGS_MAX = 30 };
@@ -213,8 +213,8 @@ static double search(struct integrator *m, const struct scheme *scheme, double *
     return 0;
 }
 
-/// Descends the potential from y. It has creases where two principal stretches of an inverted element are opposite, and on one
-/// Newton's method may not settle: then the lowest point found will do, since every iteration went down.
+/// Minimises the potential from y. It has creases where two principal stretches of an inverted element are opposite, and Newton's
+/// method may not converge on one. Then the lowest point found is good enough, since every iteration went down.
 static void minimise(struct integrator *m, const struct scheme *scheme)
 {
     struct integrator_work *w = m->work;
@@ -230,7 +230,7 @@ static void minimise(struct integrator *m, const struct scheme *scheme)
     }
 }
 
-/// Forces, energy, the stiffness for damping and, the first time, M⁻¹(f − C v) as the accelerations.
+/// Forces, energy and the stiffness for damping; at the first step also the accelerations M⁻¹(f − C v).
 static void begin(struct integrator *m)
 {
     struct integrator_work *w = m->work;
@@ -270,7 +270,7 @@ static void aim(struct integrator *m, const struct scheme *s)
             w->origin[i][c] -=
                 ((kept - s->gamma / s->beta) * v + h * (1 - s->gamma - s->gamma * s->k / s->beta) * a) / s->rate;
             w->y[i][c] += h * v;
-            w->moved[i][c] = w->origin[i][c] + (kept - 1) * v / s->rate; // the velocity at the step's end itself
+            w->moved[i][c] = w->origin[i][c] + (kept - 1) * v / s->rate; // exactly the velocity at the step's end
         }
     }
     loads_aim(&m->loads, m->time + h, h, s->rate, (const double(*)[3])w->moved);
@@ -285,8 +285,8 @@ static void after(const struct integrator *m, const struct scheme *s, int i, int
     *v = m->v[i][c] + h * ((1 - s->gamma) * before + s->gamma * *a);
 }
 
-/// How far the energy at the step's end is above what it may be, J. A drive does the work ∂Φ/∂t on the body: by the trapezoidal
-/// rule the mean of what Φ changes by at the positions of the step's start and of its end.
+/// How far the energy at the step's end exceeds its bound, J. A drive does the work ∂Φ/∂t on the body, here by the trapezoidal
+/// rule: the mean change of Φ at the start's positions and at the end's.
 static double surplus(struct integrator *m, const struct scheme *s)
 {
     struct integrator_work *w = m->work;
@@ -306,7 +306,7 @@ static double surplus(struct integrator *m, const struct scheme *s)
     return energy + end - work - w->least - growth_allowed * w->scale;
 }
 
-/// Makes the step's end the new state. False where it is not finite.
+/// Makes the step's end the new state. False if it is not finite.
 static bool finish(struct integrator *m, const struct scheme *s)
 {
     double sum = 0, a, v;
@@ -329,7 +329,7 @@ bool integrator_settle(struct integrator *m)
     const double step = m->step;
     const size_t bytes = (size_t)m->body->node_count * sizeof *m->x;
     double moved = INFINITY;
-    m->step = 10; // s: hardly any inertia
+    m->step = 10; // s: so long that inertia hardly matters
     m->time = -m->step;
     const struct scheme scheme = backward_euler(m->step);
     for (int i = 0; i < STEPS_MAX && moved > m->tolerance; i++) {
@@ -354,7 +354,7 @@ bool integrator_step(struct integrator *m)
     begin(m);
     aim(m, &scheme);
     minimise(m, &scheme);
-    if (!(surplus(m, &scheme) <= 0)) { // also where it is not finite
+    if (!(surplus(m, &scheme) <= 0)) { // also true if it is not finite
         scheme = backward_euler(m->step);
         aim(m, &scheme);
         minimise(m, &scheme);

@@ -8,13 +8,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Cutting takes some 13 bytes per voxel. A very thin sheet or needle would need more voxels: it gets fewer tetrahedra instead.
+// Cutting takes some 13 bytes per voxel. A very thin sheet or needle would need more voxels, and gets fewer tetrahedra instead.
 static const double voxels_max = 3e7;
 
-enum { TELLING = 1 << 13 }; ///< vertices between two words about how far it is
+enum { TELLING = 1 << 13 }; ///< vertices between two progress reports
 
-/// Volume inside, m³: the tetrahedra from the first vertex to each triangle. Of an open surface a guess, for which a hundredth of its box
-/// is little.
+/// Volume inside, m³: the tetrahedra from the first vertex to each triangle. An open surface gives a guess, at least a hundredth of
+/// its box.
 static double solid_volume(const struct solid *solid)
 {
     const struct surface *surface = &solid->shape;
@@ -31,14 +31,14 @@ static double solid_volume(const struct solid *solid)
     return solid->open ? fmin(fmax(fabs(sum), 0.01 * box), box) : fabs(sum);
 }
 
-/// The smallest edge of a cube, from `cell` up, that keeps the voxels within bounds.
+/// The smallest cube edge, at least `cell`, that keeps the voxels within bounds.
 static double coarse_enough(const struct surface *surface, double cell)
 {
     while (tiling_voxels(surface, cell) > voxels_max) cell *= 1.1;
     return cell;
 }
 
-/// Tries cubes of several sizes, twelve tetrahedra each inside, until the number is within 3 % or no longer gets nearer.
+/// Tries cubes of several sizes until the number of tetrahedra is within 3 % or stops improving; a cube has about twelve.
 static void fit(struct tiling *best, const struct solid *solid, int target, double layer, double *best_cell)
 {
     enum { TRIES = 8 };
@@ -47,7 +47,7 @@ static void fit(struct tiling *best, const struct solid *solid, int target, doub
     for (int i = 0; i < TRIES && nearest > 0.03; i++) {
         struct tiling tiling;
         double allowed = coarse_enough(&solid->shape, cell);
-        if (allowed > cell && i > 0) break; // as fine as can be
+        if (allowed > cell && i > 0) break; // no finer lattice is allowed
         cell = allowed;
         tiling_create(&tiling, solid, cell, layer);
         double ratio = fmax(tiling.kept, 1) / target;
@@ -71,8 +71,8 @@ static double swelling(const struct tiling *t, double volume)
     return voxels * pow(t->voxels.spacing, 3) / volume;
 }
 
-/// Voxels make a limb up to half a voxel too thick or too thin on either side, a tenth where it is one cube wide, and as much too stiff
-/// or too soft. Where that does not average out, cubes of a slightly different size make the body as large as it is.
+/// Voxels make a limb up to half a voxel too thick or thin on either side, a tenth of a limb one cube wide, and as much too stiff or
+/// soft. Where that does not average out, cubes of a slightly different size give the body the right volume.
 static void fit_volume(struct tiling *best, const struct solid *solid, double layer, double *cell)
 {
     enum { TRIES = 8 };
@@ -120,7 +120,7 @@ static void number(struct lattice *lattice, const struct tiling *t, int *index, 
     }
 }
 
-/// The voxel inside that is nearest to a point given in voxels: shells of growing distance around it.
+/// The inside voxel nearest to a point given in voxels: searches shells of growing distance.
 static int nearest_inside(const struct tiling *t, const double at[3])
 {
     const int *size = t->voxels.size;
@@ -157,11 +157,11 @@ static void locate(const struct lattice *lattice, int tet, const float point[3],
     for (int a = 0; a < 4; a++) weight[a] = (a == 0) + vec3_dot(element.gradient[a], away);
 }
 
-/// Each vertex's normal, not of unit length; 0 where its triangles are left out.
+/// Each vertex's normal, not normalised; 0 if its triangles are left out.
 static double (*normals_of(const struct surface *surface))[3]
 {
     double(*normal)[3] = need_zeroed((size_t)surface->vertex_count + 1, sizeof *normal);
-    for (int i = 0; i < surface->index_count; i++) { // each corner adds its triangle's normal
+    for (int i = 0; i < surface->index_count; i++) {
         double across[3], middle[3];
         triangle_measure(surface, i / 3, across, middle);
         for (int c = 0; c < 3; c++) normal[surface->indices[i]][c] += across[c];
@@ -169,7 +169,7 @@ static double (*normals_of(const struct surface *surface))[3]
     return normal;
 }
 
-/// Hosts each vertex in the element of the nearest voxel, seen from half a voxel under the surface, lest it be another limb's.
+/// Places each vertex in the element of the nearest voxel, starting half a voxel under the surface: not in the next limb's.
 static void embed(struct lattice *lattice, const struct tiling *t, const int *index, const struct surface *surface,
                   const struct solid *solid)
 {
@@ -218,7 +218,7 @@ static bool lattice_of(struct lattice *lattice, const struct surface *surface, c
         tiling_free(&tiling);
         return fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);
     }
-    // Where parts overlap, the mesh' volume counts that twice.
+    // Where parts overlap, the mesh's volume counts the overlap twice.
     if (!solid->open && !tiling.voxels.overlaps) fit_volume(&tiling, solid, layer, &lattice->cell);
     build(lattice, &tiling, surface, solid);
     tiling_free(&tiling);
@@ -262,8 +262,7 @@ void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*
     }
 }
 
-/// One round of spreading: nodes without a number take the mean of those in their elements that have one. Returns how many
-/// still have none.
+/// One round of spreading: a node without a number takes the mean of the known ones in its elements. Returns how many remain.
 static int spread_further(const struct lattice *lattice, double *node, double *sum, double *share)
 {
     int missing = 0;

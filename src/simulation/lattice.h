@@ -4,12 +4,12 @@
 /// joins two neighbouring centres with an edge of the face between them. All are congruent and well shaped, and the lattice is
 /// symmetric left and right.
 ///
-/// A tetrahedron may be partly filled. The solid is sampled by voxels an eighth of a cube wide, and the connected pieces of
-/// it inside one tetrahedron become one element each, with nodes of their own and the volume of their voxels; nodes of two
-/// elements are joined where the pieces touch (the virtual nodes of Molino, Bao and Fedkiw 2004). So an arm beside the
-/// trunk moves freely although both lie in the same cubes, unless less than about a voxel separates them, and a sliver of
-/// solid weighs and resists as little as it should. Pieces that share no face with their neighbours and fill less than a
-/// hundredth of the solid, such as the tip of a hair, are dropped; their vertices follow the nearest element.
+/// A tetrahedron may be partly filled. The solid is sampled by voxels an eighth of a cube wide. Each connected piece inside a
+/// tetrahedron becomes one element, with its own nodes and the volume of its voxels. Nodes of two elements are joined where the
+/// pieces touch (the virtual nodes of Molino, Bao and Fedkiw 2004). So an arm beside the trunk moves freely although both lie in the
+/// same cubes, unless less than about a voxel separates them, and a sliver has only its own mass and stiffness. Parts that share no
+/// face with the rest and fill less than a hundredth of the solid, like the tip of a hair, are dropped; their vertices follow the
+/// nearest element.
 #ifndef SIMULATION_LATTICE_H
 #define SIMULATION_LATTICE_H
 
@@ -30,13 +30,13 @@ struct tiling {
     int *filled;    ///< per element: how many voxels
     int (*key)[4];  ///< per element: which points of the lattice its nodes are at
     int (*node)[4]; ///< per element: its nodes; equal numbers are the same node
-    int *part; ///< per element: the part it is connected with through faces, by one of its elements; −1 left out
+    int *part;      ///< per element: an element of the connected part it belongs to; −1: left out
 };
 
 /// How many voxels a tiling with cubes of edge `cell` has; as a double, because it may exceed any integer.
 double tiling_voxels(const struct surface *surface, double cell);
 
-/// Cuts the solid with cubes of edge `cell`, for which tiling_voxels() must fit an int. A layer of nodes lies at the height
+/// Cuts the solid with cubes of edge `cell`; tiling_voxels() of it must fit an int. A layer of nodes lies at the height
 /// `layer` (y), unless that is NAN.
 void tiling_create(struct tiling *tiling, const struct solid *solid, double cell, double layer);
 void tiling_free(struct tiling *tiling);
@@ -53,21 +53,21 @@ struct lattice {
     int *part;        ///< per tetrahedron: which connected part it belongs to
     int part_count;
     int vertex_count;
-    int *host;           ///< per vertex: its tetrahedron; −1: no triangle has the vertex, which stays where it is
+    int *host;           ///< per vertex: its tetrahedron; −1: it has no triangle and stays where it is
     double (*weight)[4]; ///< and its barycentric coordinates there, a little outside 0 … 1 for some
-    char repair[160];    ///< what solid.h has done to the surface; "": nothing
+    char repair[160];    ///< what solid.h repaired in the surface; "": nothing
 };
 
-/// The lattice with about `target` tetrahedra, a layer of nodes at the height `layer` unless that is NAN: what is held up to
-/// there is held exactly so far in every resolution. Errors say: no volume. `name` is the surface's, for messages.
+/// The lattice with about `target` tetrahedra. A layer of nodes lies at the height `layer` unless that is NAN, so that the pinned
+/// region ends there at every resolution. Error: no volume. `name` is the surface's, for messages.
 bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
                     const char *name, struct error *error);
 void lattice_free(struct lattice *lattice);
 
-/// Numbers of nodes from those of vertices: the mean of the vertices around each node, and elsewhere of the nodes nearby.
+/// Spreads a number per vertex to the nodes: the mean of the vertices around each node, elsewhere of the nodes nearby.
 void lattice_spread(const struct lattice *lattice, const double *vertex, double *node);
 
-/// Vertex positions, float, from node positions: Σ_a w_a x_a. Those of vertices that no triangle has are left as they are.
+/// Vertex positions from node positions: Σ_a w_a x_a. Vertices without triangles keep theirs.
 void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*position)[3]);
 
 #endif

@@ -30,8 +30,8 @@ static inline double vec3_length(const double a[3]) { return sqrt(vec3_dot(a, a)
 /// 1. Meant for n up to a few hundred.
 void eigen_symmetric(int n, double *a, double *values, double *vectors);
 
-/// By the sign convention of Irving, Teran and Fedkiw (2004), section 3: F = U diag(σ) Vᵀ with U and V rotations (determinant +1) and σ₀ ≥ σ₁ ≥ |σ₂|: where det F < 0 the smallest one is
-/// negative, so that an inverted tetrahedron turns back along the direction of least effort.
+/// F = U diag(σ) Vᵀ with rotations U and V and σ₀ ≥ σ₁ ≥ |σ₂|. If det F < 0, σ₂ is negative, so that an inverted tetrahedron turns
+/// back along the direction of least effort (Irving, Teran and Fedkiw 2004, section 3).
 struct svd {
     double u[3][3], sigma[3], v[3][3]; ///< u[row][column]
 };

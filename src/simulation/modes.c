@@ -1,10 +1,9 @@
 /// Lanczos on the inverse.
 ///
 /// With the lumped M the problem is symmetric in ψ = M^½ φ: A ψ = ω² ψ, A = M^-½ K M^-½. The largest eigenvalues θ of
-/// (A + sI)⁻¹ belong to the lowest frequencies, ω² = 1/θ − s; the small shift s makes the inverse exist for a free body,
-/// too. Each Lanczos step is one system in K + sM, solved by conjugate gradients; every new vector is made orthogonal
-/// to all before it (twice, which is enough), so none returns as a copy. The small problem is diagonalised by Jacobi's
-/// method.
+/// (A + sI)⁻¹ belong to the lowest frequencies, ω² = 1/θ − s. The small shift s makes the inverse exist for a free body, too. Each
+/// Lanczos step solves one system in K + sM by conjugate gradients. Every new vector is made orthogonal to all before it, twice, so
+/// that no mode is found again. The small problem is diagonalised by Jacobi's method.
 #include "base/need.h"
 #include "base/progress.h"
 #include "simulation/body.h"
@@ -46,7 +45,7 @@ static void lanczos_free(struct lanczos *l)
     free(l->vectors);
 }
 
-/// K + sM into the body's matrix. The shift is a small part of the stiffness' own scale.
+/// The body's matrix becomes K + sM. The shift is a small part of the stiffness.
 static void prepare(struct lanczos *l)
 {
     struct body *body = l->body;
@@ -89,8 +88,8 @@ static double dot(const double (*a)[3], const double (*b)[3], int count)
     return sum;
 }
 
-/// Makes `v` orthogonal to the first `count` basis vectors, adding the parts taken away to parts[]; scales it to length 1.
-/// Returns its length before that, 0 where nothing is left.
+/// Makes `v` orthogonal to the first `count` basis vectors, adds the removed parts to parts[], and scales it to length 1.
+/// Returns the length before scaling, 0 if nothing is left.
 static double orthonormalise(struct lanczos *l, double (*v)[3], int count, double *parts)
 {
     const int n = l->node_count;
@@ -113,7 +112,7 @@ static double orthonormalise(struct lanczos *l, double (*v)[3], int count, doubl
     return length;
 }
 
-/// A fixed vector that no mode is orthogonal to: a reproducible sequence of numbers in −½ … ½.
+/// A fixed pseudorandom vector, in −½ … ½, that no mode is orthogonal to.
 static void fill_start(struct lanczos *l, double (*v)[3], uint64_t seed)
 {
     for (int i = 0; i < l->node_count; i++) {
@@ -124,7 +123,7 @@ static void fill_start(struct lanczos *l, double (*v)[3], uint64_t seed)
     }
 }
 
-/// Builds the basis and the operator in it. If the space is exhausted (equal eigenvalues), continues with a new vector.
+/// Builds the basis and the operator in it. If the space is exhausted (equal eigenvalues), goes on with a new random vector.
 static void build(struct lanczos *l)
 {
     const size_t n = (size_t)l->node_count;
@@ -133,7 +132,7 @@ static void build(struct lanczos *l)
     orthonormalise(l, l->basis, 0, NULL);
     for (int k = 0; k < m; k++) {
         double(*next)[3] = l->basis + (size_t)(k + 1) * n;
-        double *parts = l->values; // free until the end
+        double *parts = l->values; // unused until the end
         stage_tell("finding the modes", k, m);
         memset(parts, 0, (size_t)m * sizeof *parts);
         apply(l, (const double(*)[3])(l->basis + (size_t)k * n), next);
@@ -142,7 +141,7 @@ static void build(struct lanczos *l)
         l->small[k * m + k] = parts[k];
         if (length == 0) {
             fill_start(l, next, (uint64_t)k + 2);
-            if (orthonormalise(l, next, k + 1, NULL) == 0) return; // nothing is left of the space
+            if (orthonormalise(l, next, k + 1, NULL) == 0) return; // the space is exhausted
         } else if (k + 1 < m) {
             l->small[k * m + k + 1] = l->small[(k + 1) * m + k] = length;
         }
@@ -160,7 +159,7 @@ static void expand(const struct lanczos *l, const double *small, double (*shape)
     }
 }
 
-/// Modes from the small problem, lowest frequency first; those near the shift do not oscillate: they are rigid.
+/// Modes of the small problem, lowest frequency first. Those near the shift are rigid and are skipped.
 static void extract(struct lanczos *l, struct modes *modes, int wanted)
 {
     int m = l->done;
@@ -181,7 +180,7 @@ void modes_create(struct modes *modes, struct body *body, int count)
 {
     int movable = 0;
     for (int i = 0; i < body->node_count; i++) movable += 3 * !body->pinned[i];
-    int steps = 2 * (count + RIGID) + 24; // enough for all to converge, by the test against a dense solver
+    int steps = 2 * (count + RIGID) + 24; // the test against a dense solver shows that all converge
     if (steps > movable) steps = movable;
     *modes = (struct modes){0};
     modes->frequency = need_zeroed((size_t)count + 1, sizeof *modes->frequency);

@@ -1,4 +1,4 @@
-/// Reads and applies --pin; weights of nodes, from vertices or from distances, and the elements' stiffness from these: --soft.
+/// Reads --pin and finds the pinned nodes; reads --soft and sets the elements' stiffness.
 #include "simulation/region.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -63,7 +63,7 @@ bool region_parse(const char *text, struct region *region)
 
 static bool has_color(const struct region *region, const float linear[3])
 {
-    const float close = 4; // steps of 255: what rounding in two programs comes to
+    const float close = 4; // steps of 255: the rounding of two programs
     for (int c = 0; c < 3; c++) {
         float wanted = (float)(region->color >> (16 - 8 * c) & 0xFF);
         if (fabsf(255 * srgb_from_linear(linear[c]) - wanted) > close) return false;
@@ -95,10 +95,10 @@ bool region_nodes(const struct region *region, const struct lattice *lattice, co
     double lo[3], hi[3];
     surface_bounds(surface, lo, hi);
     double foot = region->size < 0 ? 0.05 * (hi[1] - lo[1]) : region->size;
-    double rounding = 1e-9 * (hi[1] - lo[1]); // a layer of nodes lies at this height
+    double rounding = 1e-9 * (hi[1] - lo[1]); // so that the layer of nodes at this height counts
     double top = lo[1] + foot, lowest = INFINITY;
     for (int i = 0; i < lattice->node_count; i++) lowest = fmin(lowest, lattice->node[i][1]);
-    if (region->size < 0) top = fmax(top, lowest); // feet thinner than a cell
+    if (region->size < 0) top = fmax(top, lowest); // if the feet are thinner than a cell
     for (int i = 0; i < lattice->node_count; i++) {
         double away[3], ahead = 0, squared = 0;
         for (int c = 0; c < 3; c++) {
@@ -115,7 +115,7 @@ bool region_nodes(const struct region *region, const struct lattice *lattice, co
 
 enum { FILE_LIMIT = 1 << 30 };
 
-/// Shortest ways along the elements' edges from the pinned nodes (Bellman and Ford), the longest being 1.
+/// Shortest paths along the elements' edges from the pinned nodes (Bellman and Ford), scaled to a longest of 1.
 static bool weigh_distance(const struct lattice *lattice, const struct body *body, const char *name, double *node,
                            struct error *error)
 {
@@ -146,12 +146,12 @@ static bool weigh_color(const struct surface *surface, const char *name, double 
         return fail(error, ERROR_INPUT, "%s: --soft color: expected colours of vertices, got none", name);
     for (int i = 0; i < surface->vertex_count; i++) {
         for (int c = 0; c < 3; c++) vertex[i] += (double)srgb_from_linear(surface->color[i][c]) / 3;
-        vertex[i] = fmin(1, fmax(0, vertex[i])); // files may have colours brighter than white, and darker than black
+        vertex[i] = fmin(1, fmax(0, vertex[i])); // colours in files may be brighter than white or darker than black
     }
     return true;
 }
 
-/// The numbers of a .npy of `vertices` float32 or float64 numbers.
+/// Reads a .npy of `vertices` float32 or float64 numbers.
 static bool read_weights(const char *path, const char *data, size_t size, int vertices, double *vertex,
                          struct error *error)
 {

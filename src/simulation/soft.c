@@ -47,7 +47,7 @@ static bool pin(struct soft *soft, const struct surface *surface, const struct r
     return true;
 }
 
-/// Counts the parts of the lattice that nothing holds.
+/// Counts the parts of the lattice without a pinned node.
 static void count_loose(struct soft *soft)
 {
     const struct lattice *lattice = &soft->lattice;
@@ -59,7 +59,7 @@ static void count_loose(struct soft *soft)
     free(held);
 }
 
-/// Heights between which nodes are pinned; both the lowest where none is.
+/// Heights of the lowest and highest pinned node; both the body's lowest if none is pinned.
 static void pinned_heights(const struct soft *soft, double range[2])
 {
     range[0] = INFINITY;
@@ -72,8 +72,8 @@ static void pinned_heights(const struct soft *soft, double range[2])
     if (soft->pinned == 0) range[0] = range[1] = soft->bottom;
 }
 
-/// How far a shake moves a node, relative to its amplitude: a driven body all alike, as seen from its base; else with the
-/// square of the height above the pinned nodes, or of the depth below them.
+/// How far a shake moves a node, relative to its amplitude: with a driven base the same for all; else the square of the height above
+/// the pinned nodes, or of the depth below them.
 static double shaken_part(const struct soft *soft, const struct shake *shake, const double pinned[2], int node)
 {
     if (soft->body.pinned[node]) return 0;
@@ -84,7 +84,7 @@ static double shaken_part(const struct soft *soft, const struct shake *shake, co
     return away / farthest * (away / farthest);
 }
 
-/// Finds the mode that has most of the shake's motion, Σ m |u|², in it.
+/// Finds the mode with the largest share of the shake's motion, Σ m |u|².
 static void find_shaken(struct soft *soft, const struct shake *shake)
 {
     const struct body *body = &soft->body;
@@ -109,7 +109,7 @@ static void find_shaken(struct soft *soft, const struct shake *shake)
     }
 }
 
-/// Finds the modes with Young's modulus 1 and scales: frequencies go with its square root.
+/// Finds the modes for Young's modulus 1 and scales it: frequencies grow with its square root.
 static void tune(struct soft *soft, const struct soft_options *options)
 {
     soft->body.material = material_from(1, options->poisson);

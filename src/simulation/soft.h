@@ -12,11 +12,9 @@
 /// How a body is moved.
 struct shake {
     double direction[3]; ///< of length 1
-    double amplitude;    ///< how far the top goes, or the base, as a fraction of the height
-    bool
-        impulse; ///< starts undeformed with the velocity that swings so far at the shaken mode's frequency; else starts
-                 ///< deformed and at rest
-    bool driven; ///< starts undeformed and at rest: the base moves
+    double amplitude;    ///< how far the top moves, or the base, as a fraction of the height
+    bool impulse; ///< starts undeformed, with the velocity that reaches the amplitude; else deformed and at rest
+    bool driven;  ///< starts undeformed and at rest: the base moves
 };
 
 /// Start from soft_default_options().
@@ -25,7 +23,7 @@ struct soft_options {
     struct region pin;
     struct softness softness;
     const struct shake *shake; ///< what the frequency refers to; NULL: the lowest mode
-    double young;              ///< Young's modulus, Pa; 0: whatever gives `frequency`
+    double young;              ///< Young's modulus, Pa; 0: the one that gives `frequency`
     double frequency;          ///< of the mode that the shake moves most, Hz, where young is 0
     double poisson;            ///< 0 … 0.49
     double density;            ///< kg/m³
@@ -39,7 +37,7 @@ struct soft {
     struct body body;
     struct modes modes;    ///< with the body's final stiffness
     int shaken;            ///< the mode that the shake moves most
-    double share;          ///< of the shake's motion in it, 0 … 1
+    double share;          ///< share of the shake's motion in that mode, 0 … 1
     double bottom, height; ///< of the surface along y, m
     double young;          ///< Pa
     double alpha, beta;    ///< Rayleigh's coefficients, 1/s and s
@@ -47,7 +45,7 @@ struct soft {
     int loose_parts;       ///< parts of the lattice without a pinned node
 };
 
-/// `name` is the surface's, for messages. Errors are the lattice's, the region's, the softness', everything pinned.
+/// `name` is the surface's, for messages. Errors: those of lattice, region and softness, and everything pinned.
 bool soft_create(struct soft *soft, const struct surface *surface, const char *name,
                  const struct soft_options *options, struct error *error);
 void soft_free(struct soft *soft);
@@ -55,8 +53,8 @@ void soft_free(struct soft *soft);
 /// The shaken mode's frequency, Hz; 0 if nothing oscillates.
 double soft_frequency(const struct soft *soft);
 
-/// Sets the initial state of a simulation: the displacement, or the velocity, grows with the square of the height above
-/// the pinned nodes, or of the depth below them. Nothing where the base moves.
+/// Sets the initial state: the displacement, or the velocity, grows with the square of the height above the pinned nodes, or of the
+/// depth below them. Zero if the base moves.
 void soft_shake(const struct soft *soft, const struct shake *shake, struct integrator *integrator);
 
 #endif

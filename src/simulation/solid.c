@@ -11,10 +11,10 @@
 
 enum { RAYS = 64, RAYS_MIN = 8 };
 
-// Lines through patches, times triangles to test each with: about two seconds. A patch of less area than that share is left as it is.
+// Ray-triangle tests for all patches together, about two seconds. A patch with less than LEAST_AREA of the area is left as it is.
 static const double TESTS_TOGETHER = 8e7, LEAST_AREA = 1e-3;
 
-/// An edge of a triangle: its ends, the smaller name first, and whether the triangle runs that way.
+/// A triangle's edge: its ends, the smaller name first, and whether the triangle runs that way.
 struct edge {
     uint64_t ends;
     int triangle, direction;
@@ -25,9 +25,9 @@ struct repair {
     uint32_t *name;    ///< per vertex: one number for all vertices at the same place
     struct edge *edge; ///< sorted by ends
     int edge_count;
-    int *next;       ///< per triangle and corner: the triangle across that edge where exactly two have it, else −1
+    int *next;       ///< per triangle and corner: the triangle across that edge if exactly two share it, else −1
     uint8_t *turned; ///< per triangle
-    int *patch;      ///< triangles, those of a patch one after the other
+    int *patch;      ///< triangles, patch by patch
 };
 
 static void weld(const struct surface *surface, uint32_t *name)
@@ -57,7 +57,7 @@ static int compare_corners(const void *a, const void *b)
     return x->triangle - y->triangle;
 }
 
-/// Leaves out triangles without area in the names, and all but the first of those with the same corners.
+/// Marks triangles without area, and all but the first of those with the same corners, as left out.
 static void leave_out(struct repair *r, int *duplicates)
 {
     struct surface *s = r->shape;
@@ -110,7 +110,7 @@ static void list_edges(struct repair *r)
     qsort(r->edge, (size_t)r->edge_count, sizeof *r->edge, compare_edges);
 }
 
-/// The first edge behind those with the same ends as edge i.
+/// The first edge after those with the same ends as edge i.
 static int end_of_group(const struct repair *r, int i)
 {
     const uint64_t ends = r->edge[i].ends;
@@ -142,7 +142,7 @@ static void join(struct repair *r, int triangle, int other, bool agree)
     }
 }
 
-/// Lists the neighbours of each triangle: twice their number, and 1 more where they disagree about their sides.
+/// Lists the neighbours of each triangle: twice their number, plus 1 if their sides disagree.
 static void join_neighbours(struct repair *r)
 {
     memset(r->next, 0xFF, (size_t)r->edge_count * sizeof *r->next); // −1
@@ -155,7 +155,7 @@ static void join_neighbours(struct repair *r)
     }
 }
 
-/// Turns the triangles that are connected with the first one of a patch to agree with it; returns how many they are.
+/// Turns the triangles connected with the first one of a patch to agree with it; returns how many there are.
 static int spread(struct repair *r, uint8_t *reached, int first)
 {
     int count = 1;
@@ -178,10 +178,10 @@ static void turn_patch(struct repair *r, int first, int count)
     for (int i = first; i < first + count; i++) r->turned[r->patch[i]] ^= 1;
 }
 
-/// A patch turned as most of its area was in the file.
+/// A patch turned like most of its area in the file.
 struct settled {
     double area;   ///< twice it
-    double volume; ///< between the patch and its own middle: positive where it bulges the way its triangles face
+    double volume; ///< between the patch and its centre: positive if it bulges the way its triangles face
 };
 
 static struct settled settle_patch(struct repair *r, int first, int count)
@@ -214,7 +214,7 @@ static double whole_area(const struct surface *s)
     return sum;
 }
 
-/// How a line through `from` crosses a triangle: 1 ahead, −1 behind, 0 not (Möller and Trumbore).
+/// How a ray from `from` crosses a triangle: 1 ahead, −1 behind, 0 not (Möller and Trumbore).
 static int crosses(const struct surface *s, int triangle, const double from[3], const double direction[3])
 {
     double p[3][3], edge[2][3], away[3], h[3], q[3];
@@ -239,8 +239,8 @@ static double random_of(uint32_t *seed)
     return (*seed >> 8) / 16777216.0;
 }
 
-/// Whether lines through a patch say that its triangles face inwards: in front of what faces outwards a line crosses the surface an even
-/// number of times, behind it an odd number, itself not counted.
+/// Whether a patch's triangles face inwards: lines through it vote. In front of an outward face a line crosses the surface an even
+/// number of times, behind it an odd number, not counting the face itself.
 static bool faces_inwards(const struct repair *r, int first, int count, int rays)
 {
     const struct surface *s = r->shape;
@@ -302,7 +302,7 @@ static int apply_turns(struct repair *r)
     return turned;
 }
 
-/// Says how much of the repair is done: its parts take about as long as each other.
+/// Reports progress; the parts of the repair take about equally long.
 static void tell(long parts) { stage_tell("mending the mesh", parts, 5); }
 
 static void repair(struct solid *solid, struct repair *r)

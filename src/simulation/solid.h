@@ -1,8 +1,8 @@
-/// The inside of a surface, in whatever state the surface is, and which points of a regular grid lie there.
+/// The inside of a surface in any state, and which points of a regular grid lie inside.
 ///
-/// Vertices at the same place count as one. Of triangles with the same corners one is kept. Neighbours are turned to agree about their
-/// sides, as most of the area of their patch does, and a patch that is inside out is turned round. If then every edge is used once in each
-/// direction, the surface is closed; else generalised winding numbers say what is inside.
+/// Vertices at the same place count as one. Of triangles with the same corners one is kept. Neighbours are turned to face the same
+/// way, as most of the area of their patch does; a patch that is inside out is turned round. If every edge is then used once in each
+/// direction, the surface is closed. Otherwise generalised winding numbers decide what is inside.
 #ifndef SIMULATION_SOLID_H
 #define SIMULATION_SOLID_H
 
@@ -19,21 +19,21 @@ static inline void triangle_corners(const struct surface *surface, int triangle,
         for (int c = 0; c < 3; c++) corner[k][c] = (double)p[c];
     }
 }
-/// Its normal, twice its area long, and three times its middle.
+/// A triangle's normal, twice its area long, and three times its centre.
 void triangle_measure(const struct surface *surface, int triangle, double normal[3], double middle[3]);
 
 // Generalised winding numbers: how often a surface, even an open one, goes round a point.
 //
-// Each triangle counts with the solid angle it is seen under, divided by 4π (Jacobson et al. 2013). Inside a closed surface the sum is 1,
-// outside 0; near a hole it passes smoothly from one to the other, and ½ closes the hole. Triangles that are far away for their size
-// count together, as a dipole (Barill et al. 2018).
+// Each triangle counts with the solid angle it is seen under, divided by 4π (Jacobson et al. 2013). Inside a closed surface the sum
+// is 1, outside 0; near a hole it passes smoothly from one to the other, and ½ closes the hole. Distant small triangles count
+// together, as a dipole (Barill et al. 2018).
 
 struct winding_node {
     double middle[3]; ///< of its triangles, weighted by area
-    double area[3];   ///< sum of their normals, as long as their areas
-    double radius;    ///< reaches all their corners from the middle
+    double area[3];   ///< sum of the area vectors
+    double radius;    ///< reaches all corners of its triangles
     int first, count; ///< of its triangles in `order`
-    int second;       ///< its second child; the first is the next node. 0: a leaf
+    int second;       ///< its second child, the first being the next node; 0: a leaf
 };
 
 struct winding {
@@ -50,10 +50,10 @@ void winding_free(struct winding *winding);
 double winding_at(const struct winding *winding, const double point[3]);
 
 struct solid {
-    struct surface shape;   ///< the surface with triangles of its own; the rest is borrowed
+    struct surface shape;   ///< the surface with its own triangles; the rest is borrowed
     int duplicates;         ///< triangles left out because another has the same corners
     int turned;             ///< triangles turned round
-    int open;               ///< edges that are not used as often in one direction as in the other; 0: closed
+    int open;               ///< edges not used equally often in both directions; 0: closed
     struct winding winding; ///< of an open one
 };
 
@@ -61,7 +61,7 @@ struct solid {
 void solid_create(struct solid *solid, const struct surface *surface);
 void solid_free(struct solid *solid);
 
-/// What was done to the surface as one sentence without a full stop; "" where nothing was.
+/// One sentence, without a full stop, about what was repaired; "" if nothing was.
 void solid_describe(const struct solid *solid, char text[160]);
 
 // Which points of a regular grid are inside a solid.
@@ -71,10 +71,10 @@ struct voxels {
     int size[3];
     double origin[3], spacing; ///< m
     uint8_t *inside;           ///< 1 where the centre is inside
-    bool overlaps;             ///< parts of a closed solid lie in each other
+    bool overlaps;             ///< parts of a closed solid overlap
 };
 
-/// Fills `inside` for the given grid, which must hold the solid: where the winding number is not 0 or, of an open surface, above a half.
+/// Fills `inside` for the given grid, which must contain the solid: 1 if the winding number is not 0 or, of an open surface, above ½.
 void voxels_fill(struct voxels *voxels, const struct solid *solid);
 void voxels_free(struct voxels *voxels);
 

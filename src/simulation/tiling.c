@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Disjoint sets (union by index, paths halved): the least member of i's set. parent[i] = i at the start.
+/// Disjoint sets: the least member of i's set (union by index, path halving). parent[i] = i at the start.
 static int union_root(int *parent, int i)
 {
     while (parent[i] != i) {
@@ -27,12 +27,12 @@ static void union_join(int *parent, int i, int j)
     }
 }
 
-/// The half of a voxel's 26 neighbours that come later.
+/// Half of a voxel's 26 neighbours, so that each pair is visited once.
 static const int neighbours[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
                                       {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
                                       {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
 
-/// Cubes along a side of the surface's box: those that cover it, and a margin.
+/// Cubes along a side of the surface's box, with a margin.
 static double cells_along(double side, double cell) { return ceil(side / cell) + 2; }
 
 double tiling_voxels(const struct surface *surface, double cell)
@@ -43,8 +43,8 @@ double tiling_voxels(const struct surface *surface, double cell)
     return count;
 }
 
-/// Voxels over the surface's box and its margin, centred, so that a symmetric solid is cut symmetrically; moved up or down by
-/// a quarter of a cell at most for the layer, which the margin allows.
+/// Voxels over the surface's box and margin, centred, so that a symmetric solid is cut symmetrically; then moved up or down by at
+/// most a quarter of a cell, so that a layer of nodes lies at `layer`.
 static void lay_out(struct voxels *voxels, const struct surface *surface, double cell, double layer)
 {
     double lo[3], hi[3];
@@ -73,7 +73,7 @@ void tiling_point(const struct tiling *tiling, int key, double position[3])
     for (int c = 0; c < 3; c++) position[c] = v->origin[c] + p[c] * v->spacing * VOXELS_A_CELL / 2;
 }
 
-/// The tetrahedron that holds a voxel's centre: from the cube's centre towards the face that is nearest, then to that face's nearest
+/// The tetrahedron that holds a voxel's centre: from the cube's centre towards the nearest face, then towards that face's nearest
 /// edge. `key` names its nodes: the two cubes' centres and the edge's ends.
 static void tetrahedron_at(const struct voxels *voxels, const int voxel[3], int key[4])
 {
@@ -94,7 +94,7 @@ static void tetrahedron_at(const struct voxels *voxels, const int voxel[3], int 
     end[k] += toward;
     end[u] += from_centre[u] > 0 ? 1 : -1;
     end[w] -= 1;
-    // The lower cube's centre first, so that a tetrahedron is named alike from both of its halves.
+    // The lower cube's centre first, so that both halves of a tetrahedron give it the same name.
     key[0] = point_key(voxels, toward > 0 ? centre : other);
     key[1] = point_key(voxels, toward > 0 ? other : centre);
     key[2] = point_key(voxels, end);
@@ -125,7 +125,7 @@ static void join_voxels(struct tiling *t, int *set, const uint64_t *tetrahedron,
     if (tetrahedron[a] == tetrahedron[b]) union_join(set, a, b);
 }
 
-/// Nodes of touching elements that are at the same point become one.
+/// Joins nodes of touching elements that are at the same point.
 static void join_nodes(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b)
 {
     (void)tetrahedron;
@@ -136,7 +136,7 @@ static void join_nodes(struct tiling *t, int *set, const uint64_t *tetrahedron, 
     }
 }
 
-/// Numbers the sets of voxels: elements with their nodes' places and their size.
+/// Numbers the sets of voxels: each is an element, with nodes and a size.
 static void number_elements(struct tiling *t, int *set)
 {
     const int *size = t->voxels.size;
@@ -156,7 +156,7 @@ static void number_elements(struct tiling *t, int *set)
     }
 }
 
-/// Each voxel's tetrahedron as one number: its face's middle and twice its edge's middle identify it.
+/// Each voxel's tetrahedron as one number, from its face's centre and twice its edge's.
 static void name_tetrahedra(const struct voxels *voxels, uint64_t *tetrahedron, int *set)
 {
     int count = (int)voxels_count(voxels);
@@ -194,7 +194,7 @@ static struct face face_of(const struct tiling *t, int element, int opposite)
     return face;
 }
 
-/// Elements that share a face are one part.
+/// Puts elements that share a face into one part.
 static void find_parts(struct tiling *t)
 {
     size_t count = (size_t)t->count * 4;
@@ -212,7 +212,7 @@ static void find_parts(struct tiling *t)
     free(faces);
 }
 
-/// Drops parts below a hundredth of the whole, but never the largest.
+/// Drops parts smaller than a hundredth of the whole, but never the largest.
 static void drop_crumbs(struct tiling *t)
 {
     int *voxels = need_zeroed((size_t)t->count + 1, sizeof *voxels), total = 0, largest = 0;
@@ -235,7 +235,7 @@ static void drop_crumbs(struct tiling *t)
     }
 }
 
-/// Elements, their nodes and their parts; `set` and `tetrahedron` have room for each voxel.
+/// Finds elements, nodes and parts; `set` and `tetrahedron` have room for each voxel.
 static void cut(struct tiling *t, int *set, uint64_t *tetrahedron)
 {
     name_tetrahedra(&t->voxels, tetrahedron, set);

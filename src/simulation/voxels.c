@@ -1,9 +1,9 @@
 /// Winding numbers along columns.
 ///
 /// A column of voxel centres along z is a ray; each triangle that it passes through changes the winding number by one.
-/// In the (x, y) plane everything is rounded to a grid of 2⁻²⁴ of the largest side, on which the test of a point against an
-/// edge is exact in 64-bit integers; a point on an edge counts as moved by (ε, ε²). So no ray slips between two
-/// triangles or hits both, and the winding number returns to 0 in every column.
+/// In the (x, y) plane all coordinates are rounded to a grid of 2⁻²⁴ of the largest side, so that the test of a point against an
+/// edge is exact in 64-bit integers. A point on an edge counts as moved by (ε, ε²). So no ray slips between two triangles or hits
+/// both, and the winding number returns to 0 in every column.
 #include "base/need.h"
 #include "base/progress.h"
 #include "simulation/solid.h"
@@ -11,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { TELLING = 3 << 16 }; ///< corners between two words about how far it is
+enum { TELLING = 3 << 16 }; ///< corners between two progress reports
 
 struct crossing {
     int column; ///< i·size[1] + j
@@ -54,7 +54,7 @@ static bool left_of(struct point a, struct point b, struct point p)
 /// How the rounded plane lies over the voxels.
 struct raster {
     const struct voxels *voxels;
-    double scale; ///< steps of the rounded plane a metre
+    double scale; ///< grid steps a metre
 };
 
 static struct point rounded(const struct raster *raster, double x, double y)
@@ -93,7 +93,7 @@ static void rasterise(const struct raster *raster, const struct surface *surface
         p[k] = rounded(raster, (double)at[0], (double)at[1]);
         z[k] = (double)at[2];
         for (int c = 0; c < 2; c++) {
-            double place = ((double)at[c] - v->origin[c]) / v->spacing - 0.5; // a margin makes up for rounding
+            double place = ((double)at[c] - v->origin[c]) / v->spacing - 0.5; // the margin covers rounding
             lo[c] = (int)fmax(0, fmin(lo[c], floor(place - 0.01)));
             hi[c] = (int)fmin(v->size[c] - 1, fmax(hi[c], ceil(place + 0.01)));
         }
@@ -147,13 +147,13 @@ static void fill_closed(struct voxels *voxels, const struct crossings *list)
     }
 }
 
-/// One column of an open surface. Where it crosses a triangle the winding number changes by one; the rest of it, w − `crossed`, changes
-/// smoothly, so that few points of it are enough.
+/// One column of an open surface. The winding number w changes by one at each triangle crossed; w − `crossed` changes smoothly, so
+/// that few samples are enough.
 struct column {
     struct voxels *voxels;
     const struct winding *winding;
     int i, j;
-    int *crossed; ///< per voxel: how often the column has gone in below, less how often out
+    int *crossed; ///< per voxel: times the column has entered below, less times it has left
 };
 
 static double smooth_at(const struct column *c, int k)
@@ -165,14 +165,14 @@ static double smooth_at(const struct column *c, int k)
     return winding_at(c->winding, point) - c->crossed[k];
 }
 
-/// Marks the voxels from k up to, but not including, `end`, between which the smooth part runs from `from` to `to`.
+/// Marks the voxels from k up to `end` (exclusive). Between them the smooth part goes linearly from `from` to `to`.
 static void fill_smooth(const struct column *c, int k, double from, int end, double to)
 {
     uint8_t *inside = c->voxels->inside + (size_t)(c->i * c->voxels->size[1] + c->j) * (size_t)c->voxels->size[2];
     for (int n = k; n < end; n++) inside[n] = from + (to - from) * (n - k) / (end - k) + c->crossed[n] > 0.5;
 }
 
-/// The same, halved until the smooth part is a line.
+/// The same, halving the range until the smooth part is linear.
 static void fill_between(const struct column *c, int k, double from, int end, double to)
 {
     static const double CURVED = 0.02;
@@ -188,7 +188,7 @@ static void fill_between(const struct column *c, int k, double from, int end, do
     half(c, middle, there, end, to);
 }
 
-/// Voxels from lo up to, but not including, hi: those within the surface's box, and never the border.
+/// Voxels lo ≤ i < hi within the surface's box, without the grid's border.
 static void find_range(const struct voxels *v, const struct surface *surface, int lo[3], int hi[3])
 {
     double least[3], most[3];
@@ -199,7 +199,7 @@ static void find_range(const struct voxels *v, const struct surface *surface, in
     }
 }
 
-/// What is outside of the surface's box is outside.
+/// Outside the surface's box everything is outside.
 static void fill_open(struct voxels *v, const struct solid *solid, const struct crossings *list)
 {
     enum { STEP = 16 };
@@ -217,7 +217,7 @@ static void fill_open(struct voxels *v, const struct solid *solid, const struct 
             for (int k = 0; k < v->size[2]; k++) {
                 for (; next < list->count && list->items[next].column == column && list->items[next].z < k + 0.5;
                      next++)
-                    sum -= list->items[next].turn; // a triangle that faces up is where the inside ends
+                    sum -= list->items[next].turn; // a triangle that faces up ends the inside
                 c.crossed[k] = sum;
             }
             double from = smooth_at(&c, lo[2]);

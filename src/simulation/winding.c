@@ -7,7 +7,7 @@
 
 enum { LEAF = 8, DEPTH_MAX = 64 };
 
-// A node counts as a dipole from this many radii away: the error of the sum is then below 0.01.
+// At this many radii a node counts as a dipole: the sum is then off by less than 0.01.
 static const double FAR = 4;
 
 void triangle_measure(const struct surface *surface, int triangle, double normal[3], double middle[3])
@@ -21,7 +21,7 @@ void triangle_measure(const struct surface *surface, int triangle, double normal
     vec3_cross(edge[0], edge[1], normal);
 }
 
-/// The triangle's normal, as long as its area, and its middle.
+/// A triangle's area vector and centre.
 static void weigh_triangle(const struct surface *surface, int triangle, double area[3], double middle[3])
 {
     triangle_measure(surface, triangle, area, middle);
@@ -61,7 +61,7 @@ static void measure_node(const struct winding *w, struct winding_node *node, dou
     }
 }
 
-/// Brings triangles whose middle is below `at` along an axis to the front, and returns how many they are.
+/// Moves triangles whose centre is below `at` on an axis to the front; returns how many there are.
 static int part(const struct winding *w, int first, int count, int axis, double at)
 {
     int below = 0;
@@ -76,7 +76,7 @@ static int part(const struct winding *w, int first, int count, int axis, double 
     return below;
 }
 
-/// Halves the box of the middles; where that parts nothing, the list.
+/// Halves the box of the centres; if all are in one half, halves the list.
 static int build(struct winding *w, int first, int count, int depth)
 {
     const int number = w->node_count++;
@@ -111,7 +111,7 @@ void winding_free(struct winding *winding)
     *winding = (struct winding){0};
 }
 
-/// The solid angle of a triangle over 2 (van Oosterom and Strackee).
+/// Half the solid angle of a triangle (van Oosterom and Strackee).
 static double half_angle(const struct surface *surface, int triangle, const double point[3])
 {
     double p[3][3], length[3], across[3];
@@ -128,7 +128,7 @@ static double half_angle(const struct surface *surface, int triangle, const doub
 double winding_at(const struct winding *winding, const double point[3])
 {
     const double pi = 3.14159265358979323846;
-    double angle = 0; // solid angle over 2
+    double angle = 0; // half the solid angle
     int waiting[DEPTH_MAX + 2], count = 0;
     if (winding->node_count > 0) waiting[count++] = 0;
     while (count > 0) {
