@@ -183,6 +183,74 @@ for document in $documents CHANGELOG.md {assets,src/*,tests,tools}/README.md; do
     holds "$document: files and links are there" [ -z "$missing" ]
 done
 
+# --- numbers: what a page says, and what says so in the source or in what the program wrote
+
+cat >"$scratch/least.json" <<'END'
+{"wiggly": 1, "frames": [0, 96], "splines": [{"name": "s", "knots": []}],
+ "rigs": [{"type": "tail", "name": "t", "channels": [{"spline": "s"}]}, {"type": "meadow", "name": "m", "spline": "s"}]}
+END
+expect 0 "a scene with the least" "$build/wiggly" live --no-draw --frames 1 --result "$scratch/place/saved.json" "$scratch/least.json"
+tr -s ' \n' ' ' <"$scratch/place/saved.json" >"$scratch/place/saved"
+while IFS='~' read -r page words file proof; do
+    [ -e "$file" ] || file=$scratch/place/$file
+    tr -s ' \n' ' ' <"$page" | grep -qF -e "$words" && grep -qF -e "$proof" "$file"
+    ok "$page: $words" $?
+done <<'END'
+README.md~Debian 12 and 13 and Ubuntu 22.04 and 24.04~tools/bare-machine.sh~<bookworm | trixie | jammy | noble>
+CONTRIBUTING.md~Files up to 600 lines, functions up to 80~tools/check-lengths.sh~No file above 600 lines, no function above 80
+docs/app.md~more than twice as far~src/scene/warnings.c~FAR = 2;
+docs/app.md~Within two seconds~src/app/recovery.c~INTERVAL = 1;
+docs/app.md~from 75 % to 300 %~src/app/state.h~UI_SCALE_LEAST 0.75
+docs/app.md~from 75 % to 300 %~src/app/state.h~UI_SCALE_MOST 3.0
+docs/keys.md~75 … 300 %~src/app/state.h~UI_SCALE_MOST 3.0
+docs/keys.md~0.1 … 4×~src/editor/core/playback.c~{0.1, 0.25, 0.5, 1, 2, 4}
+docs/keys.md~by 1 % of the view~src/editor/stage/pins.c~NUDGE = 0.01;
+docs/keys.md~1 % of the visible values~src/editor/curves/knot_drag.c~0.01 * hundredths * core->visible
+docs/characters.md~the lowest twentieth of the height~src/commands/simulate.c~pin below a height (1/20 of the mesh)
+docs/characters.md~five knots at most~src/analysis/component.h~KNOTS_MOST = 5
+docs/export.md~11 bits~src/export/usda_model.c~with 11 bits
+docs/export.md~up to eight joints per vertex~src/model/gltf.h~GLTF_INFLUENCES = 8
+docs/your-character.md~more than 256 MiB~src/model/glb.h~GLB_FILE_LIMIT = 1 << 28
+docs/your-character.md~more than 16,777,216 vertices~src/model/gltf_read.c~VERTEX_LIMIT = 1 << 24
+docs/your-character.md~up to eight joints per vertex~src/model/gltf.h~GLTF_INFLUENCES = 8
+docs/library.md~to 1e-9 of their range~tests/test_vectors.c~agree to 1e-9 of the range
+docs/library.md~24 a second~src/spline/desc.c~to->step = 1.0 / 24
+docs/library.md~144 frames a second~examples/game_loop.c~1.0 / 144
+docs/measuring.md~frames over 16.7~said~over 16.7 ms
+docs/measuring.md~and 33.3 ms~said~over 33.3 ms
+docs/measuring.md~eleven times~tools/regress.sh~PAIRS:-11
+docs/measuring.md~a 99 % bootstrap~said~99 % interval
+docs/measuring.md~a loop of 10,000,000 samples~tools/wiggly-bench.c~SAMPLES = 10000000
+docs/scene-format.md~at most 100,000 samples~src/scene/document.h~SPLINE_MAX_SAMPLES = 100000,
+docs/scene-format.md~20,000 with `limits`~src/scene/document.h~LIMITED_MAX_SAMPLES = 20000,
+docs/scene-format.md~1,000,000 samples~src/scene/document.h~SCENE_MAX_SAMPLES = 1000000,
+docs/scene-format.md~100,000 knots~src/scene/document.h~SCENE_MAX_KNOTS = 100000,
+docs/scene-format.md~frames per second (24); samples per frame (1)~saved~"fps": 24, "substeps": 1,
+docs/scene-format.md~classical cubic | 0~saved~"frequency": 0,
+docs/scene-format.md~overdamped | 0~saved~"damping": 0,
+docs/scene-format.md~(complex mode only) | 0.1~saved~"bandwidth": 0.1,
+docs/scene-format.md~the paper's formula | 1~saved~"calm": 1,
+docs/scene-format.md~swings about | 0~saved~"equilibrium": 0,
+docs/scene-format.md~the slope holds (1000)~src/scene/document.h~KNOT_DEFAULT_STIFFNESS 1000.0
+docs/scene-format.md~joints 24, length 1.6, position [0, 0, 0], rest 0~saved~"joints": 24, "length": 1.6, "position": [0, 0, 0], "rest": 0,
+docs/scene-format.md~axis "side", lag 6.5 and gain 5~saved~"axis": "side", "lag": 6.5, "gain": 5
+docs/scene-format.md~2 to 32 places~src/scene/rig.h~RAMP_MAX_POINTS = 32, ///< and at least 2
+docs/scene-format.md~Up to four coordinates~src/scene/rig.h~CHARACTER_MAX_DRIVES = 4
+docs/scene-format.md~up to 4,096 reeds (`count`, 1000 by default)~src/scene/rig.h~MEADOW_MAX_REEDS = 4096
+docs/scene-format.md~1000 by default~saved~"count": 1000,
+docs/mathematics.md~at most 1e−9 (cubic) or 1e−8 (other modes)~tests/test_vectors.c~WIGGLY_CUBIC ? 1e-9 : 1e-8
+docs/mathematics.md~exceeds 10⁴ times~src/spline/complete.c~blow_up = 1e4
+docs/mathematics.md~again with c = 0.05~src/spline/problem.h~FALLBACK_CALM 0.05
+docs/mathematics.md~at least 0.05·c~src/spline/solver.h~LEAST_DAMPING 0.05
+docs/mathematics.md~\ge 10^{-4}~src/spline/pin_rows.c~out_of_reach = 1e-4, firm = 0.04
+docs/mathematics.md~(0.04/\varepsilon)~src/spline/pin_rows.c~firm = 0.04
+docs/mathematics.md~10⁻⁵ of the character's size~src/scene/floors.c~DEEP = 1e-5
+docs/mathematics.md~+ 30\,~src/spline/explain.c~pluck = 30;
+docs/mathematics.md~(0.03\,~src/spline/explain.c~blur = 0.03;
+docs/mathematics.md~to 1.25 times~src/spline/explain.c~headroom = 1.25;
+docs/mathematics.md~ζ from 0.01 to 0.6~src/spline/explain.c~{0.01, 0.02, 0.035, 0.05, 0.08, 0.12, 0.18, 0.27, 0.4, 0.6}
+END
+
 # --- assets: a licence for each, and no picture that no page shows
 
 # shellcheck disable=SC2086
