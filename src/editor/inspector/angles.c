@@ -1,5 +1,5 @@
-/// Angles in the inspector: one for all joints as a slider; several as a slider that scales them and a curve, of a few points that are
-/// dragged (a ramp) or of each joint, drawn by dragging over it.
+/// Angles in the inspector. One angle for all joints is a slider. Several are a slider that scales them and a curve below it: a ramp with
+/// draggable points, or one angle per joint, drawn by dragging.
 #include "base/error.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SWITCH = 24, MOST_REACH = 1024 }; ///< width of a button for a form
+enum { SWITCH = 24, MOST_REACH = 1024 }; ///< pixels: width of a form button
 
 static const struct number_row rows[] = {
     [ANGLE_REST] = {"rest", "rest", "°", "Upward bend of each joint at rest", "Set rest pose", 0, false, -15, 15,
@@ -21,7 +21,7 @@ static const struct number_row rows[] = {
                     -36000, 36000, 5, 0.5, 1},
 };
 
-/// The largest of the angles: a slider shows and sets it where there are several.
+/// The largest angle, which the slider shows and sets.
 static int peak(const struct angles *angles)
 {
     int found = 0;
@@ -31,7 +31,7 @@ static int peak(const struct angles *angles)
     return found;
 }
 
-/// All angles in proportion, so that the largest becomes `value`.
+/// Scales all angles so that the largest becomes `value`.
 static void scale_angles(struct angles *angles, double value)
 {
     const int largest = peak(angles);
@@ -53,14 +53,14 @@ bool inspector_set_angles(struct inspector *in, enum angle_kind kind, const stru
     return set_angles(in, kind, angles, &in->core->error);
 }
 
-/// The same as what a widget's change is.
+/// scale_angles() as an undo step.
 static void change_angles(struct inspector *in, enum angle_kind kind, enum ui_change change, const char *label,
                           const char *what, const struct angles *angles)
 {
     if (inspector_begin(in, change, label, what)) inspector_end(in, change, inspector_set_angles(in, kind, angles));
 }
 
-/// By how much a slider's ends are taken further out, so that it has the angle on it; the same as long as it is dragged.
+/// Factor that extends a slider's ends to include its angle; constant during a drag.
 static double reach_of(struct inspector *in, enum angle_kind kind, double angle)
 {
     double *reach = &in->angle_reach[kind];
@@ -70,7 +70,6 @@ static double reach_of(struct inspector *in, enum angle_kind kind, double angle)
     return *reach;
 }
 
-/// The angles as the document has them now.
 static const struct angles *angles_of(const struct inspector *in, int kind)
 {
     const struct rig *rig = inspector_shown(in);
@@ -79,7 +78,6 @@ static const struct angles *angles_of(const struct inspector *in, int kind)
     return kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
 
-/// The slider shows the largest of them.
 static double get_largest(const struct inspector *in, int kind)
 {
     const struct angles *angles = angles_of(in, kind);
@@ -93,13 +91,13 @@ static bool set_largest(struct inspector *in, int kind, double number, struct er
     return set_angles(in, (enum angle_kind)kind, &next, error);
 }
 
-/// Unit of the numbers: gains of channels that move the body may be in percent.
+/// Gains of channels that move the body may be in percent.
 static const char *unit_of(const struct inspector *in, int kind)
 {
     return kind == ANGLE_GAIN ? axis_unit(inspector_felt_channel(in)->axis) : rows[kind].unit;
 }
 
-/// Of several, the first one and the last one.
+/// The first and last of several angles.
 static const char *show_ends(const struct inspector *in, int kind, char text[64])
 {
     const struct angles *angles = angles_of(in, kind);
@@ -113,7 +111,7 @@ static void build_slider(struct inspector *in, enum angle_kind kind, struct rect
 {
     static const struct number_home home = {.get = get_largest, .set = set_largest, .shown = show_ends};
     const bool several = angles_of(in, (int)kind)->form != ANGLES_ONE;
-    const bool lags = kind == ANGLE_LAG && several; // each joint's own lag: up to a few turns, not degrees a joint
+    const bool lags = kind == ANGLE_LAG && several; // each joint's own lag may be a few turns
     const double reach = lags ? 1 : reach_of(in, kind, get_largest(in, (int)kind));
     struct number_row number = rows[kind];
     number.unit = unit_of(in, (int)kind);
@@ -123,7 +121,7 @@ static void build_slider(struct inspector *in, enum angle_kind kind, struct rect
     inspector_number(in, &number, &home, (int)kind, r);
 }
 
-/// An angle for each joint, as they are now.
+/// Converts the angles to one per joint.
 static struct angles each_angle(const struct angles *angles, enum angle_kind kind, int joints)
 {
     struct angles next = {.form = ANGLES_EACH, .count = joints};
@@ -132,7 +130,7 @@ static struct angles each_angle(const struct angles *angles, enum angle_kind kin
     return next;
 }
 
-/// One angle for all, with as little change of the pose as there can be: their mean, or the last one's lag shared out.
+/// One angle for all that changes the pose least: the mean, or for lags the last one divided evenly.
 static struct angles one_angle(const struct angles *angles, enum angle_kind kind, int joints)
 {
     double sum = 0;
@@ -142,8 +140,7 @@ static struct angles one_angle(const struct angles *angles, enum angle_kind kind
     return (struct angles){.form = ANGLES_ONE, .value = {round(one * 1e4) / 1e4}};
 }
 
-/// The button at the right end of a row that makes its angles of a form, or one for all joints where they have it already; true if it
-/// changed them.
+/// The button at the right end of a row switches to a form, or back to one angle for all; true if pressed.
 static bool build_switch(struct inspector *in, enum angle_kind kind, const struct angles *angles,
                          const struct angles *next, struct rect r)
 {
@@ -160,24 +157,24 @@ static bool build_switch(struct inspector *in, enum angle_kind kind, const struc
     return true;
 }
 
-enum { HEIGHT = 64, INSET = 7, NAME = 32, REACH = 11 }; ///< pixels; REACH: of a right click from its point
+enum { HEIGHT = 64, INSET = 7, NAME = 32, REACH = 11 }; ///< pixels; REACH: of a right click around a point
 
-/// The curve of several angles as it is laid out. A ramp has a handle for each point, angles of each joint one at the selected joint.
+/// Layout of the curve. A ramp has a handle at each point, per-joint angles one at the selected joint.
 struct angle_view {
     enum angle_kind kind;
     const struct angles *angles;
     struct rect box, plot;
-    double low, high; ///< degrees at its bottom and top
+    double low, high; ///< degrees at the bottom and top
     int selected;     ///< joint
     int handle_count;
     char names[RAMP_MAX_POINTS][NAME];
     struct ui_handle handles[RAMP_MAX_POINTS];
 };
 
-static const double APART = 0.01;                          ///< between places of neighbouring points
-static const double PLACES = 100, SPARE = 1.2, LEAST = 10; ///< places in all; above the largest angle; degrees
+static const double APART = 0.01; ///< least distance between points of a ramp
+static const double PLACES = 100, SPARE = 1.2,
+                    LEAST = 10; ///< steps along the ramp; room above the largest angle; degrees
 
-/// Where one of the angles is on the screen.
 static void place_angle(const struct angle_view *view, int i, float xy[2])
 {
     const struct angles *angles = view->angles;
@@ -187,7 +184,6 @@ static void place_angle(const struct angle_view *view, int i, float xy[2])
     xy[1] = view->plot.y + view->plot.h * (float)((view->high - angles_number(angles, i)) / (view->high - view->low));
 }
 
-/// The angle at a height of the plot.
 static double angle_at(const struct angle_view *view, float y)
 {
     const double share = (double)((y - view->plot.y) / view->plot.h);
@@ -202,7 +198,7 @@ static bool is_held(const struct angle_view *view, uint32_t held)
     return false;
 }
 
-/// Its scale, which stays while it is dragged; and where its handles are.
+/// Sets the scale, which is constant during a drag, and the handles.
 static void lay_out(struct inspector *in, struct angle_view *view)
 {
     const struct angles *angles = view->angles;
@@ -238,7 +234,7 @@ static void lay_out(struct inspector *in, struct angle_view *view)
     }
 }
 
-/// A ramp is level outside of its points.
+/// A ramp is constant outside its points.
 static void draw(const struct inspector *in, const struct angle_view *view)
 {
     struct drawlist *list = in->ui.list;
@@ -266,14 +262,13 @@ static void draw(const struct inspector *in, const struct angle_view *view)
     if (!is_ramp) drawlist_disc(list, line[view->selected + 1], 3.5f, theme()->accent);
 }
 
-/// The point at a place of the plot.
 static struct ramp_point point_at(const struct angle_view *view, float x, float y)
 {
     const double at = (double)((x - view->plot.x) / view->plot.w);
     return (struct ramp_point){round(fmin(fmax(at, 0), 1) * PLACES) / PLACES, angle_at(view, y)};
 }
 
-/// Puts a point between its neighbours.
+/// Keeps a point between its neighbours.
 static void move_point(struct angles *angles, int i, struct ramp_point point)
 {
     const double low = i > 0 ? angles->ramp[i - 1].at + APART : 0;
@@ -320,7 +315,7 @@ static void remove_point(struct inspector *in, const struct angle_view *view, in
     change_angles(in, view->kind, UI_SET, "Remove point", NULL, &next);
 }
 
-/// The point that the event is to remove: under a right click, or that has the focus when Del is pressed; −1: none.
+/// The point to remove: under a right click, or focused when Del is pressed; −1: none.
 static int removed_point(const struct inspector *in, const struct angle_view *view)
 {
     const struct event *event = in->ui.event;
@@ -336,7 +331,7 @@ static int removed_point(const struct inspector *in, const struct angle_view *vi
     return -1;
 }
 
-/// Adds and removes points; a press on one also gives it the focus, for arrow keys and Del.
+/// Adds and removes points. A press on a point focuses it for arrow keys and Del.
 static void take_event(struct inspector *in, const struct angle_view *view)
 {
     struct ui *ui = &in->ui;
@@ -367,7 +362,7 @@ static void build_ramp(struct inspector *in, struct angle_view *view)
     }
 }
 
-/// A ramp of two points from the first joint's angle to the last one's.
+/// A ramp from the first joint's angle to the last one's.
 static struct angles as_ramp(const struct angles *angles, enum angle_kind kind, int joints)
 {
     struct angles ramp = {.form = ANGLES_RAMP, .count = 2};
@@ -386,7 +381,7 @@ static int joint_at(const struct angle_view *view, float x)
     return (int)fminf(fmaxf(joint, 0), (float)last);
 }
 
-/// A press takes the joint below it, from where the drag draws.
+/// A press selects the joint below it and starts drawing there.
 static void take_press(struct inspector *in, struct angle_view *view)
 {
     const struct event *event = in->ui.event;
@@ -398,7 +393,7 @@ static void take_press(struct inspector *in, struct angle_view *view)
     in->drawn_y = view->handles->y = event->y;
 }
 
-/// All joints between the last place and this one come to lie on the line between both.
+/// Puts all joints between the last pointer position and this one on a line.
 static void draw_to(struct inspector *in, const struct angle_view *view)
 {
     const struct ui_handle *handle = view->handles;
@@ -414,7 +409,7 @@ static void draw_to(struct inspector *in, const struct angle_view *view)
     in->joint[view->kind] = to;
 }
 
-/// ← and → go along the joints, ↑ and ↓ change one.
+/// ← → select a joint, ↑ ↓ change its angle.
 static void nudge(struct inspector *in, const struct angle_view *view)
 {
     const struct ui_handle *handle = view->handles;
@@ -435,7 +430,7 @@ static void build_each(struct inspector *in, struct angle_view *view)
     ui_hint(ui, view->box, view->handles->hint);
     if (ui->pass == UI_PASS_EVENT) take_press(in, view);
     const enum ui_change change = ui_handles(ui, view->box, view->handles, 1, &which);
-    if (is_held(view, ui->held)) ui->focus = ui->held; // so that arrow keys act on the pressed point
+    if (is_held(view, ui->held)) ui->focus = ui->held; // arrow keys then move the pressed point
     if (change == UI_NUDGE) {
         nudge(in, view);
     } else if (change != UI_NONE) {
@@ -444,7 +439,6 @@ static void build_each(struct inspector *in, struct angle_view *view)
     }
 }
 
-/// The number of the joint that is selected.
 static double get_joint(const struct inspector *in, int kind) { return angles_of(in, kind)->value[in->joint[kind]]; }
 
 static bool set_joint(struct inspector *in, int kind, double number, struct error *error)
@@ -465,12 +459,12 @@ static void build_joint(struct inspector *in, enum angle_kind kind)
     number.label = label;
     number.unit = unit_of(in, (int)kind);
     number.hint = "Angle of the joint selected in the curve above";
-    number.minimum = number.maximum = 0; // a field
+    number.minimum = number.maximum = 0; // no bar
     number.fallback = NAN;
     inspector_number(in, &number, &home, (int)kind, ui_row(&in->ui, UI_ROW));
 }
 
-/// Below the row of several angles: their curve, and of each joint's the number of one.
+/// The curve of several angles, and for per-joint angles the selected joint's number.
 static void build_curve(struct inspector *in, enum angle_kind kind, const struct angles *angles)
 {
     struct angle_view view = {.kind = kind, .angles = angles};

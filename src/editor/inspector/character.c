@@ -1,4 +1,4 @@
-/// The inspector's section on a soft character: its channels, how it is shown, and the brush.
+/// The inspector's section on a soft character: channels, display, brush.
 #include "base/need.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
@@ -8,18 +8,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_ITEMS = 32 }; ///< coordinates that may be added
+enum { MAX_ITEMS = 32 }; ///< coordinates in the add list
 
-/// Shows a channel, and the feel of its spline.
+/// Selects a channel and the spline that drives it.
 static void choose(struct inspector *in, int drive)
 {
     const struct character_view *view = &in->core->characters;
     const struct character_rig *rig = document_character(in->core->document, view->character);
     core_activate(in->core, rig->drives[drive].spline);
-    in->core->characters.drive = drive; // of two by the same spline
+    in->core->characters.drive = drive; // two channels may share a spline
 }
 
-/// A row for each channel, with a button that removes it.
 static void build_drives(struct inspector *in, const struct character_rig *rig)
 {
     struct ui *ui = &in->ui;
@@ -43,7 +42,7 @@ static void build_drives(struct inspector *in, const struct character_rig *rig)
     }
 }
 
-/// The coordinate of the shown character that the active spline drives, where that is the selected one.
+/// The coordinate the active spline drives, if that is the selected one.
 static const void *felt_drive(const struct inspector *in)
 {
     const struct character_view *view = &in->core->characters;
@@ -60,7 +59,7 @@ static const struct number_row drive_rows[] = {
      0.05, 2},
 };
 
-/// An edit: the selected coordinate's drive.
+/// Edits the selected coordinate's drive.
 static bool set_drive(struct inspector *in, const struct drive *drive, struct error *error)
 {
     return edit_drive(in->core->document, characters_rig(in->core), in->core->characters.drive, drive, error);
@@ -91,7 +90,6 @@ static void choose_spline(struct inspector *in, const struct dropdown *list)
 
 static const struct dropdown spline_list = {"drive.splines", "The spline that drives this channel", choose_spline};
 
-/// Whether the rig drives the coordinate already.
 static bool is_driven(const struct character_rig *rig, const char *name)
 {
     for (int k = 0; k < rig->drive_count; k++) {
@@ -100,7 +98,7 @@ static bool is_driven(const struct character_rig *rig, const char *name)
     return false;
 }
 
-/// The figure's coordinates that nothing drives yet; returns how many.
+/// Lists the figure's undriven coordinates; returns how many.
 static int free_coordinates(const struct inspector *in, const struct character_rig *rig,
                             struct ui_item items[MAX_ITEMS])
 {
@@ -130,7 +128,7 @@ static void add_coordinate(struct inspector *in, const struct dropdown *list)
 
 static const struct dropdown add_list = {"drive.add", "Add a channel that the active spline drives", add_coordinate};
 
-/// Phases as colours, by direction of movement; and the stiff twin beside it.
+/// The phase map and the stiff twin.
 static void build_looks(struct inspector *in)
 {
     static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
@@ -148,7 +146,7 @@ static void build_looks(struct inspector *in)
     }
 }
 
-/// Results of the analysis of the selected channel.
+/// Analysis results of the selected channel.
 static void build_facts(struct inspector *in)
 {
     const struct coordinate *c = characters_coordinate(in->core);
@@ -171,7 +169,7 @@ static const struct number_row floor_rows[] = {
      NUMBER_AT(struct rig, character.floor), -1, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0, 0.01, 3},
 };
 
-/// Whether nothing of it may be below a height, and which.
+/// The floor switch and its height.
 static void build_floor(struct inspector *in, const struct character_rig *rig)
 {
     static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
@@ -196,7 +194,7 @@ static void build_floor(struct inspector *in, const struct character_rig *rig)
     ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-/// Modes of one kind side by side; none is marked where the brush is set to another kind.
+/// Brush modes of one kind side by side. None is marked if the brush has another kind.
 static void build_modes(struct inspector *in, const char *name, const char *hint, enum brush_mode first,
                         const struct ui_choice *choices, int count)
 {
@@ -208,7 +206,7 @@ static void build_modes(struct inspector *in, const char *name, const char *hint
     if (ui_segments(&in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
 }
 
-/// The brush's numbers are shares, shown in percent.
+/// The brush's numbers are fractions, shown in percent.
 static double *share_of(const struct inspector *in, int which)
 {
     struct brush *brush = &in->core->brush;
@@ -231,7 +229,6 @@ static const struct number_row brush_rows[] = {
      40, 1, 0},
 };
 
-/// The rows on the brush, below "Character".
 static void build_brush(struct inspector *in)
 {
     static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "Brush"}};

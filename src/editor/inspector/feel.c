@@ -8,11 +8,10 @@
 #include <math.h>
 #include <stdio.h>
 
-/// A way to swing, one click each.
 static const struct preset {
     const char *name, *label, *hint;
     double frequency, damping;
-    double lag; ///< degrees from the first joint to the last
+    double lag; ///< degrees between the first and last joint
 } presets[] = {
     {"preset.cat", "Cat", "A cat's tail: slow, soon at rest, the tip far behind", 0.8, 0.22, 170},
     {"preset.whip", "Whip", "A whip: quick, a wave that runs to the tip", 1.8, 0.12, 260},
@@ -28,7 +27,7 @@ static bool set_parameter(struct inspector *in, enum parameter parameter, double
     return core_set_parameter(in->core, in->core->active, parameter, value);
 }
 
-/// The lag of the channel by which the spline bends: the same for each joint.
+/// Sets the same lag for each joint in the channel the spline bends.
 static bool set_lag(struct inspector *in, double whole)
 {
     const struct channel *channel = inspector_felt_channel(in);
@@ -59,7 +58,7 @@ static float presets_width(int first, int end)
     return width;
 }
 
-/// Buttons side by side, each as wide as its word asks for.
+/// Buttons side by side, sized by their words.
 static void build_preset_row(struct inspector *in, struct rect row, int first, int end)
 {
     const float spare = (row.w - presets_width(first, end)) / (float)(end - first);
@@ -73,7 +72,7 @@ static void build_preset_row(struct inspector *in, struct rect row, int first, i
     }
 }
 
-/// In two rows where one would cut words.
+/// Uses two rows if one would cut words.
 static void build_presets(struct inspector *in)
 {
     const struct rect row = ui_row(&in->ui, UI_ROW);
@@ -83,7 +82,7 @@ static void build_presets(struct inspector *in)
     if (!fit) build_preset_row(in, ui_row(&in->ui, UI_ROW), in_first, PRESETS);
 }
 
-/// When the spline would settle with another damping; INFINITY: never, or too late.
+/// Settling time with another damping; INFINITY: never, or too late.
 static double settles(const struct spline *spline, double damping, double step)
 {
     struct spline other = *spline;
@@ -92,7 +91,7 @@ static double settles(const struct spline *spline, double damping, double step)
     return settling.kind == SETTLE_ALONE ? settling.seconds : INFINITY;
 }
 
-/// The damping, at most critical, with which it settles in that time: the later, the less, so bisection finds it.
+/// The damping, at most critical, for a settling time. Time falls as damping rises, so bisection works.
 static double damping_for(const struct spline *spline, double seconds, double step)
 {
     double low = 0, high = 1;
@@ -107,7 +106,7 @@ static double damping_for(const struct spline *spline, double seconds, double st
     return high;
 }
 
-/// The time to settle as a number: to set it is to set the damping.
+/// The settling time as a number; setting it sets the damping.
 static double get_settle(const struct inspector *in, int which)
 {
     const struct settling alone = settle_alone(core_active_spline(in->core), document_step(in->core->document));
@@ -155,11 +154,11 @@ static void build_settle(struct inspector *in)
                                       .step = 0.05,
                                       .decimals = 2};
     struct rect r = ui_row(&in->ui, UI_ROW);
-    if (in->core->more) r.w -= UI_ROW + 2; // as the rows above, which have a button there
+    if (in->core->more) r.w -= UI_ROW + 2; // lines up with the rows above, which have a button there
     inspector_number(in, &number, &home, 0, r);
 }
 
-/// The settling in one plain sentence.
+/// The settling in one sentence.
 static void build_sentence(struct inspector *in)
 {
     const struct spline *spline = core_active_spline(in->core);
@@ -199,7 +198,7 @@ static void build_sentence(struct inspector *in)
     ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-/// The warnings; false: none.
+/// false if there are no warnings.
 static bool build_warnings(struct inspector *in)
 {
     const float top = in->ui.y;
@@ -229,7 +228,7 @@ static void build_find(struct inspector *in)
     if (ui_button(&in->ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
 }
 
-/// Lag and gain of the channel or coordinate that the spline drives.
+/// Lag and gain of the channel or coordinate the spline drives.
 static void build_reach(struct inspector *in)
 {
     if (inspector_felt_channel(in)) inspector_angles(in, ANGLE_LAG);
@@ -239,7 +238,7 @@ static void build_reach(struct inspector *in)
     inspector_idle(in, "gain", "–");
 }
 
-/// Rows keep their places whatever the spline is like.
+/// Rows keep their places for every kind of spline.
 void inspector_feel(struct inspector *in)
 {
     static const enum parameter pace[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING};

@@ -1,6 +1,5 @@
-/// The inspector's section on the history: its steps, the present one marked; a click goes to the end of a step.
-///
-/// It has to be the last section, because going to a step changes the document that later sections would show.
+/// The inspector's list of undo steps. A click goes to the end of a step. It must be the last section, because it changes the document that
+/// later sections would show.
 #include "editor/core/core.h"
 #include "editor/inspector/parts.h"
 #include "ui/theme.h"
@@ -8,7 +7,7 @@
 
 enum { ROWS = 9 };
 
-/// Row 0 is the state before the oldest step, row n the one after the nth.
+/// Row 0 is the state before the oldest step, row n the state after step n.
 static void text_of(const struct history *history, size_t row, char *text, size_t size)
 {
     size_t dropped = history_dropped(history);
@@ -23,7 +22,7 @@ static void text_of(const struct history *history, size_t row, char *text, size_
 
 static void name_of(size_t row, char name[32]) { snprintf(name, 32, "history.%zu", row); }
 
-/// Scrolls so that the present step is seen, whenever it has changed.
+/// Scrolls to the present step when it changes.
 static void keep_in_sight(struct history_view *view, size_t count, size_t done)
 {
     size_t last_top = count + 1 > ROWS ? count + 1 - ROWS : 0;
@@ -44,7 +43,6 @@ static void go_to(struct inspector *in, size_t row)
     core_jump(in->core, row);
 }
 
-/// The wheel scrolls the list where it is longer than its view.
 static void scroll(struct inspector *in, struct rect list)
 {
     struct ui *ui = &in->ui;
@@ -58,7 +56,7 @@ static void scroll(struct inspector *in, struct rect list)
     ui->used = by > 0;
 }
 
-/// ↑ and ↓ on a row that has the keyboard: one step back, one forward.
+/// ↑ and ↓ on the focused row: undo, redo.
 static void step_by_key(struct inspector *in, size_t first, size_t end)
 {
     struct ui *ui = &in->ui;

@@ -1,4 +1,4 @@
-/// The inspector: its sections, from top to bottom; and what they share: rows of numbers, lists of splines, steps of the history.
+/// The inspector: the table of its sections, and what they share.
 #include "editor/inspector/inspector.h"
 #include "base/need.h"
 #include "editor/core/core.h"
@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FOOTER = 40 }; ///< height of the look switch, which never scrolls away
+enum { FOOTER = 40 }; ///< height of the look switch, which does not scroll
 
 static const char *tail_title(struct inspector *in)
 {
@@ -18,7 +18,7 @@ static const char *tail_title(struct inspector *in)
     return shown && shown->kind == RIG_CHAIN ? "Chain set-up" : "Tail set-up";
 }
 
-/// Needs of sections, at least one of: rigs of a kind, the active spline, one that swings.
+/// What a section needs, one of: a kind of rig, the active spline, a swinging spline.
 enum {
     TAILS = 1 << RIG_TAIL,
     CHAINS = 1 << RIG_CHAIN,
@@ -43,7 +43,7 @@ static bool always(const struct inspector *in)
     return true;
 }
 
-/// Nothing moves yet: the rigs matter more.
+/// Without a spline the rigs matter more.
 static bool has_no_spline(const struct inspector *in) { return core_active_spline(in->core) == NULL; }
 
 static bool has_bone(const struct inspector *in)
@@ -59,14 +59,14 @@ static bool has_pin(const struct inspector *in)
     return pins_selected(in->core, &rig) != NULL;
 }
 
-/// From the top down; replays call the header `name`.
+/// In order. Replays address headers by `name`.
 static const struct section {
     const char *name, *title;
-    const char *(*titled)(struct inspector *in); ///< in place of a title
+    const char *(*titled)(struct inspector *in); ///< replaces a fixed title
     void (*build)(struct inspector *in);
-    unsigned needs;                            ///< one of these, for it to be shown; 0: nothing
-    bool (*shown)(const struct inspector *in); ///< without More; NULL: when it was asked for
-    bool closed;                               ///< at first
+    unsigned needs;                            ///< shown if one of these is there; 0: always
+    bool (*shown)(const struct inspector *in); ///< shown without More; NULL: only on request
+    bool closed;                               ///< initially
 } sections[] = {
     {"section.feel", "Feel", NULL, inspector_feel, SPLINE, always, false},
     {"section.knot", NULL, inspector_knot_title, inspector_knot, SPLINE, always, false},
@@ -83,14 +83,14 @@ static const struct section {
     {"section.limits", "Limits and steadiness", NULL, inspector_limits, SPLINE, NULL, true},
     {"section.variation", "Variation", NULL, inspector_variation, SWING, NULL, true},
     {"section.scene", "Scene", NULL, inspector_scene, 0, NULL, true},
-    {"section.history", "History", NULL, inspector_history, 0, NULL, true}, // the last one: see there
+    {"section.history", "History", NULL, inspector_history, 0, NULL, true}, // last, see history.c
 };
 
 enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 3 /* of sections that More opens */ };
 
 _Static_assert(SECTIONS <= (int)INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
 
-/// Scrolls just enough to show the section that begins at `top`.
+/// Scrolls just enough to show a section from `top` on.
 static void reveal(struct inspector *in, float top)
 {
     const struct ui *ui = &in->ui;
@@ -101,7 +101,7 @@ static void reveal(struct inspector *in, float top)
     if (above < 0) scroll->offset += above;
 }
 
-/// Whether the scene has the section's subject, and the user needs it now.
+/// Whether the scene has the section's subject and the user needs it now.
 static bool is_shown(const struct inspector *in, int i)
 {
     const struct section *section = &sections[i];
@@ -109,7 +109,7 @@ static bool is_shown(const struct inspector *in, int i)
     return in->core->more || in->called[i] || (section->shown && section->shown(in));
 }
 
-/// Opens the rest, and closes it again.
+/// The button that shows all sections, or fewer.
 static void build_more(struct inspector *in)
 {
     const bool more = in->core->more;
@@ -124,7 +124,7 @@ static void build_sections(struct inspector *in)
     for (int i = 0; i < SECTIONS; i++) {
         const struct section *section = &sections[i];
         bool *flipped = &in->flipped[i];
-        if (i == FIRST) build_more(in); // a fixed place, whatever comes and goes below
+        if (i == FIRST) build_more(in); // at a fixed place
         if (!is_shown(in, i)) continue;
         bool closed = *flipped != section->closed;
         const float top = in->ui.y;
@@ -145,7 +145,7 @@ void inspector_unfold(struct inspector *in, const char *name)
         if (strcmp(sections[i].name, name) != 0) continue;
         in->called[i] = true;
         in->flipped[i] = sections[i].closed;
-        in->revealed = sections[i].name; // the pass that measures scrolls there
+        in->revealed = sections[i].name; // the measuring pass scrolls there
     }
 }
 
@@ -175,7 +175,7 @@ static void build(struct inspector *in, struct rect area)
     ui_space(ui, 4);
     ui_scroll_end(ui);
     build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
-    inspector_offer(in, &inspector_add_list); // wherever A was pressed
+    inspector_offer(in, &inspector_add_list); // A works anywhere
     if (in->list) in->list->build(in, in->list);
 }
 
@@ -201,7 +201,7 @@ void inspector_reset(struct inspector *in)
     memset(in->called, 0, sizeof in->called);
 }
 
-/// Whether the panel's code has to run for the event at all; keys are the editor's where nothing here has the keyboard.
+/// Whether the panel handles the event. Without keyboard focus here, keys go to the editor.
 static bool concerns(const struct inspector *in, const struct event *event)
 {
     const struct ui *ui = &in->ui;
@@ -211,7 +211,7 @@ static bool concerns(const struct inspector *in, const struct event *event)
     if (ui->popup.id) return input;
     switch (event->kind) {
     case EVENT_KEY:
-        if (in->core->held_key && !ui->typing) return false; // F and an arrow is the editor's, whatever has the focus
+        if (in->core->held_key && !ui->typing) return false; // a held letter and an arrow go to the editor
         return ui->held || ui->typing || ui->focus || event->key == KEY_TAB;
     case EVENT_TEXT:
         return ui->typing || ui->focus;
@@ -226,7 +226,7 @@ static bool concerns(const struct inspector *in, const struct event *event)
     }
 }
 
-/// An event elsewhere still ends hovering; a press also ends the keyboard focus.
+/// Ends hovering; a press also ends the keyboard focus.
 static void event_elsewhere(struct ui *ui, const struct event *event)
 {
     if (event->kind == EVENT_SIZE) ui->popup.id = 0; // its anchor has moved
@@ -260,7 +260,7 @@ bool inspector_event(struct inspector *in, const struct event *event)
     return used || (pointer && inside);
 }
 
-/// Shows a newly selected bone, with its buttons.
+/// Scrolls to a newly selected bone.
 static void show_bone(struct inspector *in)
 {
     const struct bone_selection *bone = &in->core->bone, *seen = &in->seen_bone;
@@ -275,7 +275,7 @@ void inspector_show(struct inspector *in, bool covered)
     struct rect area = in->core->layout.inspector;
     if (covered) in->ui.pointer_x = area.x - 1; // nothing here is under the pointer
     show_bone(in);
-    ui_begin_find(&in->ui, area, "", NULL); // measures, so that a shorter panel is not drawn scrolled past its end
+    ui_begin_find(&in->ui, area, "", NULL); // measures, so that a shorter panel is not scrolled past its end
     build(in, area);
     ui_end(&in->ui);
     drawlist_rect(&in->core->list, area, theme()->panel);
@@ -386,7 +386,7 @@ static bool set_number(struct inspector *in, const struct number_row *row, const
     return edit_rig_set(in->core->document, rig, &changed, error);
 }
 
-/// A drag stays where it last was possible.
+/// A drag stops at the last possible value.
 static void drag(struct inspector *in, const struct number_row *row, const struct number_home *home, int which,
                  double value)
 {
@@ -398,7 +398,7 @@ static void drag(struct inspector *in, const struct number_row *row, const struc
     }
 }
 
-/// Sets a number as one undo step, which a drag makes anew in each frame.
+/// Sets a number in one undo step; a drag repeats that step in each frame.
 static void change_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
                           int which, enum ui_change change, double value)
 {

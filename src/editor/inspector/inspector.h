@@ -9,42 +9,41 @@ struct inspector;
 
 struct inspector *inspector_create(struct core *core);
 void inspector_destroy(struct inspector *in);
-/// F2: the active spline's name can be typed.
+/// F2: starts typing the active spline's name.
 void inspector_rename(struct inspector *in, int unused);
-/// Opens a section, with all of it in sight where there is room.
+/// Opens a section and scrolls to it.
 void inspector_unfold(struct inspector *in, const char *name);
-/// Shows a rig, with its feel.
+/// Shows a rig and its spline.
 void inspector_show_rig(struct inspector *in, int rig);
-/// Shows the channel that a spline drives: of the shown rig if it has one.
+/// Shows the channel that a spline drives, of the shown rig if possible.
 void inspector_show_spline(struct inspector *in, int spline);
-/// A: the menu of what can be added, at the pointer over stage and curves, else on top of the inspector. And on something of the inspector.
+/// A: the menu of things to add, at the pointer or at the top of the inspector.
 void inspector_add_menu(struct inspector *in, int unused);
-/// Choices of inspector_add().
 enum added { ADD_TAIL, ADD_FILE, ADD_COPY, ADD_CHAIN, ADD_MEADOW, ADD_SPLINE };
-/// Adds it, ADD_COPY one more of the rig that is shown, and shows it.
+/// Adds something and shows it. ADD_COPY copies the shown rig.
 void inspector_add(struct inspector *in, int what);
-/// Gives the active spline one of the presets of its feel, in their order on the panel.
+/// Applies a feel preset, in panel order, to the active spline.
 void inspector_preset(struct inspector *in, int preset);
-/// Another variation of the active spline's motion.
+/// Rolls another variation of the active spline's motion.
 void inspector_roll(struct inspector *in, int unused);
-/// Makes the chain that is shown once more, mirrored, on the bones of the other side, and shows it.
+/// Mirrors the shown chain onto the other side's bones and shows the copy.
 void inspector_mirror(struct inspector *in, int unused);
-/// Shift+Del: asks whether to remove the shown rig, which is that of the active spline.
+/// Shift+Del: asks whether to remove the shown rig.
 void inspector_remove_rig(struct inspector *in, int unused);
-/// Its widgets: hover, focus, typed text.
+/// Hover, focus and typed text of its widgets.
 const struct ui *inspector_ui(const struct inspector *in);
-/// A new document is on the table: forgets focus, running drag (without touching the history), scrolling and channel.
+/// For a new document: resets focus, drag (not the history), scrolling and channel.
 void inspector_reset(struct inspector *in);
-/// An event for the inspector; true where it used it up.
+/// true if the event is used.
 bool inspector_event(struct inspector *in, const struct event *event);
-/// Draws it; `covered`: something lies over the panels.
+/// `covered`: an overlay is open.
 void inspector_show(struct inspector *in, bool covered);
-/// Ends a running drag where it is, and drops focus and typing, before something opens over the panel or the document changes.
+/// Ends a drag, focus and typing, before an overlay opens or the document changes.
 void inspector_let_go(struct inspector *in);
-/// Whether a slider is being dragged (a history step is open).
+/// Whether a slider is being dragged, so that an undo step is open.
 bool inspector_is_dragging(const struct inspector *in);
-/// Where the widget `name` is: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway",
-/// "channel.0", "look.stiff", "section.knot". false where it is not shown or scrolled out of sight.
+/// Finds a widget by name: "frequency", "frequency,2.5" (where its bar shows 2.5), "mode.real", "spline.sway", "channel.0", "look.stiff",
+/// "section.knot". false if it is not visible.
 bool inspector_target(struct inspector *in, const char *name, float *x, float *y);
 
 #endif

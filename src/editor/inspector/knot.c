@@ -1,5 +1,5 @@
-/// The inspector's section on the selected knots. Of several, a typed number is all of theirs, a drag or an arrow moves each by
-/// the same; frames keep their distances either way.
+/// The inspector's section on the selected knots. A typed number sets all of them; a drag or an arrow moves all by the same amount. Frames
+/// keep their distances either way.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
@@ -27,7 +27,7 @@ static const struct number_row rows[FIELDS] = {
                          10, 1},
 };
 
-/// Where one knot alone is selected.
+/// The fields for a single selected knot.
 static const struct {
     const char *undo, *hint;
 } of_one[FIELDS] = {
@@ -55,8 +55,8 @@ static double get(const struct inspector *in, int field)
     return in->knots.first;
 }
 
-/// Gives every selected knot the number, or moves it by what the first one moves; in the order in which no knot meets
-/// another of them. false with a sentence where one cannot go there.
+/// Sets the number of all selected knots, or moves them along with the first, in an order in which they do not collide. false with an error
+/// if one cannot go there.
 static bool set(struct inspector *in, int field, double value, struct error *error)
 {
     const struct originals *originals = &in->core->originals;
@@ -81,7 +81,7 @@ static const char *show_several(const struct inspector *in, int field, char text
     return text;
 }
 
-/// Where one knot alone is selected, its field knows more.
+/// A single knot's field has its own hint, limits and decimals.
 static void fit_to_one(const struct inspector *in, int field, double value, struct number_row *row)
 {
     row->hint = of_one[field].hint;
@@ -92,7 +92,7 @@ static void fit_to_one(const struct inspector *in, int field, double value, stru
         row->highest = document_frame(in->core->document, document_last_knot_sample(in->core->document, spline));
         row->decimals = value == floor(value) ? 0 : 2;
     }
-    if (field == FIELD_SLOPE) row->label = NULL; // before its switch
+    if (field == FIELD_SLOPE) row->label = NULL; // its switch has the label
     if (field == FIELD_STIFFNESS && value < 10) row->decimals = 3;
 }
 
@@ -100,7 +100,7 @@ static void build_field(struct inspector *in, int field, struct rect r)
 {
     static const struct number_home home = {.get = get, .set = set, .shown = show_several};
     struct number_row row = rows[field];
-    in->knots = survey(in, field); // as the field before left the document
+    in->knots = survey(in, field); // after the edit of the previous field
     if (in->knots.count == 0) return;
     if (in->knots.count == 1) fit_to_one(in, field, in->knots.first, &row);
     if (inspector_changed(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
@@ -114,7 +114,7 @@ static bool all_sloped(const struct inspector *in)
     return sloped;
 }
 
-/// What all selected knots hold, or -1; a still one among them counts as one.
+/// What all selected knots hold, or -1. A still pose counts as a pose.
 static int all_hold(const struct inspector *in, bool *any_still)
 {
     int all = -1;
@@ -132,7 +132,7 @@ struct knot_button {
     bool lit;
 };
 
-/// A row of three buttons; the one that was pressed, or -1.
+/// A row of three buttons; returns the pressed one, or -1.
 static int build_buttons(struct inspector *in, const struct knot_button buttons[3])
 {
     enum { GAP = 4 };
@@ -146,7 +146,6 @@ static int build_buttons(struct inspector *in, const struct knot_button buttons[
     return pressed;
 }
 
-/// What the selected knots hold.
 static void build_holds(struct inspector *in)
 {
     bool any_still;
@@ -159,7 +158,7 @@ static void build_holds(struct inspector *in)
     if (pressed >= 0 && pressed != lit) core_set_hold(in->core, pressed);
 }
 
-/// A number's row, or one that says that there is none.
+/// A number's row, or a note that there is none.
 static void build_or_idle(struct inspector *in, int field, bool there)
 {
     if (there) {
@@ -199,7 +198,7 @@ static void build_slope(struct inspector *in, unsigned id)
     bool sloped = has_slope(in, id);
     ui_hint(ui, r, "Give the knot a slope (T); D and E turn it");
     if (ui_toggle(ui, r, "has_slope", &sloped)) {
-        slopes_set(in->core, SLOPES_TOGGLE); // the knot is the only selected one
+        slopes_set(in->core, SLOPES_TOGGLE); // the only selected knot
         return;
     }
     r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
@@ -210,7 +209,6 @@ static void build_slope(struct inspector *in, unsigned id)
     }
 }
 
-/// Buttons for the slopes of all selected knots.
 static void build_slopes(struct inspector *in, bool sloped)
 {
     static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
@@ -223,7 +221,7 @@ static void build_slopes(struct inspector *in, bool sloped)
     if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
 }
 
-/// Nothing is selected: the knots of the spline, and buttons that need no pointing.
+/// Without a selection: the spline's knots, and buttons that work without pointing.
 static void build_overview(struct inspector *in, const struct spline *spline)
 {
     char frames[64] = "none", values[64] = "–";
@@ -257,7 +255,7 @@ const char *inspector_knot_title(struct inspector *in)
     return in->knot_title;
 }
 
-/// Takes the same room for any selection, so that nothing below it moves.
+/// Has the same height for every selection, so that nothing below moves.
 void inspector_knot(struct inspector *in)
 {
     struct ui *ui = &in->ui;
@@ -272,7 +270,7 @@ void inspector_knot(struct inspector *in)
     } else if (!one) {
         build_overview(in, spline);
     } else {
-        // Each row reads the document that the row before left; ids survive a new order of knots.
+        // Rows may edit the document and reorder knots; ids stay valid.
         const unsigned id = spline->knots[only.knot].id;
         bool still;
         build_field(in, FIELD_FRAME, ui_row(ui, UI_ROW));

@@ -1,4 +1,4 @@
-/// The inspector's section on imported characters: file, clip, place, and the selected bone.
+/// The inspector's section on imported characters: file, clip, place, selected bone.
 #include "base/file.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -6,9 +6,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MAX_CLIPS = 256 }; ///< in the list to choose from
+enum { MAX_CLIPS = 256 }; ///< in the clip list
 
-/// The rig that is shown: that of the selected bone, else the one chosen here.
+/// The shown rig: the selected bone's, else the one chosen here.
 static int shown_model(const struct inspector *in)
 {
     int model;
@@ -57,7 +57,6 @@ static const struct number_row place[] = {
      -36000, 36000, 0, 1, 0},
 };
 
-/// The selected bone, and buttons that make chains of it.
 static void build_bone(struct inspector *in)
 {
     static const struct {

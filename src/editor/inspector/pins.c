@@ -1,4 +1,4 @@
-/// The inspector's section on pins: the list of all with their remaining offsets, and the numbers of the selected one.
+/// The inspector's section on pins: all pins with their remaining offsets, and the selected one's numbers.
 #include "editor/core/pins.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MAX_ROWS = 8 }; ///< pins listed at once
+enum { MAX_ROWS = 8 }; ///< listed at once
 
-/// The row of the selected pin in the list of all, 0 where none is.
+/// The selected pin's row, or 0.
 static int selected_row(const struct core *core)
 {
     struct pin_place place = PINS_START;
@@ -20,7 +20,7 @@ static int selected_row(const struct core *core)
     return 0;
 }
 
-/// Millimetres that are left; NAN where that is not known.
+/// Remaining offset in millimetres; NAN if unknown.
 static double left_of(const struct inspector *in, int rig, int at)
 {
     const struct pin_left *left = evaluation_pin(in->core->evaluation, in->core->document, rig, at);
@@ -66,7 +66,6 @@ static void build_list(struct inspector *in, int count)
     inspector_more(in, count, MAX_ROWS, " pins; , and . show more");
 }
 
-/// How many points the rig has.
 static int points_of(const struct inspector *in, int rig)
 {
     const struct rig *pinned = in->core->document->rigs[rig];

@@ -1,4 +1,4 @@
-/// The inspector's view of the active spline's poles: dragged in an inset, seen on the unit circle and in their response.
+/// The inspector's view of the active spline's poles: draggable in an inset, on the unit circle, and their response.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/inspector/parts.h"
@@ -18,7 +18,7 @@ static bool same_setting(const struct pole_setting *a, const struct pole_setting
            a->step == b->step;
 }
 
-/// Brings the responses up to date with a setting whose frequency is above 0.
+/// Recomputes the responses for a setting with a frequency above 0.
 static void poles_update(struct poles_view *view, const struct pole_setting *setting)
 {
     if (same_setting(&view->setting, setting)) return;
@@ -35,7 +35,7 @@ static void poles_update(struct poles_view *view, const struct pole_setting *set
     }
 }
 
-/// Chooses the inset's scale for a setting.
+/// Chooses the inset's scale.
 static void poles_fit(struct poles_view *view, const struct pole_setting *setting)
 {
     static const double nice[] = {1, 1.5, 2, 3, 4, 6, 8, 10};
@@ -61,7 +61,7 @@ static double poles_hz(const struct poles_view *view, struct rect inset, float x
     return fmax(0, (x - inset.x) / inset.w) * view->reach;
 }
 
-/// Where a frequency and a damping ratio are in the inset, and back. Damping is spread near 0, where it matters.
+/// Maps frequency and damping ratio to the inset and back. Values near 0, where damping matters most, are spread out.
 static double poles_damping(const struct poles_view *view, struct rect inset, float y)
 {
     double part = fmax(0, fmin(1, 1 - (y - inset.y) / inset.h));
@@ -81,7 +81,7 @@ static void draw_straight(struct drawlist *list, float x0, float y0, float x1, f
     drawlist_line(list, xy, 2, 1, color);
 }
 
-/// The unit circle, true to scale, with the filter's poles.
+/// The unit circle with the filter's poles.
 static void poles_draw_circle(const struct pole_setting *setting, struct rect r, struct drawlist *list)
 {
     enum { POINTS = 65 };
@@ -101,14 +101,14 @@ static void poles_draw_circle(const struct pole_setting *setting, struct rect r,
     }
 }
 
-/// The filter in force has the accent, the others a colour of their own.
+/// The current filter has the accent colour.
 static uint32_t filter_color(const struct poles_view *view, enum filter_kind kind)
 {
     static const int spare[FILTER_KINDS] = {1, 2, 1};
     return view->setting.kind == kind ? theme()->accent : theme()->spline[spare[kind]];
 }
 
-/// Name, response at zero frequency and width of the three filters.
+/// Name, response at zero frequency, and width of the three filters.
 static void poles_draw_legend(const struct poles_view *view, struct rect r, struct drawlist *list)
 {
     static const enum filter_kind order[FILTER_KINDS] = {FILTER_TWO_COMPLEX, FILTER_TWO_REAL, FILTER_FOUR_REAL};
@@ -133,14 +133,13 @@ static void draw_number(struct drawlist *list, float x, float y, const char *tex
     drawlist_text(list, x, y, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
 }
 
-/// A number below a plot, centred at x but never outside `r`.
+/// A number below a plot, centred at x but inside `r`.
 static void draw_below(struct drawlist *list, struct rect r, float x, float y, const char *text)
 {
     float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
     draw_number(list, fmaxf(r.x, fminf(r.x + r.w - width, x - width / 2)), y, text);
 }
 
-/// The inset's scales and poles, without the handles.
 static void poles_draw_inset(const struct poles_view *view, const struct pole_setting *setting, struct rect r,
                              struct drawlist *list)
 {
@@ -214,7 +213,7 @@ static void poles_draw_response(const struct poles_view *view, struct rect r, st
 
 enum { CIRCLE = 112, INSET = 92, TICKS = 18, RESPONSE = 112 }; ///< heights
 
-/// A parameter's value at the playhead, in its range.
+/// A parameter's value at the playhead, clamped to its range.
 static double value_now(const struct inspector *in, const struct spline *spline, enum parameter parameter)
 {
     return core_parameter_at(in->core, spline, parameter, document_sample(in->core->document, core_frame(in->core)));
@@ -234,7 +233,7 @@ enum { HANDLE_CENTRE, HANDLE_LOWER, HANDLE_UPPER, HANDLES };
 
 static double rounded(double value, double steps) { return round(value * steps) / steps; }
 
-/// Gives the spline a number; one that follows a track is left alone.
+/// Sets a parameter unless it follows a track.
 static bool set(struct inspector *in, enum parameter parameter, double number)
 {
     const struct spline *spline = core_active_spline(in->core);
@@ -242,7 +241,7 @@ static bool set(struct inspector *in, enum parameter parameter, double number)
            core_set_parameter(in->core, in->core->active, parameter, number);
 }
 
-/// Makes a setting the spline's, where a handle was moved.
+/// Applies a setting after a handle moved.
 static bool set_poles(struct inspector *in, const struct pole_setting *setting, int which)
 {
     return (which != HANDLE_CENTRE || set(in, PARAMETER_FREQUENCY, rounded(setting->hz, 100))) &&

@@ -1,11 +1,11 @@
-/// Evaluates the filter's frequency response, and lets a spline settle.
+/// The filter's frequency response, and the settling time of a spline.
 #include "editor/inspector/response.h"
 #include <complex.h>
 #include <math.h>
 
 enum { SCAN = 512, BISECTIONS = 60 };
 static const double half_power = 3.0102999566398120; // dB, 10 log₁₀ 2
-static const double least = 1e-24;                   // |1 − λ z⁻¹|² of a pole that is met
+static const double least = 1e-24;                   // |1 − λ z⁻¹|² at a pole on the circle
 
 static void add_pole(struct filter *filter, double re, double im)
 {
@@ -45,7 +45,7 @@ double filter_decibels(const struct filter *filter, double hz)
     return decibels;
 }
 
-/// The largest response between two frequencies that hold one maximum, by golden section.
+/// Golden-section search for the maximum between two frequencies.
 static double climb(const struct filter *filter, double low, double high)
 {
     const double golden = 0.6180339887498949;
@@ -60,7 +60,7 @@ static double climb(const struct filter *filter, double low, double high)
     return 0.5 * (low + high);
 }
 
-/// The frequency of the peak: near a pole or between two of them, found on a grid and at the poles themselves.
+/// The peak lies near a pole or between two, so a grid and the poles themselves bracket it.
 static double find_peak(const struct filter *filter)
 {
     double nyquist = 0.5 / filter->step, spacing = nyquist / SCAN, best = 0;
@@ -77,7 +77,7 @@ static double find_peak(const struct filter *filter)
     return filter_decibels(filter, refined) > filter_decibels(filter, best) ? refined : best;
 }
 
-/// Where the response falls below a level on the way from `inside`, which is above it, to `outside`.
+/// Where the response falls below a level between `inside` (above it) and `outside`.
 static double crossing(const struct filter *filter, double inside, double outside, double level)
 {
     if (filter_decibels(filter, outside) >= level) return outside;
@@ -98,7 +98,7 @@ struct passband filter_passband(const struct filter *filter)
     struct passband band = {.peak = filter_decibels(filter, low)};
     band.zero = filter_decibels(filter, 0) - band.peak;
     double level = band.peak - half_power;
-    for (int i = 0; i < filter->count; i++) { // a wide opening has a hollow between its poles
+    for (int i = 0; i < filter->count; i++) { // with a large bandwidth the response dips between the poles
         double hz = filter->s[i][1] / (2 * M_PI);
         if (hz < 0 || hz > nyquist || filter_decibels(filter, hz) < level) continue;
         low = fmin(low, hz);
@@ -108,10 +108,10 @@ struct passband filter_passband(const struct filter *filter)
     return band;
 }
 
-static const double LEFT = 0.05; ///< of the displacement that it was let go from
+static const double LEFT = 0.05; ///< of the initial displacement
 enum { MAX_SAMPLES = 100000 };
 
-/// The filter of a spline; false where a track drives one of its poles.
+/// false if a track drives a pole.
 static bool filter_of_spline(const struct spline *spline, double step, struct filter *filter)
 {
     const struct param *p = spline->parameter;
@@ -123,8 +123,8 @@ static bool filter_of_spline(const struct spline *spline, double step, struct fi
     return true;
 }
 
-/// Samples until the swing stays within LEFT, of the first `count`; between samples by linear interpolation. Two equal
-/// samples stand still half-way between them.
+/// The sample after which the swing stays within LEFT, of the first `count`, interpolated linearly. Two equal samples count as standstill
+/// half-way between them.
 static double settled_sample(const struct filter *filter, bool is_complex, int count)
 {
     const double(*s)[2] = filter->s;
@@ -151,10 +151,10 @@ struct settling settle_alone(const struct spline *spline, double step)
     if (!filter_of_spline(spline, step, &filter)) return (struct settling){.kind = SETTLE_UNKNOWN};
     if (spline->parameter[PARAMETER_FREQUENCY].value == 0) return (struct settling){.kind = SETTLE_CUBIC};
     if (spline->parameter[PARAMETER_DAMPING].value == 0) return (struct settling){.kind = SETTLE_NEVER};
-    double rate = fmin(-filter.s[0][0], -filter.s[1][0]); // the slower pole's
+    double rate = fmin(-filter.s[0][0], -filter.s[1][0]); // of the slower pole
     double expected = log(1 / LEFT) / rate;
     if (expected > SETTLE_LIMIT) return (struct settling){.kind = SETTLE_LATE};
-    double samples = 3 * expected / step + 8; // a double pole takes 1.6 times as long as its radius says
+    double samples = 3 * expected / step + 8; // a double pole takes 1.6 times as long as its radius suggests
     bool is_complex = spline_mode(spline) == WIGGLY_COMPLEX;
     bool envelope = is_complex && spline->parameter[PARAMETER_PASSIVE].value == WIGGLY_OSCILLATOR;
     if (envelope || samples > MAX_SAMPLES) return (struct settling){.kind = SETTLE_ALONE, .seconds = expected};
@@ -162,7 +162,7 @@ struct settling settle_alone(const struct spline *spline, double step)
     return (struct settling){.kind = SETTLE_ALONE, .seconds = seconds};
 }
 
-/// The motion after a sample. Where there is more of it than a frame has time for, and it goes on, `alone` has the answer.
+/// The settling after a sample. `alone` answers if the curve is too long to examine in one frame and still swings at its end.
 static struct settling settle_seen(const wiggly_curve *curve, int from, struct settling alone)
 {
     int end = (int)fmin(curve->samples, (double)from + MAX_SAMPLES), last = from;
@@ -176,7 +176,7 @@ static struct settling settle_seen(const wiggly_curve *curve, int from, struct s
     return (struct settling){.kind = SETTLE_SEEN, .seconds = (last - from) * curve->step};
 }
 
-/// Whether a swing is to be seen behind the last knot: more than rounding leaves.
+/// Whether a swing above rounding error follows the last knot.
 static bool swings_behind(const wiggly_curve *curve, int last_knot)
 {
     if (curve->mode == WIGGLY_CUBIC || last_knot < 0 || last_knot + 1 >= curve->samples) return false;

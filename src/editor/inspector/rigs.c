@@ -1,5 +1,4 @@
-/// The inspector's list of rigs, with a button that removes one; the menu of additions; and the section on the
-/// meadow.
+/// The inspector's list of rigs, the menu of additions, and the section on the meadow.
 #include "editor/core/rigs.h"
 #include "base/file.h"
 #include "editor/core/bones.h"
@@ -8,7 +7,7 @@
 #include "editor/inspector/parts.h"
 #include <stdio.h>
 
-enum { MAX_ROWS = 12 }; ///< rows from the top
+enum { MAX_ROWS = 12 }; ///< listed at once
 
 static bool is_tail_or_chain(const struct document *document, int rig)
 {
@@ -36,7 +35,7 @@ void inspector_find_rig(struct inspector *in)
     if (in->selected < 0) in->selected = 0;
 }
 
-/// Has the section of its kind show a rig.
+/// Shows a rig in the section of its kind.
 static void show_rig(struct inspector *in, int rig)
 {
     struct core *core = in->core;
@@ -150,10 +149,9 @@ void inspector_rigs(struct inspector *in)
     build_buttons(in);
 }
 
-/// A row of the menu.
 struct choice {
     enum added what;
-    int rig; ///< of ADD_COPY
+    int rig; ///< for ADD_COPY
 };
 
 struct menu {

@@ -1,4 +1,4 @@
-/// The inspector's section on the scene: frames per second, range and substeps; and how it is solved.
+/// The inspector's section on the scene: frame rate, range, substeps, solver.
 #include "editor/core/core.h"
 #include "editor/inspector/parts.h"
 #include <math.h>

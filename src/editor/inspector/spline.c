@@ -1,4 +1,4 @@
-/// The active spline's parameters: a row for each, the spline or joint that it follows, and the sections that list them.
+/// The sections on the active spline's parameters, and on the spline or joint a parameter follows.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -19,7 +19,7 @@ static bool set(struct inspector *in, int parameter, double number, struct error
     return edit_parameter(in->core->document, in->core->active, (enum parameter)parameter, &param, error);
 }
 
-/// A step of its own.
+/// In its own undo step.
 static void set_parameter(struct inspector *in, enum parameter parameter, double number)
 {
     if (core_begin(in->core, parameter_rows[parameter].undo, 0))
@@ -47,7 +47,6 @@ static void build_slider(struct inspector *in, enum parameter parameter, struct 
 
 enum { MAX_BONES = 1024 }; ///< in a list
 
-/// The equilibrium of the active spline.
 static const struct param *followed(const struct inspector *in)
 {
     return &core_active_spline(in->core)->parameter[PARAMETER_EQUILIBRIUM];
@@ -86,7 +85,7 @@ static void set_track(struct inspector *in, enum parameter parameter, struct par
     core_end(in->core, edit_parameter(in->core->document, in->core->active, parameter, &param, &in->core->error));
 }
 
-/// Marks the splines that the active one cannot follow without a cycle; whether any is left.
+/// Marks splines the active one cannot follow without a cycle; true if any is left.
 static bool find_leaders(const struct inspector *in, bool left_out[INSPECTOR_MAX_SPLINES])
 {
     int count = in->core->document->spline_count < INSPECTOR_MAX_SPLINES ? in->core->document->spline_count
@@ -97,9 +96,9 @@ static bool find_leaders(const struct inspector *in, bool left_out[INSPECTOR_MAX
     return any;
 }
 
-enum { MAX_MODELS = 16, MODEL_TEXT = 112 }; ///< whose joints are offered
+enum { MAX_MODELS = 16, MODEL_TEXT = 112 }; ///< models offered
 
-/// The character whose joint the equilibrium is to follow: rows below the splines, called after their rigs. Returns how many.
+/// Adds rows for the characters whose joints the equilibrium can follow; returns how many.
 static int add_models(const struct inspector *in, struct ui_item *items, char texts[][MODEL_TEXT], int *models)
 {
     int count = 0;
@@ -135,7 +134,7 @@ static void choose_track(struct inspector *in, const struct dropdown *list)
 
 static const struct dropdown track_list = {"follow", "The spline it follows, sample by sample", choose_track};
 
-/// The joint, in the field where the spline would be that is followed.
+/// The field for the followed joint, in place of the spline's.
 static void build_joint_field(struct inspector *in, const struct joint_motion *motion, struct rect field)
 {
     struct rect icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
@@ -173,7 +172,7 @@ static void open_list(struct inspector *in, enum parameter parameter, bool joint
     core_message(in->core, true, text);
 }
 
-/// The button at the right of a row that lets a parameter follow a spline, from a list in the field of the row, or lets go.
+/// The button at the right of a row: follows a spline from a list, or stops following.
 static void build_track_button(struct inspector *in, enum parameter parameter, struct rect r, struct rect row)
 {
     const int active = in->core->active;
@@ -193,7 +192,6 @@ static void build_track_button(struct inspector *in, enum parameter parameter, s
     inspector_offer(in, &track_list);
 }
 
-/// An edit: follows a joint like this.
 static bool follow_joint(struct inspector *in, const struct param *param, struct error *error)
 {
     return edit_parameter(in->core->document, in->core->active, PARAMETER_EQUILIBRIUM, param, error);
@@ -288,7 +286,7 @@ void inspector_advanced(struct inspector *in)
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
 }
 
-/// A number and a switch beside it; off, the name alone.
+/// A limit's number and switch; off, only the name.
 static void build_limit(struct inspector *in, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
@@ -312,10 +310,10 @@ void inspector_limits(struct inspector *in)
     build_limit(in, spline, PARAMETER_LOW);
 }
 
-/// Of a roll where there is no variation yet.
+/// First amount of a roll.
 static const double FRESH_VARIATION = 0.3;
 
-/// Another seed, and an amount where there was none, as one step.
+/// Another seed, and an amount if there was none, in one step.
 static void roll(struct inspector *in, const struct spline *spline)
 {
     const int most = (int)parameter_rows[PARAMETER_SEED].maximum + 1;
@@ -335,7 +333,7 @@ void inspector_roll(struct inspector *in, int unused)
     roll(in, core_active_spline(in->core));
 }
 
-/// Why there is no variation to see; NULL: there is.
+/// Why a variation is not visible, or NULL.
 static const char *stillness(const struct spline *spline)
 {
     const struct param *p = spline->parameter;

@@ -1,4 +1,4 @@
-/// The inspector's list of splines: the active one, names, colours, visibility, order.
+/// The inspector's list of splines: names, colours, visibility, order.
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/inspector/inspector.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MAX_ROWS = 8, SWATCH = 22 }; ///< splines listed at once; widths in pixels
+enum { MAX_ROWS = 8, SWATCH = 22 }; ///< splines listed at once; pixels
 
 static const char rename_line[] = "rename";
 
@@ -21,7 +21,7 @@ static void set_color(struct inspector *in, int spline, int color)
         core_end(in->core, edit_spline_color(in->core->document, spline, color, &in->core->error));
 }
 
-/// true where one of the theme's was picked.
+/// true if one of the theme's colours was picked.
 static bool build_theme(struct inspector *in, int spline, struct rect r)
 {
     uint32_t present = spline_list_color(in->core->document, spline);
@@ -37,7 +37,7 @@ static bool build_theme(struct inspector *in, int spline, struct rect r)
     return picked;
 }
 
-/// "#RRGGBB", typed over; nonsense is said and changes nothing.
+/// Typed "#RRGGBB"; anything else shows an error and changes nothing.
 static void build_typed(struct inspector *in, int spline, struct rect r)
 {
     struct ui *ui = &in->ui;
@@ -90,7 +90,6 @@ void inspector_rename(struct inspector *in, int unused)
     ui_line_begin(&in->ui, rename_line, spline->name);
 }
 
-/// Solo and eye at the right end of a row.
 static void build_visibility(struct inspector *in, int s, struct rect r)
 {
     struct core *core = in->core;
@@ -110,7 +109,6 @@ static void build_visibility(struct inspector *in, int s, struct rect r)
     }
 }
 
-/// The name in place, while it is typed.
 static void build_rename(struct inspector *in, int s, struct rect r)
 {
     if (ui_line(&in->ui, r, rename_line) != UI_LINE_DONE) return;
@@ -118,21 +116,21 @@ static void build_rename(struct inspector *in, int s, struct rect r)
         core_end(in->core, edit_spline_name(in->core->document, s, in->ui.text.bytes, &in->core->error));
 }
 
-/// The place where a dragged row would go, told from the pointer.
+/// Where a dragged row would go, by the pointer.
 static int drop_place(const struct inspector *in, int first, int rows, float top)
 {
     int row = (int)floorf((in->ui.pointer_y - top) / UI_ROW);
     return first + (row < 0 ? 0 : row >= rows ? rows - 1 : row);
 }
 
-/// The colour of a spline, without a way to change it.
+/// The colour of a spline that cannot be changed here.
 static void paint_chip(const struct inspector *in, int s, struct rect r)
 {
     const struct rect chip = {r.x + (r.w - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
     if (in->ui.pass == UI_PASS_DRAW) drawlist_rounded(in->ui.list, chip, 3, spline_list_color(in->core->document, s));
 }
 
-/// A row; returns whether it was dropped after a drag.
+/// true if the row was dropped after a drag.
 static bool build_row(struct inspector *in, int s, struct rect r)
 {
     struct ui *ui = &in->ui;
@@ -185,7 +183,7 @@ static void build_buttons(struct inspector *in)
     if (pressed >= 3) spline_list_move(core, core->active, core->active + (pressed == 3 ? -1 : 1));
 }
 
-/// The line between rows where a dragged one would go.
+/// The line where a dragged row would go.
 static void show_drop(struct inspector *in, int from, int to, float y)
 {
     struct ui *ui = &in->ui;

@@ -1,4 +1,4 @@
-/// The state of the inspector. Private to the room.
+/// State of the inspector. Private to this folder.
 #ifndef EDITOR_INSPECTOR_STATE_H
 #define EDITOR_INSPECTOR_STATE_H
 
@@ -8,7 +8,7 @@
 
 enum { INSPECTOR_MAX_SECTIONS = 16 };
 
-enum { POLES_COLUMNS = 224 }; ///< points of a response's plot
+enum { POLES_COLUMNS = 224 }; ///< points per response plot
 
 /// The filter at the playhead.
 struct pole_setting {
@@ -16,53 +16,51 @@ struct pole_setting {
     double hz, damping, bandwidth, step;
 };
 
-/// Responses of the filter and of those it is compared with; made anew only when the setting changes. Zero is a valid start.
+/// Responses of the filter and those it is compared with, recomputed when the setting changes. Zero is a valid start.
 struct poles_view {
-    struct pole_setting setting; ///< for which the rest was computed; step 0: none yet
+    struct pole_setting setting; ///< of the cached responses; step 0: none yet
     struct passband band[FILTER_KINDS];
-    float decibels[FILTER_KINDS][POLES_COLUMNS]; ///< relative to each one's peak, from −span to span
+    float decibels[FILTER_KINDS][POLES_COLUMNS]; ///< relative to each peak, from −span to span
     double span;                                 ///< Hz
-    double reach, top; ///< Hz and damping ratio at the inset's right and upper edge; kept while a pole is dragged
+    double reach, top; ///< Hz and damping ratio at the inset's right and top edge; constant during a drag
 };
 
-/// State of the list of history steps.
 struct history_view {
-    size_t top;         ///< its first row
-    size_t count, done; ///< of the history, when it was last laid out
+    size_t top;         ///< first visible row
+    size_t count, done; ///< of the history at the last layout
 };
 
-/// A field of the selected knots: the first one's number, and whether others differ.
+/// A field of the selected knots: the first knot's number, and whether others differ.
 struct knot_numbers {
     int count;
     double first;
     bool mixed;
 };
 
-/// The inspector's own view state; zero but for `core` is a valid start.
+/// The inspector's view state. Zero except `core` is a valid start.
 struct inspector {
     struct core *core;
     struct ui ui;
-    enum ui_change change; ///< that a number is being set by
+    enum ui_change change; ///< the change a number is being set by
     struct ui_scroll scroll;
-    bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections that are not as they are at first, open or closed
-    bool called
-        [INSPECTOR_MAX_SECTIONS]; ///< sections that were asked for, and are shown without More until they are closed
-    int rig, channel;             ///< the tail or chain that is shown, and its channel
-    int selected;                 ///< in the list of all rigs
-    int model;                    ///< the imported character that is shown, of their number
-    double angle_reach[3];        ///< by enum angle_kind: times the usual ends of its slider
-    double ramp_scale[3][2];      ///< by enum angle_kind: lowest and highest angle that its curve shows
-    int joint[3];                 ///< by enum angle_kind: the selected one, where each has its own
-    struct angles drawn;          ///< angles of each joint as the running drag has drawn them
-    float drawn_x, drawn_y;       ///< where it was last
-    struct bone_selection seen_bone; ///< that was last shown
-    const char *revealed;            ///< section that is to be in sight, NULL: none
-    double dragged;                  ///< what it would be; of several knots, what was last possible
-    struct knot_numbers knots;       ///< of the field that was built last
-    char knot_title[32];             ///< of the section on knots
+    bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections open that start closed, or the reverse
+    bool called[INSPECTOR_MAX_SECTIONS];  ///< requested sections, shown without More until closed
+    int rig, channel;                     ///< the shown tail or chain, and its channel
+    int selected;                         ///< row in the list of rigs
+    int model;                            ///< index of the shown imported character among its kind
+    double angle_reach[3];                ///< by enum angle_kind: factor on the slider's usual ends
+    double ramp_scale[3][2];              ///< by enum angle_kind: lowest and highest angle of the curve
+    int joint[3];                         ///< by enum angle_kind: the selected joint
+    struct angles drawn;                  ///< angles as the running drag has drawn them
+    float drawn_x, drawn_y;               ///< last pointer position while drawing
+    struct bone_selection seen_bone;      ///< last shown bone
+    const char *revealed;                 ///< section to scroll to, or NULL
+    double dragged;                       ///< the dragged value; of several knots, the last possible one
+    struct knot_numbers knots;            ///< of the last field built
+    char knot_title[32];                  ///< title of the knot section
     struct poles_view poles;
     struct history_view history;
-    const struct dropdown *list; ///< that is open, in the running pass; NULL: none
+    const struct dropdown *list; ///< open in this pass, or NULL
 };
 
 #endif

@@ -1,11 +1,11 @@
-/// The inspector's section on the tail or chain that is shown: which splines bend it, where a tail stands, how it is built.
+/// The inspector's section on the shown tail or chain: its channels, its place, its shape.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>
 
-/// Channels of a tail and its body, in the order of the list.
+/// A tail's and its body's channels, in list order.
 static const struct {
     enum axis axis;
     struct ui_item item;
@@ -40,7 +40,6 @@ static void build_name(struct inspector *in)
 
 enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN };
 
-/// Numbers of the shown rig.
 static const struct number_row rows[] = {
     [ROW_X] = {"position.x", "x", "m", "Position of the body along x", "Move body",
                NUMBER_AT(struct rig, tail.position[0].value), 0, 0, -1e6, 1e6, 0, 0.01, 3},
@@ -61,7 +60,7 @@ static int shown_rig(const struct inspector *in) { return in->rig; }
 
 static const struct number_home of_shown = {.rig = shown_rig};
 
-/// A step of its own: lets the body follow a spline, or stay.
+/// Lets the body follow a spline, or stop, in its own undo step.
 static void follow(struct inspector *in, int k, struct param param)
 {
     struct rig changed = *inspector_shown(in);
@@ -79,7 +78,7 @@ static void choose_place(struct inspector *in, const struct dropdown *list)
 
 static const struct dropdown place_list = {"place", "The spline it follows, sample by sample", choose_place};
 
-/// A coordinate: a number, or the spline that it follows, and the button from one to the other.
+/// A coordinate: a number or the followed spline, and the button between the two.
 static void build_coordinate(struct inspector *in, const struct tail *tail, int k)
 {
     const int track = tail->position[k].track;
@@ -109,7 +108,7 @@ static struct channel_place place_of(const struct inspector *in)
     return (struct channel_place){in->rig, in->channel};
 }
 
-/// The channel that is chosen of the tail or chain; NULL where it has none.
+/// The shown channel, or NULL.
 static const struct channel *chosen_channel(const struct inspector *in)
 {
     int count = 0;
@@ -118,22 +117,22 @@ static const struct channel *chosen_channel(const struct inspector *in)
     return in->channel < count ? &channels[in->channel] : NULL;
 }
 
-/// Shows a channel, and the feel of its spline.
+/// Selects a channel and its spline.
 static void choose(struct inspector *in, int channel)
 {
     in->channel = channel;
     core_activate(in->core, chosen_channel(in)->spline);
-    in->channel = channel; // of two by the same spline
+    in->channel = channel; // two channels may share a spline
 }
 
-/// A step of its own.
+/// In its own undo step.
 static bool put_channel(struct inspector *in, const char *label, const struct channel *channel)
 {
     return core_begin(in->core, label, 0) &&
            core_end(in->core, edit_channel(in->core->document, place_of(in), channel, &in->core->error));
 }
 
-/// A gain that was never set becomes the new axis's.
+/// A gain still at its default becomes the new axis's default.
 static void set_axis(struct inspector *in, enum axis axis)
 {
     struct channel changed = *chosen_channel(in);
@@ -167,9 +166,9 @@ static void choose_feed(struct inspector *in, const struct dropdown *list)
 
 static const struct dropdown feed_list = {"feed", "The spline that drives this channel", choose_feed};
 
-/// Where a chain begins or ends.
+/// One end of a chain.
 struct end {
-    struct dropdown list; ///< the first member, from which the rest is found
+    struct dropdown list; ///< first member, so that a list pointer leads back here
     const char *label, *pick;
     enum bone_use use;
 };
@@ -216,7 +215,7 @@ void inspector_overlays(struct inspector *in)
     }
 }
 
-/// Whether the next drag of a body is recorded; without a body nothing is.
+/// Whether the next drag of a body is recorded. Only a body can be.
 static void build_record(struct inspector *in)
 {
     if (!document_tail(in->core->document, 0)) return;
@@ -296,7 +295,6 @@ static void build_choices(struct inspector *in, const struct channel *channel)
     }
 }
 
-/// The list of channels, and the chosen one.
 static void build_channel(struct inspector *in)
 {
     build_buttons(in);
@@ -306,7 +304,7 @@ static void build_channel(struct inspector *in)
     build_choices(in, channel);
 }
 
-/// The bone at one end: a list of the possible ones, and a button to pick it on the stage.
+/// A list of bones for one end, and a button to pick one on the stage.
 static void build_end(struct inspector *in, const struct end *end, const char *bone)
 {
     struct rect field = inspector_labelled(in, end->label),
@@ -349,7 +347,6 @@ static void build_twin(struct inspector *in)
     if (ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
 }
 
-/// A chain's bones and sides, and the button that mirrors it.
 static void build_chain(struct inspector *in)
 {
     const struct chain *chain = &inspector_shown(in)->chain;
@@ -360,7 +357,7 @@ static void build_chain(struct inspector *in)
     build_twin(in);
 }
 
-/// Buttons among these rows may change the channels and rigs: each looks up the shown rig again.
+/// These rows may change channels and rigs, so each looks up the shown rig again.
 static void build_shown(struct inspector *in)
 {
     const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
@@ -382,7 +379,7 @@ static void build_shown(struct inspector *in)
 
 void inspector_tail(struct inspector *in)
 {
-    inspector_find_rig(in); // one may just have been removed
+    inspector_find_rig(in); // a row may have removed one
     build_shown(in);
     build_record(in);
     inspector_overlays(in);
