@@ -300,6 +300,7 @@ SESSION_TEST(
     s->table.evaluation.status[0] = WIGGLY_CALMED;
     snprintf(words, sizeof words, "%s", wiggly_status_text(s->table.evaluation.status[0]));
     assert_true(shows_text(s, words));
+    s->table.evaluation.status[0] = WIGGLY_OK;
     assert_true(shows_text(s, "Rings forever"));
     panel_drag(s, "damping", 0.5);
     panel_release(s);

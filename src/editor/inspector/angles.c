@@ -480,6 +480,25 @@ static void build_curve(struct inspector *in, enum angle_kind kind, const struct
     }
 }
 
+static float curve_height(const struct angles *angles)
+{
+    static const int heights[] = {[ANGLES_ONE] = 0, [ANGLES_RAMP] = HEIGHT, [ANGLES_EACH] = HEIGHT + UI_ROW};
+    return (float)heights[angles->form];
+}
+
+float inspector_highest_curve(const struct inspector *in, enum angle_kind kind)
+{
+    const struct document *document = in->core->document;
+    float highest = 0;
+    for (int r = 0; in->core->more && r < document->rig_count; r++) {
+        int count;
+        const struct channel *channels = rig_channels(document->rigs[r], &count);
+        for (int c = 0; c < count; c++)
+            highest = fmaxf(highest, curve_height(kind == ANGLE_LAG ? &channels[c].lag : &channels[c].gain));
+    }
+    return highest;
+}
+
 void inspector_angles(struct inspector *in, enum angle_kind kind)
 {
     const int joints = bones_joints(in->core, in->rig);

@@ -228,14 +228,17 @@ static void build_find(struct inspector *in)
     if (ui_button(&in->ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
 }
 
-/// Lag and gain of the channel or coordinate the spline drives.
+/// Lag and gain of the channel or coordinate the spline drives; below each is room for the highest curve of any spline.
 static void build_reach(struct inspector *in)
 {
-    if (inspector_felt_channel(in)) inspector_angles(in, ANGLE_LAG);
-    if (inspector_felt_channel(in)) inspector_angles(in, ANGLE_GAIN);
-    if (inspector_felt_channel(in) || inspector_felt_drive(in)) return;
-    inspector_idle(in, "lag", "–");
-    inspector_idle(in, "gain", "–");
+    static const char *const labels[] = {[ANGLE_LAG] = "lag", [ANGLE_GAIN] = "gain"};
+    const bool bends = inspector_felt_channel(in) != NULL, drives = !bends && inspector_felt_drive(in);
+    for (int kind = ANGLE_LAG; kind <= ANGLE_GAIN; kind++) {
+        const float top = in->ui.y;
+        if (bends) inspector_angles(in, (enum angle_kind)kind);
+        if (!bends && !drives) inspector_idle(in, labels[kind], "–");
+        in->ui.y = top + (drives ? 0 : UI_ROW) + inspector_highest_curve(in, (enum angle_kind)kind);
+    }
 }
 
 /// Rows keep their places for every kind of spline.
@@ -253,8 +256,7 @@ void inspector_feel(struct inspector *in)
     build_settle(in);
     build_reach(in);
     const float end = in->ui.y + TEXT;
-    const bool warns = build_warnings(in);
-    if (!warns || in->core->more) build_sentence(in);
+    if (!build_warnings(in)) build_sentence(in);
     in->ui.y = fmaxf(in->ui.y, end);
     if (in->core->more) build_find(in);
 }

@@ -140,6 +140,8 @@ const struct rig *inspector_shown(const struct inspector *in);
 
 /// Rows for the angles of the shown tail or channel.
 void inspector_angles(struct inspector *in, enum angle_kind kind);
+/// The height of the highest curve below such a row, among all channels.
+float inspector_highest_curve(const struct inspector *in, enum angle_kind kind);
 /// Replaces the angles in one edit.
 bool inspector_set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles);
 
