@@ -118,3 +118,18 @@ SESSION_TEST(test_rows_stay_where_they_are, panel_open(s, mixed, 1280, 2000))
         }
     }
 }
+
+/// A click on a tail makes it the subject: its spline is the active one, and its section comes.
+SESSION_TEST(test_a_clicked_tail_is_shown, open_first(s))
+{
+    const size_t done = history_done(s->history);
+    for (int i = 0; i < 2; i++) session_key(s, KEY_PAGE_DOWN, 0); // the breath
+    assert_false(panel_shows(s, "section.tail"));
+    session_click(s, "tail(tail,0.8)");
+    assert_string_equal(core_active_spline(&s->editor->core)->name, "sway");
+    assert_true(panel_shows(s, "section.tail"));
+    session_key(s, KEY_PAGE_DOWN, 0);
+    session_click(s, "tail(tail,0.8)"); // bent by this spline, too
+    assert_string_equal(core_active_spline(&s->editor->core)->name, "up");
+    assert_int_equal(history_done(s->history), done);
+}

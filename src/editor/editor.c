@@ -85,6 +85,7 @@ void editor_settle(struct editor *editor)
 {
     struct core *core = &editor->core;
     if (editor->seen.serial != core->serial) open_panels(editor);
+    inspector_show_clicked(editor->inspector);
     if (editor->seen.active == core->active_id) return;
     const int before = document_find_spline_id(editor->core.document, editor->seen.active);
     editor->seen.active = core->active_id;

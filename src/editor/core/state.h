@@ -342,6 +342,7 @@ struct core {
     struct bone_selection bone;
     struct bone_pick pick; ///< ends with the next edit
     struct pin_selection pin;
+    int clicked; ///< the rig on the stage that was clicked, from 1, until the inspector shows it
     struct brush brush;
     struct overlays overlays;
     struct curve_options curves;

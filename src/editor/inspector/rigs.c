@@ -94,7 +94,18 @@ void inspector_show_rig(struct inspector *in, int rig)
     if (chosen->kind == RIG_MODEL) bones_clear(in->core);
     show_rig(in, rig);
     inspector_unfold(in, sections[chosen->kind]);
-    if (rig_input_count(chosen) > 0) core_activate(in->core, rig_input(chosen, 0));
+    if (rig_input_count(chosen) == 0) return;
+    if (input_of(chosen, in->core->active) < 0) core_activate(in->core, rig_input(chosen, 0));
+    inspector_show_spline(in, in->core->active);
+}
+
+void inspector_show_clicked(struct inspector *in)
+{
+    const int rig = in->core->clicked - 1;
+    in->core->clicked = 0;
+    if (rig < 0 || rig >= in->core->document->rig_count) return;
+    inspector_show_rig(in, rig);
+    in->revealed = NULL;
 }
 
 static void build_row(struct inspector *in, int rig)

@@ -70,7 +70,12 @@ bool stage_body_point(struct stage *stage, const struct core *core, int tail, fl
 
 void stage_click(void *room, struct core *core, bool keep)
 {
-    if (!core->drag.moved && core->drag.button == BUTTON_LEFT && keep) bone_click(room, core);
+    const struct stage *stage = room;
+    const enum hover_kind kind = stage->pressed.kind;
+    const bool on_rig = kind == HOVER_JOINT || kind == HOVER_BODY || kind == HOVER_POINT;
+    if (core->drag.moved || core->drag.button != BUTTON_LEFT || !keep) return;
+    if (on_rig && core->pick.use == BONE_SELECTED) core->clicked = stage->pressed.rig + 1;
+    bone_click(stage, core);
 }
 
 static const float ORBIT_SPEED = 0.008f; ///< radians a pixel

@@ -142,13 +142,19 @@ static void set_knot(const struct stage *stage, struct core *core, struct tail_d
     core_put_knot(core, axis->spline, &knot);
 }
 
+/// Makes a spline that bends it the active one, if it is not.
+static void activate(const struct tail_drag *grab, struct core *core)
+{
+    bool steered = false;
+    for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == core->active;
+    if (!steered) core_activate(core, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
+}
+
 /// Makes the knot that is pulled the selected one.
 static void select_knot(const struct stage *stage, struct core *core)
 {
     const struct tail_drag *grab = &stage->tail_drag;
-    bool steered = false;
-    for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == core->active;
-    if (!steered) core_activate(core, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
+    activate(grab, core);
     const struct spline *spline = core_active_spline(core);
     int at = spline ? spline_find_knot(core->document, spline, grab->sample) : -1;
     if (at < 0) return;
@@ -210,6 +216,8 @@ static void end(void *room, struct core *core, bool keep)
         knot.phase = evaluation_at(core->evaluation, axis->spline, grab->sample).im;
         core_put_knot(core, axis->spline, &knot);
     }
+    const bool steers = grab->axis[AXIS_SIDE].active || grab->axis[AXIS_UP].active;
+    if (keep && steers && !core->drag.moved) activate(grab, core);
     stage_click(room, core, keep);
 }
 
