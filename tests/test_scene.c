@@ -265,7 +265,7 @@ TEST(test_warnings)
         "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"mode\": \"real\", \"frequency\": 1, \"knots\": [\n"
         "{\"frame\": 5, \"value\": 0, \"im\": 1},\n{\"frame\": 3, \"value\": 0, \"im\": 1},\n"
         "{\"frame\": 4, \"value\": 0, \"slope\": 1}]}]}",
-        "s.json:3: splines[0].knots[1].im: im has no effect outside complex mode\n"
+        "s.json:3: splines[0].knots[1].im: the pose holds only its value, because only Wiggly splines have a phase\n"
         "s.json:4: splines[0].knots[2].slope: slope has no effect: both samples beside it have knots\n");
 }
 

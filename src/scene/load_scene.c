@@ -70,7 +70,7 @@ static bool load_version(struct reader *reader, const struct value *scene)
                        FORMAT_VERSION, version);
 }
 
-/// An empty text counts as none.
+/// An empty text is the same as none.
 static void load_about(struct reader *reader, const struct value *scene)
 {
     const struct value value = reader_member(scene, "about");
@@ -132,7 +132,7 @@ static void check_cycles(struct reader *reader, const struct where *splines_at)
                 document->splines[leader]->name, spline->name);
 }
 
-/// The highest frequency in Hz at which a spline with constant parameters can ring; 0 for tracks.
+/// The highest frequency of a spline with constant parameters, Hz; 0 if the frequency follows another spline.
 static double highest_frequency(const struct spline *spline)
 {
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
@@ -155,7 +155,7 @@ static void check_aliasing(struct reader *reader, const struct where *splines_at
     }
 }
 
-/// The id of the knot that comes first in its file, in which ids rise by 1.
+/// The id of the first knot in the file; the others follow one by one.
 static unsigned first_id(const struct spline *spline)
 {
     unsigned first = UINT_MAX;
@@ -163,7 +163,7 @@ static unsigned first_id(const struct spline *spline)
     return first;
 }
 
-/// Slopes without effect and, once a spline, phases.
+/// Warns of slopes and phases without effect, of phases once per spline.
 static void check_idle(struct reader *reader, const struct where *splines_at)
 {
     const struct document *document = reader->document;
@@ -177,13 +177,15 @@ static void check_idle(struct reader *reader, const struct where *splines_at)
             const struct where at = {.parent = &knots_at, .index = spline->knots[k].id - first};
             const struct where im_at = {.parent = &at, .key = "im"}, slope_at = {.parent = &at, .key = "slope"};
             const char *why = knot_idle_slope(document, i, k);
-            if (k == pose) reader_warn(reader, &im_at, "im has no effect outside complex mode");
+            if (k == pose)
+                reader_warn(reader, &im_at,
+                            "the pose holds only its value, because only Wiggly splines have a phase");
             if (why) reader_warn(reader, &slope_at, "slope has no effect: %s", why);
         }
     }
 }
 
-/// Where a pin is in its file, in which ids rise: the index of a rig's pin in order of frames is another.
+/// A pin's index in the file: ids rise there, while rig->pins is in order of frames.
 static size_t index_in_file(const struct rig *rig, int pin)
 {
     size_t index = 0;
@@ -287,7 +289,7 @@ struct document *scene_load(const char *path, struct problems *problems, struct 
 {
     char *text;
     size_t size;
-    struct reader outside = {.problems = problems, .error = error}; // what is wrong with the file, not in it
+    struct reader outside = {.problems = problems, .error = error}; // problems of the file itself, without a line
     struct error trouble;
     if (!file_read(path, SOURCE_MAX_BYTES, &text, &size, &trouble)) {
         reader_report(&outside, &trouble);

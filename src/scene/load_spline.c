@@ -79,7 +79,7 @@ static void load_spring(struct reader *reader, const struct value *object, struc
     if (json_object_get(object->json, "frequency") || json_object_get(object->json, "damping")) {
         reader_fail(reader, &first.at, "expected either spring and friction or frequency and damping, got both");
     } else if (spline_mode(spline) == WIGGLY_COMPLEX) {
-        reader_fail(reader, &first.at, "expected frequency and damping in complex mode, got %s", first.at.key);
+        reader_fail(reader, &first.at, "expected frequency and damping in a Wiggly spline, got %s", first.at.key);
     }
     if (!reader_number(reader, k, false, range, &spring) || !reader_number(reader, gamma, false, range, &friction))
         return;

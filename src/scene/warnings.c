@@ -3,15 +3,14 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double FAR = 2;           ///< of a curve, in heights of knots
-static const double FAST_RATE = 0.4;   ///< f·(1 + β) in sample rates; at 0.5 swings alias
-static const double WIDE_TURN = 0.3;   ///< β · periods between two knots (Figure 4)
-static const double FORCED_TURN = 120; ///< degrees of poses out of step: midway the swing is down to half of theirs
-static const double MOST_OF_VALUES =
-    30; ///< degrees by which their values alone may be out of step, or no free phase helps
-static const double LEAST_FORCED = 0.4; ///< magnitude of such poses, as a share of the largest
+static const double FAR = 2;             ///< height of a curve, in heights of knots
+static const double FAST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
+static const double WIDE_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
+static const double FORCED_TURN = 120;   ///< degrees of poses out of step: midway the swing is down to half of theirs
+static const double MOST_OF_VALUES = 30; ///< degrees out of step by values alone; beyond, freeing a phase cannot help
+static const double LEAST_FORCED = 0.4;  ///< magnitude of such poses, as a share of the largest
 
-/// A solved spline that is looked at, and what was found so far, of all splines.
+/// The solved spline that is checked, and the warnings found so far on all splines.
 struct look {
     const struct document *document;
     const struct evaluation *evaluation;
@@ -35,7 +34,7 @@ static int sample_of(const struct look *look, const struct knot *knot)
 
 static double height(const wiggly_curve *curve, int sample) { return fabs(curve->total[sample] - curve->y[sample]); }
 
-/// How far a knot is from the equilibrium, a pose with its phase: so far it swings by itself. A still one is not.
+/// How far a knot swings by itself: its distance from the equilibrium, for a pose with its phase; 0 if it is still.
 static double knot_height(const struct look *look, const struct knot *knot)
 {
     const double height_of_value = knot->still ? 0 : height(look->curve, sample_of(look, knot));
@@ -43,11 +42,10 @@ static double knot_height(const struct look *look, const struct knot *knot)
     return is_pose ? hypot(height_of_value, knot->phase) : height_of_value;
 }
 
-/// How far a spline may be expected to swing.
+/// How far a spline is expected to swing.
 struct measure {
-    double
-        knots; ///< their heights' root mean square, so that one high knot among low ones counts little; still ones say nothing
-    double value;     ///< the highest knot's, its phase left out
+    double knots;     ///< the knots' heights, root mean square, so that a single high one counts little
+    double value;     ///< height of the highest knot, without its phase
     double low, high; ///< of the equilibrium
 };
 
@@ -85,10 +83,10 @@ static bool look_at(const struct document *document, const struct evaluation *ev
     return true;
 }
 
-/// Where a curve is furthest beyond how far it may swing.
+/// Where a curve exceeds its expected swing the most.
 struct far {
     int sample;
-    double times, limit; ///< as far as it may, which is FAR times the limit
+    double times, limit; ///< height = times · FAR · limit
 };
 
 static void look_between(const struct look *look, int from, int to, double limit, struct far *far)
@@ -99,7 +97,7 @@ static void look_between(const struct look *look, int from, int to, double limit
     }
 }
 
-/// It may swing twice as far as the knots around it, as its average knot, or as its equilibrium moves; without knots that swing, anywhere.
+/// Allowed is twice the height of the knots around, of the average knot, or of the equilibrium's range; without swinging knots, anything.
 static struct far find_farthest(const struct look *look)
 {
     struct far far = {0};
@@ -118,7 +116,7 @@ static struct far find_farthest(const struct look *look)
     return far;
 }
 
-/// Limits beyond where the equilibrium moves by the largest value and a little more, in numbers of few digits.
+/// Sets limits, in short numbers: the equilibrium's range plus a little more than the highest knot on either side.
 static void set_limits(const struct look *look, struct warning *warning)
 {
     const struct measure all = measure(look);
@@ -133,7 +131,7 @@ static void find_far(const struct look *look)
     const wiggly_curve *curve = look->curve;
     const struct far far = find_farthest(look);
     const int peak = far.sample;
-    if (far.times <= 1 || spline_is_limited(look->spline)) return;
+    if (spline_mode(look->spline) == WIGGLY_CUBIC || far.times <= 1 || spline_is_limited(look->spline)) return;
     struct warning warning = {.kind = WARNING_FAR,
                               .frame = document_frame(look->document, peak),
                               .value = curve->total[peak],
@@ -175,7 +173,7 @@ static void find_rate(const struct look *look)
                                .remedy = ceil(edge / (FAST_RATE * look->document->fps))});
 }
 
-/// Samples from one knot to the next one, around the end of a loop.
+/// Samples from one knot to the next, also across a loop's seam.
 struct knot_span {
     int first, length;
     const struct knot *from, *to;
@@ -184,10 +182,8 @@ struct knot_span {
 static bool take_span(const struct look *look, int k, struct knot_span *span)
 {
     const struct spline *spline = look->spline;
-    const bool loop = spline_start(spline) == WIGGLY_LOOP;
     const int count = spline->knot_count;
-    if (loop && count > 1) k = (k + count) % count;
-    if (k < 0 || k >= count || (k + 1 == count && (!loop || count == 1))) return false;
+    if (k < 0 || count < 2 || (k + 1 == count && spline_start(spline) != WIGGLY_LOOP)) return false;
     span->from = &spline->knots[k];
     span->to = &spline->knots[(k + 1) % count];
     span->first = sample_of(look, span->from);
@@ -196,14 +192,13 @@ static bool take_span(const struct look *look, int k, struct knot_span *span)
     return true;
 }
 
-/// A sample of a span, which may go on past a loop's seam.
 static int sample_in(const struct look *look, const struct knot_span *span, int i)
 {
     const int period = look->curve->samples - 1;
     return span->first + i <= period ? span->first + i : span->first + i - period;
 }
 
-/// A warning of a span, in its middle.
+/// A warning placed in the middle of a span.
 static struct warning in_middle(const struct look *look, const struct knot_span *span, enum warning_kind kind)
 {
     const int middle = sample_in(look, span, span->length / 2);
@@ -214,14 +209,16 @@ static struct warning in_middle(const struct look *look, const struct knot_span 
                             .to = span->to->frame};
 }
 
-/// The worst drift alone is kept: its remedy is the others' too.
-static void find_drift(const struct look *look, const struct knot_span *span, double frequency, struct warning *drift)
+/// Keeps only the worst drift, because its remedy cures the others, too.
+static void find_drift(const struct look *look, int k, double frequency, struct warning *drift)
 {
+    struct knot_span span;
+    if (!take_span(look, k, &span)) return;
     const double bandwidth = bandwidth_of(look->spline);
-    const double periods = frequency * span->length * document_step(look->document);
-    if (bandwidth * periods <= WIDE_TURN * (1 + 1e-9)) return; /* at the limit is within it, rounding or not */
-    if (periods <= drift->amount) return;
-    *drift = in_middle(look, span, WARNING_DRIFT);
+    const double periods = frequency * span.length * document_step(look->document);
+    const double most = WIDE_TURN * (1 + 1e-9); // allows for rounding
+    if (bandwidth * periods <= most || periods <= drift->amount) return;
+    *drift = in_middle(look, &span, WARNING_DRIFT);
     drift->amount = periods;
     drift->limit = bandwidth;
     drift->remedy = floor(1000 * WIDE_TURN / periods) / 1000;
@@ -239,13 +236,13 @@ static double largest_pose(const struct look *look)
 
 static double degrees_between(double a, double b) { return fabs(remainder(a - b, 2 * M_PI)) * 180 / M_PI; }
 
-/// How far a free knot is out of step at least: its value says the side alone on which x is.
+/// The least degrees by which a knot without a phase is out of step: its value gives only the sign of Re x.
 static double degrees_if_free(double angle, const struct knot *knot, double y)
 {
     return fmax(0, degrees_between(angle, knot->value < y ? M_PI : 0) - 90);
 }
 
-/// The angle by which x turns by itself from one knot to the next, ∫ω dt.
+/// The angle by which a free x turns from one knot to the next, ∫ω dt.
 static double turn_of(const struct look *look, const struct knot_span *span)
 {
     const double *omega = look->curve->omega;
@@ -255,9 +252,8 @@ static double turn_of(const struct look *look, const struct knot_span *span)
     return turn;
 }
 
-/// Degrees by which two neighbouring poses miss each other's swing, beyond the part β of the turn that the bandwidth makes up for. 0 where
-/// that is no matter of their phases: for small poses, within a period, where knots are keys and not yet a swing, and where their values alone
-/// are out of step as well.
+/// Degrees by which two neighbouring poses are out of step, minus the share β of the turn that the bandwidth absorbs. 0 if their phases are
+/// not the cause: if poses are small, less than a period apart, or out of step by their values alone.
 static double degrees_forced(const struct look *look, const struct knot_span *span, double largest)
 {
     const struct knot *const ends[] = {span->from, span->to};
@@ -275,7 +271,7 @@ static double degrees_forced(const struct look *look, const struct knot_span *sp
     return miss - bandwidth_of(look->spline) * turn * 180 / M_PI;
 }
 
-/// Whether poses can be out of step: not where tracks say what moves the curve and how far it adapts.
+/// Whether poses can be out of step: not if equilibrium or bandwidth follow something.
 static bool has_step(const struct spline *spline)
 {
     const struct param *equilibrium = &spline->parameter[PARAMETER_EQUILIBRIUM];
@@ -292,7 +288,7 @@ static void find_forced(const struct look *look, int k, double largest)
     if (warning.amount > FORCED_TURN) add(look, warning);
 }
 
-/// How many times as far two poses swing as the curve between them does where it swings least.
+/// The smaller swing of two poses, divided by the smallest swing between them.
 static double swing_lost(const struct look *look, const struct warning *warning)
 {
     struct knot_span span;
@@ -336,7 +332,7 @@ void warnings_add_far(const struct document *document, const struct evaluation *
                       struct warnings *found)
 {
     struct look look;
-    if (look_at(document, evaluation, of, found, &look) && spline_mode(look.spline) != WIGGLY_CUBIC) find_far(&look);
+    if (look_at(document, evaluation, of, found, &look)) find_far(&look);
 }
 
 void warnings_add_forced(const struct document *document, const struct evaluation *evaluation, int of,
@@ -354,50 +350,44 @@ void warnings_add(const struct document *document, const struct evaluation *eval
     struct look look;
     struct warning drift = {0};
     if (!look_at(document, evaluation, of, found, &look)) return;
-    const bool swings = spline_mode(look.spline) != WIGGLY_CUBIC;
-    if (swings) find_far(&look);
+    find_far(&look);
     find_idle(&look);
-    if (!swings) return;
+    if (spline_mode(look.spline) == WIGGLY_CUBIC) return;
     find_rate(&look);
     const double frequency = frequency_of(&look);
-    for (int k = 0; k < look.spline->knot_count; k++) {
-        struct knot_span span;
-        if (!take_span(&look, k, &span)) continue;
-        find_drift(&look, &span, frequency, &drift);
-    }
+    for (int k = 0; k < look.spline->knot_count; k++) find_drift(&look, k, frequency, &drift);
     if (drift.amount > 0) add(&look, drift);
     warnings_add_forced(document, evaluation, of, found);
 }
 
-void warning_say(const struct warning *warning, char text[WARNING_SENTENCE])
+void warning_say(const struct warning *w, char text[WARNING_SENTENCE])
 {
-    switch (warning->kind) {
+    const size_t size = WARNING_SENTENCE;
+    switch (w->kind) {
     case WARNING_FAR:
-        snprintf(text, WARNING_SENTENCE, "Frame %.6g: the curve swings to %.3g, far beyond the knots around it.",
-                 warning->frame, warning->value);
+        snprintf(text, size, "Frame %.6g: the curve swings to %.3g, far beyond the knots around it.", w->frame,
+                 w->value);
         break;
     case WARNING_RATE:
-        snprintf(text, WARNING_SENTENCE,
-                 "%.3g Hz is too close to half the sample rate to keep its shape (the limit is %.3g Hz).",
-                 warning->amount, warning->limit);
+        snprintf(text, size, "%.3g Hz is too close to half the sample rate to keep its shape (the limit is %.3g Hz).",
+                 w->amount, w->limit);
         break;
     case WARNING_DRIFT:
-        snprintf(text, WARNING_SENTENCE,
+        snprintf(text, size,
                  "Frames %.6g to %.6g: the swing drifts, because bandwidth %.3g is too wide for %.1f periods.",
-                 warning->from, warning->to, warning->limit, warning->amount);
+                 w->from, w->to, w->limit, w->amount);
         break;
     case WARNING_FORCED:
-        snprintf(text, WARNING_SENTENCE,
+        snprintf(text, size,
                  "Frames %.6g to %.6g: the poses are %.0f degrees out of step, so they break the swing between them.",
-                 warning->from, warning->to, warning->amount);
+                 w->from, w->to, w->amount);
         break;
     case WARNING_SLOPE:
-        snprintf(text, WARNING_SENTENCE, "Frame %.6g: the slope has no effect: %s.", warning->frame, warning->why);
+        snprintf(text, size, "Frame %.6g: the slope has no effect: %s.", w->frame, w->why);
         break;
     case WARNING_PHASE:
-        snprintf(text, WARNING_SENTENCE,
-                 "Frame %.6g: the pose holds only its value, because only Wiggly splines have a phase.",
-                 warning->frame);
+        snprintf(text, size, "Frame %.6g: the pose holds only its value, because only Wiggly splines have a phase.",
+                 w->frame);
         break;
     }
 }

@@ -1,14 +1,13 @@
-/// What is wrong with splines though they load and solve.
+/// Problems of splines that load and solve.
 #ifndef SCENE_WARNINGS_H
 #define SCENE_WARNINGS_H
 
 #include "scene/evaluate.h"
 
-/// Why the slope of a knot of a spline has no effect, to stand behind "the slope has no effect: "; NULL where it has one, or where a track
-/// decides.
+/// Why a knot's slope has no effect, as the rest of "the slope has no effect: "; NULL if it has one or if that depends on a track.
 const char *knot_idle_slope(const struct document *document, int of, int knot);
 
-/// Index of the first pose of a spline whose mode has no phase, or -1.
+/// Index of the first pose of a spline that is not Wiggly and so has no phases; else -1.
 int spline_idle_pose(const struct spline *spline);
 
 enum warning_kind {
@@ -17,20 +16,20 @@ enum warning_kind {
     WARNING_DRIFT,  ///< bandwidth times the periods between two knots
     WARNING_FORCED, ///< poses that are out of step with the swing between them
     WARNING_SLOPE,  ///< a slope that has no effect
-    WARNING_PHASE,  ///< poses outside complex mode
+    WARNING_PHASE,  ///< poses of a spline without phases
 };
 
 /// A problem of a spline.
 struct warning {
     enum warning_kind kind;
     int spline;
-    double frame, value; ///< the place (not of a rate)
+    double frame, value; ///< where it is; not for a rate
     double from, to;     ///< frames of the knots around it
     double amount;       ///< Hz; periods; degrees out of step
-    double limit;        ///< Hz that would be fine; bandwidth as it is
-    double remedy;       ///< value of a knot at the place; substeps; bandwidth
-    const char *why;     ///< a slope has no effect
-    double phase;        ///< Im x of a pose at the place
+    double limit;        ///< the highest good frequency, Hz; the present bandwidth
+    double remedy;       ///< that cures it: value of a knot there; substeps; bandwidth
+    const char *why;     ///< reason that a slope has no effect
+    double phase;        ///< Im x of a pose there
     double low, high;    ///< limits a little beyond the knots
 };
 
@@ -41,20 +40,20 @@ struct warnings {
     struct warning list[WARNINGS_MAX];
 };
 
-/// Adds where a solved spline without limits swings furthest beyond its knots, if it does. Allocates nothing.
+/// Adds the place where a solved spline without limits swings furthest beyond its knots, if it does. Allocates nothing.
 void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
                       struct warnings *found);
-/// Adds where its poses force the swing.
+/// Adds the places where its poses are out of step.
 void warnings_add_forced(const struct document *document, const struct evaluation *evaluation, int of,
                          struct warnings *found);
-/// How much of a far swing, a fast rate or poses out of step a solution still has; 1 or less: it is gone.
+/// How much of a far swing, a fast rate or poses out of step is left in a solution; at 1 or less the problem is gone.
 double warning_left(const struct warning *warning, const struct document *document,
                     const struct evaluation *evaluation);
-/// Adds all that is wrong with a solved spline, up to WARNINGS_MAX, spans in the order of time. Allocates nothing.
+/// Adds all problems of a solved spline, up to WARNINGS_MAX, spans in order of time. Allocates nothing.
 void warnings_add(const struct document *document, const struct evaluation *evaluation, int of,
                   struct warnings *found);
 
-/// What is wrong, as a sentence.
-void warning_say(const struct warning *warning, char text[WARNING_SENTENCE]);
+/// Writes the problem as a sentence.
+void warning_say(const struct warning *w, char text[WARNING_SENTENCE]);
 
 #endif
