@@ -57,7 +57,7 @@ void angles_set_number(struct angles *angles, int index, double degrees)
     }
 }
 
-/// An array of one number a joint.
+/// An array with one number per joint.
 static void load_each(struct reader *reader, struct value value, struct angles *angles)
 {
     const size_t count = json_array_size(value.json);
@@ -76,7 +76,7 @@ static void load_each(struct reader *reader, struct value value, struct angles *
     }
 }
 
-/// A point behind `before`, which is NULL for the first.
+/// A ramp's point after `before`, which is NULL for the first.
 static void load_ramp_point(struct reader *reader, struct value value, const struct ramp_point *before,
                             struct ramp_point *point)
 {

@@ -13,7 +13,7 @@ const char *coordinate_name(int index)
     return names[index];
 }
 
-/// The document is about to be another value.
+/// Call before a document changes.
 void document_touch(struct document *document)
 {
     static atomic_ullong last;
@@ -300,7 +300,7 @@ int document_find_spline(const struct document *document, const char *name)
 
 int document_find_spline_id(const struct document *document, unsigned id)
 {
-    const unsigned guess = id - 1; // as they were loaded
+    const unsigned guess = id - 1; // loaded splines have these ids
     if (guess < (unsigned)document->spline_count && document->splines[guess]->id == id) return (int)guess;
     for (int i = 0; i < document->spline_count; i++) {
         if (document->splines[i]->id == id) return i;
@@ -425,7 +425,7 @@ void spline_values(const struct spline *spline, int first, int end, double range
 
 int spline_find_id(const struct spline *spline, unsigned id)
 {
-    // Loaded knots have ids in a row: from where it would be if all had, outwards.
+    // Loaded knots have consecutive ids: search outwards from where the knot would then be.
     const int end = spline->knot_count;
     if (end == 0) return -1;
     const double guess = (double)id - (double)spline->knots[0].id;

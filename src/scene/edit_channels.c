@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// The channel at a place; NULL refuses the edit.
+/// The channel at a place; NULL and an error if there is none.
 static const struct channel *find_channel(const struct document *document, struct channel_place at,
                                           struct error *error)
 {
@@ -88,7 +88,7 @@ static bool put_drives(struct document *document, int rig, struct drive *drives,
     return edit_rig_set(document, rig, &wanted, error);
 }
 
-/// Copies the drives of a character into `drives`; returns their number, −1 refuses the edit.
+/// Copies a character's drives into `drives`. Returns how many there are; −1 and an error if it is no character.
 static int take_drives(const struct document *document, int rig, struct drive drives[CHARACTER_MAX_DRIVES + 1],
                        struct error *error)
 {
@@ -105,7 +105,7 @@ bool edit_drive(struct document *document, int rig, int index, const struct driv
     if (count < 0) return false;
     if (index < -1 || index >= count) return fail(error, ERROR_INPUT, "this character has no such coordinate");
     struct drive *own = &drives[index < 0 ? count : index];
-    char *const name = index < 0 ? drive->name : own->name; // a coordinate stays itself
+    char *const name = index < 0 ? drive->name : own->name; // the coordinate keeps its name
     *own = *drive;
     own->name = name;
     return put_drives(document, rig, drives, count + (index < 0), error);

@@ -62,7 +62,7 @@ bool edit_rig_remove(struct document *document, int rig, struct error *error)
     return true;
 }
 
-/// Whether a chain or a spline goes by that file: a model of that name would take it over.
+/// Whether a chain or a spline refers to a model by that file. A rig with that name would take its place.
 static bool is_file_of_any(const struct document *document, const char *name)
 {
     bool any = false;
@@ -77,7 +77,7 @@ static bool is_file_of_any(const struct document *document, const char *name)
     return any;
 }
 
-/// A free name of a rig: `wanted`, or with a number.
+/// A free rig name: `wanted`, if need be with a number.
 static char *free_name(const struct document *document, const char *wanted)
 {
     char name[NAME_SIZE];
@@ -102,12 +102,12 @@ static bool check_name(const struct document *document, int rig, const char *nam
 
 static void set_text(char **text, const char *value)
 {
-    char *copy = value ? need_text(value) : NULL; // first: need_text() may save the document if memory runs out
+    char *copy = value ? need_text(value) : NULL; // first: need_text() may save the document when memory runs out
     free(*text);
     *text = copy;
 }
 
-/// Lets a spline follow the same joint under the rig's new name.
+/// Makes a spline follow the same joint under the rig's new name.
 static void rename_followed(struct document *document, int spline, const char *old, const char *name)
 {
     struct param *param = &document_own_spline(document, spline)->parameter[PARAMETER_EQUILIBRIUM];
@@ -118,7 +118,7 @@ static void rename_followed(struct document *document, int spline, const char *o
     param->motion = motion;
 }
 
-/// All that goes by the rig's name goes by the new one.
+/// Changes all references to the rig's name.
 static void rename_users(struct document *document, int rig, const char *old, const char *name)
 {
     for (int s = 0; s < document->spline_count; s++) {
@@ -143,7 +143,7 @@ bool edit_rig_name(struct document *document, int rig, const char *name, struct 
     return true;
 }
 
-/// Its name, or what it goes by: a file without folders and ending, a joint or its kind.
+/// The rig's name or, without one, a name from its file, joint or kind.
 static char *new_name(const struct document *document, const struct rig *rig)
 {
     const bool is_file = !(rig->name && rig->name[0]) && (rig->kind == RIG_CHARACTER || rig->kind == RIG_MODEL);
@@ -177,7 +177,7 @@ bool edit_rig_set(struct document *document, int rig, const struct rig *wanted, 
            edit_replace_rig(document, rig, rig_clone(wanted), error);
 }
 
-/// Whether a rig may have a pin, of which −0 becomes 0.
+/// Whether a rig may have a pin. Turns −0 into 0.
 static bool check_pin(const struct document *document, const struct rig *rig, struct pin *pin, struct error *error)
 {
     struct error why;
@@ -185,7 +185,7 @@ static bool check_pin(const struct document *document, const struct rig *rig, st
            fail(error, ERROR_INPUT, "%s: a pin: %s", rig_title(rig), why.text);
 }
 
-/// The rig that has the pin; NULL refuses the edit.
+/// The rig that has the pin; NULL and an error if there is none.
 static const struct rig *find(const struct document *document, int rig, unsigned id, struct error *error)
 {
     const struct rig *found = edit_find_rig(document, rig, EDIT_PINNED, error);

@@ -1,4 +1,4 @@
-/// What edits share; and edits of the whole document, its frames per second, substeps and range of frames.
+/// Helpers of all edits; and edits of the document's frames per second, substeps and range of frames.
 #include "scene/editing.h"
 #include "scene/pins.h"
 #include <math.h>
@@ -14,7 +14,7 @@ static bool check_loops(const struct document *document, struct error *error)
     return true;
 }
 
-/// Whether all knots lie inside the document's frames, each on a sample of its own.
+/// Whether all knots are inside the document's frames, on different samples.
 static bool check_knots_fit(const struct document *document, struct error *error)
 {
     for (int i = 0; i < document->spline_count; i++) {
@@ -36,7 +36,6 @@ static bool check_knots_fit(const struct document *document, struct error *error
     return true;
 }
 
-/// What edits of the scene's frames change.
 struct timing {
     double fps;
     int substeps, first, last;
@@ -47,7 +46,7 @@ static struct timing timing_of(const struct document *document)
     return (struct timing){document->fps, document->substeps, document->first_frame, document->last_frame};
 }
 
-/// Whether a timing is allowed, leaving the knots aside.
+/// Whether a timing is allowed, knots not considered.
 static bool check_timing(const struct document *document, const struct timing *timing, struct error *error)
 {
     long long frames = (long long)timing->last - timing->first;
@@ -90,7 +89,7 @@ static void scale_frames(struct document *document, double factor)
 /// The scaled end of the range, rounded outwards so that knots inside stay inside.
 static int scaled_end(int frame, double factor, bool first)
 {
-    const double slack = 1e-6; // 96 · 30/24 is 120, not a hair more
+    const double slack = 1e-6; // so that 96 · 30/24 stays 120
     double scaled = first ? floor(frame * factor + slack) : ceil(frame * factor - slack);
     return (int)fmax(-SCENE_MAX_FRAME - 1, fmin(SCENE_MAX_FRAME + 1, scaled));
 }
@@ -144,7 +143,7 @@ static void trim_knots(struct document *document, int index)
     own->knot_count = to - from;
 }
 
-/// Moves knots that fall outside to the nearest samples inside, pushing others along.
+/// Moves knots outside the range to the nearest samples inside, and pushes other knots along.
 static bool move_knots(struct document *document, int index, struct error *error)
 {
     const struct spline *spline = document->splines[index];
@@ -153,7 +152,7 @@ static bool move_knots(struct document *document, int index, struct error *error
         return fail(error, ERROR_INPUT, "%s: %d knots do not fit into %d frames", spline->name, count,
                     document->last_frame - document->first_frame + 1);
     }
-    int low = 0, high = count; // knots that are pushed to the right, up to `low`, and to the left, from `high` on
+    int low = 0, high = count; // knots up to `low` are pushed right, those from `high` on left
     while (low < count && document_sample(document, spline->knots[low].frame) < low) low++;
     while (high > low && document_sample(document, spline->knots[high - 1].frame) > last - (count - high)) high--;
     if (low == 0 && high == count) return true;
@@ -163,7 +162,7 @@ static bool move_knots(struct document *document, int index, struct error *error
     return true;
 }
 
-/// Moves a rig's pins that fall outside to the nearest sample inside, or removes them.
+/// Moves a rig's pins outside the range to the nearest sample inside, or removes them.
 static void fit_pins(struct document *document, int index, enum range_fit fit)
 {
     const struct rig *rig = document->rigs[index];
@@ -178,11 +177,11 @@ static void fit_pins(struct document *document, int index, enum range_fit fit)
         pin.frame = document_frame(document, document_sample(document, pin.frame) < 0 ? 0 : last);
         if (fit == RANGE_MOVE) pins_insert(own, &pin);
         rig = own;
-        i = 0; // a pin that moved is somewhere else
+        i = 0; // the pins' order has changed
     }
 }
 
-/// What falls outside the document's new range.
+/// Handles what is outside the document's new range.
 static bool fit_all(struct document *document, enum range_fit fit, struct error *error)
 {
     bool good = check_loops(document, error);
@@ -212,7 +211,7 @@ void edit_document(struct document *document, struct document *other) { document
 
 struct document *edit_begin(const struct document *document) { return document_copy(document); }
 
-/// Whether the document's pins and floors are as a file may have them.
+/// Whether the document's pins and floors would be allowed in a file.
 static bool suits_pins(const struct document *document, struct error *error)
 {
     struct pin_trouble trouble;
@@ -239,7 +238,7 @@ bool edit_has_spline(const struct document *document, int spline, struct error *
     return (spline >= 0 && spline < document->spline_count) || fail(error, ERROR_INPUT, "there is no such spline");
 }
 
-/// What to call a rig of one of those kinds.
+/// The word for a rig of one of these kinds.
 static const char *word_for(unsigned kinds)
 {
     for (int k = 0; k < RIG_KINDS; k++) {

@@ -10,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Whether one more spline fits.
+/// Whether another spline fits.
 static bool fits(const struct document *document, const struct spline *added, struct error *error)
 {
     const bool limited = spline_is_limited(added) || document_is_limited(document);
@@ -21,7 +21,7 @@ static bool fits(const struct document *document, const struct spline *added, st
            fail(error, ERROR_INPUT, "the limit is %d knots over all splines", SCENE_MAX_KNOTS);
 }
 
-/// `base`, or the first free one of "base 2", "base 3" …; a number at the end of `base` is replaced.
+/// `base`, or the first free name among "base 2", "base 3" …; a number at the end of `base` is replaced.
 static char *free_name(const struct document *document, const char *base)
 {
     size_t length = strlen(base), stem = length;
@@ -45,7 +45,7 @@ static bool check_name(const struct document *document, const char *name, int ow
     return fail(error, ERROR_INPUT, "a spline called %s already exists", name);
 }
 
-/// Where the spline at `index` ends up when the one at `from` moves to `to`.
+/// The new index of the spline at `index` when the one at `from` moves to `to`.
 static int moved_index(int index, int from, int to)
 {
     if (index == from) return to;
@@ -53,7 +53,7 @@ static int moved_index(int index, int from, int to)
     return to <= index && index < from ? index + 1 : index;
 }
 
-/// Gives every reference its spline's new index. INT_MAX as `from` or `to` means outside the list.
+/// Updates all references to splines. INT_MAX as `from` or `to` means outside the list.
 static void move_references(struct document *document, int from, int to)
 {
     for (struct reference reference = {0}; reference_next(document, &reference);) {
@@ -62,7 +62,7 @@ static void move_references(struct document *document, int from, int to)
     }
 }
 
-/// Puts a spline, with new ids, into the list.
+/// Inserts a spline with new ids.
 static bool add(struct document *document, int at, struct spline *spline, struct error *error)
 {
     if (!fits(document, spline, error)) {
@@ -167,7 +167,7 @@ static bool same_param(const struct param *a, const struct param *b)
     return a->value == b->value && a->track == b->track && motion_equals(a->motion, b->motion);
 }
 
-/// Gives the spline the parameters of `wanted`.
+/// Copies the parameters of `wanted` to the spline.
 static void set(struct document *document, int index, const struct spline *wanted)
 {
     const struct spline *old = document->splines[index];
@@ -190,7 +190,7 @@ static bool check_track(const struct document *document, const struct spline *sp
            fail(error, ERROR_INPUT, "%s: there is no spline to follow", spline->name);
 }
 
-/// The motion as the document has it, with one holder; NULL: it may not be followed.
+/// A copy of the motion as the document has it; NULL and an error if the spline may not follow it.
 static struct joint_motion *new_motion(const struct document *document, const struct spline *spline,
                                        enum parameter parameter, const struct param *param, struct error *error)
 {
@@ -216,7 +216,7 @@ static bool check_constant(const struct spline *spline, enum parameter parameter
     return fail(error, ERROR_INPUT, "%s: %s must be at most %g", spline->name, name, high);
 }
 
-/// A limit may be infinite, which is none; knots stay within.
+/// An infinite limit is no limit. Knots must be within.
 static bool check_limit(const struct document *document, const struct spline *spline, enum parameter parameter,
                         double value, struct error *error)
 {
@@ -239,7 +239,7 @@ static bool check_limit(const struct document *document, const struct spline *sp
     return true;
 }
 
-/// Clamps what the mode does not allow.
+/// Clamps values to the mode's range.
 static void clamp_to_mode(struct spline *settings, enum wiggly_mode mode)
 {
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++)
@@ -277,7 +277,7 @@ static bool set_number(const struct document *document, struct spline *settings,
     return true;
 }
 
-/// Whether no spline follows itself, by way of others.
+/// Whether no spline follows itself, also indirectly.
 static bool has_order(const struct document *document, int spline, int track, struct error *error)
 {
     struct order_cycle cycle;
@@ -317,7 +317,7 @@ bool edit_parameter(struct document *document, int spline, enum parameter parame
     return edit_end(document, before, change(document, spline, parameter, param, error), error);
 }
 
-/// Whether a knot may go where it says; `id` is its own. −0 is saved as 0, so it becomes 0, and a still knot holds nothing else.
+/// Whether a knot is allowed; `id` is its own. Turns −0 into 0, as saving does, and clears slope and phase of a still knot.
 static bool check_knot(const struct document *document, const struct spline *spline, struct knot *knot, unsigned id,
                        struct error *error)
 {
@@ -382,7 +382,7 @@ bool edit_knot_insert(struct document *document, int spline, const struct knot *
     return true;
 }
 
-/// Index of the knot with that id; -1 with a sentence.
+/// Index of the knot with that id; -1 and an error if there is none.
 static int find(const struct document *document, int spline, unsigned id, struct error *error)
 {
     if (!edit_has_spline(document, spline, error)) return -1;
@@ -411,7 +411,7 @@ bool edit_knot_set(struct document *document, int spline, const struct knot *kno
     if (fields_equal(knot_fields, &changed, &old->knots[from])) return true;
     struct knot *knots = document_own_spline(document, spline)->knots;
     int to = spline_lower_bound(document, document->splines[spline], document_sample(document, changed.frame));
-    if (to > from) to--; // where it is once the old one is gone
+    if (to > from) to--; // its index once the old one is removed
     if (to > from) memmove(&knots[from], &knots[from + 1], (size_t)(to - from) * sizeof *knots);
     if (to < from) memmove(&knots[to + 1], &knots[to], (size_t)(from - to) * sizeof *knots);
     knots[to] = changed;

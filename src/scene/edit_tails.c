@@ -1,14 +1,14 @@
-/// Edits of tails: one more, and how many joints one has.
+/// Adds tails and changes their number of joints.
 #include "scene/editing.h"
 #include <math.h>
 #include <stdlib.h>
 
-static const double NEW_REST = 1.5;         ///< degrees a joint, so that a new tail is no straight cone
-static const double NEW_HEIGHT = 0.26;      ///< metres; the body of a tail of 1.6 m then sits on the ground
+static const double NEW_REST = 1.5;         ///< degrees per joint, so that a new tail is not a straight cone
+static const double NEW_HEIGHT = 0.26;      ///< metres; puts the body of a tail of 1.6 m on the ground
 static const double ASIDE = 0.75;           ///< distance from a tail to its copy, in tail lengths
 static const double ANGLE_RESOLUTION = 1e6; ///< resampled angles are rounded to 1/this degrees
 
-/// A tail without channels, with the file format's defaults but slightly bent and on the ground.
+/// A tail without channels: the format's defaults, but slightly bent and on the ground.
 static struct rig *plain_tail(void)
 {
     struct rig *rig = rig_create(RIG_TAIL);
@@ -24,7 +24,7 @@ bool edit_tail_add(struct document *document, int rig, int spline, enum axis axi
     struct rig *added = is_tail ? rig_clone(document->rigs[rig]) : plain_tail();
     free(added->name);
     added->name = NULL;
-    added->pin_count = 0; // what is pinned drives both
+    added->pin_count = 0; // both tails follow the same splines, so one set of pins is enough
     if (is_tail && added->tail.position[0].track < 0) added->tail.position[0].value += ASIDE * added->tail.length;
     if (!is_tail && edit_has_spline(document, spline, NULL)) edit_append_channel(added, spline, axis, of);
     const bool good = edit_rig_add(document, added, error);
@@ -34,7 +34,7 @@ bool edit_tail_add(struct document *document, int rig, int spline, enum axis axi
 
 static double rounded(double degrees) { return round(degrees * ANGLE_RESOLUTION) / ANGLE_RESOLUTION + 0.0; }
 
-/// Resamples angles of a tail for `to` joints, times `factor`. A ramp goes along the tail already.
+/// Resamples a tail's angles for `to` joints, times `factor`. A ramp already covers the whole tail.
 static void resample(struct angles *angles, int to, double factor)
 {
     const struct angles old = *angles;
@@ -51,7 +51,7 @@ static void resample(struct angles *angles, int to, double factor)
     }
 }
 
-/// Pins stay where they are along the tail; of two that meet, the first stays.
+/// Keeps pins at their places along the tail; if two meet, the first stays.
 static void move_pins(struct rig *rig, int from, int to)
 {
     const int count = rig->pin_count;

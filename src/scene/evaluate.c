@@ -97,7 +97,7 @@ void evaluation_free(struct evaluation *evaluation)
     *evaluation = (struct evaluation){0};
 }
 
-/// Whether the spline depends on one that was just solved.
+/// Whether the spline follows one that was just solved.
 static bool follows_solved(const struct storage *storage, const struct spline *spline, bool cubic)
 {
     for (int i = 0; i < PARAMETER_COUNT; i++) {
@@ -130,7 +130,7 @@ static void solve(struct evaluation *evaluation, const struct document *document
     count_solved(evaluation, document, spline, status);
 }
 
-/// Whether a spline is out of date: it or what it follows is not what was solved.
+/// Whether a spline is out of date: it has changed since it was solved, or a spline that it follows was solved.
 static bool is_due(struct evaluation *evaluation, const struct document *document, int spline)
 {
     const struct storage *storage = evaluation->storage;
@@ -139,7 +139,7 @@ static bool is_due(struct evaluation *evaluation, const struct document *documen
            follows_solved(storage, document->splines[spline], evaluation->cubic);
 }
 
-/// Holds what is solved, so that its address stays its own.
+/// Keeps a reference to the solved spline, so that its address is not reused.
 static void mark_solved(struct storage *storage, const struct document *document, int spline)
 {
     struct spline_state *state = &storage->state[spline];
@@ -150,7 +150,7 @@ static void mark_solved(struct storage *storage, const struct document *document
     state->baked.is_new = state->forced = false;
 }
 
-/// Solves the splines of a group, which are in a row from `order` on, if one of them is out of date. Returns how many they are.
+/// Solves a group of splines, listed from `order` on, if one is out of date. Returns how many there are.
 static int update_group(struct evaluation *evaluation, const struct document *document, const int *order)
 {
     struct pinned *pinned = &evaluation->storage->pinned;
@@ -206,7 +206,7 @@ static uint64_t hash_chain(uint64_t hash, const struct chain *chain)
     return hash_word(hash_number(hash, chain->turn), chain->mirror);
 }
 
-/// Of all that the samples depend on; never 0.
+/// A hash of everything that the samples depend on; never 0.
 static uint64_t key_of(const struct document *document, const struct joint_motion *motion,
                        const struct model_source *source)
 {
@@ -231,8 +231,8 @@ static void read(struct baked *baked, const struct document *document, const str
     for (int i = 0; !good && i < count; i++) baked->raw[i] = 0;
 }
 
-/// Reads again the motions for which the document's frames, model, clip or chain or the source's version have changed, so that their
-/// splines are solved. What cannot be read is 0 throughout.
+/// Reads motions again if the document's frames, model, clip or chain, or the source's version, have changed; their splines are then
+/// solved. An unreadable motion is 0 throughout.
 static void motions_bake(struct evaluation *evaluation, const struct document *document)
 {
     const int count = evaluation->samples;
@@ -259,7 +259,7 @@ bool evaluation_is_of(const struct evaluation *evaluation, const struct document
     return evaluation->storage && evaluation->storage->edits == document->edits;
 }
 
-/// Notes what the update is of; all splines are to be solved if that is another way, or at other times.
+/// Records what the update is for. All splines become out of date if the mode or the samples have changed.
 static void note(struct evaluation *evaluation, const struct document *document, bool cubic)
 {
     struct storage *storage = evaluation->storage;
@@ -285,7 +285,7 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     motions_bake(evaluation, document);
     struct storage *storage = evaluation->storage;
     struct pinned *pinned = &storage->pinned;
-    if (!scene_order(document, storage->space, storage->order, &cycle)) return; // a document has no cycles
+    if (!scene_order(document, storage->space, storage->order, &cycle)) return; // never: no document has cycles
     pinned_resize(evaluation, document);
     const bool grouped = pinned_begin(evaluation, document);
     const int *order = grouped ? pinned->order : storage->order;

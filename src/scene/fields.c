@@ -1,4 +1,4 @@
-/// Objects of a scene file by rows: read, printed, checked, compared, copied and freed.
+/// Objects of a scene file, described by rows: read, printed, checked, compared, copied and freed.
 #include "scene/fields.h"
 #include "base/need.h"
 #include "scene/editing.h"
@@ -41,7 +41,7 @@ const struct field *fields_find(const struct field *fields, const char *key)
     return fields->key ? fields : NULL;
 }
 
-/// The place of an object's unknown keys.
+/// The offset of an object's unknown keys.
 static size_t extra_place(const struct field *fields)
 {
     while (fields->key) fields++;
@@ -93,7 +93,7 @@ static void load_word(struct reader *reader, struct value value, const struct fi
     if (found >= 0) *word = found;
 }
 
-/// Each coordinate is in metres or follows a spline. Unknown keys of tracks are kept under those of the coordinates.
+/// Each coordinate is a number in metres or follows a spline. Unknown keys of tracks are kept under the coordinate's name.
 static void load_place(struct reader *reader, struct value value, struct param *params, json_t **extra)
 {
     json_t *tracks = NULL;
@@ -264,7 +264,7 @@ static void print_row(struct members *members, const struct document *document, 
     }
 }
 
-/// Whether it is not printed, because it has its default or is missing.
+/// Whether a field is not printed, because it has its default or is missing.
 static bool is_left_out(const struct field *field, const void *object)
 {
     const void *at = look(object, field->place);
@@ -287,7 +287,7 @@ void fields_print(struct members *members, const struct document *document, cons
     }
     json_object_foreach(extra, key, value)
     {
-        if (fields_find(fields, key)) continue; // unknown keys of a track or a ramp
+        if (fields_find(fields, key)) continue; // unknown keys of a track or ramp
         member(members, key);
         text_json(members->text, value);
     }

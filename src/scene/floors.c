@@ -1,10 +1,10 @@
 /// Keeps the lowest points of characters above their floors.
 ///
-/// Cutting planes: the lowest vertex of every dip below the floor becomes a bound, the group is solved with all bounds so far, and again
-/// until no vertex is deeper than the tolerance. Each solve is convex, and its answer a function of the bounds alone.
+/// Cutting planes: the lowest vertex of every dip below the floor becomes a bound, and the group is solved again with all bounds so
+/// far, until no vertex is deeper than the tolerance. Each solve is convex, and its result depends on the bounds alone.
 ///
-/// Knots and pins come first. Where they hold a character below its floor, the floor sinks as deep there, and rises again over a quarter
-/// of a period: otherwise the curve would have to jump up to it in one sample.
+/// Knots and pins have priority. Where they hold a character below its floor, the floor sinks to that depth and rises again over a
+/// quarter of a period; otherwise the curve would jump up to it within a sample.
 #include "scene/storage.h"
 #include <math.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@
 
 enum { MOST_ROUNDS = 24 };
 
-static const double DEEP = 1e-5; ///< of a character's size: how far below a floor does not count
+static const double DEEP = 1e-5; ///< depth below a floor that is tolerated, as a share of the character's size
 static const double HELD =
     0.04; ///< reach below which knots and pins leave a point no way (docs/mathematics.md, Pins, Reach)
 static const double RISE = 0.25; ///< periods
@@ -32,7 +32,7 @@ void floors_resize(struct pinned *pinned, int samples)
     floors->left = pool_take(pool, rigs, sizeof *floors->left);
 }
 
-/// Whether a rig of the group in hand has a floor.
+/// Whether a rig of the current group has a floor.
 static bool concerns(const struct pinned *pinned, int index)
 {
     const struct rig *rig = pinned->document->rigs[index];
@@ -48,13 +48,13 @@ bool floors_concern(const struct pinned *pinned)
 
 static double floor_of(const struct pinned *pinned, int rig) { return pinned->document->rigs[rig]->character.floor; }
 
-/// How far a rig's floor has sunk, at each sample.
+/// How far a rig's floor has sunk at each sample.
 static double *sunk_of(const struct pinned *pinned, int rig)
 {
     return pinned->floors.sunk + rig * pinned->evaluation->samples;
 }
 
-/// Where the floor in hand is at a sample.
+/// The current floor's height at a sample.
 static double level(const struct pinned *pinned, int rig, int sample)
 {
     return floor_of(pinned, rig) - sunk_of(pinned, rig)[sample];
@@ -77,7 +77,7 @@ static bool find_low(struct pinned *pinned, int rig)
     return true;
 }
 
-/// Writes bound `b`, that the lowest vertex at a sample is to be no lower than `height`; returns the size of its rig.
+/// Writes bound `b`: the lowest vertex at a sample must be at `height` or above. Returns the size of its rig.
 static double put_bound(struct pinned *pinned, int b, int rig, int sample, double height)
 {
     const struct model_source *source = &pinned->evaluation->models;
@@ -111,7 +111,7 @@ static double samples_to_rise(const struct pinned *pinned, int sample)
     return RISE / (slowest * pinned->descs[0].step);
 }
 
-/// Lets the floor sink around a sample.
+/// Lowers the floor around a sample.
 static void sink(double *sunk, int samples, int at, double by, double rise)
 {
     for (int i = 0; i < samples; i++) {
@@ -133,7 +133,7 @@ static bool is_held(const struct pinned *pinned, int sample)
     return false;
 }
 
-/// Lets a rig's floor sink where knots and pins hold it lower.
+/// Lowers a rig's floor where knots and pins hold the rig below it.
 static void find_sunk(struct pinned *pinned, int rig)
 {
     const int samples = pinned->evaluation->samples;
@@ -149,7 +149,7 @@ static void find_sunk(struct pinned *pinned, int rig)
     }
 }
 
-/// Whether the bound behind the last is among those before.
+/// Whether the bound after the last is already among those before.
 static bool is_bound(const struct floors *floors)
 {
     const int last = floors->count;
@@ -161,7 +161,7 @@ static bool is_bound(const struct floors *floors)
     return false;
 }
 
-/// Adds the deepest vertex of every dip; whether there was any.
+/// Adds a bound for the deepest vertex of every dip. Returns whether there was any.
 static bool add_bounds(struct pinned *pinned, int rig)
 {
     const int samples = pinned->evaluation->samples;
@@ -180,7 +180,7 @@ static bool add_bounds(struct pinned *pinned, int rig)
     return any;
 }
 
-/// What the floor misses after all.
+/// Measures how far the rig is below its floor in the end.
 static void measure(struct pinned *pinned, int rig)
 {
     struct floor_left *left = &pinned->floors.left[rig];

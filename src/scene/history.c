@@ -1,4 +1,4 @@
-/// The history: documents, and steps from one to the next.
+/// The undo history: documents, and the steps between them.
 #include "scene/history.h"
 #include "base/need.h"
 #include <assert.h>
@@ -7,28 +7,28 @@
 
 static const size_t DEFAULT_LIMIT = (size_t)128 << 20; ///< bytes
 
-/// A document that was, and the step that led to it; the first one's has no label.
+/// A past document, and the step that led to it. The first has no label.
 struct state {
     struct document *document;
     const char *label;
     uint64_t merge;
-    uint64_t number; ///< no other state's
-    size_t bytes;    ///< that the step replaced
+    uint64_t number; ///< unique
+    size_t bytes;    ///< replaced by the step
 };
 
 struct history {
-    struct document *document; ///< on the table
-    struct document *left;     ///< what it was before it last went back: this frame's panels may still read it
-    struct state *states;      ///< one more than steps
+    struct document *document; ///< the document that is edited
+    struct document *left;     ///< the document before the last undo, which this frame's panels may still read
+    struct state *states;      ///< one more than there are steps
     size_t step_count, capacity;
-    size_t done;         ///< steps that are not undone: the current state's index
-    size_t bytes, limit; ///< of all steps
-    size_t dropped;      ///< steps dropped for newer ones
+    size_t done;         ///< steps not undone: the current state's index
+    size_t bytes, limit; ///< of all steps together
+    size_t dropped;      ///< steps dropped to save memory
     uint64_t last_number, saved_number;
     bool is_open, can_merge;
     const char *label;
     uint64_t merge;
-    unsigned next_id; ///< the document's, as the open step began
+    unsigned next_id; ///< the document's next id when the open step began
 };
 
 /// Forgets the states from an index on.
@@ -81,7 +81,7 @@ void history_begin(struct history *history, const char *label, uint64_t merge)
     history->next_id = history->document->next_id;
 }
 
-/// The document becomes what it was in the current state. Ids that were given since are not given again.
+/// Makes the document what it was in the current state. Ids given since are not reused.
 static void go_back(struct history *history)
 {
     struct document *document = history->document, *next = document_copy(current(history)->document);
@@ -101,10 +101,10 @@ void history_restart(struct history *history)
     assert(history->is_open);
     if (!has_changed(history)) return;
     go_back(history);
-    history->document->next_id = history->next_id; // so that what is inserted again gets the same ids
+    history->document->next_id = history->next_id; // so that an object inserted again gets the same id
 }
 
-/// Drops the oldest steps while they replaced more than the limit, an eighth of it at a time, so that the rest rarely move.
+/// Drops the oldest steps while they exceed the limit, an eighth at a time, so that the others rarely move.
 static void drop_oldest(struct history *history)
 {
     const size_t room = history->limit - history->limit / 8;
@@ -122,7 +122,7 @@ static void drop_oldest(struct history *history)
     history->states[0].label = NULL;
 }
 
-/// Whether the open step joins the last one. A saved state stays a step of its own, so that undo can return to it.
+/// Whether the open step merges with the last one. A saved state stays separate, so that undo can return to it.
 static bool joins_last(const struct history *history)
 {
     return history->done > 0 && history->can_merge && history->merge != 0 &&
@@ -231,7 +231,7 @@ void history_amend(struct history *history)
 void history_set_path(struct history *history, const char *path)
 {
     const unsigned serial = history->document->serial;
-    char *copy = need_text(path); // it may be the document's own
+    char *copy = need_text(path); // `path` may be the document's own
     document_set_path(history->document, copy);
     for (size_t i = 0; i <= history->step_count; i++) {
         if (history->states[i].document->serial == serial) document_set_path(history->states[i].document, copy);

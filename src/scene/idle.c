@@ -1,4 +1,4 @@
-/// Slopes and phases without effect (docs/mathematics.md says how knots hold them).
+/// Slopes and phases without effect (docs/mathematics.md says what knots hold).
 #include "scene/pins.h"
 #include "scene/warnings.h"
 
@@ -12,13 +12,13 @@ static const struct knot *knot_on(const struct document *document, const struct 
     return k >= 0 ? &spline->knots[k] : NULL;
 }
 
-/// Whether nothing of w is free at a knot.
+/// Whether a knot leaves nothing of w free.
 static bool is_whole(const struct spline *spline, const struct knot *knot)
 {
     return knot && (spline_mode(spline) != WIGGLY_COMPLEX || knot->has_phase || knot->still);
 }
 
-/// Samples that are solved for: a loop's, else those from the first knot on, or all after a start at rest.
+/// Number of samples that are solved: a whole loop, the samples from the first knot on, or all after a start at rest.
 static int samples_solved(const struct document *document, const struct spline *spline, int *first)
 {
     const int samples = document_samples(document), earliest = document_sample(document, spline->knots[0].frame);
@@ -27,7 +27,7 @@ static int samples_solved(const struct document *document, const struct spline *
     return start == WIGGLY_LOOP ? samples - 1 : samples - *first;
 }
 
-/// The paper's slope is a step to the next sample, at the last one from the one before.
+/// The paper's slope is the step to the next sample; at the last sample, from the one before.
 static const char *idle_step(const struct document *document, const struct spline *spline, int sample)
 {
     const int samples = document_samples(document);
@@ -37,7 +37,7 @@ static const char *idle_step(const struct document *document, const struct splin
     return other < sample && !loop ? "the sample before is a knot too" : "the next sample is a knot too";
 }
 
-/// How a complex spline goes on after its last knot: 1: by itself, 0: as the slope there says, -1: a track decides.
+/// How a complex spline continues after its last knot: 1: freely, 0: as the slope there says, -1: depends on a track.
 static int goes_by_itself(const struct spline *spline)
 {
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
@@ -46,7 +46,7 @@ static int goes_by_itself(const struct spline *spline)
     return frequency->value > 0 && damping->value < FULL;
 }
 
-/// The oscillator's slope is a speed seen from both sides, at an end from one.
+/// The oscillator's slope is a speed measured on both sides, at an end on one.
 static const char *idle_speed(const struct document *document, const struct spline *spline, int sample, int first,
                               bool pinned)
 {

@@ -68,7 +68,7 @@ static const char *const column_names[] = {[COLUMN_FRAME] = "frame",
                                            [COLUMN_STIFFNESS] = "stiffness",
                                            [COLUMN_IM] = "im"};
 
-static const char byte_order_mark[] = "\xEF\xBB\xBF", cut_off[] = "…"; // no number ends in that
+static const char byte_order_mark[] = "\xEF\xBB\xBF", cut_off[] = "…"; // no number ends in this
 
 /// A line's fields, without surrounding quotes and blanks.
 struct line {
@@ -80,7 +80,7 @@ struct line {
 struct csv {
     const char *name;
     struct line line;
-    int at[COLUMN_COUNT]; ///< field of each column, -1: there is none
+    int at[COLUMN_COUNT]; ///< index of each column's field, -1: none
     struct knot_list *list;
     int capacity;
     struct error *error;
@@ -105,7 +105,7 @@ static void take_field(struct line *line, const char *from, size_t length)
     strcpy(field + length, fits ? "" : cut_off);
 }
 
-/// Splits a line at semicolons, else tabs, else commas. With the first two a comma in a number is its decimal point.
+/// Splits a line at semicolons, else tabs, else commas. With semicolons or tabs, a comma in a number is the decimal point.
 static void split(struct line *line, const char *text, size_t length)
 {
     char separator = memchr(text, ';', length) ? ';' : memchr(text, '\t', length) ? '\t' : ',';
@@ -129,7 +129,7 @@ static bool is_number(const char *field, double *number)
     return end != field && !*end && isfinite(*number);
 }
 
-/// A header: columns go by name; frame and value are the first and second if it does not name them.
+/// Reads a header: columns have names; frame and value default to the first and second column.
 static void read_header(struct csv *csv)
 {
     for (int c = 0; c < COLUMN_COUNT; c++) {
@@ -140,7 +140,7 @@ static void read_header(struct csv *csv)
     }
 }
 
-/// Reads a field's number; an optional one that is missing stays as it is.
+/// Reads a field's number. A missing optional field is left unchanged.
 static bool read_field(const struct csv *csv, enum column column, bool *given, double *number)
 {
     static const char *const expected[] = {

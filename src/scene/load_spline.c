@@ -5,10 +5,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Keys that are no parameters.
+/// Keys that are not parameters.
 static const char *const spline_keys[] = {"name", "knots", "color", "spring", "friction", NULL};
 
-/// One of the two numbers; null: none.
+/// One of the two limits; null: none.
 static void load_limit(struct reader *reader, const struct value limits, int index, double *limit)
 {
     const char expected[] = "two numbers, or null for none";
@@ -21,7 +21,7 @@ static void load_limit(struct reader *reader, const struct value limits, int ind
     if (!json_is_null(value.json)) reader_number(reader, value, true, range_any, limit);
 }
 
-/// One of the two numbers of a variation. Unknown keys are kept under the spline's extra key of that name.
+/// One of the two numbers of a variation. Its unknown keys are kept under its name among the spline's unknown keys.
 static void load_variation(struct reader *reader, const struct value variation, enum parameter parameter,
                            double *number, json_t **extra)
 {
@@ -68,7 +68,7 @@ static bool load_parameter(struct reader *reader, const struct value *object, st
     return true;
 }
 
-/// The paper's spring and friction (eq. 12), outside complex mode: read as the frequency and damping that they are.
+/// The paper's spring and friction (eq. 12), not for Wiggly splines; they are converted to frequency and damping.
 static void load_spring(struct reader *reader, const struct value *object, struct spline *spline)
 {
     const struct value k = reader_member(object, "spring"), gamma = reader_member(object, "friction");
@@ -87,7 +87,7 @@ static void load_spring(struct reader *reader, const struct value *object, struc
                        &spline->parameter[PARAMETER_DAMPING].value);
 }
 
-/// Nothing that a knot could hold may be beside "still".
+/// A still knot may have no slope and no phase.
 static void load_still(struct reader *reader, const struct value *object, void *at)
 {
     static const char *const held[] = {"value", "im", "slope", "stiffness"};
@@ -144,7 +144,7 @@ static void check_domain(struct reader *reader, const struct where *at, const st
     if (!document_has_frame(reader->document, frame, last, &error)) reader_fail(reader, &frame_at, "%s", error.text);
 }
 
-/// Sorts the knots and checks them against each other. `first_id` belongs to the first one in the file.
+/// Sorts the knots and checks them against each other. `first_id` is the id of the first one in the file.
 static void check_knots(struct reader *reader, const struct where *knots_at, struct spline *spline, unsigned first_id)
 {
     struct document *document = reader->document;
@@ -164,7 +164,7 @@ static void check_knots(struct reader *reader, const struct where *knots_at, str
     }
 }
 
-/// The low limit below the high one, and every knot within.
+/// The low limit must be below the high one, and every knot within.
 static void check_limits(struct reader *reader, const struct where *spline_at, const struct where *knots_at,
                          const struct spline *spline, unsigned first_id)
 {
@@ -212,7 +212,7 @@ static void check_loop(struct reader *reader, const struct where *spline_at, con
     }
 }
 
-/// Samples at a limit are held as knots are, so a limited spline costs more.
+/// Samples at a limit are held like knots, so a spline with limits costs more.
 static void check_length(struct reader *reader, const struct where *spline_at, const struct spline *spline)
 {
     struct where at = {.parent = spline_at, .key = parameter_key(PARAMETER_LOW)};

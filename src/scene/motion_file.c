@@ -1,4 +1,4 @@
-/// What follows a joint: { "model": "walk", "joint": "hips", "of": "turn", "gain": 1 }.
+/// The joint that a spline follows: { "model": "walk", "joint": "hips", "of": "turn", "gain": 1 }.
 #include "base/need.h"
 #include "scene/fields.h"
 #include <math.h>

@@ -1,4 +1,4 @@
-/// Sorts splines by their dependencies, finds cycles, and goes through all places where a document names a spline.
+/// Sorts splines by their dependencies, finds cycles, and visits every reference to a spline in a document.
 #include "scene/order.h"
 #include "base/need.h"
 #include <stdlib.h>
@@ -12,7 +12,7 @@ bool spline_uses(const struct spline *spline, enum parameter parameter, bool cub
     return parameter_rows[parameter].modes >> mode & 1;
 }
 
-/// Depth-first search from one spline, without recursion because a chain of tracks may be as long as the scene.
+/// Depth-first search from one spline; not recursive, because a chain of tracks may be as long as the scene.
 static bool visit(const struct document *document, struct order_space space, int root, int *order, int *ordered,
                   struct order_cycle *cycle)
 {
@@ -84,7 +84,7 @@ void scene_followers(const struct document *document, int spline, bool *follower
     }
 }
 
-/// The n-th place of a rig that may name a spline, its inputs first; NULL: there are no more.
+/// A rig's n-th reference to a spline, its inputs first; NULL: there are no more.
 static int *place_in_rig(struct rig *rig, int n)
 {
     const int inputs = rig_input_count(rig);

@@ -1,10 +1,10 @@
-/// Makes paint and changes it.
+/// Makes and changes paint.
 #include "scene/paint.h"
 #include "base/need.h"
 #include <stdlib.h>
 #include <string.h>
 
-/// Gives it another version: its values have changed.
+/// Changes its version, because its values have changed.
 static void touch(struct paint *paint)
 {
     static uint64_t last;

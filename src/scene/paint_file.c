@@ -1,4 +1,4 @@
-/// Reads and writes paint: inside of scenes, and as .npy.
+/// Reads and writes paint: in scenes, and as .npy.
 #include "base/base64.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -11,9 +11,8 @@
 
 static const size_t LARGEST = (size_t)1 << 30;
 
-enum { MOST_VALUES = 1 << 27 }; ///< pairs: as much as a file of the largest size
+enum { MOST_VALUES = 1 << 27 }; ///< pairs in a file of the largest size
 
-/// Where the values of a coordinate start.
 static float (*values_of(const struct paint *paint, int coordinate))[2]
 {
     return paint->values + (size_t)coordinate * (size_t)paint->vertices;
@@ -32,7 +31,7 @@ static bool check_shape(const char *name, const struct npy *npy, size_t size, st
                                              name, (long long)expected, npy->shape, size);
 }
 
-/// Number `part` (a or ψ) at a vertex of a coordinate.
+/// Component `part` (a or ψ) of a coordinate at a vertex.
 static double value_at(const struct npy *npy, const char *data, int64_t coordinate, int64_t vertex, int64_t part)
 {
     const int64_t *n = npy->lengths;
@@ -123,9 +122,8 @@ bool scene_read_paint(struct document *document, struct error *error)
     return first.kind == ERROR_NONE;
 }
 
-// --- inside of a scene
+// --- in a scene
 
-/// Reads a coordinate's string.
 static void load_coordinate(struct reader *reader, struct value value, struct paint *paint, int coordinate)
 {
     const char *text = json_string_value(value.json);
@@ -186,7 +184,7 @@ void paint_load(struct reader *reader, const struct value *object, void *at)
     }
 }
 
-/// A coordinate's values as a string, or null where they change nothing.
+/// A coordinate's values as a string; null if they have no effect.
 static void print_coordinate(struct text *text, const struct paint *paint, int coordinate)
 {
     const size_t size = (size_t)paint->vertices * sizeof *paint->values;

@@ -1,8 +1,8 @@
 /// Solves groups of splines through their pins.
 ///
-/// A tail or chain bends, so its points move by Σ Re(c x) only near a pose: Gauss-Newton, from the motion without pins on, each round with
-/// the pulls at the pose of the last one. No round is taken back, so that the motion is a continuous function of where pins are to be
-/// (pin_aim()). A soft character needs one round.
+/// A point of a tail or chain moves by Σ Re(c x) only near one pose. So this is a Gauss-Newton method: it starts from the motion without
+/// pins, and each round uses the pulls at the pose of the last one. No round is undone, so that the motion depends continuously on the
+/// pins' places (pin_aim()). A soft character needs one round.
 #include "base/need.h"
 #include "scene/pins.h"
 #include "scene/storage.h"
@@ -11,7 +11,7 @@
 
 enum { MOST_ROUNDS = 8, FIRST_ROOM = 8 };
 
-/// Holds the rigs as they are, so that none that differs has the address of one of them.
+/// Keeps references to the rigs, so that a changed rig never has the address of an old one.
 static void hold_rigs(struct pinned *pinned, struct rig *const *rigs, int count)
 {
     for (int r = 0; r < count; r++) rig_hold(rigs[r]);
@@ -56,7 +56,7 @@ static void create(struct pinned *pinned, int splines, int samples)
         need_failed();
 }
 
-/// How many splines the largest group has, that of each written to `which`.
+/// Writes each spline's group to `which`. Returns the size of the largest group.
 static int find_groups(const struct document *document, int *which)
 {
     int largest = 0;
@@ -101,7 +101,7 @@ void pinned_resize(struct evaluation *evaluation, const struct document *documen
     create(pinned, evaluation->count, evaluation->samples);
 }
 
-/// Weighs the splines that are new in groups, or all of these.
+/// Computes the weights of splines that are new in a group, or of all.
 static void weigh(struct pinned *pinned, bool all)
 {
     const struct document *document = pinned->document;
@@ -111,11 +111,11 @@ static void weigh(struct pinned *pinned, bool all)
         pinned->weight[s] = 0;
         for (int r = 0; r < document->rig_count; r++)
             source->weigh(source->context, document, r, &s, 1, &pinned->weight[s]);
-        if (!(pinned->weight[s] > 0)) pinned->weight[s] = 1; // what moves nothing has no say
+        if (!(pinned->weight[s] > 0)) pinned->weight[s] = 1; // splines that move nothing
     }
 }
 
-/// Whether a rig is not the one that was solved; `beside_pins`: in more than its pins.
+/// Whether a rig differs from the solved one; `beside_pins`: in more than its pins.
 static bool rigs_differ(const struct pinned *pinned, bool beside_pins)
 {
     const struct document *document = pinned->document;
@@ -165,7 +165,7 @@ bool pinned_take(struct pinned *pinned, int which)
     return moved;
 }
 
-/// What comes after the group although it moves its rigs follows it: it counts as still, whatever it was before.
+/// Splines that come after the group but move its rigs are taken as still, so the result does not depend on their last state.
 static void still_bases(const struct pinned *pinned)
 {
     for (int s = 0; s < pinned->evaluation->count; s++) {
@@ -175,7 +175,6 @@ static void still_bases(const struct pinned *pinned)
     }
 }
 
-/// Lists and describes the splines of the group.
 static void find_members(struct pinned *pinned)
 {
     const struct evaluation *evaluation = pinned->evaluation;
@@ -205,7 +204,7 @@ static void find_held(struct pinned *pinned)
     }
 }
 
-/// Finds a pin's point as the curves are now, and, unless `c` is NULL, the members' pulls on it.
+/// Finds a pin's point on the present curves and, unless `c` is NULL, the members' pulls on it.
 static bool find_point(const struct pinned *pinned, int rig, const struct pin *pin, pin_pull *c,
                        struct pin_point *point)
 {
@@ -214,7 +213,7 @@ static bool find_point(const struct pinned *pinned, int rig, const struct pin *p
                         c ? pinned->count : 0, c, point);
 }
 
-/// Solves the group with its pins, or without any, and publishes the curves, from which points are found.
+/// Solves the group with or without its pins, and publishes the curves for finding points.
 static wiggly_status solve_round(struct pinned *pinned, bool with_pins)
 {
     const wiggly_status status = wiggly_group_solve(pinned->solver, pinned->descs, pinned->weights, pinned->curves,
@@ -223,13 +222,13 @@ static wiggly_status solve_round(struct pinned *pinned, bool with_pins)
     return status;
 }
 
-static const double STEP = 0.5;     ///< of the reach
-static const double DAMPING = 4;    ///< least at which drags far out of reach (tests/test_pins_drag.c) do not jump
+static const double STEP = 0.5;     ///< largest step, as a share of the reach
+static const double DAMPING = 4;    ///< less lets drags far out of reach jump (tests/test_pins_drag.c)
 static const double FIRMNESS = 0.3; ///< with less, they curl tails up; with more, less of what can be reached is
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// How far splines move a point: |c| over all of a pin's pulls.
+/// How easily splines move a point: |c| over all of a pin's pulls.
 static double pin_ease(const wiggly_pin *pin)
 {
     double sum = 0;
@@ -274,7 +273,7 @@ static void backward(const double l[3][3], double v[3])
     }
 }
 
-/// The way to a place, or to as far there as the point can be from its base; returns its length.
+/// The way to a place, or to the nearest place the point can reach from its base. Returns its length.
 static double find_way(const struct pin_point *from, const double to[3], double way[3])
 {
     double out[3];
@@ -285,7 +284,7 @@ static double find_way(const struct pin_point *from, const double to[3], double 
     return sqrt(dot(way, way));
 }
 
-/// Shortens an offset where it would need a large x.
+/// Shortens an offset that would need a large x.
 static void damp(const wiggly_pull *pulls, int count, double damping, double way[3])
 {
     double l[3][3], left[3] = {way[0], way[1], way[2]};
@@ -310,16 +309,16 @@ static void weigh_pulls(wiggly_pin *pin, wiggly_pull *pulls, double least)
     }
 }
 
-/// Sets where x is to take a point that is at `from`, where Σ Re(c x) is `passed`; `ease` is pin_ease() without pins. A tail's or chain's is
-/// taken only part of its way where it is far or hard to move, and its conditions (also in `pulls`, which are the pin's) are weighed so
-/// that splines that barely move it, as the motion is without pins, give way. All of it is continuous in `to` and `from`.
+/// Sets the target of x for a point that is at `from`, where Σ Re(c x) is `passed`; `ease` is pin_ease() without pins. A tail or chain is
+/// moved only part of the way if it is far or hard to move. Its conditions (also `pulls`, the pin's) are weighted so that splines that
+/// barely move it, measured without pins, give way. Everything is continuous in `to` and `from`.
 ///
-/// With C = Σ c cᵀ of the pulls at the pose of a round, r what a point can be from its base, and v its way, first cut to r/2:
+/// With C = Σ c cᵀ of the pulls at a round's pose, r the point's reach from its base, and v its way, first cut to r/2:
 ///
 ///     v ← C (C + 4 |c⁰|² (|v|/r)^{3/2})⁻¹ v             a far way takes no step that would curl the rig up; a near one is taken whole
 ///     rows ← L⁻¹ rows,  L Lᵀ = C + 0.3 |c⁰|²             a curled rig does not count as easily moved in all directions alike
 ///
-/// where |c⁰| is of the motion without pins. The place itself is taken no farther from the base than r.
+/// where |c⁰| is from the motion without pins. The place itself is moved to within r of the base.
 static void pin_aim(const struct pin_point *from, double ease, const double to[3], const double passed[3],
                     wiggly_pin *pin, wiggly_pull *pulls)
 {
@@ -335,7 +334,7 @@ static void pin_aim(const struct pin_point *from, double ease, const double to[3
     if (is_bent) weigh_pulls(pin, pulls, FIRMNESS * ease * ease);
 }
 
-/// Re(c x) of all members at a sample.
+/// Σ Re(c x) of all members at a sample.
 static void pass(const struct pinned *pinned, const wiggly_pull *pulls, int sample, double passed[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -347,7 +346,7 @@ static void pass(const struct pinned *pinned, const wiggly_pull *pulls, int samp
     }
 }
 
-/// Finds the points, and the pulls on them as the splines are now, first without pins.
+/// Finds the points, and the present pulls on them; the first time without pins.
 static void find_pulls(struct pinned *pinned, bool is_first)
 {
     for (int h = 0; h < pinned->held_count; h++) {
@@ -367,7 +366,7 @@ static void find_pulls(struct pinned *pinned, bool is_first)
     }
 }
 
-/// Sets how far x is to take each point.
+/// Sets the target of x for each point.
 static void aim(const struct pinned *pinned)
 {
     for (int h = 0; h < pinned->held_count; h++) {
@@ -382,7 +381,7 @@ static double distance(const double a[3], const double b[3])
     return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
-/// Whether each point is at its place, or where it was before.
+/// Whether each point is at its place, or no longer moves.
 static bool look(const struct pinned *pinned)
 {
     bool there = true;
@@ -404,7 +403,7 @@ static bool all_linear(const struct pinned *pinned)
     return all;
 }
 
-/// Rounds from the motion without pins on, which has been solved.
+/// Does rounds, starting from the solved motion without pins.
 static wiggly_status approach(struct pinned *pinned)
 {
     wiggly_status status = WIGGLY_OK;

@@ -1,4 +1,4 @@
-/// Keeps pins in order and checks them; finds groups of splines, and the order in which they are solved.
+/// Keeps pins in order and checks them; finds groups of splines and the order to solve them in.
 #include "scene/pins.h"
 #include "base/need.h"
 #include "scene/order.h"
@@ -109,7 +109,7 @@ static bool check_place(const struct document *document, const struct rig *rig, 
                 frame);
 }
 
-/// Why pins cannot pull a spline; NULL: they can.
+/// Why pins cannot move a spline; NULL: they can.
 static const char *stiffness_of(const struct spline *spline)
 {
     const struct param *pull = &spline->parameter[PARAMETER_FREQUENCY];
@@ -119,7 +119,7 @@ static const char *stiffness_of(const struct spline *spline)
     return calm->track < 0 && calm->value == 0 ? "whose calm is 0" : NULL;
 }
 
-/// A character that stands below its floor would have to be lifted by its feet, which no spline moves.
+/// A character standing below its floor would need its feet lifted, which no spline does.
 static bool check_floor(const struct rig *rig, struct pin_trouble *trouble)
 {
     const struct character_rig *character = &rig->character;
@@ -237,13 +237,13 @@ void pin_groups_find(const struct document *document, int *group)
     }
 }
 
-/// Marks a spline (−1: none) that is not of the group.
+/// Marks a spline (−1: none) outside the group.
 static void mark(const int *group, int which, int spline, bool *bases)
 {
     if (spline >= 0 && group[spline] != which) bases[spline] = true;
 }
 
-/// All that bends the model of a chain.
+/// Marks everything that bends the model of a chain.
 static void mark_chains(const struct document *document, const struct chain *pinned, const int *group, int which,
                         bool *bases)
 {
@@ -277,11 +277,11 @@ struct ordering {
     const int *group;
     bool *placed, *bases;
     int *order, count;
-    bool is_lenient; ///< what else moves a group's rigs need not be placed
+    bool is_lenient; ///< splines outside the group that move its rigs need not be placed
     struct pin_cycle cycle;
 };
 
-/// Whether a spline's leaders are placed, but for those of its own group.
+/// Whether all splines that a spline follows are placed, or in its own group.
 static bool is_ready(struct ordering *o, int spline)
 {
     for (int p = 0; p < PARAMETER_COUNT; p++) {
@@ -312,7 +312,7 @@ static void place(struct ordering *o, int spline)
     o->order[o->count++] = spline;
 }
 
-/// Places what is ready, or its whole group with it.
+/// Places a spline, or its whole group, if it is ready.
 static void try_to_place(struct ordering *o, int spline)
 {
     const int which = o->group[spline];

@@ -13,7 +13,7 @@ static bool is_parameter(const char *key) { return parameter_find(key) != PARAME
 
 static bool is_variation(enum parameter p) { return p == PARAMETER_VARIATION || p == PARAMETER_SEED; }
 
-/// What differs from its default is kept even where the mode does not use it, because another mode may.
+/// Values that differ from the default are printed even if the mode does not use them, because another mode may.
 static bool is_printed(const struct spline *spline, enum parameter parameter)
 {
     const struct param *param = &spline->parameter[parameter];
@@ -23,7 +23,7 @@ static bool is_printed(const struct spline *spline, enum parameter parameter)
     return row->print == PRINT_ALWAYS || (row->print == PRINT_USED && spline_uses(spline, parameter, false));
 }
 
-/// "limits": [low, high], where there is one; null: none.
+/// "limits": [low, high], if there are any; null: none.
 static void print_limits(struct members *members, const struct spline *spline)
 {
     const double limits[] = {spline->parameter[PARAMETER_LOW].value, spline->parameter[PARAMETER_HIGH].value};
@@ -39,7 +39,7 @@ static void print_limits(struct members *members, const struct spline *spline)
     text_string(members->text, "]");
 }
 
-/// "variation": { "seed", "amount" }, where there is one.
+/// "variation": { "seed", "amount" }, if there is one.
 static void print_variation(struct members *members, const struct spline *spline)
 {
     const double amount = spline->parameter[PARAMETER_VARIATION].value,
@@ -81,7 +81,7 @@ static void print_spline(struct text *text, const struct document *document, con
     text_string(text, "\n    }");
 }
 
-/// The version of the format that has what the document has: only paint needs the second.
+/// The format's version that the document needs: 2 only for paint.
 static int version_for(const struct document *document)
 {
     for (int i = 0; i < document->rig_count; i++) {
@@ -93,7 +93,7 @@ static int version_for(const struct document *document)
 
 static void print_origin(struct members *members, const struct scene_origin *origin)
 {
-    char absolute[PATH_LIMIT], content[32]; // the next start may have another working folder
+    char absolute[PATH_LIMIT], content[32]; // absolute, because the working folder may differ next time
     if (!origin->path[0] || !path_resolve(NULL, origin->path, absolute)) return;
     json_t *is_utf8 = json_string(absolute);
     if (!is_utf8) return;
@@ -154,7 +154,7 @@ bool scene_save_for(const struct document *document, const char *path, const str
     if (!path_folder(path, folder)) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", path);
     char *text = scene_print_for(document, folder, origin, &size);
     const bool opened = file_output_open(&output, path, error);
-    if (opened && origin) fchmod(fileno(output.stream), 0600); // the work is nobody else's
+    if (opened && origin) fchmod(fileno(output.stream), 0600); // readable by this user alone
     if (opened) fwrite(text, 1, size, output.stream);
     free(text);
     return opened && file_output_commit(&output, error);

@@ -1,4 +1,4 @@
-/// Reads single values and reports what is wrong with them.
+/// Reads single values and reports errors in them.
 #include "scene/reader.h"
 #include "base/need.h"
 #include "scene/text.h"
@@ -115,7 +115,7 @@ bool reader_number(struct reader *reader, struct value value, bool required, str
     if (!json_is_number(value.json)) return reader_unexpected(reader, value, "a number");
     double number = json_number_value(value.json);
     if (!range_has(range, number)) return fail_range(reader, &value.at, range, number);
-    *target = number + 0.0; // −0 becomes 0, as it is saved
+    *target = number + 0.0; // −0 becomes 0, as when saving
     return true;
 }
 

@@ -1,4 +1,4 @@
-/// Kinds of rig: the table of them, made, copied and freed, read and printed.
+/// The table of rig kinds; makes, copies, frees, reads and prints rigs.
 #include "scene/rig_kind.h"
 #include "base/need.h"
 #include "scene/pins.h"
@@ -144,7 +144,7 @@ static void check_name(struct reader *reader, const struct where *rig_at, int in
     }
 }
 
-/// Which kind a rig is, -1 after an error.
+/// The kind of a rig, -1 after an error.
 static int load_kind(struct reader *reader, struct value type)
 {
     const char *words[RIG_KINDS + 1] = {NULL};
@@ -161,7 +161,7 @@ void load_rigs(struct reader *reader, const struct value *scene)
     for (int i = 0; i < count; i++) {
         const struct value object = reader_element(&rigs, i);
         int kind = load_kind(reader, reader_member(&object, "type"));
-        // any kind will do where it is unknown: the scene is refused
+        // an unknown kind is an error already, so any kind will do
         struct rig *rig = rig_create(kind < 0 ? RIG_TAIL : (enum rig_kind)kind);
         rig->id = document->next_id++;
         document_add_rig(document, rig);

@@ -38,7 +38,7 @@ const char *axis_word(enum axis axis) { return axis == AXIS_TWIST ? chain_axes[a
 
 // --- tails
 
-/// From an array, or a single one from the tail's own object.
+/// From an array, or a single channel written in the tail itself.
 static void load_tail_channels(struct reader *reader, const struct value *object, void *at)
 {
     struct rig *rig = at;
@@ -69,7 +69,7 @@ static const struct field tail_fields[] = {
     {FIELD("rest", FIELD_ANGLES, struct rig, tail.rest)},
     {FIELD_LIST_OF("channels", struct rig, tail.channels, tail.channel_count, tail_channels, SCENE_MAX_CHANNELS),
      .load = load_tail_channels},
-    {.key = "spline"}, // these of the only channel
+    {.key = "spline"}, // keys of a single channel
     {.key = "axis"},
     {.key = "of"},
     {.key = "lag"},

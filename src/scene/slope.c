@@ -1,4 +1,4 @@
-/// The slope that a knot would find at a sample of a solved spline: with it, and the curve's value, it leaves the curve as it is.
+/// The slope of a solved spline at a sample: a knot with this slope and the curve's value does not change the curve.
 #include "base/need.h"
 #include "scene/storage.h"
 #include "spline/forced_response.h"
@@ -7,13 +7,13 @@
 
 static const double LEAST_DAMPING = 0.05; ///< of a loop, times calm
 
-/// A spline at a sample, and what of it the knots made: x without its answer to the equilibrium's motion.
+/// A spline at a sample, and its x without the response to the equilibrium's motion.
 struct place {
     wiggly_desc desc;
     const wiggly_curve *curve;
-    double *answer; ///< total, Im and speed of what the equilibrium's motion made, N numbers each, or NULL: nothing
-    double damping; ///< the least
-    bool tail;      ///< nothing but the last knot moves it
+    double *answer; ///< total, Im and speed of the response to the equilibrium's motion, N numbers each; NULL: none
+    double damping; ///< lowest damping
+    bool tail;      ///< after the last knot, so that only that knot moves it
     int sample;
 };
 
@@ -25,7 +25,7 @@ static cplx made_by_knots(const struct place *place, int sample)
     return (cplx){curve->re[sample] - (total[sample] - curve->y[sample]), curve->im[sample] - im[sample]};
 }
 
-/// A slope row's own form (src/spline/rows.c): the speed that two poles see from both sides or, at an end, from one.
+/// As in the solver's slope rows (src/spline/rows.c): the speed from both sides, at an end from one.
 static double speed_of_knots(const struct place *place)
 {
     const wiggly_desc *desc = &place->desc;
@@ -48,14 +48,14 @@ static double speed_of_knots(const struct place *place)
     return ahead || behind ? sum / ((ahead + behind) * desc->step) : 0;
 }
 
-/// The paper's: the step to the next sample, at the last one from the one before.
+/// The paper's slope: the step to the next sample; at the last sample, from the one before.
 static double step_ahead(const wiggly_curve *curve, int sample, double step)
 {
     const int from = sample + 1 < curve->samples ? sample : sample - 1;
     return from < 0 ? 0 : (curve->total[from + 1] - curve->total[from]) / step;
 }
 
-/// The equilibrium and its answer, which has nothing to do with the knots.
+/// The speed of the equilibrium and its response, which knots do not change.
 static double speed_of_equilibrium(struct place *place)
 {
     const double *y = place->curve->y;

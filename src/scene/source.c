@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-/// All functions here stop at the NUL that follows the text.
+/// All functions here stop at the NUL at the text's end.
 static void skip_space(struct cursor *c)
 {
     while (*c->at == ' ' || *c->at == '\t' || *c->at == '\r' || *c->at == '\n') c->line += *c->at++ == '\n';
@@ -21,7 +21,7 @@ static void skip_string(struct cursor *c)
     if (*c->at) c->at++;
 }
 
-/// A string, or a number or word, or a single mark of punctuation.
+/// A string, number, word or punctuation mark.
 static void skip_token(struct cursor *c)
 {
     if (*c->at == '"') {
@@ -79,7 +79,7 @@ bool source_check_limits(const struct source *source, struct error *error)
     return fail(error, ERROR_INPUT, "%s:%d: scene: expected text, got a NUL byte", source->name, c.line);
 }
 
-/// Whether a string, with its quotes and escapes as written, is that key.
+/// Whether a string, with quotes and escapes, is that key.
 static bool key_is(const char *from, const char *to, const char *key)
 {
     size_t length = (size_t)(to - from);
@@ -90,7 +90,7 @@ static bool key_is(const char *from, const char *to, const char *key)
     return same;
 }
 
-/// Moves from an object to the value of a key; stays if there is none.
+/// Moves from an object to a key's value; stays if there is none.
 static struct cursor enter_object(struct cursor object, const char *key)
 {
     struct cursor c = object;
@@ -178,10 +178,10 @@ void where_path(const struct where *where, char path[PATH_TEXT_SIZE])
     if (!path[0]) append(path, "", "scene", 5);
 }
 
-/// A bracket that is open at an offset.
+/// A bracket open at an offset.
 struct level {
     bool is_object;
-    const char *key; ///< of an object: the running member's, as written, or NULL between members
+    const char *key; ///< the current member's in an object, as written; NULL between members
     size_t key_length, index;
 };
 

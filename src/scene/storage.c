@@ -1,4 +1,4 @@
-/// An evaluation's memory, and how a spline is described to the solver.
+/// An evaluation's memory, and the solver's description of a spline.
 #include "scene/storage.h"
 #include "base/need.h"
 #include <math.h>
@@ -18,7 +18,7 @@ void pool_free(struct pool *pool)
     *pool = (struct pool){0};
 }
 
-/// What the spline follows in a parameter, sample by sample; NULL: a constant, or a motion that is not baked.
+/// What a parameter of a spline follows, sample by sample; NULL: a constant, or a motion that is not read yet.
 static const double *track_of(const struct evaluation *evaluation, const struct document *document, int spline,
                               enum parameter parameter)
 {
@@ -47,7 +47,7 @@ wiggly_desc storage_describe(const struct evaluation *evaluation, const struct d
     desc.has_high = desc.high < INFINITY;
     if (cubic && desc.mode != WIGGLY_CUBIC) {
         desc.mode = WIGGLY_CUBIC;
-        desc.passive = WIGGLY_OSCILLATOR; // its last value is held: a tail does not wind through its body
+        desc.passive = WIGGLY_OSCILLATOR; // holds its last value, so that a tail does not wind through its body
     }
     return desc;
 }

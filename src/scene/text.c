@@ -30,7 +30,7 @@ void text_number(struct text *text, double value)
     text_bytes(text, digits, number_print(value, digits));
 }
 
-/// How many characters from here on need no escape.
+/// Number of characters from `c` on that need no escape.
 static size_t plain_length(const char *c)
 {
     size_t length = 0;
@@ -80,7 +80,7 @@ static void text_object(struct text *text, json_t *object)
     text_string(text, json_object_size(object) > 0 ? " }" : "{}");
 }
 
-/// No deeper than the file was (SOURCE_MAX_DEPTH).
+/// No deeper than the file (SOURCE_MAX_DEPTH).
 void text_json(struct text *text, json_t *value)
 {
     char integer[32];
@@ -121,8 +121,8 @@ struct decimal {
     int count, point;
 };
 
-/// A decimal of 15 digits survives a round trip through a double, so at 15 digits a shorter one shows as trailing zeros. Subnormals have
-/// fewer digits and are searched from one up.
+/// The shortest decimal that reads back the same. Any decimal of up to 15 digits survives a round trip through a double, so rounding to
+/// 15 digits shows a shorter one as trailing zeros. Subnormals have fewer digits: these are tried from one up.
 static struct decimal shortest_decimal(double magnitude)
 {
     struct decimal d = {0};
