@@ -16,10 +16,10 @@
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
 enum { LOG_ROWS = 200000 };
 
-/// Whether frames come from a file, as fast as they go.
+/// Whether events come from a file and frames run as fast as they can.
 static bool is_replay(const struct app *app) { return app->replay && !app->demo.on; }
 
-/// Opens a window; if none opens, says so in a line and goes on without.
+/// Opens a window; if that fails, prints why and runs headless.
 static bool open_platform(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
@@ -42,8 +42,7 @@ static bool open_platform(struct app *app, struct error *error)
     return app->platform != NULL;
 }
 
-/// After the first frame: opens the log. The reference frame is measured only for a log, so that nobody at a window
-/// waits for it.
+/// Opens the log after the first frame. Only a log needs the reference frame measured, so that nobody waits for it at a window.
 static bool open_log(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
@@ -74,7 +73,7 @@ static bool run_frames(struct app *app, long frames, bool timed, struct error *e
     while (!app->quit && !app->failed && !process_was_told_to_end() && (frames == 0 || app->frame < frames)) {
         if (app->options->turns) {
             turns_take();
-            app->last_swap = NAN; // the other program's frame was in between
+            app->last_swap = NAN; // the other program's frame came between
         }
         mtx_lock(&app->working);
         app_frame(app);
@@ -86,13 +85,13 @@ static bool run_frames(struct app *app, long frames, bool timed, struct error *e
     return !app->failed;
 }
 
-/// Whether a person's work is at stake, not a script's.
+/// Whether a person, not a script, is working.
 static bool is_live(const struct app *app)
 {
     return app->platform && platform_is_window(app->platform) && !app->replay;
 }
 
-/// For a run that ends before the user could decide about unsaved work.
+/// For a run that ends before the user can decide about unsaved work.
 static bool rescue(struct app *app, bool good, struct error *error)
 {
     bool told = process_was_told_to_end(), unsaved = !history_is_saved(app->table.history);
@@ -102,7 +101,7 @@ static bool rescue(struct app *app, bool good, struct error *error)
     return false;
 }
 
-/// Writes the files that the command line names: document, log, recording. Continues after a failure and reports the first.
+/// Writes the command line's output files: document, log, recording. Continues after a failure and reports the first.
 static bool close_files(struct app *app, struct error *error)
 {
     const char *result = app->table.document && app->frame > 0 ? app->options->result : NULL;
@@ -115,7 +114,7 @@ static bool close_files(struct app *app, struct error *error)
     return recording_close(app->recording, app->frame, good ? error : &other) && good;
 }
 
-/// The same with the picture, which needs the display.
+/// Also writes the picture, which needs GL.
 static bool finish(struct app *app, struct error *error)
 {
     const char *screenshot = app->platform && app->frame > 0 ? app->options->screenshot : NULL;
@@ -124,7 +123,7 @@ static bool finish(struct app *app, struct error *error)
     return close_files(app, good ? error : &other) && good;
 }
 
-/// The display is gone, and GL with it: saves the document if it can. The process ends on return.
+/// The display and GL are gone: saves the document if possible. The process ends on return.
 static void on_lost(void *user)
 {
     struct app *app = user;
@@ -154,7 +153,7 @@ void app_open_editor(struct app *app)
     ui_scale_fit(app);
 }
 
-/// Reads the replay that was asked for, or the demo's.
+/// Opens the replay of the command line, or the demo's.
 static bool open_replay(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
@@ -164,7 +163,7 @@ static bool open_replay(struct app *app, struct error *error)
     return app->replay != NULL;
 }
 
-/// A replay is of one scene. The demo's is of the start scene, and comes with it.
+/// A replay only fits its scene; the demo opens its own.
 static bool check_scene(const struct app *app, uint64_t hash, struct error *error)
 {
     if (!is_replay(app) || replay_get_header(app->replay)->scene_hash == hash) return true;

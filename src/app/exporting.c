@@ -1,4 +1,4 @@
-/// Exports beside the frames.
+/// Exports in the background.
 #include "app/film.h"
 #include "app/state.h"
 #include "base/need.h"
@@ -34,10 +34,10 @@ const int exporting_format_count = sizeof exporting_formats / sizeof *exporting_
 
 struct export_job {
     struct request request;
-    struct opened opened; ///< a copy of the document: the user may go on
-    struct film *film;    ///< while it is drawn
+    struct opened opened; ///< a copy of the document, so that you can go on editing
+    struct film *film;    ///< while it is being drawn
     thrd_t thread;
-    bool threaded; ///< it is to be waited for
+    bool threaded; ///< the thread must be joined
     atomic_long done, total;
     atomic_bool stop, ended;
     bool good; ///< result of the thread
@@ -78,7 +78,6 @@ static bool write_motion(struct export_job *job)
     return export_write(&posing, job->request.path, &options, &job->report, &job->error);
 }
 
-/// Solves the splines and reads the models.
 static bool prepare(struct export_job *job)
 {
     struct opened *opened = &job->opened;
@@ -135,7 +134,7 @@ static enum film_state begin_film(struct export_job *job)
     return job->film ? FILM_RUNS : FILM_FAILED;
 }
 
-/// FILM_RUNS while there is more to do, of whichever format.
+/// FILM_RUNS while any format has more to do.
 static enum film_state go_on(struct export_job *job, bool wait)
 {
     if (job->threaded) {

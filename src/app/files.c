@@ -1,5 +1,4 @@
-/// Carries out the editor's requests: files, the clipboard, the window, and the end of the run. Notices when another program writes
-/// the document's file.
+/// Carries out the editor's requests about files, clipboard, window and quitting. Notices when another program writes the document's file.
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/error.h"
@@ -16,18 +15,18 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/// What "new" opens: a spline without knots, and a tail that follows it.
+/// The scene "New" opens: a spline without knots, and a tail that follows it.
 static const char new_scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1,"
     " \"knots\": [{\"frame\": 0, \"value\": 0}]}],"
     " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"rest\": 2,"
     " \"spline\": \"sway\"}]}";
 
-/// Seen from the program's folder. The installation comes first: beside it may be somebody's own assets/scenes.
+/// Relative to the program's folder. The installed path comes first, because a folder beside it could have unrelated assets/scenes.
 static const char *const places[] = {"../share/wiggly/scenes", "../assets/scenes", "../../assets/scenes",
                                      "../../../assets/scenes"};
 
-/// The folder of the scenes that come with the program: of its source tree, or of its installation. false if there is neither.
+/// Finds the folder of the bundled scenes; false if there is none.
 static bool assets_folder(char folder[PATH_LIMIT])
 {
     char program[PATH_LIMIT], beside[PATH_LIMIT];
@@ -41,14 +40,14 @@ static bool assets_folder(char folder[PATH_LIMIT])
     return false;
 }
 
-/// Compares folders by identity, not name: one may be mounted in two places.
+/// Compares folders by identity, because one can be mounted twice.
 static bool is_same(const char *folder, const char *other)
 {
     struct stat a, b;
     return stat(folder, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-/// Whether a file (after following links) is in that folder.
+/// Whether a file, after following links, is in the folder of bundled scenes.
 static bool assets_has(const char *path)
 {
     char file[PATH_LIMIT], folder[PATH_LIMIT], own[PATH_LIMIT];
@@ -70,7 +69,7 @@ static uint64_t changed_content(const struct app *app)
     return now == file_watch_known(app) ? 0 : now;
 }
 
-/// Asks what to do about a changed file: instead of saving, if the user `saves`.
+/// Asks about a changed file. `saves`: the user tried to save, so the question replaces saving.
 static bool ask_changed(struct app *app, bool saves)
 {
     return dialogs_ask_changed(app->table.editor->dialogs, &app->table.editor->core, path_name(app_path(app)), saves);
@@ -111,7 +110,7 @@ void app_adopt(struct app *app, struct document *document)
     show_title(app);
 }
 
-/// It finds its models in the folder of the program's other scenes.
+/// Built-in scenes find their models in the folder of bundled scenes.
 static struct document *parse_built_in(const char *name, struct error *error)
 {
     char path[64], folder[PATH_LIMIT];
@@ -122,7 +121,7 @@ static struct document *parse_built_in(const char *name, struct error *error)
     return document;
 }
 
-/// Shows the subject of a paper's figure, however it was opened.
+/// Shows the subject of a paper's figure.
 static void show_subject(struct app *app, const char *name)
 {
     if (strcmp(name, "figure2.json") == 0) editor_show_poles(app->table.editor);
@@ -136,7 +135,8 @@ bool app_open(struct app *app, const char *path, struct error *error)
                     strlen(path), path);
     }
     const bool imports = path && import_suits(path);
-    const uint64_t content = path && !imports ? file_content(path) : 0; // first: a later write is another program's
+    const uint64_t content =
+        path && !imports ? file_content(path) : 0; // before parsing: a later write is another program's
     if (imports) {
         document = import_scene(path, error);
     } else if (path) {
@@ -145,7 +145,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
         document = parse_built_in("tail.json", error);
     }
     if (!document) return false;
-    // Saving must write over neither a character's file nor the scenes that come with the program.
+    // Saving must overwrite neither a character's file nor a bundled scene.
     bool is_users = path && !imports && !assets_has(path);
     if (is_users) document_set_path(document, path);
     app_adopt(app, document);
@@ -155,7 +155,7 @@ bool app_open(struct app *app, const char *path, struct error *error)
     return true;
 }
 
-/// Opens a figure of the paper, the dog, the hands or the meadow as an untitled scene.
+/// Opens a figure of the paper, the dog, the hands or the meadow, untitled.
 static bool open_figure(struct app *app, int number, struct error *error)
 {
     static const char *const names[] = {"figure1.json", "figure2.json", "figure3.json", "figure4.json",
@@ -169,14 +169,14 @@ static bool open_figure(struct app *app, int number, struct error *error)
     return true;
 }
 
-/// The document's file as somebody else has left it, in place of the document: undo brings the document back.
+/// Loads the file as another program left it. Undo restores the document.
 static bool take_theirs(struct app *app, struct error *error)
 {
     struct document *document = scene_load(app_path(app), NULL, error);
     if (!document) return false;
     document_set_path(document, app_path(app));
     document->serial = ++app->last_serial;
-    editor_let_go(app->table.editor); // a drag may have begun since the request
+    editor_let_go(app->table.editor); // a drag may have begun since
     history_begin(app->table.history, "Take theirs", 0);
     edit_document(app->table.document, document);
     history_end(app->table.history);
@@ -187,7 +187,7 @@ static bool take_theirs(struct app *app, struct error *error)
     return true;
 }
 
-/// Adds the character of a file beside the other rigs, as one undo step.
+/// Adds a file's character to the scene, in one undo step.
 static bool add_file(struct app *app, const char *path, struct error *error)
 {
     struct table *table = &app->table;
@@ -228,7 +228,7 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
     return done;
 }
 
-/// F12: the first name wiggly-NNNN.png that is free, in the folder of the scene's file, else in the working folder.
+/// F12: saves to the first free wiggly-NNNN.png, in the scene's folder, else the working folder.
 static bool take_picture(struct app *app, struct error *error)
 {
     char folder[PATH_LIMIT], name[32], path[PATH_LIMIT], text[PATH_LIMIT + 16];
@@ -244,7 +244,7 @@ static bool take_picture(struct app *app, struct error *error)
     return true;
 }
 
-/// Whether a file is one that shows a character of the document, which would swing twice if it held its own motion.
+/// Whether a file is a character of the document. Writing the motion into it would make it swing twice.
 static bool is_own_character(const struct document *document, const char *path)
 {
     char own[PATH_LIMIT], file[PATH_LIMIT];
@@ -256,7 +256,7 @@ static bool is_own_character(const struct document *document, const char *path)
     return false;
 }
 
-/// "Save as" over a file that is not the document's own: refused once, done when asked again.
+/// Refuses "Save as" over another existing file once, and allows it when repeated.
 static bool may_replace(struct app *app, const char *path, struct error *error)
 {
     if (access(path, F_OK) != 0 || strcmp(path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0)
@@ -316,7 +316,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_UI_SCALE:
         return ui_scale_step(app, request->number, error);
     case REQUEST_COPY:
-        // not in a replay, which must leave the user's clipboard alone
+        // a replay must leave the user's clipboard alone
         if (!app->replay) platform_set_clipboard(app->platform, app->table.editor->core.clipboard);
         return true;
     case REQUEST_PASTE:
@@ -326,7 +326,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     return true;
 }
 
-/// Whether a request would overwrite another program's changes: the user is asked instead.
+/// Asks the user if a request would overwrite another program's changes; true if so.
 static bool is_asked_about(struct app *app, const struct request *request)
 {
     const bool saves = request->kind == REQUEST_SAVE ||

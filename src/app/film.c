@@ -1,4 +1,4 @@
-/// Films a scene: which frames, how large, and picture after picture.
+/// Films a scene: chooses frames and size, and draws the pictures.
 #include "app/film.h"
 #include "app/film_file.h"
 #include "base/file.h"
@@ -15,11 +15,11 @@ enum { MAX_PICTURES = 10000000, MAX_SIDE = 8192 };
 
 static const struct film_format {
     const char *ending;
-    char *const *coding, *const *alpha; ///< of a film (film_file.h), and of one with transparency
-    int width, height;                  ///< where none is asked for
-    bool is_even;                       ///< it holds only even sizes
+    char *const *coding, *const *alpha; ///< ffmpeg's arguments (film_file.h); with transparency
+    int width, height;                  ///< defaults
+    bool is_even;                       ///< only even sizes
     bool has_alpha;
-    bool repeats; ///< players start it again at its end
+    bool repeats; ///< players loop it
 } formats[] = {
     {".mp4", film_mp4, NULL, 1280, 720, .is_even = true},
     {".webm", film_webm, film_webm_alpha, 1280, 720, .is_even = true, .has_alpha = true},
@@ -36,11 +36,11 @@ struct film {
     struct film_shape shape;
     bool transparent;
     double first, spacing,
-        period; ///< frames: the first picture, the step to the next, and the loop's length (0: no loop)
+        period; ///< frames: the first picture's, the step, and the loop's length (0: no loop)
     struct editor *editor;
     struct picture *picture;
     struct film_file *file;
-    const unsigned char *pixels; ///< drawn, and not yet taken by the file; else NULL
+    const unsigned char *pixels; ///< drawn but not yet written, else NULL
     long done;
     off_t bytes;
 };
@@ -55,7 +55,7 @@ static const struct film_format *find_format(const char *path)
 
 bool film_knows(const char *path) { return find_format(path) != NULL; }
 
-/// Whether its end meets its start: a spline does, or an imported character's clip may.
+/// Whether the scene's end meets its start, by a spline or an imported clip.
 static bool loops(const struct document *document)
 {
     for (int s = 0; s < document->spline_count; s++) {
@@ -129,7 +129,6 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
     return NULL;
 }
 
-/// The frame of the scene that the next picture shows.
 static double next_frame(const struct film *film)
 {
     const double since = (double)film->done * film->spacing;
@@ -156,7 +155,7 @@ void film_progress(const struct film *film, long *done, long *total)
     *total = film->shape.count;
 }
 
-/// Names of the files where they are not the path.
+/// The names of the files if they differ from the path.
 static const char *print_names(const struct film *film, char text[64])
 {
     const char *name = path_name(film->path);

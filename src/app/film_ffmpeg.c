@@ -1,4 +1,4 @@
-/// Films by ffmpeg, run beside this program: it gets raw pictures through its standard input and writes to a temporary file.
+/// Encodes films with ffmpeg, which reads raw pictures from standard input and writes a temporary file.
 #include "app/film_file.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -15,21 +15,21 @@
 
 struct film_file {
     const char *path;
-    size_t size, taken; ///< bytes of a picture, and of the running one those that ffmpeg has
-    pid_t process;      ///< 0: it has ended, and was waited for
-    int feed;           ///< our end of its standard input; −1 once all is said
+    size_t size, taken; ///< bytes per picture; bytes of the current picture already sent
+    pid_t process;      ///< 0: ended and waited for
+    int feed;           ///< our end of its standard input; −1: closed
     FILE *log;          ///< its standard error
     struct file_output output;
 };
 
 enum { MAX_ARGUMENTS = 48 };
-/// For how long a caller that waits does, in milliseconds, before it can look whether it has been told to end.
+/// Longest wait in milliseconds before a caller can check whether it should end.
 enum { PATIENCE = 100 };
 
-/// ffmpeg writes where its standard output goes: a file, in which .mp4 needs to go back.
+/// ffmpeg writes to its standard output, here a seekable file because .mp4 needs to seek back.
 static char output_name[] = "/dev/fd/1";
 
-/// Runs it, found along PATH and without a shell. Ctrl+C in the terminal does not reach it. 0 or the cause.
+/// Starts ffmpeg from PATH, without a shell and shielded from the terminal's Ctrl+C. Returns 0 or errno.
 static int spawn(struct film_file *file, char *const *arguments, int input)
 {
     posix_spawn_file_actions_t files;
@@ -66,7 +66,7 @@ static int start(struct film_file *file, const struct film_shape *shape)
     for (size_t i = 0; i < sizeof input / sizeof *input; i++) arguments[count++] = input[i];
     for (char *const *coding = shape->coding; *coding; coding++) arguments[count++] = *coding;
     arguments[count] = output_name;
-    // A socket, because writing to one whose reader is gone can do without SIGPIPE.
+    // A socket, because writing to one whose reader is gone need not raise SIGPIPE.
     if (!(file->log = tmpfile()) || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return errno;
     file->feed = ends[0];
     const int cause = spawn(file, arguments, ends[1]);
@@ -115,7 +115,7 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
     return NULL;
 }
 
-/// Why ffmpeg gave up: the last line that it wrote.
+/// Fails with the last line ffmpeg wrote.
 static enum film_state fail_encoder(struct film_file *file, struct error *error)
 {
     char words[400] = "it was ended", next[512];
@@ -128,7 +128,7 @@ static enum film_state fail_encoder(struct film_file *file, struct error *error)
     return FILM_FAILED;
 }
 
-/// Tells it that this was all, and looks whether it has ended.
+/// Closes ffmpeg's input and checks whether it has ended.
 static enum film_state end(struct film_file *file, bool wait)
 {
     int status;
@@ -152,7 +152,7 @@ static enum film_state put(struct film_file *file, const unsigned char *pixels, 
         } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
             if (!wait || poll(&(struct pollfd){file->feed, POLLOUT, 0}, 1, PATIENCE) <= 0) return FILM_RUNS;
         } else if (errno != EINTR) {
-            while (end(file, true) == FILM_RUNS) continue; // so that its last words are there
+            while (end(file, true) == FILM_RUNS) continue; // until its last line is there
             return fail_encoder(file, error);
         }
     }
@@ -172,11 +172,11 @@ static enum film_state finish(struct film_file *file, bool wait, off_t *bytes, s
 
 const struct film_file_kind film_ffmpeg = {open_encoder, put, finish, close_encoder};
 
-/// Colours as screens have them, and as the file then says.
+/// sRGB, also noted in the file.
 #define SCREEN_COLORS(format)                                                                                        \
     "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=" format, "-colorspace", "bt709", "-color_primaries",   \
         "bt709", "-color_trc", "bt709", "-color_range", "tv"
-/// aq-mode: bits for dark gradients, which else fall into bands.
+/// aq-mode gives dark gradients more bits, against banding.
 #define MP4 "-c:v", "libx264", "-crf", "18", "-aq-mode", "3", "-movflags", "+faststart", "-f", "mp4", NULL
 #define WEBM                                                                                                         \
     "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "good", "-cpu-used", "4", "-row-mt", "1", "-f",    \

@@ -1,4 +1,4 @@
-/// A film as numbered pictures: written into a folder beside, and moved out of it when all are there.
+/// A film as numbered pictures, written to a temporary folder and moved out when complete.
 #include "app/film_file.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -14,10 +14,10 @@
 struct film_file {
     struct film_shape shape;
     const char *path;
-    int before, digits; ///< bytes of the path before the number, and its least number of digits; −1: it has none
+    int before, digits; ///< bytes of the path before the number; least number of digits; −1: no number
     const char *after;  ///< the path after the number
-    char *folder;       ///< for the time being
-    int lock;           ///< of the folder
+    char *folder;       ///< temporary
+    int lock;           ///< descriptor of the folder's lock
     long written;
 };
 
@@ -81,7 +81,7 @@ static enum film_state put(struct film_file *file, const unsigned char *pixels, 
     }
     struct error inner;
     if (!png_write(name, file->shape.width, file->shape.height, pixels, &inner)) {
-        // Only we know the temporary folder; the user knows the path.
+        // The user knows the path, not the temporary folder.
         const bool named = strncmp(inner.text, name, strlen(name)) == 0;
         fail(error, inner.kind, "%s%s", file->path, named ? inner.text + strlen(name) : ": cannot be written");
         return FILM_FAILED;

@@ -1,4 +1,4 @@
-/// One frame of the app: take input (the window's, a replay's, the demo's), work on the table, draw, log.
+/// One frame of the app: input from window, replay or demo, the document's frame, drawing, log.
 #include "app/state.h"
 #include "base/embedded.h"
 #include "base/progress.h"
@@ -9,7 +9,7 @@
 
 static const double replay_dt = 1.0 / 60;
 static const double idle_wait = 0.5;
-static const double longest_step = 1; ///< after a longer stall playback goes on from where it was
+static const double longest_step = 1; ///< seconds; playback does not skip ahead after a longer stall
 
 static double microseconds(double from, double to) { return 1e6 * (to - from); }
 
@@ -47,7 +47,7 @@ static void handle_event(struct app *app, const struct event *event)
 static void play_events(struct app *app)
 {
     const long frame = app->demo.on ? app->demo.frame : app->frame;
-    const bool forgives = app->demo.on && !app->fixed_clock; // a target may be out of sight in somebody's window
+    const bool forgives = app->demo.on && !app->fixed_clock; // a target may be hidden in a window of another size
     struct event event;
     do {
         app->error.kind = ERROR_NONE;
@@ -65,7 +65,7 @@ struct replay *demo_replay(struct error *error)
     return replay_parse("demo.replay", (const char *)file->data, file->size, error);
 }
 
-/// Restarts the demo as it began: a viewer has changed nothing, and no round depends on another.
+/// Restarts the demo exactly as it began.
 static bool start_anew(struct app *app, struct error *error)
 {
     theme_use(app->demo.theme);
@@ -86,14 +86,14 @@ bool demo_next(struct app *app, double dt, struct error *error)
     return app->replay && start_anew(app, error);
 }
 
-/// Whether somebody wants to try for themselves.
+/// Whether an event means that someone wants control.
 static bool is_touch(const struct event *event)
 {
     const bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
     return (pressed && event->action == ACTION_PRESS) || event->kind == EVENT_WHEEL || event->kind == EVENT_DROP;
 }
 
-/// Ends the demo with the start scene and the user's settings, as without one.
+/// Ends the demo with the start scene and the user's settings.
 static bool stop_demo(struct app *app, struct error *error)
 {
     replay_destroy(app->replay);
@@ -104,16 +104,15 @@ static bool stop_demo(struct app *app, struct error *error)
     return true;
 }
 
-/// The demo's next frame, unless somebody has stopped it.
+/// Plays the demo's next frame, or ends the demo.
 static void play_demo(struct app *app)
 {
     const double dt = app->frame == 0 ? 0 : app->fixed_clock ? replay_dt : app->frame_start - app->last_time;
-    history_mark_saved(app->table.history); // nobody's work: a figure takes its place without a question
+    history_mark_saved(app->table.history); // no question about the demo's edits
     if (!demo_next(app, fmin(fmax(dt, 0), longest_step), &app->error)) app->failed = true;
 }
 
-/// Whether an event of the window's is for the editor. The first touch ends a demo, and a window that is closed meanwhile has
-/// nothing to lose.
+/// Whether a window event goes to the editor. The first touch ends a demo; closing the window during a demo loses nothing.
 static bool is_for_editor(struct app *app, const struct event *event)
 {
     if (!app->replay || event->kind == EVENT_EXPOSE) return true;
@@ -123,7 +122,7 @@ static bool is_for_editor(struct app *app, const struct event *event)
     return event->kind == EVENT_SIZE || event->kind == EVENT_DROP;
 }
 
-/// Delivers the text that the editor asked for in the last frame: as an event, so that it is recorded.
+/// Delivers the clipboard text the editor asked for as an event, so that it is recorded.
 static void paste(struct app *app)
 {
     if (!app->paste) return;
@@ -132,14 +131,14 @@ static void paste(struct app *app)
     if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
 }
 
-/// Under a fixed clock the stage's movement is timed by frames, so that pictures do not depend on the machine.
+/// With a fixed clock, resolution changes depend on frames, so that pictures do not depend on the machine.
 static double resolution_now(const struct app *app)
 {
     return app->fixed_clock ? (double)app->frame * replay_dt : app->frame_start;
 }
 
-/// How long the next frame may wait for input: until it is due (an event brings it forward), or for a while if nothing moves by
-/// itself. A live recording never skips frames, because its clock counts them.
+/// How long the next frame may wait for input: until it is due, or longer if nothing moves. A live recording never skips frames, because
+/// its clock counts them.
 static double waiting_time(const struct app *app, bool wanted)
 {
     double left = fmax(0, app->next_time - clock_now());
@@ -149,7 +148,7 @@ static double waiting_time(const struct app *app, bool wanted)
     return fmin(personal_is_behind(app) ? replay_dt : idle_wait, resolution_wait(&app->resolution, clock_now()));
 }
 
-/// Waits, then takes the frame's events. false if nothing happened that needs a frame.
+/// Waits, then handles events. false if nothing needs a frame.
 static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
@@ -171,7 +170,7 @@ static bool take_input(struct app *app)
         if (!is_for_editor(app, &events[i])) continue;
         if (isnan(app->oldest_event)) app->oldest_event = events[i].time;
         struct event event = events[i];
-        if (event.kind != EVENT_SIZE) ui_scale_to_ui(app, &event); // recorded as the display has it
+        if (event.kind != EVENT_SIZE) ui_scale_to_ui(app, &event); // recorded in the display's pixels
         handle_event(app, &event);
     }
     if (app->demo.on && !app->failed) play_demo(app);
@@ -180,25 +179,24 @@ static bool take_input(struct app *app)
     return true;
 }
 
-/// The clock of a recording counts frames of one length, whatever the display.
+/// A recording's clock counts frames of equal length.
 static double next_time(const struct app *app)
 {
     if (app->fixed_clock) return fmax(app->next_time + replay_dt, app->frame_start);
     return pace_next(&app->pace, app->next_time, app->frame_start);
 }
 
-/// Seconds of playback since the last frame.
 static double step(struct app *app)
 {
     double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
     bool starts =
-        app->frame == 0 || (app->was_idle && !app->fixed_clock); // what starts now was not waiting since then
+        app->frame == 0 || (app->was_idle && !app->fixed_clock); // what starts now did not move during the pause
     app->last_time = app->frame_start;
     app->next_time = next_time(app);
     return starts ? 0 : dt;
 }
 
-/// How large the stage is drawn, which the status line says.
+/// Chooses the stage's resolution and reports it to the status line.
 static void choose_resolution(struct app *app)
 {
     struct editor *editor = app->table.editor;
@@ -229,7 +227,6 @@ static void measure(struct app *app)
     resolution_measure(&app->resolution, &cost);
 }
 
-/// Draws the frame and shows it.
 static void draw(struct app *app)
 {
     struct draw_input input = draw_input(app, app->resolution.shown);
@@ -248,7 +245,6 @@ static void draw(struct app *app)
     app->row.swap_us = microseconds(swap_start, end);
 }
 
-/// Ends the frame's timing.
 static void end_row(struct app *app)
 {
     double end = clock_now();
@@ -260,7 +256,6 @@ static void end_row(struct app *app)
     app->row.allocations = allocation_count() - app->row.allocations;
 }
 
-/// Measures the drawn frame, and sets the cursor.
 static void after_drawing(struct app *app)
 {
     if (app->resolution.changed == resolution_now(app)) measure(app);
@@ -280,7 +275,7 @@ static void log_frame(struct app *app)
     if (app->log) framelog_push(app->log, &app->row);
     double now = clock_now();
     if (now - app->stats_time >= 0.5) {
-        bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing keeps time
+        bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing runs in real time
         double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
         app->table.editor->core.status.told = (struct figures){fps, app->row.solve_us};
         app->stats_time = now;
@@ -288,7 +283,7 @@ static void log_frame(struct app *app)
         pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
     }
     if (!app->options->frames_dir) return;
-    char path[PATH_MAX + 32]; // a longer path is more than the system takes
+    char path[PATH_MAX + 32]; // longer than any path the system accepts
     snprintf(path, sizeof path, "%s/frame_%05ld.png", app->options->frames_dir, app->frame);
     if (!app_screenshot(app, path, &app->error)) app->failed = true;
 }

@@ -1,4 +1,4 @@
-/// The user's settings, recent files and recovery, for interactive windows.
+/// The user's settings, recent files and recovery, in interactive windows.
 #include "app/personal.h"
 #include "app/recovery.h"
 #include "app/settings.h"
@@ -16,25 +16,25 @@
 #include <sys/stat.h>
 #include <time.h>
 
-/// The settings, besides files.
+/// The settings other than files.
 struct choices {
     enum theme_kind theme;
     double ui_scale, stage_share, inspector_width;
-    bool more;        ///< the inspector shows all
+    bool more;        ///< the inspector shows all sections
     bool is_welcomed; ///< the card for new users was closed
 };
 
 struct personal {
-    char settings_path[PATH_LIMIT + 16]; ///< "" where there is no folder for it
+    char settings_path[PATH_LIMIT + 16]; ///< "" without a folder
     char state_folder[PATH_LIMIT];
-    struct autosave *autosave;     ///< NULL: unsaved work is not kept
+    struct autosave *autosave;     ///< NULL: no autosave
     struct recovery_entry offered; ///< the file that the dialog asks about
-    bool is_offered;               ///< `offered` is claimed
-    struct choices choices;        ///< as in the settings
+    bool is_offered;               ///< `offered` is locked by this program
+    struct choices choices;        ///< as last saved
 };
 
-/// Writes the path of the user's folder for such files ($XDG_CONFIG_HOME/wiggly, else ~/.config/wiggly: the base directory
-/// specification says to ignore a relative path in the variable), and makes it and its parents if missing (readable by the user alone).
+/// Makes the user's folder, $XDG_CONFIG_HOME/wiggly or else ~/.config/wiggly, readable by the user only, and writes its path. The base
+/// directory specification says to ignore a relative path in the variable.
 static bool make_folder(const char *variable, const char *below_home, char path[PATH_LIMIT], struct error *error)
 {
     const char *own = getenv(variable), *home = getenv("HOME");
@@ -58,8 +58,8 @@ static void complain(struct app *app, const struct error *error)
     if (error->kind != ERROR_NONE) core_message(&app->table.editor->core, true, error->text);
 }
 
-/// Another window may have changed the file meanwhile: it is read again for every change, and that one waits until it is written. NULL if
-/// there is no file to change.
+/// Reads the settings again before every change, because another window may have written them; locks them until written. NULL without a
+/// file.
 static struct settings *open_settings(const struct app *app)
 {
     const struct personal *personal = app->personal;
@@ -85,11 +85,11 @@ static struct choices choices_of(const struct app *app)
                             .is_welcomed = !dialogs_is_welcoming(app->table.editor->dialogs)};
 }
 
-/// Stores changed settings; the panels' sizes only at the end, as they are dragged.
+/// Saves changed settings. Panel sizes change during drags and are saved only at the end.
 static void note_choices(struct app *app, bool ends)
 {
     struct choices before = app->personal->choices, now = choices_of(app);
-    now.is_welcomed |= before.is_welcomed; // once closed, the card for new users does not come back
+    now.is_welcomed |= before.is_welcomed; // once closed, the card for new users stays closed
     if (!ends) now.stage_share = before.stage_share, now.inspector_width = before.inspector_width;
     const bool has_moved = now.stage_share != before.stage_share || now.inspector_width != before.inspector_width;
     if (now.theme == before.theme && now.ui_scale == before.ui_scale && !has_moved &&
@@ -169,13 +169,13 @@ int personal_recent(void *user, struct dialog_recent *files, int most)
     return count;
 }
 
-/// Name of the document that a recovery file belongs to.
+/// The document name for a recovery file.
 static const char *name_of(const struct recovery_entry *entry)
 {
     return entry->origin.path[0] ? path_name(entry->origin.path) : "an untitled scene";
 }
 
-/// Says how many other files there are, for a start without a scene.
+/// Mentions how many recovery files there are, on a start without a scene.
 static void mention(struct app *app)
 {
     struct recovery_entry entry;
@@ -187,7 +187,7 @@ static void mention(struct app *app)
     recovery_release(&entry.slot);
 }
 
-/// Asks about the newest file left behind. A start with a scene asks about unsaved work on that scene only.
+/// Offers the newest recovery file. A start with a scene offers that scene's only.
 static void offer(struct app *app)
 {
     struct personal *personal = app->personal;
@@ -228,7 +228,7 @@ void personal_start(struct app *app)
     const struct app_options *o = app->options;
     app->personal = need_zeroed(1, sizeof *app->personal);
     start_autosave(app);
-    if (o->record || o->frames) return; // a script must not depend on who runs it
+    if (o->record || o->frames) return; // a script must not depend on the user
     start_settings(app);
     personal_note_file(app, app_path(app));
     if (app->personal->autosave) offer(app);
@@ -269,7 +269,7 @@ bool personal_recover(struct app *app, struct error *error)
     if (!document) return false;
     document_set_path(document, personal->offered.origin.path);
     app_adopt(app, document);
-    file_watch_note(app, personal->offered.origin.content); // a write since then counts as another program's
+    file_watch_note(app, personal->offered.origin.content); // a later write counts as another program's
     history_mark_unsaved(app->table.history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;

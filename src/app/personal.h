@@ -1,5 +1,5 @@
-/// What belongs to the user rather than a document: settings, recent files, and autosave. Only for interactive windows:
-/// headless runs, replays and recordings neither read nor write any of it. Internal to src/app.
+/// What belongs to the user, not a document: settings, recent files, autosave. Headless runs, replays and recordings neither read nor write
+/// any of it. Private to src/app.
 #ifndef APP_PERSONAL_H
 #define APP_PERSONAL_H
 
@@ -10,33 +10,32 @@
 struct app;
 struct personal;
 
-/// At a window, after the first document is open: applies the settings, starts autosave, offers what an earlier run left behind. Failures
-/// go to the status line.
+/// Call at a window with an open document: applies settings, starts autosave, offers recovered work. Failures go to the status line.
 void personal_start(struct app *app);
 
-/// Call it once a frame, and while idle.
+/// Call once per frame, and while idle.
 void personal_update(struct app *app);
 
-/// Whether unsaved work waits for the next update.
+/// Whether unsaved work waits for personal_update().
 bool personal_is_behind(const struct app *app);
 
-/// Recent files for the editor's dialogs; `user` is the app.
+/// The recent files; `user` is the app.
 dialog_list_recent personal_recent;
 
-/// A document's own file was opened or saved.
+/// Call when a document's file was opened or saved.
 void personal_note_file(struct app *app, const char *path);
 
-/// Something was exported: the Export dialog remembers it from run to run.
+/// Stores the last export for the Export dialog.
 void personal_note_export(struct app *app, const struct request *request);
 
-/// Opens the unsaved work that was offered, or deletes it and offers the next one.
+/// Opens the offered recovery file, or deletes it and offers the next.
 bool personal_recover(struct app *app, struct error *error);
 bool personal_forget(struct app *app, struct error *error);
 
-/// Writes unsaved work to the recovery file, waits for it, and returns the path; NULL if that is not possible.
+/// Writes unsaved work to the recovery file and waits for it. Returns the path, or NULL if it failed.
 const char *personal_rescue(struct app *app);
 
-/// Ends it all. If `keep` (the user could not decide) and work is unsaved, the recovery file stays.
+/// `keep`: the user could not decide about unsaved work, so its recovery file stays.
 void personal_end(struct app *app, bool keep);
 
 #endif

@@ -1,4 +1,4 @@
-/// Slots of recovery files, locked by the program that uses them, and the thread that writes them.
+/// The slots of recovery files, locked by running programs, and the thread that writes them.
 #include "app/recovery.h"
 #include "base/need.h"
 #include <errno.h>
@@ -13,7 +13,7 @@
 #include <threads.h>
 #include <unistd.h>
 
-/// The lock file is never removed: that would let two programs hold two locks of one name.
+/// Never deletes the lock file: otherwise two programs could lock two files of the same name.
 static bool claim_slot(const char *folder, int n, struct recovery_slot *slot)
 {
     char lock[PATH_LIMIT + 16];
@@ -53,7 +53,7 @@ void recovery_release(struct recovery_slot *slot)
     slot->lock = -1;
 }
 
-/// Whether a slot's file has work on that document.
+/// Whether a slot's file belongs to the document `of`.
 static bool is_of(const char *path, const char *of)
 {
     const struct scene_origin origin = scene_read_origin(path);
@@ -91,20 +91,20 @@ bool recovery_find(const char *folder, const char *of, struct recovery_entry *en
 
 void recovery_remove(const struct recovery_slot *slot) { unlink(slot->path); }
 
-static const double INTERVAL = 1; ///< seconds from the start of one write to that of the next
+static const double INTERVAL = 1; ///< least seconds between the starts of two writes
 
 struct autosave {
     struct recovery_slot slot;
     uint64_t revision; ///< of the last write
-    double begun;      ///< when
+    double begun;      ///< time of its start
     bool has_file, complained;
 
-    bool writes;               ///< there is a write that has not been reported
-    struct document *document; ///< the thread's until `ended`, like the next two
+    bool writes;               ///< a write is unreported
+    struct document *document; ///< owned by the thread until `ended`, like the next two
     struct scene_origin origin;
-    struct error error; ///< of a failure
+    struct error error;
     thrd_t thread;
-    bool threaded; ///< to be joined
+    bool threaded; ///< must be joined
     atomic_bool ended;
 };
 
@@ -146,14 +146,14 @@ static void begin(struct autosave *autosave, const struct autosave_work *work, d
 
 static bool is_busy(struct autosave *autosave) { return autosave->writes && !atomic_load(&autosave->ended); }
 
-/// For the thread, unless it is the one that calls.
+/// Waits for the thread, unless this is the thread.
 static void wait(struct autosave *autosave)
 {
     while (is_busy(autosave) && !thrd_equal(thrd_current(), autosave->thread))
         thrd_sleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
 }
 
-/// Ends the thread of the last write and frees its document.
+/// Joins the last write's thread and frees its document.
 static void finish(struct autosave *autosave)
 {
     if (autosave->threaded) thrd_join(autosave->thread, NULL);
@@ -162,7 +162,7 @@ static void finish(struct autosave *autosave)
     autosave->threaded = autosave->writes = false;
 }
 
-/// Reports the last write: only the first failure in a row; the next interval tries again.
+/// Reports the last write's result, but only the first of several failures. The next interval tries again.
 static bool report(struct autosave *autosave, struct error *error)
 {
     if (!autosave->writes) return true;

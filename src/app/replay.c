@@ -1,4 +1,4 @@
-/// Reads and writes replays, and turns their lines into events.
+/// Reads and writes replays, and parses their events.
 #include "app/replay.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -16,14 +16,14 @@ static const char size_limits[] = "a width and a height from 64 to 16384";
 
 struct replay {
     char *path, *text, *end;
-    char *at;    ///< text that is not cut into lines yet
-    int number;  ///< of the last line that was cut off
-    char *event; ///< the next event's line; NULL: there is none
-    int line;    ///< the one that is being read, for messages
+    char *at;    ///< unread text
+    int number;  ///< of the last line read
+    char *event; ///< line of the next event, or NULL
+    int line;    ///< current line, for messages
     struct replay_header header;
 };
 
-/// One line, cut into words in place.
+/// A line, split in place.
 struct words {
     char *word[MAX_WORDS];
     int count;
@@ -35,7 +35,7 @@ static bool bad_line(const struct replay *replay, struct error *error, const cha
                 got ? "\"" : "", got ? got : "the end of the line", got ? "\"" : "");
 }
 
-/// Cuts off the next line that is neither blank nor a `#` comment; NULL at the end of the text. The line ends are gone already.
+/// The next line that is neither blank nor a `#` comment, or NULL.
 static char *next_line(struct replay *replay)
 {
     while (replay->at < replay->end) {
@@ -49,7 +49,7 @@ static char *next_line(struct replay *replay)
     return NULL;
 }
 
-/// Words are separated by spaces; within a target's brackets spaces belong to it.
+/// Splits at spaces, except inside a target's brackets.
 static struct words split(char *line)
 {
     struct words words = {0};
@@ -128,8 +128,8 @@ static bool read_header(struct replay *replay, struct error *error)
     return fail(error, ERROR_INPUT, "%s:%d: expected a header with size and frames", replay->path, replay->line);
 }
 
-/// Checks that the events' frames are in order and within the length, so that a broken replay is refused before it starts.
-/// A recording that was cut short has no length (0) and ends with its last event.
+/// Checks that frames are in order and within the length, before the replay starts. A recording cut short has length 0 and ends with its
+/// last event.
 static bool check_frames(struct replay *replay, struct error *error)
 {
     char *at = replay->at;
@@ -151,7 +151,7 @@ static bool check_frames(struct replay *replay, struct error *error)
     return true;
 }
 
-/// Reads the text that a replay was made for, and checks it.
+/// Reads the scene's text and checks the replay.
 static struct replay *finish(struct replay *replay, size_t size, struct error *error)
 {
     const bool whole =
@@ -209,7 +209,7 @@ static const struct {
 
 enum { MOD_COUNT = sizeof mod_names / sizeof mod_names[0] };
 
-/// An event's line after the frame number: a verb and its operands.
+/// What follows an event's verb.
 enum operands {
     WITH_KEY = 1,
     WITH_BUTTON = 2,
@@ -246,7 +246,7 @@ static const struct verb {
 
 enum { VERB_COUNT = sizeof verbs / sizeof verbs[0] };
 
-/// Reading position within one event's words.
+/// A position in an event's words.
 struct event_line {
     struct replay *replay;
     struct words words;
@@ -268,7 +268,7 @@ static bool read_float(struct event_line *c, float *value)
     return true;
 }
 
-/// "@knot(sway,2)+4,-3": its place now, plus an offset in logical pixels.
+/// "@knot(sway,2)+4,-3": the target's position now plus an offset in logical pixels.
 static bool read_target(struct event_line *c, char *word, struct event *event)
 {
     char *end = strrchr(word, ')');
@@ -331,7 +331,7 @@ static bool read_code(struct event_line *c, struct event *event)
            bad_line(c->replay, c->error, "U+ and a code", word);
 }
 
-/// Decodes in place: spaces, percent signs and the like are written as %20 and %25, so that a text stays one word.
+/// Decodes %20, %25 and the like in place. They keep a text one word.
 static bool read_escaped(struct event_line *c, const char *expected, const char **text)
 {
     char *word = take_word(c), *out = word;
@@ -390,7 +390,7 @@ bool replay_next(struct replay *replay, long frame, replay_locate *locate, void 
 struct recording {
     FILE *file;
     char *path;
-    long length_at; ///< where the header's number of frames is
+    long length_at; ///< file offset of the header's number of frames
 };
 
 struct recording *recording_open(const char *path, const struct replay_header *header, struct error *error)
@@ -403,7 +403,7 @@ struct recording *recording_open(const char *path, const struct replay_header *h
         free(recording);
         return NULL;
     }
-    setvbuf(recording->file, NULL, _IOLBF, 0); // so that no crash loses events
+    setvbuf(recording->file, NULL, _IOLBF, 0); // a crash loses no events
     fprintf(recording->file, "%s\nversion %s\nsize %d %d\nscale %g\n", first_line, WIGGLY_VERSION, header->width,
             header->height, header->scale);
     if (header->ui_scale != 1) fprintf(recording->file, "ui-scale %g\n", header->ui_scale);
@@ -425,7 +425,7 @@ static const struct verb *verb_of(const struct event *event)
     return NULL;
 }
 
-/// Escapes characters that would end a word or open a target's brackets.
+/// Escapes characters that end a word or open brackets.
 static void write_escaped(FILE *f, const char *text)
 {
     fputc(' ', f);

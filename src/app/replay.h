@@ -25,26 +25,26 @@ struct replay_header {
     int width, height;
     double scale, ui_scale;
     uint64_t scene_hash;
-    long frames; ///< length; in a file 0 where the recording was cut short
+    long frames; ///< length; 0 in a file cut short
 };
 
 struct replay;
 
-/// Reads a whole replay. On failure NULL with a sentence "file:line: expected …".
+/// Reads a replay. On failure NULL with an error "file:line: expected …".
 struct replay *replay_load(const char *path, struct error *error);
-/// The same from memory; `name` stands for the path.
+/// From memory; `name` replaces the path in errors.
 struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error);
 void replay_destroy(struct replay *replay);
 const struct replay_header *replay_get_header(const struct replay *replay);
 
-/// Looks a target up on the screen: editor_target() behind a closure.
+/// Finds a target on the screen, by editor_target().
 typedef bool replay_locate(void *user, const char *target, float *x, float *y, struct error *error);
 
-/// The next event of `frame`; false if none is left or, with error->kind set, a target cannot be found.
+/// The next event of `frame`. false if there is none or, with error->kind set, its target cannot be found.
 bool replay_next(struct replay *replay, long frame, replay_locate *locate, void *user, struct event *event,
                  struct error *error);
 
-/// A recording in progress: events are written as they come, with plain positions.
+/// A running recording. It writes events as they come, with plain coordinates.
 struct recording;
 
 struct recording *recording_open(const char *path, const struct replay_header *header, struct error *error);

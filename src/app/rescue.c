@@ -1,5 +1,4 @@
-/// Saves unsaved work when the program cannot go on: to the recovery file, which the next start offers, or else to a new file
-/// beside the original.
+/// Saves unsaved work when the program must end: to the recovery file, or else to a new file beside the original.
 #include "app/state.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -11,9 +10,9 @@
 #include <unistd.h>
 
 enum { MAX_NAMES = 1000 };
-enum { RESERVE = 64 << 20, LONGEST_WAIT = 2 }; ///< bytes put by for the rescue; seconds
+enum { RESERVE = 64 << 20, LONGEST_WAIT = 2 }; ///< bytes reserved for the rescue; seconds
 
-/// Writes the work into a folder, "" being the working folder, under a name that is free.
+/// Writes the work into a folder ("": working folder) under an unused name.
 static bool write_to(const struct app *app, const char *folder, char *path, size_t size, struct error *error)
 {
     const char *name = app_path(app)[0] ? path_name(app_path(app)) : "untitled.json", *dot = strrchr(name, '.');
@@ -24,14 +23,14 @@ static bool write_to(const struct app *app, const char *folder, char *path, size
         int length =
             snprintf(path, size, "%s%s%.*s.recovered%s.json", folder, folder[0] ? "/" : "", stem, name, number);
         if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
-        struct stat about; // of the name itself: a link that leads nowhere is somebody's
+        struct stat about; // lstat: even a dangling link is someone's
         if (lstat(path, &about) != 0) return scene_save(app->table.document, path, error);
     }
     return fail(error, ERROR_ENVIRONMENT, "%s: too many recovered scenes are there already", path);
 }
 
-/// Beside the scene's own file, else in the home folder, else in a new folder of ours where all may write: nobody can have put a link
-/// there. Reports the first failure.
+/// Tries the scene's folder, the home folder, then a new folder of our own in the temporary directory, where nobody can have planted a
+/// link. Reports the first failure.
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
     char beside[PATH_LIMIT], shared[] = "/tmp/wiggly-XXXXXX";
@@ -62,8 +61,7 @@ void app_rescue(struct app *app, struct error *error)
     }
 }
 
-/// In another thread than the frames' it waits for the end of a frame, for then the document is whole; but not for long: the frame may
-/// be waiting for that thread.
+/// Other threads wait for the end of the frame, when the document is consistent, but not long: the frame may wait for them.
 static void on_no_memory(void *user, struct error *error)
 {
     struct app *app = user;

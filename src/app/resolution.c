@@ -1,4 +1,4 @@
-/// Chooses the stage's resolution from how long frames take, and when the next may begin.
+/// Chooses the stage's resolution and the frame rate from measured frame times.
 #include "app/resolution.h"
 #include <math.h>
 #include <stdlib.h>
@@ -7,10 +7,10 @@
 static const float levels[] = {1.0f, 0.5f, 0.375f, 0.25f};
 enum { LEVELS = sizeof levels / sizeof *levels };
 enum { SLOW_FRAMES = 4, PATIENCE = 60, LONGEST_PATIENCE = 32 * PATIENCE };
-enum { LATE = 4 };                 ///< frames until the graphics card's clock tells of a new resolution
-static const double too_long = 31; ///< ms: 30 frames a second, and a little for the system
+enum { LATE = 4 };                 ///< frames until GPU times reflect a new resolution
+static const double too_long = 31; ///< ms: 30 frames a second with some slack
 static const double short_again = 25;
-static const double still = 0.15; ///< seconds without a change; a mouse that is being dragged pauses for less
+static const double still = 0.15; ///< seconds without change; pauses within a mouse drag are shorter
 
 bool resolution_parse(struct resolution *resolution, const char *text)
 {
@@ -27,7 +27,7 @@ float resolution_choose(struct resolution *resolution, uint64_t hash, double now
 {
     const bool again = resolution->hash && now - resolution->changed < still;
     if (hash != resolution->hash) {
-        // A single change is no movement: it is drawn exactly right away.
+        // A single change is drawn exactly at once.
         resolution->shown = again ? scale_of(resolution->moving) : 1;
         resolution->hash = hash;
         resolution->changed = now;
@@ -52,7 +52,7 @@ static int level_of(float scale)
     return level;
 }
 
-/// A leaky count of frames for which something holds.
+/// Counts up while something holds, down otherwise.
 static int count(int before, bool holds) { return holds ? before + 1 : before > 0 ? before - 1 : 0; }
 
 static void step(struct resolution *resolution, int level, bool down)
@@ -70,7 +70,7 @@ void resolution_measure(struct resolution *resolution, const struct resolution_c
     const double draw_ms = cost->gpu > 0 ? fmax(cost->draw, cost->gpu) : cost->draw + cost->swap;
     const double frame_ms = cost->before + draw_ms;
     const int level = level_of(scale_of(resolution->moving));
-    // Fewer pixels help only if drawing takes the time.
+    // Fewer pixels help only if drawing is the bottleneck.
     const bool slow = resolution->since >= LATE && frame_ms > too_long && draw_ms > frame_ms / 2;
     resolution->slow = count(resolution->slow, slow);
     resolution->quick = count(resolution->quick, frame_ms < short_again);
@@ -84,11 +84,11 @@ void resolution_measure(struct resolution *resolution, const struct resolution_c
     }
 }
 
-// --- the pace
+// --- the frame rate
 
-enum { QUEUED = 4, JUDGED = 24 }; // frames a driver queues before it waits; frames to judge by
+enum { QUEUED = 4, JUDGED = 24 }; // frames a driver queues before blocking; frames to judge by
 static const double usual_rate = 60, slowest = 20, fastest = 1000;
-static const double shortest = 0.93; ///< of a period on average, where swaps wait for the display
+static const double shortest = 0.93; ///< of a refresh period on average, if swaps wait for the display
 
 static double period_of(const struct pace *pace) { return pace->period > 0 ? pace->period : 1 / usual_rate; }
 

@@ -1,5 +1,5 @@
-/// How frames keep up: the stage's resolution, lower while it moves and frames take too long (a still stage is always drawn
-/// exactly), and when the next one may begin.
+/// Keeps up with the display: lowers the stage's resolution while it moves and frames are slow (a still stage is always exact), and paces
+/// frames.
 #ifndef APP_RESOLUTION_H
 #define APP_RESOLUTION_H
 
@@ -11,53 +11,53 @@ struct resolution {
     float moving;    ///< resolution while the stage moves; 0 means 1
     float shown;     ///< resolution on the screen; 0 means 1
     bool adapts;     ///< adapt `moving` to the cost of frames
-    uint64_t hash;   ///< of the stage on the screen
-    double changed;  ///< when it last became another one, s
-    int slow, quick; ///< how much more frequent slow (quick) frames have been of late
+    uint64_t hash;   ///< of the displayed stage
+    double changed;  ///< time of the last change, s
+    int slow, quick; ///< leaky counts of slow and quick frames
     int since;       ///< frames since the last step
-    bool tried;      ///< the last step was up
-    int patience;    ///< quick frames before a step up is tried; more after each one that had to be taken back
+    bool tried;      ///< the last step raised the resolution
+    int patience;    ///< quick frames before trying a step up; grows after each one that failed
 };
 
-/// From the command line's word: "auto", or a number from 0.25 to 1. false if it is neither.
+/// Parses "auto" or a number from 0.25 to 1; false if it is neither.
 bool resolution_parse(struct resolution *resolution, const char *text);
 
-/// The resolution for a stage with that `hash`; `now` in seconds on the app's clock.
+/// The resolution for a stage with this `hash`; `now` in seconds.
 float resolution_choose(struct resolution *resolution, uint64_t hash, double now);
 
-/// Whether the stage on the screen is as sharp as it can be.
+/// Whether the displayed stage has full resolution.
 bool resolution_is_exact(const struct resolution *resolution);
 
-/// Seconds until the stage must be redrawn exactly; INFINITY if it is exact.
+/// Seconds until the stage must be redrawn exactly; INFINITY if it already is.
 double resolution_wait(const struct resolution *resolution, double now);
 
-/// Cost of a frame with a moving stage, ms.
+/// Time for a frame with a moving stage, ms.
 struct resolution_cost {
-    double before;     ///< until drawing began
-    double draw, swap; ///< on the CPU's clock
-    double gpu;        ///< of a frame just before; 0 where the graphics card has no clock
+    double before;     ///< before drawing
+    double draw, swap; ///< on the CPU
+    double gpu;        ///< of a recent frame; 0 without GPU timers
 };
 
-/// Reports it. A swap that waits for the display is no work: where the graphics card has a clock, that counts instead.
+/// Waiting for the display is not work, so GPU time counts instead of the swap where there is one.
 void resolution_measure(struct resolution *resolution, const struct resolution_cost *cost);
 
-// When the next frame may begin: swaps that wait for the display set the pace; if they do not, the app keeps to the display's rate.
+// When the next frame may begin. Swaps that wait for the display set the pace; otherwise the app keeps to its refresh rate.
 
-/// Zero: a display of 60 Hz of which nothing else is known yet.
+/// Zero: a 60 Hz display, nothing measured yet.
 struct pace {
     double period; ///< of the display, s
-    bool limits;   ///< swaps do not wait
-    int run;       ///< frames in a row that followed each other at once
-    double start;  ///< when judging began, s
+    bool limits;   ///< swaps do not wait, so the app must
+    int run;       ///< consecutive frames that waited for nothing else
+    double start;  ///< start of the measurement, s
 };
 
-/// The display's rate in Hz, 0 if unknown. A new rate restarts the judgement.
+/// Refresh rate in Hz, 0 if unknown. A new rate restarts the measurement.
 void pace_set_rate(struct pace *pace, double rate);
 
-/// A swap has returned. `at_once`: the frame waited for nothing else.
+/// Call after a swap. `at_once`: the frame did not wait for anything else.
 void pace_swapped(struct pace *pace, double now, bool at_once);
 
-/// When the next frame may begin, after one that was due at `due` and began at `frame_start`.
+/// When the next frame may begin, after one due at `due` that began at `frame_start`.
 double pace_next(const struct pace *pace, double due, double frame_start);
 
 #endif

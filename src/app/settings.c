@@ -1,4 +1,4 @@
-/// Reads and writes the settings file, and the files that it remembers.
+/// Reads and writes the settings file and its recent files.
 #include "app/settings.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -18,7 +18,7 @@ enum { MAX_LINES = 1000, PATIENCE = 5000 };
 
 static const size_t LARGEST = 1 << 20;
 
-/// One line of the file: a key with a value, or (key NULL) a remark.
+/// A line: key and value, or (key NULL) a comment.
 struct line {
     char *key, *value;
 };
@@ -26,7 +26,7 @@ struct line {
 struct settings {
     struct line lines[MAX_LINES];
     int count;
-    int lock; ///< the folder, or -1
+    int lock; ///< descriptor of the locked folder, or -1
 };
 
 static void drop(struct settings *settings, int at)
@@ -38,7 +38,7 @@ static void drop(struct settings *settings, int at)
             (size_t)(settings->count - at) * sizeof settings->lines[0]);
 }
 
-/// Inserts a line at `at`, if there is room.
+/// Inserts a line at `at` if there is room.
 static void insert(struct settings *settings, int at, const char *key, const char *value)
 {
     if (settings->count == MAX_LINES) return;
@@ -91,8 +91,8 @@ struct settings *settings_load(const char *path, struct error *error)
     return settings;
 }
 
-/// Locks the file's folder, for the file itself is replaced at every save. Goes on without where that cannot be, or somebody else keeps
-/// it too long: a setting that is lost is less than a window that hangs. Returns a descriptor or -1.
+/// Locks the folder, because each save replaces the file. Goes on without a lock if it cannot get one in time: a lost setting is better
+/// than a hanging window. Returns a descriptor or -1.
 static int lock_folder(const char *path)
 {
     char folder[PATH_LIMIT];
@@ -119,7 +119,7 @@ void settings_free(struct settings *settings)
     free(settings);
 }
 
-/// Index of the `n`th line with that key, or -1.
+/// Index of the `n`th line with a key, or -1.
 static int find(const struct settings *settings, const char *key, int n)
 {
     for (int i = 0; i < settings->count; i++) {
@@ -143,13 +143,12 @@ double settings_number(const struct settings *settings, const char *key, double 
     return text && end != text && *end == '\0' && isfinite(value) ? value : fallback;
 }
 
-/// Removes all values of a key.
 static void remove_all(struct settings *settings, const char *key)
 {
     for (int at = find(settings, key, 0); at >= 0; at = find(settings, key, 0)) drop(settings, at);
 }
 
-/// Whether the file gives the value back: no line break, nothing for trim() to remove.
+/// Whether the value survives the file: no line break, no space at the ends.
 static bool is_storable(const char *value)
 {
     size_t length = strlen(value);
@@ -248,7 +247,7 @@ void export_memory_read(const struct settings *settings, const char *scene, stru
     *memory = (struct export_memory){.path = ""};
     read_text(settings, "export_path", memory->path, sizeof memory->path);
     read_text(settings, "export_scene", memory->scene, sizeof memory->scene);
-    // The dialog knows the scene by the path that it was opened by.
+    // The dialog knows the scene by the path it was opened with.
     if (path_resolve("", scene, open) && strcmp(open, memory->scene) == 0)
         snprintf(memory->scene, sizeof memory->scene, "%s", scene);
     for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
@@ -261,7 +260,7 @@ void export_memory_read(const struct settings *settings, const char *scene, stru
     }
 }
 
-/// Absolute, because the next run may begin in another folder.
+/// Absolute, because the next run may start in another folder.
 static void write_path(struct settings *settings, const char *key, const char *path)
 {
     char absolute[PATH_LIMIT];

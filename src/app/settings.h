@@ -4,8 +4,7 @@
 ///     theme = dark
 ///     recent = /home/me/walk.json
 ///
-/// A key may come more than once (recent files: newest first). Lines with unknown keys are kept, so that an older
-/// program does not lose what a newer one stored.
+/// A key may repeat (recent files, newest first). Unknown keys are kept, so that an older program does not lose a newer one's settings.
 #ifndef APP_SETTINGS_H
 #define APP_SETTINGS_H
 
@@ -14,35 +13,35 @@
 
 struct settings;
 
-/// Reads a settings file; a missing one counts as empty. For a broken line or an unreadable file, `error` gets one sentence
-/// (else ERROR_NONE) and defaults apply.
+/// Reads the settings; a missing file is empty. After a broken line or an unreadable file, `error` is set (else ERROR_NONE) and defaults
+/// apply.
 struct settings *settings_load(const char *path, struct error *error);
 
-/// The same to change them: another program that does so waits for settings_free(), at most five seconds.
+/// Reads them for a change. Other programs wait for settings_free(), at most five seconds.
 struct settings *settings_open(const char *path, struct error *error);
 void settings_free(struct settings *settings);
 
-/// The `n`th value of a key (from 0), or NULL; and the first one as a number, `fallback` if it is none.
+/// The `n`th value of a key from 0, or NULL. The second: the first value as a number, or `fallback`.
 const char *settings_get(const struct settings *settings, const char *key, int n);
 double settings_number(const struct settings *settings, const char *key, double fallback);
 
-/// Replaces all values of a key by one. A value that could not be read back (with a line break) is dropped.
+/// Replaces all values of a key. Ignores a value with a line break.
 void settings_set(struct settings *settings, const char *key, const char *value);
 void settings_set_number(struct settings *settings, const char *key, double value);
-/// Puts a value first among the key's values, dropping an equal one, and keeps the first `most`.
+/// Moves a value to the front of a key's values, of which the first `most` stay.
 void settings_push(struct settings *settings, const char *key, const char *value, int most);
 
-/// Writes the file, atomically.
+/// Writes atomically.
 bool settings_save(const struct settings *settings, const char *path, struct error *error);
 
-/// Moves a file's absolute path to the top of the recent files, of which there are at most DIALOG_MAX_RECENT.
+/// Moves a file to the front of the recent files, at most DIALOG_MAX_RECENT, by absolute path.
 void recent_note(struct settings *settings, const char *path);
 
-/// Writes the recent files, newest first; returns how many. Missing files are marked.
+/// Writes the recent files, newest first, with missing ones marked; returns how many.
 int recent_list(const struct settings *settings, struct dialog_recent *files, int most);
 
-/// The last export: its path, its scene, and the choices that suit other scenes too. Choices missing from the settings are those of a new
-/// dialog. `scene` is the path of the file that is open, or "".
+/// Reads the last export's path and scene, and the choices that suit any scene. Missing ones keep a new dialog's defaults. `scene`: path of
+/// the open file, or "".
 void export_memory_read(const struct settings *settings, const char *scene, struct export_memory *memory);
 void export_memory_write(struct settings *settings, const struct request *request, const char *scene);
 

@@ -1,4 +1,4 @@
-/// A frame of the document on the table: edit, solve, pose, show.
+/// A frame of the open document: edit, solve, pose, show.
 #include "app/table.h"
 #include "base/progress.h"
 #include "rig/posing.h"
@@ -19,7 +19,7 @@ static void solve(struct table *table, struct frame_row *row)
     row->knots = evaluation->solved_knots;
 }
 
-/// Reads the models of a document that is new on the table, or back by undo, or has other models since the last edit.
+/// Reads the models of a document that is new, restored by undo, or has other models since the last edit.
 static void read_models(struct table *table)
 {
     struct error error;
@@ -48,7 +48,7 @@ void table_solve(struct table *table, struct frame_row *row)
     const double start = clock_now();
     solve(table, row);
     if (table->models) models_grow(table->models, table->document, &table->evaluation);
-    row->splines_solved += meadow_solved(models_meadow(table->models)); // a reed is a spline, too
+    row->splines_solved += meadow_solved(models_meadow(table->models)); // reeds count as splines
     row->solve_us = since(start);
 }
 

@@ -1,15 +1,15 @@
-/// How large everything in the window is drawn, on top of the display's own scale.
+/// The size of the interface relative to the display's scale.
 #include "app/state.h"
 #include <math.h>
 
 static const double steps[] = {UI_SCALE_LEAST, 1, 1.25, 1.5, 1.75, 2, 2.5, UI_SCALE_MOST};
-/// Logical pixels of the layout; less shows a part of it.
+/// Logical pixels of the layout; a smaller window shows a part of it.
 enum { UI_LEAST_WIDTH = 320, UI_LEAST_HEIGHT = 240 };
 
 enum { STEPS = sizeof steps / sizeof *steps };
 
-static const double PRESENTING = 1.5;          ///< times the user's choice
-static const double SHARPEST = 5;              ///< device pixels a logical pixel that there is room for glyphs for
+static const double PRESENTING = 1.5;          ///< times the chosen scale
+static const double SHARPEST = 5;              ///< device pixels per logical pixel that the glyph atlas can hold
 static const double WIDTH = 760, HEIGHT = 400; ///< logical pixels that the panels need
 
 static bool has_room(const struct app *app, double scale)
@@ -23,7 +23,7 @@ static double wanted(const struct app *app, double chosen)
     return chosen * (app->table.editor->core.presenter.on ? PRESENTING : 1);
 }
 
-/// The wanted scale, or the largest step below it that fits; a window too small for any keeps its scale.
+/// The chosen scale, or the largest step below it that fits. A window too small for any keeps its scale.
 static double fitting(const struct app *app)
 {
     const double most = wanted(app, app->ui_scale);

@@ -1,4 +1,4 @@
-/// `wiggly analyze`: the complex normal coordinates of simulated motions, as a character.
+/// `wiggly analyze`: turns simulated motions into a character with complex normal coordinates.
 #include "analysis/analysis.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -16,38 +16,36 @@
 
 enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX, DIRECTION_SIZE = 64 };
 
-static const double recommended_bandwidth = 0.1; ///< the spline's default; a single oscillation says nothing of it
-static const double fast_warning = 0.01;         ///< share of the power near half the frame rate that is worth a word
-static const double fast_pole = 0.8;             ///< of half the frame rate: a frequency above it
+static const double recommended_bandwidth = 0.1; ///< the spline's default; an analysis of one oscillation cannot tell
+static const double fast_warning = 0.01;         ///< share of power near half the frame rate that causes a warning
+static const double fast_pole = 0.8;             ///< share of half the frame rate; higher frequencies cause a warning
 
-/// What the command line asks for.
 struct job {
-    const char *files[FILES_MAX + 1]; ///< NULL behind the last
+    const char *files[FILES_MAX + 1]; ///< NULL-terminated
     const char *rest, *output, *scene, *coordinates, *shake;
     struct mesh_options opening; ///< of `rest`
-    double fps;                  ///< 0: what the files say
-    int method;                  ///< 0: not given, else as in method_of()
+    double fps;                  ///< 0: from the files
+    int method;                  ///< 0: default, else as in method_of()
     int modes;
     bool no_normals;
     double from; ///< seconds
     double directions[FILES_MAX][3];
-    int direction_count; ///< 0, 1 for all, or one a file
+    int direction_count; ///< 0, 1 for all, or one per file
 };
 
-/// The character as it grows, and what else is known of its coordinates.
 struct result {
     struct character character;
-    struct analyzed *analyzed; ///< one a coordinate
-    int filled;                ///< how many coordinates are there so far
+    struct analyzed *analyzed; ///< one per coordinate
+    int filled;                ///< coordinates so far
 };
 
 static enum analysis_method method_of(const struct job *job)
 {
-    enum { CPCA = 2 }; // of the option's words
+    enum { CPCA = 2 }; // index in the option's words
     return job->method == CPCA ? ANALYSIS_CPCA : ANALYSIS_POLES;
 }
 
-/// Splits --shake at its colons. False if a part is no direction or their number is wrong.
+/// Splits --shake at colons; false if a part is no direction or the number of parts is wrong.
 static bool read_directions(struct job *job, int files)
 {
     const char *at = job->shake;
@@ -63,12 +61,12 @@ static bool read_directions(struct job *job, int files)
     return !at && (job->direction_count <= 1 || job->direction_count == files);
 }
 
-/// A unique name for a coordinate, from the file's: "up", and "up-2" … for further modes.
+/// A unique coordinate name from the file's: "up", then "up-2" … for further modes.
 static char *make_name(const char *path, const struct character *character)
 {
     const char *base = path_name(path), *dot = strrchr(base, '.');
     int stem = (int)(dot ? (size_t)(dot - base) : strlen(base));
-    struct error name; // what fail() leaves is valid UTF-8
+    struct error name; // fail() makes the name valid UTF-8
     for (int attempt = 1;; attempt++) {
         fail(&name, ERROR_NONE, attempt > 1 ? "%.*s-%d" : "%.*s", stem > 0 ? stem : 6, stem > 0 ? base : "motion",
              attempt);
@@ -81,7 +79,7 @@ static char *make_name(const char *path, const struct character *character)
     }
 }
 
-/// To a millionth, so that a file is the same whatever processor LAPACK ran on.
+/// Rounded to a millionth, so that files do not depend on the processor LAPACK ran on.
 static double rounded(double value) { return round(value * 1e6) / 1e6; }
 
 static void keep(struct coordinate *to, const struct component *c, const struct analysis *analysis, const char *path,
@@ -148,7 +146,7 @@ static void report_motion(const struct job *job, const struct motion *motion, co
         printf("  %d of %d coordinates: the motion has no more poles that matter\n", a->count, job->modes);
 }
 
-/// A frame rate shows no frequency above half of it, and those just below it badly.
+/// Warns of frequencies close to half the frame rate, which are measured badly, or above it, which are not seen.
 static void warn_of_speed(const struct motion *motion, const struct analysis *a, double fps)
 {
     bool fast = a->fast_share > fast_warning;
@@ -161,7 +159,7 @@ static void warn_of_speed(const struct motion *motion, const struct analysis *a,
     }
 }
 
-/// What is driven is no sum of free swings; the method may then want two large motions that all but cancel each other.
+/// A driven motion is no sum of free swings. The method may then find two large motions that nearly cancel.
 static void warn_of_cancelling(const struct motion *motion, const struct analysis *a)
 {
     if (a->cancelled == 0) return;
@@ -182,8 +180,7 @@ static bool check_motion(const struct job *job, const struct motion *motion, con
     return fail(error, ERROR_USAGE, "%s: the file has no frame rate: give --fps N", motion->path);
 }
 
-/// A coordinate is added to the mesh at rest; a motion centred elsewhere has other axes, units or an offset. One that walks may be
-/// anywhere.
+/// Warns if a motion is centred far from the rest mesh: it may have other axes, units or an offset. Walking motions may be anywhere.
 static void warn_of_distance(const struct motion *motion, const struct analysis *analysis,
                              const struct character *rest)
 {
@@ -205,7 +202,7 @@ static void warn_of_distance(const struct motion *motion, const struct analysis 
     }
 }
 
-/// Keeps time series and knots, which only a scene and the table of coordinates need.
+/// Keeps time series and knots, which only the scene and the coordinate table need.
 static void keep_course(const struct job *job, struct analyzed *to, struct component *c, int rank, double fps)
 {
     *to = (struct analyzed){.rank = rank, .fps = fps, .frames = c->frames};
@@ -230,7 +227,7 @@ static void keep_all(const struct job *job, const struct analysis *analysis, con
            analysis->count, analysis->count > 1 ? "s" : "", analysis->left, analysis->real_left);
 }
 
-/// Analyses one file and appends its coordinates to the character.
+/// Analyses a file and appends its coordinates.
 static bool analyse(const struct job *job, int file, const struct lapack *lapack, struct result *result,
                     struct error *error)
 {
@@ -259,7 +256,7 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
     return done;
 }
 
-/// Frees the coordinates for which there were no poles.
+/// Frees coordinates without poles.
 static void drop_unused(struct result *result)
 {
     struct character *c = &result->character;
@@ -313,7 +310,7 @@ static bool run(const struct job *job, struct error *error)
     return done;
 }
 
-/// Checks what the table of options cannot; NULL or what is wrong.
+/// Checks what the option table cannot; NULL or an error text.
 static const char *check(struct job *job)
 {
     int files = 0;

@@ -43,7 +43,7 @@ static bool add_spline(struct document *document, const char *name, const struct
     return add_knots(document, spline, analyzed, error);
 }
 
-/// The coordinates that the scene drives; returns their number.
+/// Chooses the coordinates the scene drives; returns how many.
 static int choose(const struct character *character, const struct analyzed *analyzed, int *chosen)
 {
     int count = 0;
@@ -105,7 +105,7 @@ static void write_header(FILE *out, const struct character *character)
     fputc('\n', out);
 }
 
-/// A motion that has ended leaves its fields empty.
+/// Fields stay empty after a motion's end.
 static void write_row(FILE *out, const struct analyzed *analyzed, int count, int frame)
 {
     fprintf(out, "%d", frame);

@@ -1,4 +1,4 @@
-/// `wiggly check`: prints every problem of a scene, its solution and its models; of a character, what it holds.
+/// `wiggly check`: reports every problem of a scene, its solution and its models, and what a character holds.
 #include "base/error.h"
 #include "base/file.h"
 #include "commands/commands.h"
@@ -11,7 +11,7 @@
 #include <math.h>
 #include <stdio.h>
 
-/// Degrees or metres by which a clip that goes round may miss its start.
+/// Degrees or metres between the start and end of a looping clip.
 static const double MOTION_SLACK = 1e-3;
 
 static void print_problem(void *user, bool is_error, const char *sentence)
@@ -26,7 +26,7 @@ static void warn(void *user, const char *sentence)
     print_line(stdout, "warning: %s: %s", *path, sentence);
 }
 
-/// A loop's last sample is its first, so an equilibrium that ends elsewhere jumps there.
+/// Whether a loop's equilibrium ends elsewhere than it starts, so that it jumps.
 static bool jumps(const struct document *document, const struct evaluation *evaluation, int index)
 {
     const struct spline *spline = document->splines[index];
@@ -39,7 +39,7 @@ static bool jumps(const struct document *document, const struct evaluation *eval
     return !(fabs(y[0] - y[evaluation->samples - 1]) <= slack);
 }
 
-/// Warns where poses force a spline's swing, or send it far beyond its knots.
+/// Warns if poses force a spline's swing or send it far beyond its knots.
 static void check_swing(const char *path, const struct document *document, const struct evaluation *evaluation,
                         int index)
 {
@@ -53,7 +53,7 @@ static void check_swing(const char *path, const struct document *document, const
     }
 }
 
-/// Checks what only a solve can show.
+/// Checks what needs a solve.
 static void check_solution(const char *path, const struct document *document, struct models *models)
 {
     struct evaluation evaluation = {.models = models_source(models)};
@@ -69,7 +69,7 @@ static void check_solution(const char *path, const struct document *document, st
     evaluation_free(&evaluation);
 }
 
-/// Checks its files and its solution. False where paint, a model, or what the scene names in one cannot be had.
+/// Checks files and solution. false if paint, a model, or something the scene names in one is missing.
 static bool check_document(const char *path, struct document *document)
 {
     struct error error = {0};

@@ -1,5 +1,5 @@
-/// The subcommands: one file each. argv[0] is the subcommand's name; the result is the exit status
-/// (0 done, 1 bad input, 2 wrong usage, 3 the environment failed).
+/// The subcommands. argv[0] is the subcommand's name; the result is the exit status: 0 done, 1 bad input, 2 wrong usage, 3 environment
+/// failed.
 #ifndef COMMANDS_COMMANDS_H
 #define COMMANDS_COMMANDS_H
 

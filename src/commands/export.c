@@ -1,4 +1,4 @@
-/// `wiggly export`: writes the motion of a scene into the files of other programs.
+/// `wiggly export`: writes a scene's motion in other programs' formats.
 #include "export/export.h"
 #include "app/film.h"
 #include "base/error.h"
@@ -20,7 +20,7 @@ enum { LINEAR = 1, CUBIC };
 struct job {
     const char *scene, *output, *frames;
     struct export_options options;
-    int keys, theme; ///< which word was given, from 1
+    int keys, theme; ///< index of the given word, from 1
     bool quiet, paint;
     struct progress progress;
 };
@@ -50,7 +50,7 @@ static bool write_motion(struct job *job, struct opened *opened, struct error *e
     return done;
 }
 
-/// Writes the paint of the first character that has some, or of the one that was asked for.
+/// Writes the paint of the named character, or of the first one with paint.
 static bool write_paint(const struct job *job, const struct document *document, struct error *error)
 {
     const char *name = job->options.rig;
@@ -85,7 +85,7 @@ static bool read_frames(const char *text, struct export_options *options)
     return sscanf(text, "%lf:%lf%n", &options->first, &options->last, &end) == 2 && text[end] == '\0';
 }
 
-/// Checks what the table of options cannot.
+/// Checks what the option table cannot.
 static enum options_result check(const struct usage *usage, struct job *job)
 {
     char endings[EXPORT_ENDINGS];

@@ -5,7 +5,7 @@
 #include "commands/options.h"
 #include <stdio.h>
 
-/// Says of a file that takes seconds that it is being read, once.
+/// Reports once that a large file is being read.
 static void tell_large(const char *doing, long done, long bytes)
 {
     enum { LARGE = 24 << 20 };

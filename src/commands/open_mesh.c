@@ -1,4 +1,4 @@
-/// Reads meshes, turns them upright, scales them, and says what was left out.
+/// Reads meshes, turns them upright, scales them, and reports what was left out.
 #include "commands/open_mesh.h"
 #include "base/error.h"
 #include <math.h>
@@ -6,11 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// z up becomes y up as Blender's exporters do it: x stays, y becomes −z. x up: z stays, x becomes y, y becomes −x.
+/// z up becomes y up as in Blender's exporters: x stays, y becomes −z. x up: z stays, x becomes y, y becomes −x.
 static bool place(const struct mesh_options *options, struct surface *surface)
 {
     static const struct {
-        int from[3], sign[3]; // of each axis of ours
+        int from[3], sign[3]; // for each of our axes
     } turns[] = {{{1, 0, 2}, {-1, 1, 1}}, {{0, 1, 2}, {1, 1, 1}}, {{0, 2, 1}, {1, 1, -1}}};
     const int up = options->up ? options->up - 1 : 1;
     for (int i = 0; i < surface->vertex_count; i++) {

@@ -1,4 +1,4 @@
-/// Parses options by a table, prints help, and suggests the nearest word.
+/// Parses options from a table, prints help, and suggests the nearest word.
 #include "commands/options.h"
 #include "base/file.h"
 #include <errno.h>
@@ -14,8 +14,8 @@ enum { WORD_MAX = 63, OPTION_MAX = 32 };
 
 static int smaller(int a, int b) { return a < b ? a : b; }
 
-/// Insertions, deletions, replacements and swaps of neighbours that turn a into b (optimal string alignment, three rows of
-/// its table at a time); words are cut at WORD_MAX.
+/// Optimal string alignment distance (insertions, deletions, replacements, swaps of neighbours), with three rows of its table. Words are
+/// cut at WORD_MAX.
 static int edit_distance(const char *a, const char *b)
 {
     int rows[3][WORD_MAX + 1];
@@ -41,7 +41,7 @@ static int edit_distance(const char *a, const char *b)
 const char *options_nearest(const char *word, const char *const *candidates, int count)
 {
     const char *nearest = NULL;
-    int best = (int)strnlen(word, WORD_MAX) / 3 + 1; // farther away is another word
+    int best = (int)strnlen(word, WORD_MAX) / 3 + 1; // a larger distance means another word
     for (int i = 0; i < count; i++) {
         int distance = edit_distance(word, candidates[i]);
         if (distance < best) {
@@ -86,7 +86,7 @@ static const struct option_spec *find(const struct usage *usage, const char *wor
     return NULL;
 }
 
-/// A whole number of the text in [minimum, maximum], ending at `end`.
+/// Parses an integer in [minimum, maximum] that ends at `end`.
 static bool read_int(const char *text, char end, double minimum, double maximum, int *value, const char **rest)
 {
     char *stop;
@@ -119,7 +119,7 @@ static bool read_size(const char *text, double minimum, double maximum, int size
     return true;
 }
 
-/// One of "a|b|c", by its number from 1.
+/// The index of one of "a|b|c", from 1.
 static enum options_result read_word(const struct usage *usage, const struct option_spec *option, const char *text)
 {
     char list[2 * WORD_MAX] = "";
@@ -180,7 +180,7 @@ static enum options_result store(const struct usage *usage, const struct option_
     return OPTIONS_WRONG;
 }
 
-/// Reads the option at argv[*at] and its value, leaving *at on the last word that was used.
+/// Parses the option at argv[*at] and its value. *at ends on the last word used.
 static enum options_result read_option(const struct usage *usage, int argc, char **argv, int *at)
 {
     const char *word = argv[*at];
@@ -197,7 +197,7 @@ static enum options_result read_option(const struct usage *usage, int argc, char
     return store(usage, option, argv[++*at]);
 }
 
-/// `all`: not only the common options.
+/// `all`: not just the common options.
 static void print_help(const struct usage *usage, bool all)
 {
     const int count = all || !usage->common_count ? usage->option_count : usage->common_count;
@@ -214,7 +214,7 @@ static void print_help(const struct usage *usage, bool all)
     if (count < usage->option_count) printf("\nwiggly %s --help-all lists all options.\n", usage->command);
 }
 
-/// Whether two paths lead to one file; a device or a pipe takes what several write.
+/// Whether two paths name one file. Devices and pipes may be shared.
 static bool same_file(const char *a, const char *b)
 {
     char first[PATH_LIMIT], second[PATH_LIMIT];
@@ -224,7 +224,7 @@ static bool same_file(const char *a, const char *b)
     return path_resolve(NULL, a, first) && path_resolve(NULL, b, second) && strcmp(first, second) == 0;
 }
 
-/// Refuses two outputs to one file, of which only the last would be left.
+/// Refuses two outputs to the same file.
 static enum options_result check_outputs(const struct usage *usage)
 {
     for (int i = 0; i < usage->option_count; i++) {

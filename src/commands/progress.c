@@ -1,4 +1,4 @@
-/// Shows the progress of long commands, and catches Ctrl+C.
+/// Shows progress, and handles Ctrl+C.
 #include "commands/progress.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -8,14 +8,14 @@
 #include <stdio.h>
 #include <unistd.h>
 
-/// A signal handler: calls only async-signal-safe functions.
+/// A signal handler: only async-signal-safe calls.
 static void end_at_once(int signal_number)
 {
     static const char text[] = "interrupted; nothing half-written is left\n";
     (void)signal_number;
     file_remove_unfinished();
     const ssize_t told = write(STDERR_FILENO, text, sizeof text - 1);
-    (void)told; // nobody is left to tell
+    (void)told; // nothing to do on failure
     _exit(ERROR_ENVIRONMENT);
 }
 

@@ -1,4 +1,4 @@
-/// Puts what a solution misses into words, and prints what a glTF character holds.
+/// Reports unmet parts of a solution, and a glTF character's contents.
 #include "commands/report.h"
 #include "base/error.h"
 #include "rig/imported.h"
@@ -6,8 +6,8 @@
 #include <math.h>
 #include <stdio.h>
 
-static const double BELOW = 1e-4; ///< metres below a floor that are told
-static const double MET = 1e-4;   ///< of the rig's size: a chain is posed in floats
+static const double BELOW = 1e-4; ///< metres below a floor worth a report
+static const double MET = 1e-4;   ///< of the rig's size; chains are posed in floats
 
 static void tell_pin(const struct pin_left *left, int rig, int pin, report_tell *tell, void *user)
 {
@@ -39,7 +39,7 @@ static void tell_spline(const struct document *document, const struct evaluation
                         report_tell *tell, void *user)
 {
     char sentence[EVALUATION_SENTENCE];
-    struct error warning; // a name may hold anything: fail() makes it printable
+    struct error warning; // fail() makes any name printable
     if (!evaluation_sentence(evaluation, spline, sentence)) return;
     fail(&warning, ERROR_INPUT, "splines[%d]: \"%s\": %s", spline, document->splines[spline]->name, sentence);
     tell(user, warning.text);
@@ -69,7 +69,7 @@ void solution_warnings(const struct document *document, const struct evaluation 
 
 enum { DEEPEST_INDENTED = 64 };
 
-/// A root and the nodes below it, each under its parent. From a depth on that no screen is wide enough for, a number says how deep.
+/// Prints a tree of nodes. Below a certain depth a number replaces the indentation.
 static void print_tree(const struct gltf *gltf, int root)
 {
     const struct gltf_node *nodes = gltf->nodes;
@@ -89,7 +89,7 @@ static void print_tree(const struct gltf *gltf, int root)
     }
 }
 
-/// Whether a way down to a tip begins at a node and not further up.
+/// Whether a chain to a tip starts at this node, not further up.
 static bool begins_chain(const struct gltf *gltf, int node)
 {
     const int parent = gltf->nodes[node].parent;

@@ -1,4 +1,4 @@
-/// What commands report on a scene or a character: what was not met, and what a glTF file holds.
+/// Reports on a scene's solution and on a glTF file's contents.
 #ifndef COMMANDS_REPORT_H
 #define COMMANDS_REPORT_H
 
@@ -8,12 +8,11 @@
 /// Receives a printable sentence.
 typedef void report_tell(void *user, const char *sentence);
 
-/// Reports on a solved scene: splines that were not simply solved, pins and floors that are not met, and limits that these override.
+/// Reports splines that needed more than a plain solve, unmet pins and floors, and limits that those override.
 void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_tell *tell,
                        void *user);
 
-/// Prints what a glTF character holds, for a user who does not know the file: clips, bones and other nodes, each under its parent, the
-/// chains that can be made, and what is not shown.
+/// Prints a glTF character's clips, bones and nodes as a tree, possible chains, and what is not shown.
 void contents_print(const struct gltf *gltf);
 
 #endif

@@ -1,4 +1,4 @@
-/// wiggly rig: gives the bones of a glTF character follow-through, as a scene or straight as an animated glTF file.
+/// `wiggly rig`: adds chains to the bones of a glTF character and writes a scene or an animated glTF file.
 #include "base/error.h"
 #include "base/file.h"
 #include "commands/commands.h"
@@ -15,11 +15,11 @@
 struct job {
     const char *character, *output, *clip;
     struct option_list chains;
-    struct chain_wish wish; ///< the numbers of every chain
+    struct chain_wish wish; ///< the settings of every chain
     bool plain;
 };
 
-/// "A" or "A:B". Names may have colons of their own, so the colon is one between two bones that there are.
+/// Splits "A:B" or "A". Names may contain colons, so the splitting colon is one between two existing bones.
 static void split(const struct gltf *gltf, const char *text, char from[BONE_NAME_SIZE], const char **to)
 {
     *to = NULL;
@@ -90,7 +90,7 @@ static bool run(const struct job *job, struct error *error)
     return done;
 }
 
-/// Checks what the table of options cannot.
+/// Checks what the option table cannot.
 static enum options_result check(const struct usage *usage, const struct job *job)
 {
     if (!path_has_end(job->character, ".glb") && !path_has_end(job->character, ".gltf"))

@@ -18,17 +18,17 @@
 struct job {
     const char *mesh, *output;
     struct mesh_options opening;
-    char rest[4096]; ///< the rest mesh beside the output
+    char rest[4096]; ///< path of the rest mesh beside the output
     const char *shake_text, *drive_text, *pin_text;
     double budget; ///< millions of element-steps
     struct shake_job shake;
     struct drive drive;
     struct soft_options soft;
-    double floor; ///< above the lowest point; below 0: none
+    double floor; ///< height above the lowest point; below 0: none
     bool modal;
 };
 
-/// The base's motion, along the shake, of its size and at the shaken mode's frequency if there is no other.
+/// Moves the base along the shake, by default at the shaken mode's frequency.
 static bool start_drive(struct job *job, const struct soft *soft, struct error *error)
 {
     struct drive *drive = &job->drive;
@@ -58,7 +58,7 @@ static bool shake(struct job *job, struct soft *soft, const struct surface *surf
     return good;
 }
 
-/// Each mode's displacement of the vertices, scaled so that the largest is 1.
+/// Writes each mode's displacement, scaled to a maximum of 1.
 static bool write_modes(const struct job *job, const struct soft *soft, struct error *error)
 {
     const int vertices = soft->lattice.vertex_count, nodes = soft->body.node_count;
@@ -87,7 +87,6 @@ static bool write_modes(const struct job *job, const struct soft *soft, struct e
     return true;
 }
 
-/// What was made of the mesh.
 static void report_body(const struct job *job, const struct soft *soft)
 {
     print_line(stdout, "%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz",
@@ -124,7 +123,7 @@ static bool run(struct job *job, struct error *error)
     return good;
 }
 
-/// Sets stiffness and mass, 0 meaning not given. NULL or what is wrong.
+/// Sets stiffness and mass; 0: not given. NULL or an error text.
 static const char *set_material(struct soft_options *soft)
 {
     const struct soft_options usual = soft_default_options();
@@ -137,7 +136,7 @@ static const char *set_material(struct soft_options *soft)
     return NULL;
 }
 
-/// Reads --drive; a name that is none of the kinds is a file's. NULL or what is wrong.
+/// Parses --drive; an unknown name is a file. NULL or an error text.
 static const char *set_drive(struct job *job)
 {
     static const char *const kinds[] = {[DRIVE_SINE] = "sine", [DRIVE_BURST] = "burst", [DRIVE_SWEEP] = "sweep"};
@@ -158,7 +157,7 @@ static const char *set_drive(struct job *job)
     return NULL;
 }
 
-/// Checks what the table of options cannot; NULL or what is wrong.
+/// Checks what the option table cannot; NULL or an error text.
 static const char *check(struct job *job)
 {
     if (!job->output) return "-o FILE is missing: name the file to write";
@@ -179,7 +178,7 @@ static const char *check(struct job *job)
     return wrong ? wrong : set_material(&job->soft);
 }
 
-/// Among which the one that is shaken most is looked for.
+/// Modes among which the most shaken one is found.
 enum { MODES_SEARCHED = 24 };
 
 int command_simulate(int argc, char **argv)

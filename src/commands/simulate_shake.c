@@ -1,4 +1,4 @@
-/// Simulates in ever shorter steps until the motion is accurate.
+/// Repeats a simulation with smaller steps until it is accurate.
 #include "commands/simulate_shake.h"
 #include "base/error.h"
 #include "base/need.h"
@@ -10,12 +10,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// The motion of the nodes, and how it was found.
+/// The motion of the nodes, and how it was computed.
 struct record {
     int frames, nodes, substeps;
-    bool calmed;       ///< a step was of first order
+    bool calmed;       ///< some steps were first order
     double cost;       ///< element-steps
-    float (*place)[3]; ///< frames × nodes, as seen from the base
+    float (*place)[3]; ///< frames × nodes, relative to the base
 };
 
 static bool step_frames(const struct shake_job *job, struct integrator *integrator, struct record *record,
@@ -38,14 +38,14 @@ static bool step_frames(const struct shake_job *job, struct integrator *integrat
     return true;
 }
 
-/// One simulation of the whole motion.
+/// Simulates the whole motion once.
 static bool simulate(const struct shake_job *job, struct soft *soft, struct record *record, struct error *error)
 {
     struct integrator integrator;
     integrator_create(&integrator, &soft->body, 1 / (job->fps * record->substeps));
     integrator.mass_damping = soft->alpha;
     integrator.stiffness_damping = soft->beta;
-    integrator.tolerance = 1e-4 * soft->lattice.cell; // Newton's next step would be a thousandth of that
+    integrator.tolerance = 1e-4 * soft->lattice.cell; // Newton's next iteration would change a thousandth of that
     integrator.loads = job->loads;
     bool good = true;
     if (job->loads.gravity > 0 && soft->pinned > 0 && soft->loose_parts == 0 && !integrator_settle(&integrator))
@@ -61,7 +61,7 @@ static bool simulate(const struct shake_job *job, struct soft *soft, struct reco
     return good;
 }
 
-/// The error of the finer motion relative to how far it goes from its mean, masses as weights.
+/// The finer motion's mass-weighted error relative to its amplitude around the mean.
 static double estimate_error(const struct record *fine, const struct record *coarse, const double *mass)
 {
     double difference = 0, motion = 0, ratio = (double)fine->substeps / coarse->substeps;
@@ -81,7 +81,7 @@ static double estimate_error(const struct record *fine, const struct record *coa
     return motion > 0 ? sqrt(difference / motion) / (first_order ? ratio - 1 : ratio * ratio - 1) : 0;
 }
 
-/// Steps per frame for the first try: 48 per period of the fastest known motion.
+/// Steps per frame for the first run: 48 per period of the fastest known motion.
 static int first_substeps(const struct shake_job *job, const struct soft *soft)
 {
     enum { STEPS_A_PERIOD = 48 };
@@ -92,20 +92,19 @@ static int first_substeps(const struct shake_job *job, const struct soft *soft)
     return (int)fmax(1, ceil(STEPS_A_PERIOD * frequency / job->fps));
 }
 
-/// Simulates until the error is small enough, or until the rest of the budget allows no useful steps. On return `fine` is
-/// the motion; `error_left` is −1 where it was not measured.
+/// Simulates until the error is small enough or the budget is used up. `fine` ends as the motion; `error_left` is −1 if unknown.
 static bool refine(const struct shake_job *job, struct soft *soft, struct record *fine, struct record *coarse,
                    double *error_left, struct error *error)
 {
     enum { FINEST = 512 };
-    static const double LEAST = 1.5; // times shorter steps: else the difference says little
+    static const double LEAST = 1.5; // steps shorter by less tell too little
     double used = 0;
     *error_left = -1;
     fine->substeps = job->substeps ? job->substeps : first_substeps(job, soft);
     if (!simulate(job, soft, fine, error)) return false;
     for (double next = 2; !job->substeps && (*error_left < 0 || *error_left > job->accuracy);) {
         used += fine->cost;
-        // More steps need at most as many times more iterations, because each then needs fewer.
+        // Shorter steps need fewer iterations each, so the cost grows at most in proportion.
         if (*error_left >= 0) next = fmin(next, (job->budget - used) / fine->cost);
         int finer = (int)ceil(fine->substeps * next);
         if (*error_left >= 0 && (finer > FINEST || next < LEAST)) return true;
@@ -121,7 +120,7 @@ static bool refine(const struct shake_job *job, struct soft *soft, struct record
     return true;
 }
 
-/// One frame of the surface, in `x` the nodes.
+/// Moves the surface with the nodes in `x`.
 static void embed_frame(const struct shake_job *job, const struct soft *soft, const struct record *record, int frame,
                         double (*x)[3], float (*position)[3])
 {
@@ -140,7 +139,9 @@ static bool write_frames(const struct shake_job *job, const struct soft *soft, c
     const size_t vertices = (size_t)soft->lattice.vertex_count;
     float(*position)[3] = need_zeroed(vertices + 1, sizeof *position);
     double(*x)[3] = need_zeroed((size_t)record->nodes + 1, sizeof *x);
-    memcpy(position, surface->position, (size_t)surface->vertex_count * sizeof *position); // strays stay there
+    memcpy(position, surface->position,
+           (size_t)surface->vertex_count *
+               sizeof *position); // vertices outside the lattice keep their rest positions
     for (int frame = 0; frame < record->frames && !ferror(output->stream); frame++) {
         embed_frame(job, soft, record, frame, x, position);
         fwrite(position, sizeof *position, vertices, output->stream);

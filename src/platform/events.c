@@ -1,4 +1,4 @@
-/// Maps GLFW's keys to ours, letters by what is printed on them, and queues events between callbacks and frames.
+/// Maps GLFW's keys to ours, and queues events until the next frame.
 #include "platform/events.h"
 #include "ui/event.h"
 #include <GLFW/glfw3.h>
@@ -49,7 +49,7 @@ static const int special_keys[GLFW_KEY_LAST + 1] = {
     [GLFW_KEY_HOME] = KEY_HOME,       [GLFW_KEY_END] = KEY_END,
 };
 
-/// The ASCII character printed on a key, letters in upper case; KEY_NONE if there is none.
+/// The ASCII character printed on a key, letters in upper case, or KEY_NONE.
 static int printed(int glfw_key, int scancode)
 {
     const char *name = glfwGetKeyName(glfw_key, scancode);
@@ -57,7 +57,7 @@ static int printed(int glfw_key, int scancode)
     return name[0] >= 'a' && name[0] <= 'z' ? name[0] - 'a' + 'A' : name[0];
 }
 
-/// Whether the layout in use has Latin letters, not Cyrillic or Greek ones.
+/// Whether the keyboard layout has Latin letters.
 static bool is_latin(void)
 {
     for (int key = GLFW_KEY_A; key <= GLFW_KEY_Z; key++) {
@@ -72,7 +72,7 @@ int key_translate(int glfw_key, int scancode)
     if (glfw_key >= GLFW_KEY_0 && glfw_key <= GLFW_KEY_9) return glfw_key;
     if (glfw_key >= GLFW_KEY_F1 && glfw_key <= GLFW_KEY_F12) return KEY_F1 + (glfw_key - GLFW_KEY_F1);
     if (glfw_key >= 0 && glfw_key <= GLFW_KEY_LAST && special_keys[glfw_key]) return special_keys[glfw_key];
-    // GLFW numbers keys by their US labels.
+    // GLFW numbers keys by US layout.
     bool letter = glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z;
     if (letter && !is_latin()) return glfw_key;
     int key = printed(glfw_key, scancode);

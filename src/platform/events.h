@@ -1,4 +1,4 @@
-/// From GLFW's keys to ours, and events on their way from callbacks to the frame that handles them. Private to platform/.
+/// Maps GLFW's keys to ours, and queues events until the next frame. Private to platform/.
 #ifndef PLATFORM_EVENTS_H
 #define PLATFORM_EVENTS_H
 
@@ -6,7 +6,7 @@
 
 enum { QUEUE_EVENTS = 1024, QUEUE_PATH_BYTES = 1 << 16 };
 
-/// Events and the paths of dropped files, which events point to.
+/// Events, and the dropped files' paths they point to.
 struct event_buffer {
     struct event events[QUEUE_EVENTS];
     int count;
@@ -20,21 +20,19 @@ struct event_queue {
     int filling;
 };
 
-/// Adds an event. When the buffer is nearly full, only the last of consecutive pointer positions is kept; what does not
-/// fit is dropped.
+/// Adds an event. A nearly full buffer keeps only the last of consecutive pointer positions, a full one drops events.
 void event_queue_push(struct event_queue *queue, const struct event *event);
 
-/// Adds EVENT_DROP with a copy of `path`; dropped if it does not fit.
+/// Adds EVENT_DROP with a copy of `path`, if it fits.
 void event_queue_push_drop(struct event_queue *queue, const char *path, double time);
 
-/// The events since the last call; valid until the next one.
+/// The events since the last call, valid until the next.
 const struct event *event_queue_take(struct event_queue *queue, int *count);
 
-/// Letters and punctuation go by what is printed on the key; digits, arrows and the rest go by place, as do letters if the
-/// layout has no Latin ones. KEY_NONE for keys without a meaning here.
+/// Letters and punctuation map by their label, digits, arrows and the rest by position; so do letters if the layout has no Latin ones.
+/// KEY_NONE for other keys.
 int key_translate(int glfw_key, int scancode);
 
-/// GLFW's modifier bits as ours.
 unsigned mods_translate(int glfw_mods);
 
 #endif

@@ -8,7 +8,7 @@
 
 enum { SEEN_MAX = 64 };
 
-/// Global, because the driver's callback may come at any call; there is one context, current for the life of the process.
+/// Global, because the driver can call back at any time; the process has one context.
 static struct {
     uint64_t seen[SEEN_MAX];
     int seen_count, complaints;
@@ -18,11 +18,11 @@ static struct {
 static const char *kind_of(GLenum type)
 {
     static const char *const kinds[] = {"error", "deprecated", "undefined", "portability", "performance"};
-    const GLenum kind = type - GL_DEBUG_TYPE_ERROR; // GL's numbers are in that order
+    const GLenum kind = type - GL_DEBUG_TYPE_ERROR; // GL's numbers are in this order
     return kind < sizeof kinds / sizeof *kinds ? kinds[kind] : "other";
 }
 
-/// Messages about speed or of low severity are shown but not counted.
+/// Performance hints and low severity are printed but not counted.
 static bool is_complaint(GLenum type, GLenum severity)
 {
     if (type == GL_DEBUG_TYPE_PERFORMANCE) return false;

@@ -1,12 +1,12 @@
-/// Ends the process in order when the display is gone, X's or Wayland's.
+/// Ends the process cleanly when the connection to X or Wayland is lost.
 #include "platform/surface.h"
 #include <poll.h>
 #include <unistd.h>
 
 enum { EXIT_LOST = 3 };
-enum { BAD_WINDOW = 3, BAD_DRAWABLE = 9 }; ///< X's codes
+enum { BAD_WINDOW = 3, BAD_DRAWABLE = 9 }; ///< X error codes
 
-/// As <X11/Xlib.h> has it, for which alone a program would need a package.
+/// Copied from <X11/Xlib.h>, to need no package for it.
 struct x_error {
     int type;
     void *display;
@@ -18,13 +18,13 @@ struct wl_display;
 
 static platform_rescue *rescue;
 static void *rescue_user;
-static unsigned long own; ///< the window
+static unsigned long own; ///< our window
 static bool error_seen;
 
 typedef int x_handler(void *display);
 typedef int x_error_handler(void *display, void *event);
 
-/// Handlers of exit() would talk to the display.
+/// Skips exit() handlers, which would talk to the display.
 static _Noreturn void end(void)
 {
     platform_rescue *once = rescue;
@@ -33,15 +33,15 @@ static _Noreturn void end(void)
     _exit(EXIT_LOST);
 }
 
-/// Xlib calls this when the connection breaks, from wherever it notices, and ends the process on return.
+/// Xlib calls this when the connection breaks, and ends the process on return.
 static int on_io_error(void *display)
 {
     (void)display;
     end();
 }
 
-/// Xlib's own handler would end the process, even for harmless errors (a clipboard's owner is gone). That the window is gone cannot
-/// wait for the frame's end: Mesa's software drivers, which ask for its size, take what they were not told, and crash.
+/// Xlib's default handler ends the process even for harmless errors, such as a vanished clipboard owner. A destroyed window must be handled
+/// before the frame ends: Mesa's software drivers read its size without checking and crash.
 static int on_error(void *display, void *event)
 {
     (void)display;
@@ -51,7 +51,7 @@ static int on_error(void *display, void *event)
     return 0;
 }
 
-/// GLFW replaces the error handler whenever it expects an error itself.
+/// GLFW replaces the error handler when it expects an error.
 static bool handle_errors(void)
 {
     static x_error_handler *(*set)(x_error_handler *);
@@ -69,7 +69,7 @@ void platform_on_lost(platform_rescue *function, void *user)
     handle_errors();
 }
 
-/// The client library, which GLFW has loaded if it uses it, notices a dead compositor only when it reads, and GLFW no longer reads then.
+/// libwayland notices a dead compositor only when it reads, and GLFW has stopped reading by then.
 static bool is_wayland_lost(void)
 {
     struct wl_display *(*get_display)(void);

@@ -1,4 +1,4 @@
-/// An EGL surface to draw on without a display.
+/// An EGL surface without a display.
 #include "base/need.h"
 #include "platform/surface.h"
 #include <dlfcn.h>
@@ -15,7 +15,7 @@ struct offscreen {
     GLuint framebuffer, color, depth;
 };
 
-/// epoxy ends the process if a library is missing, so look before its first call.
+/// epoxy ends the process if a library is missing, so check first.
 static bool have_libraries(struct error *error)
 {
     static const char *const names[] = {"libEGL.so.1", "libOpenGL.so.0", "libGL.so.1"};
@@ -41,7 +41,7 @@ static bool has_word(const char *words, const char *word)
     return false;
 }
 
-/// Initialises a display and makes a 3.3 core context without a surface current; false leaves nothing behind.
+/// Makes a 3.3 core context without a surface current. Cleans up on failure.
 static bool open_display(struct offscreen *offscreen, EGLDisplay display)
 {
     static const EGLint config_wishes[] = {EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT,
@@ -72,7 +72,7 @@ static bool open_display(struct offscreen *offscreen, EGLDisplay display)
     return false;
 }
 
-/// Tries the machine's devices in turn, either hardware or software ones.
+/// Tries all hardware or all software devices.
 static bool open_device(struct offscreen *offscreen, const char *client_extensions, bool software)
 {
     if (!has_word(client_extensions, "EGL_EXT_platform_device")) return false;
@@ -89,7 +89,7 @@ static bool open_device(struct offscreen *offscreen, const char *client_extensio
     return false;
 }
 
-/// GPUs first; then Mesa without any surface, available wherever its drivers are; then its software device.
+/// Tries GPUs, then Mesa's surfaceless platform, then its software device.
 static bool open_any(struct offscreen *offscreen, struct error *error)
 {
     const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);

@@ -1,4 +1,4 @@
-/// Makes a window, an offscreen surface or a stand-in, and works around graphics drivers.
+/// Creates surfaces, and works around graphics drivers.
 #include "platform/platform.h"
 #include "base/need.h"
 #include "platform/surface.h"
@@ -8,8 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// A software driver allocates and frees the memory of a frame's triangles in each frame. Makes the C library keep it: passing
-/// it back to the system and out again costs a tenth of the processor.
+/// Software drivers allocate and free triangle memory every frame. Makes the C library keep it, which saves a tenth of the CPU time.
 static void keep_freed_memory(void)
 {
 #ifdef __GLIBC__
@@ -19,7 +18,7 @@ static void keep_freed_memory(void)
 }
 
 #ifdef __SANITIZE_ADDRESS__
-/// Pins a loaded library of Mesa's drivers.
+/// Keeps a loaded Mesa library in memory.
 static int pin_library(struct dl_phdr_info *info, size_t size, void *context)
 {
     (void)size;
@@ -28,8 +27,7 @@ static int pin_library(struct dl_phdr_info *info, size_t size, void *context)
     return 0;
 }
 
-// Mesa's driver leaves a few blocks to the process when it is unloaded. The leak checker then finds no pointer to them and
-// no name to suppress them by; while the driver stays loaded, it finds both.
+// Mesa's driver leaks a few blocks when unloaded. While it stays loaded, the leak checker finds pointers to them, or names to suppress.
 void keep_driver_loaded(void) { dl_iterate_phdr(pin_library, NULL); }
 #else
 void keep_driver_loaded(void) {}

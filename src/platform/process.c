@@ -1,4 +1,4 @@
-/// Age, memory, sleep and signals of this process, and its turns with another.
+/// Age, memory, sleep and signals of this process, and turns with another.
 #include "platform/process.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -17,7 +17,7 @@ double process_age(void)
     if (!file) return NAN;
     bool read = fgets(line, sizeof line, file) != NULL;
     fclose(file);
-    // The name in brackets may hold anything; the start time, in ticks since boot, is the 20th field after it.
+    // The name in brackets may contain anything; the start time, in ticks since boot, is the 20th field after it.
     char *at = read ? strrchr(line, ')') : NULL;
     unsigned long long ticks = 0;
     if (!at || sscanf(at + 1, " %*c%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s%*s %llu", &ticks) != 1)

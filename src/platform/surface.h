@@ -11,42 +11,41 @@
 struct window;
 struct offscreen;
 
-/// Properties of a surface's framebuffer.
+/// A surface's framebuffer.
 struct surface_size {
     int width, height; ///< device pixels
-    float scale;       ///< device pixels a logical pixel
+    float scale;       ///< device pixels per logical pixel
 };
 
 /// At most one of the two exists.
 struct platform {
     struct window *window;
     struct offscreen *offscreen;
-    struct surface_size size; ///< where there is no window
+    struct surface_size size; ///< without a window
     struct event_queue queue;
     bool keeps;
-    char *clipboard; ///< in place of the system's where there is no window
+    char *clipboard; ///< without a window
 };
 
 /// Events go to `queue`, which must outlive the window.
 struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
                              struct error *error);
 void window_destroy(struct window *window);
-/// The window's id on the X server; 0 where there is none.
+/// The window's X id, or 0.
 unsigned long window_number(const struct window *window);
-/// Asks the display where the window is: an error where it does not exist any more.
+/// Queries the window's position: an error if the window is gone.
 void window_ask_place(const struct window *window);
-/// Has the process end as platform_on_lost() says when another program has destroyed the window: errors of the display show that
-/// or, while nothing is drawn (`idle`), asking for the window.
+/// Ends the process as described at platform_on_lost() if another program destroyed the window. X errors reveal that; while `idle`, nothing
+/// is drawn, so this queries the window.
 void window_check(const struct window *window, bool idle);
 
 struct offscreen *offscreen_create(int width, int height, struct error *error);
 void offscreen_destroy(struct offscreen *offscreen);
 
-/// In builds with the address sanitizer: keeps the loaded graphics driver in memory until the process ends.
+/// With the address sanitizer: keeps the graphics driver in memory until the process ends.
 void keep_driver_loaded(void);
 
-/// Puts the address of a symbol of a library that GLFW may have loaded, which the program itself need not depend on, into a pointer; false
-/// if nothing of that name is loaded.
+/// Stores the address of a symbol from a library GLFW may have loaded, without linking to it. false if there is none.
 static inline bool symbol_find(const char *name, void *pointer)
 {
     void *symbol = dlsym(RTLD_DEFAULT, name);
@@ -56,10 +55,10 @@ static inline bool symbol_find(const char *name, void *pointer)
 
 // The graphics driver's messages (--gl-debug).
 
-/// Whether platform_debug_gl() was called: contexts are then made for debugging.
+/// Whether platform_debug_gl() was called, so that contexts need debug output.
 bool gl_debug_wanted(void);
 
-/// If wanted, listens to the current context. false if its driver has no debug output.
+/// Listens to the current context if wanted. false if its driver has no debug output.
 bool gl_debug_start(struct error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/// A GLFW window, its callbacks, which only translate and queue, and the functions of a surface.
+/// A GLFW window and its callbacks, which only translate and queue.
 #include "base/need.h"
 #include "base/progress.h"
 #include "platform/process.h"
@@ -17,17 +17,17 @@ enum { CURSOR_KINDS = CURSOR_TEXT + 1 };
 struct window {
     GLFWwindow *handle;
     struct event_queue *queue;
-    GLFWcursor *cursors[CURSOR_KINDS]; ///< made once there is a pointer
+    GLFWcursor *cursors[CURSOR_KINDS]; ///< created when there is a pointer
     bool has_cursors;
     enum mouse_cursor cursor;
     struct surface_size size;
-    float units;       ///< logical pixels a unit of GLFW's window coordinates
-    double click_time; ///< of the last press that may become a double click; -1 where there is none
+    float units;       ///< logical pixels per GLFW window coordinate
+    double click_time; ///< of the last press that may become a double-click, or -1
     float click_x, click_y;
     enum event_button click_button;
-    bool is_shown; ///< from the first picture on
+    bool is_shown; ///< since the first swap
     bool is_fullscreen;
-    int x, y, width, height; ///< where it was before it filled the screen
+    int x, y, width, height; ///< before full screen
 };
 
 static struct window *of(GLFWwindow *handle) { return glfwGetWindowUserPointer(handle); }
@@ -38,7 +38,7 @@ static void push(struct window *window, struct event event)
     event_queue_push(window->queue, &event);
 }
 
-/// Reads framebuffer size and scale; true if they changed.
+/// Reads size and scale; true if they changed.
 static bool update_size(struct window *window)
 {
     struct surface_size before = window->size, now = before;
@@ -87,7 +87,7 @@ static void on_refresh(GLFWwindow *handle) { push(of(handle), (struct event){.ki
 
 static void on_close(GLFWwindow *handle)
 {
-    // The app decides, after asking about unsaved work.
+    // The app decides after asking about unsaved work.
     glfwSetWindowShouldClose(handle, GLFW_FALSE);
     push(of(handle), (struct event){.kind = EVENT_CLOSE});
 }
@@ -119,7 +119,7 @@ static void pointer(struct window *window, float *x, float *y)
     *y = (float)window_y * window->units;
 }
 
-/// The current modifiers, which GLFW does not report with the wheel.
+/// GLFW does not report modifiers with the wheel.
 static unsigned mods_now(GLFWwindow *handle)
 {
     static const struct {
@@ -137,7 +137,7 @@ static unsigned mods_now(GLFWwindow *handle)
     return mods;
 }
 
-/// GLFW 3.3 crashes where a cursor is made on a Wayland display without a pointer.
+/// GLFW 3.3 crashes if it makes a cursor on a Wayland display without a pointer.
 static void create_cursors(struct window *window)
 {
     static const int shapes[CURSOR_KINDS] = {
@@ -159,7 +159,7 @@ static void on_pointer(GLFWwindow *handle, double x, double y)
                                 .mods = mods_now(handle)});
 }
 
-/// 2 for a press soon after one of the same button at the same place; a third counts as 1 again.
+/// 2 for a press soon after another at the same place; a third counts as 1.
 static int count_clicks(struct window *window, enum event_button button, float x, float y)
 {
     double now = clock_now();
@@ -231,7 +231,7 @@ static GLFWwindow *open_handle(int width, int height, const char *title)
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     glfwWindowHint(GLFW_VISIBLE, GLFW_FALSE);
-    // A desktop finds wiggly.desktop and its icon by these names.
+    // Desktops match wiggly.desktop and its icon by these names.
     glfwWindowHintString(GLFW_X11_CLASS_NAME, "wiggly");
     glfwWindowHintString(GLFW_X11_INSTANCE_NAME, "wiggly");
 #ifdef GLFW_WAYLAND_APP_ID // GLFW 3.4
@@ -240,7 +240,7 @@ static GLFWwindow *open_handle(int width, int height, const char *title)
     return glfwCreateWindow(width, height, title, NULL, NULL);
 }
 
-/// Fails with GLFW's reason as a sentence.
+/// Fails with GLFW's reason.
 static bool fail_glfw(struct error *error, const char *what)
 {
     const char *reason = NULL;
@@ -298,7 +298,6 @@ void window_ask_place(const struct window *window)
     glfwGetWindowPos(window->handle, &x, &y);
 }
 
-/// Waits for GLFW's callbacks.
 static void wait(double seconds)
 {
     if (seconds > 0.0) {
@@ -310,7 +309,7 @@ static void wait(double seconds)
 
 const struct event *platform_events(struct platform *platform, double seconds, int *count)
 {
-    static const double idle = 0.1; ///< seconds; no animation waits as long
+    static const double idle = 0.1; ///< seconds; animations wait less
     if (platform->window) {
         wait(seconds);
     } else {
@@ -335,13 +334,12 @@ static bool is_software(void)
     return renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe"));
 }
 
-/// Shows the window with its first picture, and finds out by that whether a swap keeps the back buffer: before the first one
-/// nothing like this picture's middle row was in any buffer.
+/// Shows the window with its first frame, and tests whether a swap keeps the back buffer: no older buffer can hold this frame's middle row.
 static bool swap_first(struct window *window)
 {
     const int width = window->size.width, y = window->size.height / 2;
     const size_t bytes = 4 * (size_t)width;
-    // On a GPU the standard leaves the content undefined, whatever one trial shows.
+    // On a GPU the standard leaves the content undefined, whatever one test shows.
     unsigned char *before = is_software() ? need(2, bytes) : NULL, *after = before ? before + bytes : NULL;
     if (before) glReadPixels(0, y, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, before);
     glfwShowWindow(window->handle);
@@ -387,7 +385,7 @@ void platform_set_clipboard(struct platform *platform, const char *text)
     }
 }
 
-/// The monitor that shows most of the window.
+/// The monitor with most of the window.
 static GLFWmonitor *nearest_monitor(struct window *window)
 {
     int count = 0, x = 0, y = 0, width = 0, height = 0;
