@@ -16,7 +16,7 @@ static const struct command {
     const char *operands, *summary;
     bool is_rare; ///< --help-all alone lists it
 } commands[] = {
-    {"live", command_live, "[scene.json]", "the app; without a scene, a swinging tail", false},
+    {"live", command_live, "[scene.json]", "the app; without a scene, with the fox", false},
     {"solve", command_solve, "scene.json [-o out.csv]", "writes every spline at every sample as CSV", true},
     {"rig", command_rig, "in.glb --chain A:B -o scene.json", "gives a character's tail, ears or hair follow-through",
      false},

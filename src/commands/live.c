@@ -54,7 +54,7 @@ int command_live(int argc, char **argv)
     const struct usage usage = {
         .command = "live",
         .operands = "[scene.json]",
-        .summary = "The app. Without a scene it opens a swinging tail.",
+        .summary = "The app. Without a scene it opens the fox.",
         .options = specs,
         .option_count = sizeof specs / sizeof *specs,
         .common_count = COMMON,

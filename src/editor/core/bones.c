@@ -59,7 +59,7 @@ static void tell(struct core *core, const struct rig *made, int model, bool foll
     if (!follows) {
         snprintf(text + length, sizeof text - (size_t)length, " Drag it on the stage to set knots.");
     } else if (clip) {
-        snprintf(text + length, sizeof text - (size_t)length, " It swings after the clip %.80s.", clip);
+        snprintf(text + length, sizeof text - (size_t)length, " It follows through on the clip %.80s.", clip);
     } else {
         snprintf(text + length, sizeof text - (size_t)length, " It swings once the character plays a clip.");
     }

@@ -27,7 +27,7 @@ static const struct hint {
                     {"Click a bone", "Shift+J makes another chain of it"},
                     {"Press Ctrl+E", "a .glb with the new motion"}},
     [LEAD_MODEL] = {{"Click a bone", "the first of its tail, say"},
-                    {"Press Shift+J", "it swings after the clip"},
+                    {"Press Shift+J", "it follows through on the clip"},
                     {"Pull the tail", "it is held where you let go"},
                     {"Press Ctrl+E", "a .glb with the new motion"}},
     [LEAD_NOTHING] = {{"Double-click", "adds a knot to a curve"},
