@@ -1,10 +1,10 @@
-/// Parses JSON. The library's memory is need()'s: what builds JSON does not look for NULL.
+/// Parses JSON. The library allocates with need(), so that code that builds JSON need not check for NULL.
 #ifndef BASE_JSON_H
 #define BASE_JSON_H
 
 #include <jansson.h>
 
-/// As json_loadb(), for a text of somebody else's: where there is not the memory for it, NULL, and json_error_code() says so.
+/// Like json_loadb(), for other people's text: NULL if there is not enough memory for it, and json_error_code() says so.
 json_t *json_read(const char *text, size_t size, size_t flags, json_error_t *error);
 
 #endif

@@ -21,7 +21,8 @@ void *need_more(void *old, size_t count, size_t size) __attribute__((returns_non
 /// A copy of a text.
 char *need_text(const char *text) __attribute__((returns_nonnull));
 
-/// Whether so many bytes could be had at once now. To be asked first where a file says how much: that ends in an error, not in the end.
+/// Whether this many bytes are available now. Call it first for sizes that a file claims: then lack of memory is an error and does not end the
+/// program.
 bool need_has_room(size_t bytes);
 
 /// What need() does where memory runs out, for a library that has said so.

@@ -9,7 +9,7 @@
 /// Writes width × height pixels of four bytes (R, G, B, A; top row first) as a PNG, atomically like file_write_atomic().
 bool png_write(const char *path, int width, int height, const unsigned char *rgba, struct error *error);
 
-/// How long to look for what repeats.
+/// How hard to search for repetitions.
 enum png_effort { PNG_FAST = 5, PNG_SMALL = 8 };
 
 /// Hands a whole PNG of pixels with `channels` bytes each over to `store`, once.

@@ -5,13 +5,13 @@
 /// Seconds on a monotonic clock.
 double clock_now(void);
 
-/// Hears what is being done ("reading the mesh"), and how much of it. A stage may come again: it then begins at 0.
+/// Receives the present stage ("reading the mesh") and its share done. A stage may come again; it then begins at 0.
 typedef void stage_listener(const char *doing, long done, long total);
 
 /// Sets who listens: nobody at first. Call it before the work begins, and with no other thread at work.
 void stage_listen(stage_listener *listener);
 
-/// Tells it; `doing` is a literal. Costs little where nobody listens.
+/// Reports a stage; `doing` is a literal. Costs little if nobody listens.
 void stage_tell(const char *doing, long done, long total);
 
 #endif

@@ -34,20 +34,20 @@ bool spots_meet(const struct spot *a, const struct spot *b);
 /// Of each vertex: the first one at the very same place.
 void spots_first(const struct spot *spots, int count, uint32_t *first);
 
-// Which triangle lies on the other side of each edge.
+// The triangle across each edge.
 
 enum { NEIGHBOUR_NONE = -1, NEIGHBOUR_CUT = -2 }; ///< the mesh ends; its look changes
 
-/// Per index, of the edge from it to its triangle's next one: the triangle on its other side, or NEIGHBOUR_NONE. Vertices at the
-/// same place, but for rounding, are one. Where sheets lie back to back, a triangle's neighbour is the next of its own sheet; its own back only where that ends.
+/// Per index, for the edge from it to its triangle's next one: the triangle across, or NEIGHBOUR_NONE. Vertices at the same place, except for
+/// rounding, are one. If sheets lie back to back, a triangle's neighbour is in its own sheet; at the sheet's end it is its own back.
 void neighbours_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count,
                      int *neighbours);
 
-/// Writes NEIGHBOUR_CUT, for the later of two triangles, at edges where what corners look like changes at once; `look` is of each index.
+/// Writes NEIGHBOUR_CUT, for the later of two triangles, at edges where the corners' look changes abruptly; `look` is per index.
 void neighbours_cut(const float (*position)[3], const uint32_t *indices, const uint32_t *look, int index_count,
                     int *neighbours);
 
-/// What a corner of a material and a colour looks like, to neighbours_cut(): colours that are hardly told apart may look the same.
+/// The look of a corner with a material and colour, for neighbours_cut(): hardly distinguishable colours may look the same.
 uint32_t neighbours_look(int material, const float color[3]);
 
 /// The corner after a corner in its triangle.

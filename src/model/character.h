@@ -21,7 +21,7 @@ struct coordinate {
     double frequency;  ///< Hz, undamped
     double damping;    ///< ratio
     double explained;  ///< share of the complex variance, 0 … 1
-    double pca1, pca2; ///< what real PCA's first component and first two explain, 0 … 1
+    double pca1, pca2; ///< shares that the first and the first two real principal components explain, 0 … 1
     float (*re)[3];    ///< Re Ñ, metres a unit of the spline, per vertex
     float (*im)[3];    ///< Im Ñ; a vertex with a positive argument of Ñ leads
 };
@@ -39,8 +39,8 @@ struct character {
     int coordinate_count;
 };
 
-/// A character at rest: takes the surface over, which is left empty, with normals from its triangles and `coordinates` coordinates whose
-/// Ñ are zero and whose names are NULL. False where memory is short.
+/// A character at rest: takes the surface over and leaves it empty, with normals from its triangles and `coordinates` coordinates with zero
+/// Ñ and no names. False if memory is short.
 bool character_create(struct character *character, struct surface *surface, int coordinates);
 
 /// Reads a .glb or .gltf: the first mesh with morph targets (else the first mesh), all its triangles as one. Coordinates are the
@@ -48,8 +48,8 @@ bool character_create(struct character *character, struct surface *surface, int 
 /// there are none. The first node that shows the mesh places it. Errors name the file, the place in it, what was expected and what was found.
 bool character_read(const char *path, struct character *character, struct error *error);
 
-/// Writes a .glb, whole or not at all. Without `turn_normals` targets move vertices alone: two fifths smaller, and and
-/// figure_derive() makes up for it.
+/// Writes a .glb, whole or not at all. Without `turn_normals` targets move only vertices and the file is two fifths smaller; on reading,
+/// figure_derive() replaces them.
 bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error);
 
 /// Leaves an empty character.

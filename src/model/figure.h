@@ -1,4 +1,4 @@
-/// A character made ready for the stage: derivatives for its normals, a coarser mesh for pairs, where it stands.
+/// A character prepared for drawing: derivatives for its normals, a coarser mesh for pairs, its ground contact.
 ///
 /// The deformation D(j) = Re(z Ñ_j) moves the surface's tangents t₁, t₂ = n × t₁ to tᵢ + ∂D/∂tᵢ, and the normal to the
 /// cross product of both (the cofactors of the surface's deformation gradient applied to n). So each coordinate comes with its
@@ -26,28 +26,27 @@ struct sole {
 
 struct figure {
     struct character character;
-    float (*tangent)[3];  ///< t₁ per vertex: unit, across the normal
-    struct slope *slopes; ///< [coordinate · vertex_count + vertex]
-    float (*largest)[3];  ///< per coordinate: the largest |Ñ| over all vertices in x, y and z
-    uint32_t *coarse; ///< triangles over the same vertices, at most FIGURE_COARSE; the fine ones where these are few
-    uint32_t *coarse_from; ///< per coarse triangle: which of the fine ones it was
+    float (*tangent)[3];   ///< t₁ per vertex: unit, across the normal
+    struct slope *slopes;  ///< [coordinate · vertex_count + vertex]
+    float (*largest)[3];   ///< per coordinate: the largest |Ñ| over all vertices in x, y and z
+    uint32_t *coarse;      ///< triangles over the same vertices, at most FIGURE_COARSE or the fine ones
+    uint32_t *coarse_from; ///< per coarse triangle: its fine triangle
     int coarse_count;      ///< indices
     struct adjacency edges;
     float lo[3], hi[3]; ///< box at rest
-    float dark; ///< luminance, linear, below which a colour is that of eyes and a nose: far darker than the whole
+    float dark;         ///< linear luminance below which a colour belongs to eyes and nose: far darker than the rest
     struct sole soles[FIGURE_SOLES];
     uint64_t id;      ///< unique in this run
     uint64_t version; ///< grows whenever coordinates and slopes change; 0: they never do
 };
 
-/// Whether there is memory for the figure of a character that a file claims.
+/// Whether there is memory for the figure of a character of the size that a file claims.
 bool figure_has_room(const struct character *character);
 
-/// Takes over a character, which is left empty, and derives the rest.
+/// Takes a character over, leaves it empty, and derives the rest.
 void figure_create(struct figure *figure, struct character *character);
 
-/// The derivatives alone, for a figure whose character is set and all else zero. figure_forget() frees them and leaves the character to
-/// whom it belongs.
+/// Only the derivatives, for a figure with its character set and all else zero. figure_forget() frees them but not the character.
 void figure_derive(struct figure *figure);
 void figure_forget(struct figure *figure);
 
@@ -69,10 +68,9 @@ void figure_free(struct figure *figure);
 /// Index of the coordinate of that name, or −1.
 int figure_find(const struct figure *figure, const char *name);
 
-/// Decimates a mesh, but keeps its vertices and their data. Writes at most `triangles` triangles (more if the surface would
-/// fold or open) that look like the character's own to `indices`, which has room for all of those. Vertices collapse onto
-/// neighbours, starting with those that change shape and colour least. `sources` (may be NULL) says which of the character's
-/// triangles each was.
+/// Decimates a mesh, but keeps its vertices and their data. Writes at most `triangles` triangles (more if the surface would fold or open) to
+/// `indices`, which has room for all of the character's. Vertices collapse onto neighbours, starting with those that change shape and colour
+/// least. `sources` (may be NULL) receives the original of each triangle.
 void decimate(const struct character *character, int triangles, uint32_t *indices, uint32_t *sources,
               int *index_count);
 
@@ -113,8 +111,8 @@ struct painted {
 struct painted *painted_create(const struct figure *plain);
 void painted_destroy(struct painted *painted);
 
-/// Applies the paint (NULL: none; laid out as `applied`). Recomputes only what changed since the last time, and marks it in
-/// figure.version. Allocates nothing.
+/// Applies the paint (NULL: none; laid out as `applied`). Recomputes only what has changed, and increases figure.version if anything has.
+/// Allocates nothing.
 void painted_update(struct painted *painted, const float (*paint)[2]);
 
 #endif

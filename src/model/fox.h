@@ -1,5 +1,5 @@
-/// The animal of the stage: a small sitting fox that looks back at its long tail. An asset, models/fox.glb, which tools/fox_glb.c makes; here it
-/// gets a tail of as many joints as its rig has.
+/// The stage's animal: a small sitting fox that looks back at its long tail. The asset models/fox.glb is made by tools/fox_glb.c; here it gets
+/// a tail with as many joints as its rig.
 ///
 /// One size is made; shown at tail length L it is scaled by L / FOX_TAIL_LENGTH. Bind space: metres, y up, the tail straight along +z with its
 /// base at the origin; the ground that it sits on is at y = −FOX_BASE_HEIGHT.
@@ -13,7 +13,7 @@
 #define FOX_BRUSH_RADIUS 0.140f /* where it is thickest */
 #define FOX_BASE_HEIGHT 0.26f
 
-/// Where the brush begins to swell, where the tail's tip begins, and how much narrower that is than half an ellipsoid.
+/// Where the brush begins to swell, where the tail's tip begins, and how much narrower than half an ellipsoid the tip is.
 #define FOX_SWELL_START (0.10f * FOX_TAIL_LENGTH)
 #define FOX_TIP_START (0.66f * FOX_TAIL_LENGTH)
 #define FOX_TIP_POINT 0.35f
@@ -33,18 +33,17 @@ enum { FOX_LEVELS = 4 };
 /// The level at which that many animals are drawn.
 int fox_level(int animals);
 
-/// Nodes: what carries all, the body's parts (enum limb), and from FOX_FIRST_JOINT on the tail's joints. Of the skin's joints the first is left out.
+/// Nodes: the root, the body's parts (enum limb), and from FOX_FIRST_JOINT on the tail's joints. The skin's joints do not include the root.
 enum { FOX_FIRST_LIMB = 1, FOX_FIRST_JOINT = 8 };
 
-/// A fox with a tail of so many joints. Its only morph target moves nothing: its weight says how far the lids are closed, which its material
-/// draws.
+/// A fox with a tail of that many joints. Its only morph target moves nothing: its weight tells the material how far the lids are closed.
 void fox_create(int level, int joints, struct gltf *fox);
 
-/// Gives what follows the tail (`fur`) weights of so many joints, and `along`, which is 0.
+/// Gives vertices that follow the tail (`fur`) weights for that many joints, and sets `along` to 0.
 void fox_hang(struct gltf_part *part, int joints);
 
-// --- the parts of its body that move: chest, head and ears. Each moves with the one that it is attached to: the ears' tips with their
-// --- roots, these with the head, all with the body.
+// --- the moving parts of its body: chest, head and ears. Each moves with its parent: the ears' tips with their roots, these with the head,
+// --- and the head and chest with the body.
 
 /// How far the parts of the body are moved from how they were made; see fox_move().
 struct limbs {
@@ -54,21 +53,21 @@ struct limbs {
 
 enum limb { LIMB_BODY, LIMB_CHEST, LIMB_HEAD, LIMB_EAR, LIMB_EAR_TIP = LIMB_EAR + 2, LIMBS = LIMB_EAR_TIP + 2 };
 
-/// What the maker of the skin needs too: the middle of the chest and how far it reaches, standing (y = 0 is the ground); and an ear, in the
-/// head's own space, with the places along it where it bends.
+/// Also needed to make the skin: the chest's centre and reach, standing (y = 0 is the ground); and an ear in the head's space, with its
+/// joints' places.
 #define LIMBS_CHEST_RADIUS 0.18f
 extern const float limbs_chest[3], limbs_ear_root[3], limbs_ear_tip[3], limbs_ear_joint[2];
 
-/// Where the tail's base comes to as the body stretches from its feet, at a fox of that scale; metres.
+/// Place of the tail's base when the body of a fox of that scale stretches from its feet; metres.
 void limbs_base(double stretch, double scale, double base[3]);
 
-/// By how much that changes for a change of the stretch.
+/// Its change per change of the stretch.
 void limbs_base_slope(double stretch, double scale, double slope[3]);
 
-/// The part that each is attached to, −1 for the body.
+/// The parent of each part, −1 for the body.
 extern const int limb_parents[LIMBS];
 
-/// What each part turns and scales about, bind space.
+/// The pivot of each part's turn and scale, bind space.
 void limbs_pivots(float pivot[LIMBS][3]);
 
 /// Where the box around the body comes to, bind size, from its tail's base.
@@ -82,8 +81,8 @@ enum { POSE_MAX_JOINTS = 256 };
 /// tip. Column-major 4×4, +z along the tail, y up. Entry n carries the bend of joint n.
 struct pose {
     int count;    ///< joints + 1
-    float ground; ///< height of what the body of a tail stands on, metres
-    float scale;  ///< of its animal against the one that is made
+    float ground; ///< height of the ground under a tail's body, metres
+    float scale;  ///< of its animal, relative to the asset
     struct limbs limbs;
     float matrix[POSE_MAX_JOINTS + 1][16];
 };
@@ -91,13 +90,13 @@ struct pose {
 /// The box around the skin of tail and torso (whose size follows the tail's length), metres.
 void pose_bounds(const struct pose *pose, float lo[3], float hi[3]);
 
-/// A soft contact shadow on the ground: a disc that darkens; `strength` 0 … 1, more where nearer.
+/// A soft contact shadow on the ground: a dark disc; `strength` 0 … 1.
 struct shadow_blob {
     float x, z, radius, strength;
 };
 
-/// The shadows that a tail and its animal throw under a lamp in direction `from`: the body's, then evenly along the tail; those too weak to be
-/// seen are skipped. Writes at most `capacity` (20 shows a tail well) and returns how many. Allocates nothing.
+/// The shadows of a tail and its animal under a lamp in direction `from`: the body's, then evenly along the tail; invisible ones are skipped.
+/// Writes at most `capacity` (20 is enough for a tail) and returns how many. Allocates nothing.
 int pose_blobs(const struct pose *pose, const float from[3], struct shadow_blob *blobs, int capacity);
 
 /// Sets the places of the body's parts, and the lids, over those at rest.

@@ -14,7 +14,7 @@ enum {
     GLB_BIN = 0x004E4942,
 };
 
-/// The largest file, and what may be made of a file: so many bytes, and so many for each of its own.
+/// Limits: the size of a file, the memory for its content, and that memory per byte of the file.
 enum { GLB_FILE_LIMIT = 1 << 28, GLB_ROOM = 8 << 20, GLB_GROWTH = 32 };
 
 struct glb_bytes {
@@ -34,27 +34,26 @@ struct glb {
     struct glb_bytes chunk; ///< of a .glb
     struct glb_buffer *buffers;
     int buffer_count;
-    size_t room; ///< bytes that may still be made of it, so that no claim of a small file fills the memory
+    size_t room; ///< bytes that may still be allocated, so that a small file cannot claim all memory
 };
 
 /// Reads a .glb or .gltf and its JSON, no buffers yet. False leaves nothing to close.
 bool glb_open(struct glb *glb, const char *path, struct error *error);
 
-/// The same of a file's bytes, which it takes over; behind them is room for a NUL.
+/// The same for a file's bytes, which it takes over; they must have room for a NUL at the end.
 bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error);
 void glb_close(struct glb *glb);
 
 /// The buffers that the JSON names: the chunk, files beside it and data URIs.
 bool glb_read_buffers(struct glb *glb, struct error *error);
 
-/// The bytes of a data URI, or of a file named from the folder of ours; the caller frees `owned`. The error says what is wrong without
-/// naming our file.
+/// The bytes of a data URI, or of a file named relative to ours; the caller frees `owned`. The error does not name our file.
 bool glb_read_uri(struct glb *glb, const char *uri, struct glb_buffer *bytes, struct error *error);
 
 /// A member that is a whole number ≥ 0; `otherwise` if it is missing, −1 if it is something else.
 int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise);
 
-/// Whether an accessor's numbers are in the file, some of them at least: without that all are zero.
+/// Whether the file has some of an accessor's numbers; otherwise all are zero.
 bool glb_is_stored(const struct glb *glb, int64_t accessor);
 
 /// The bytes of a buffer view; false where there are none.

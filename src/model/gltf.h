@@ -1,4 +1,4 @@
-/// An imported character: what wiggly shows of a glTF 2.0 file, and its poses.
+/// An imported character: the parts of a glTF 2.0 file that wiggly shows, and its poses.
 ///
 /// Units and axes are the file's: metres, y up, right-handed. Matrices are column-major. Nothing here is changed after reading.
 #ifndef MODEL_GLTF_H
@@ -11,8 +11,7 @@
 
 enum { GLTF_INFLUENCES = 8 };
 
-/// An extension: those triangles of a primitive that follow each other and begin with the same vertex are one polygon, a fan. It is a
-/// proposal, and no viewer needs to know it.
+/// Our extension: successive triangles of a primitive that begin with the same vertex are one polygon, a fan. Viewers may ignore it.
 #define GLTF_POLYGONS "FB_ngon_encoding"
 
 /// Translation, rotation (unit quaternion x y z w) and scale of a node against its parent.
@@ -26,7 +25,7 @@ struct gltf_node {
     int child,
         next; ///< the first node below it, and the next one below its parent, by number; −1: none, and next to a root
     struct gltf_place place; ///< at rest
-    float matrix[16];        ///< instead of `place` where `has_matrix`: clips and chains leave such a node alone
+    float matrix[16];        ///< replaces `place` if `has_matrix`; clips and chains do not move such a node
     bool has_matrix;
     int mesh, skin;   ///< −1: none
     int first_weight; ///< of its mesh's morph targets, in gltf_pose.weights
@@ -39,7 +38,7 @@ struct gltf_skin {
     float (*inverse_bind)[16];
 };
 
-/// How a texture is read outside of its picture and between its pixels, in glTF's numbers, which are OpenGL's too.
+/// How a texture is sampled outside its picture and between pixels, in the numbers that glTF shares with OpenGL.
 enum gltf_reading {
     GLTF_REPEATED = 10497,
     GLTF_MIRRORED = 33648,
@@ -52,7 +51,7 @@ enum gltf_reading {
 
 struct gltf_sampler {
     int wrap[2];   ///< across and down
-    int far, near; ///< where it is smaller, or larger, than on the screen
+    int far, near; ///< if it is smaller, or larger, than on the screen
 };
 
 struct gltf_material {
@@ -154,20 +153,20 @@ struct gltf {
     float *weights;     ///< those at rest
     int joint_count;    ///< joints of all skins together
     float lo[3], hi[3]; ///< the box around it at rest
-    char *not_shown;    ///< names of what is in the file and not shown, comma separated; NULL: all is shown
-    size_t room;        ///< bytes that may still be made of it, so that no claim of a small file fills the memory
+    char *not_shown;    ///< names of things in the file that are not shown, comma separated; NULL: all is shown
+    size_t room;        ///< bytes that may still be allocated, so that a small file cannot claim all memory
     uint64_t id;        ///< tells it from any other that was read in this process; never 0
 };
 
-/// Reads a .glb or .gltf (with its files or data URIs). What it takes in memory is bounded by a small multiple of the sizes of the files
-/// read, whatever they claim. Errors name file, place, what was expected and what was found; on error nothing is left to free.
+/// Reads a .glb or .gltf (with its files or data URIs). Memory is bounded by a small multiple of the sizes of the files, whatever they claim.
+/// Errors name file, place, what was expected and what was found; on error nothing is left to free.
 bool gltf_read(const char *path, struct gltf *gltf, struct error *error);
 
 /// The same with vertices as they are stored: parts without normals have none (NULL) and keep their vertices, targets leave normals
 /// alone, and pictures are not decoded.
 bool gltf_read_stored(const char *path, struct gltf *gltf, struct error *error);
 
-/// The same as gltf_read() of a file's bytes, which it takes over; behind them is room for a NUL. `path` is for messages.
+/// The same as gltf_read() for a file's bytes, which it takes over; they must have room for a NUL at the end. `path` is for messages.
 bool gltf_read_bytes(const char *path, char *data, size_t size, struct gltf *gltf, struct error *error);
 void gltf_free(struct gltf *gltf);
 
@@ -177,7 +176,7 @@ uint64_t gltf_new_id(void);
 /// Whether it is a soft character: character_read() finds coordinates in it.
 bool gltf_is_soft(const struct gltf *gltf);
 
-/// The name of a morph target where many exporters put it; NULL: it has none.
+/// The name of a morph target, from where many exporters put it; NULL: none.
 const char *gltf_target_name(const struct gltf_mesh *mesh, int target);
 
 /// Decodes a PNG or JPEG into at most `most` bytes of pixels, which the caller frees. False with a sentence that names no file.
@@ -223,9 +222,9 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
 /// Vertices of one node's mesh; 0 without one.
 int gltf_vertex_count(const struct gltf *gltf, int node);
 
-// --- the box around a posed character, without posing its vertices: skin stays within the boxes of what follows each joint
+// --- the box around a posed character, from boxes of the vertices that follow each joint, without posing vertices
 
-/// What follows one joint of a mesh's skin, or a whole mesh that has none.
+/// The vertices that follow a joint of a mesh's skin, or a whole mesh without skin.
 struct gltf_box {
     int node;           ///< that shows the mesh
     int joint;          ///< of its skin, −1: none

@@ -1,4 +1,4 @@
-/// A glTF 2.0 file being put together: accessors and the bytes that they find.
+/// A glTF 2.0 file being assembled: accessors and their bytes.
 #ifndef MODEL_GLTF_FILE_H
 #define MODEL_GLTF_FILE_H
 
@@ -29,10 +29,10 @@ enum gltf_elements {
     ELEMENTS_TURNS
 };
 
-/// Goes on with the JSON of a file that exists: what is added follows what it has.
+/// Continues the JSON of an existing file: additions follow what it has.
 void gltf_file_continue(struct gltf_file *file, json_t *root);
 
-/// Adds bytes that views find already, up to a multiple of four; returns where they are.
+/// Adds bytes that views refer to already, padded to a multiple of four; returns their offset.
 size_t gltf_file_append(struct gltf_file *file, const void *bytes, size_t size);
 
 /// Adds `count` elements and returns the accessor's number; with bounds, it states their least and largest.
@@ -42,12 +42,12 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
 /// Adds bytes that no accessor finds, as those of a picture, and returns the buffer view's number.
 json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t size);
 
-/// Take `value` over. Where it, or the array or object, is NULL or memory is short, the file is without memory: so NULL may be handed on
+/// Take `value` over. If it, or the array or object, is NULL or memory is short, the file is marked as without memory. So you can pass on NULL
 /// from any call of the JSON library.
 json_int_t gltf_append(struct gltf_file *file, json_t *array, json_t *value);
 void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *value);
 
-/// Appends to a member that is an array, which is made where it is missing.
+/// Appends to a member that is an array; creates it if it is missing.
 void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value);
 
 /// Completes the JSON of the rest (which it takes over; NULL: memory was short) and writes both: as .glb, whose buffer must be 0, or as

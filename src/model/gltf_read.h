@@ -1,4 +1,4 @@
-/// What the files that read glTF characters share. Private to src/model/gltf_*.c.
+/// Shared by the files that read glTF characters. Private to src/model/gltf_*.c.
 #ifndef MODEL_GLTF_READ_H
 #define MODEL_GLTF_READ_H
 
@@ -11,7 +11,7 @@ struct gltf_uv {
     float offset[2], rotation, scale[2];
 };
 
-/// What is known while a file is read. Functions fail with a sentence in `error`; what was read so far is freed with `gltf`.
+/// The state of reading a file. Functions set `error` when they fail; what was read so far is freed with `gltf`.
 struct gltf_reader {
     struct glb file;
     struct gltf *gltf;
@@ -25,28 +25,28 @@ struct gltf_reader {
     size_t not_shown_end; ///< length of gltf.not_shown
 };
 
-/// The part of the JSON that is read now.
+/// The part of the JSON that is being read.
 void gltf_at(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /// Fails with "file: place" and then the text, which begins with ".member: " or ": ".
 bool gltf_bad(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/// Zeroed memory, as long as the file is large enough for so much; else NULL and an error.
+/// Zeroed memory if the file is large enough to justify so much; else NULL and an error.
 void *gltf_make(struct gltf_reader *r, size_t count, size_t size);
 
-/// A member that counts into an array of `limit` things; −1 where it is missing.
+/// A member that is an index into an array of `limit` things; −1 if it is missing.
 bool gltf_index(struct gltf_reader *r, const json_t *object, const char *key, int limit, int *index);
 
-/// A member that is an array of `count` numbers; left alone where it is missing.
+/// A member that is an array of `count` numbers; unchanged if it is missing.
 bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, float *numbers, size_t count);
 
 /// The name of a thing, or "kind n".
 char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n);
 
-/// An array of the file's root; NULL where there is none.
+/// An array of the file's root; NULL if there is none.
 const json_t *gltf_array(const struct gltf_reader *r, const char *key);
 
-/// Names something that is not shown, once.
+/// Adds a name to those not shown, once.
 bool gltf_not_shown(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 bool gltf_read_materials(struct gltf_reader *r);

@@ -34,7 +34,7 @@ void motion_close(struct motion *motion);
 
 enum motion_form { MOTION_NPY, MOTION_PC2, MOTION_MDD };
 
-/// What the start of a written motion says; .npy tells nothing of time.
+/// The header of a motion to be written; .npy has no times.
 struct motion_span {
     int frames, vertices;
     double first, spacing; ///< where the first frame is, and from one to the next: PC2 in frames, MDD in seconds

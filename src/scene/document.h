@@ -15,8 +15,8 @@
 
 enum {
     SCENE_MAX_SUBSTEPS = 1024,
-    SPLINE_MAX_SAMPLES = 100000, ///< of each spline
-    LIMITED_MAX_SAMPLES = 20000, ///< of each, where one has a low or high limit
+    SPLINE_MAX_SAMPLES = 100000, ///< per spline
+    LIMITED_MAX_SAMPLES = 20000, ///< per spline, if one has a low or high limit
     SCENE_MAX_SAMPLES = 1000000, ///< over all splines together
     SCENE_MAX_KNOTS = 100000,    ///< over all splines together
     SCENE_MAX_FPS = 100000,
@@ -28,7 +28,7 @@ struct json_t;
 
 struct knot {
     double frame;     ///< as written; may be fractional
-    double value;     ///< 0 where it is still
+    double value;     ///< 0 if it is still
     double slope;     ///< value per second
     double stiffness; ///< 1/s
     double phase;     ///< Im x of a pose
@@ -47,7 +47,7 @@ struct spline {
     struct knot *knots; ///< by sample
     int knot_count, knot_capacity;
     int color;   ///< 0xRRGGBB, or -1: from the theme, in turn
-    unsigned id; ///< as a knot's
+    unsigned id; ///< like a knot's
     struct json_t *extra;
 };
 

@@ -1,6 +1,6 @@
 /// Edits: the only way to change a document that is loaded.
 ///
-/// Each function changes the document and returns true, or leaves it as it was and says why. Data that is shared with other documents is
+/// Each function changes the document and returns true, or leaves it unchanged and sets an error. Data shared with other documents is
 /// cloned first. An edit without effect changes nothing. history.h keeps the documents before each edit.
 #ifndef SCENE_EDIT_H
 #define SCENE_EDIT_H
@@ -23,46 +23,46 @@ bool edit_parameter(struct document *document, int spline, enum parameter parame
 /// Adds a spline at a place in the list (-1: the end), with f 1, ζ 0.1, β 0.1; it loops where others do. `name` NULL: a free one. `first` NULL: it has no knot.
 bool edit_spline_add(struct document *document, int at, const char *name, const struct knot *first,
                      struct error *error);
-/// A copy goes after the spline, with a free name and new knot ids.
+/// Inserts a copy after the spline, with a free name and new knot ids.
 bool edit_spline_copy(struct document *document, int spline, struct error *error);
-/// Refused if something follows it.
+/// Refused if another spline or a rig refers to it.
 bool edit_spline_remove(struct document *document, int spline, struct error *error);
 bool edit_spline_move(struct document *document, int spline, int to, struct error *error);
-/// Not empty, and no other's name.
+/// The name must not be empty or another spline's.
 bool edit_spline_name(struct document *document, int spline, const char *name, struct error *error);
 /// 0xRRGGBB, or -1.
 bool edit_spline_color(struct document *document, int spline, int color, struct error *error);
 
 // --- the scene -----------------------------------------------------------------------------------------------------------
 
-/// Puts another document, which ends, in this one's place.
+/// Replaces this document's content by another document, which is destroyed.
 void edit_document(struct document *document, struct document *other);
-/// `keeps_seconds`: knots and range keep their seconds instead of their frames. Slopes are per second anyway.
+/// `keeps_seconds`: knots and range keep their seconds instead of their frames. Slopes are per second in any case.
 bool edit_fps(struct document *document, double fps, bool keeps_seconds, struct error *error);
 bool edit_substeps(struct document *document, int substeps, struct error *error);
 
-/// What happens to knots that would fall outside.
+/// What to do with knots outside the new range.
 enum range_fit {
     RANGE_REFUSE,
     RANGE_MOVE, ///< to the nearest free samples inside, in their order
-    RANGE_TRIM, ///< they are deleted
+    RANGE_TRIM, ///< delete them
 };
 bool edit_range(struct document *document, int first, int last, enum range_fit fit, struct error *error);
 
 // --- rigs ----------------------------------------------------------------------------------------------------------------
 
-/// Appends a copy of a rig. Its name, or the title that it has without one, gets a number if it is taken.
+/// Appends a copy of a rig. A taken name or title gets a number.
 bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error);
-/// Refused while a chain or a spline needs it.
+/// Refused while a chain or spline refers to it.
 bool edit_rig_remove(struct document *document, int rig, struct error *error);
-/// Replaces a rig by a clone of one that was copied from it, as a structure, and changed in anything but its name, pins and paint.
+/// Replaces a rig by a changed copy of it with the same name, pins and paint.
 bool edit_rig_set(struct document *document, int rig, const struct rig *wanted, struct error *error);
-/// Not empty, and no other rig's. What goes by the old name goes by the new one.
+/// The name must not be empty or another rig's. References to the old name are changed, too.
 bool edit_rig_name(struct document *document, int rig, const char *name, struct error *error);
 
 enum angle_kind { ANGLE_REST, ANGLE_LAG, ANGLE_GAIN };
 
-/// Which channel of which rig: of a tail or chain, or of ANGLE_REST none.
+/// A channel of a rig: of a tail or chain; ANGLE_REST is none.
 struct channel_place {
     int rig, channel;
 };
@@ -82,7 +82,7 @@ bool edit_joints(struct document *document, int rig, int count, struct error *er
 bool edit_tail_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
                    struct error *error);
 
-/// Replaces the drive of a coordinate of a character, but for its name; index -1 appends one.
+/// Replaces the drive of a character's coordinate, except its name; index -1 appends one.
 bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error);
 bool edit_drive_remove(struct document *document, int rig, int index, struct error *error);
 

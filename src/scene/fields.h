@@ -1,12 +1,12 @@
-/// The objects of a scene file: printed key by key; and by rows, one for each member, read, printed, checked, compared, copied and freed.
-/// Private to src/scene.
+/// The objects of a scene file: printed key by key; and described by rows, one per member, to be read, printed, checked, compared, copied and
+/// freed. Private to src/scene.
 #ifndef SCENE_FIELDS_H
 #define SCENE_FIELDS_H
 
 #include "scene/reader.h"
 #include "scene/text.h"
 
-/// An object being written: `open` comes before its first member, `separator` before the others.
+/// An object being written: `open` precedes its first member, `separator` the others.
 struct members {
     struct text *text;
     const char *open, *separator;
@@ -22,7 +22,7 @@ void member_string(struct members *members, const char *key, const char *string)
 void member_path(struct members *members, const char *key, const struct document *document, const char *path,
                  const char *folder);
 
-/// Writes the unknown keys, but for those that `skips` (may be NULL) says hold the unknown keys of a member.
+/// Writes the unknown keys, except those that `skips` (may be NULL) marks as holding a member's unknown keys.
 void members_extra(struct members *members, json_t *extra, bool (*skips)(const char *key));
 
 /// A number, a track or a motion, for a file in `folder`; `extras` holds the unknown keys of the latter two, by `key`.
@@ -43,33 +43,33 @@ enum field_kind {
     FIELD_WHOLE,
     FIELD_FLAG,
     FIELD_NUMBERS, ///< an array of two or three
-    FIELD_WORD,    ///< which of some words
+    FIELD_WORD,    ///< one of several words
     FIELD_TEXT,
     FIELD_PATH,
     FIELD_MODEL,  ///< the name of a model rig, or its file
-    FIELD_SPLINE, ///< the index of the spline that is named
+    FIELD_SPLINE, ///< the index of the named spline
     FIELD_PLACE,  ///< three numbers or splines to follow
     FIELD_ANGLES,
     FIELD_PAINT, ///< held, beside a row that reads and prints it
     FIELD_LIST,  ///< objects
 };
 
-enum { FIELDS_MOST = 16 }; ///< of an object
+enum { FIELDS_MOST = 16 }; ///< per object
 
 /// A member of an object.
 struct field {
-    const char *key; ///< NULL behind the last row, whose place is that of the unknown keys
+    const char *key; ///< NULL in the last row, whose place is that of the unknown keys
     enum field_kind kind;
     size_t place, size;       ///< in its structure; the size of a list is that of an element
     struct range range;       ///< of numbers; how many elements a list may have
-    double usual[3];          ///< defaults, where the file lacks the member
+    double usual[3];          ///< defaults for missing members
     const char *const *words; ///< ended by NULL; an empty one is none
     const struct field *rows; ///< of a list's elements
     size_t count;             ///< place of the number of a list's elements
     size_t flag;              ///< place of a bool: whether there is a number (0: always), or a model is a file
     bool is_required;         ///< in the file
     bool is_quiet;            ///< not printed if it has its default
-    bool is_apart;            ///< does not count where two are compared
+    bool is_apart;            ///< ignored when two objects are compared
     /// Instead of what the kind does.
     void (*load)(struct reader *reader, const struct value *object, void *at);
     void (*print)(struct members *members, const struct document *document, const void *at, const char *folder);

@@ -17,7 +17,7 @@ struct problems {
 /// `wiggly check` does; NULL drops warnings and further errors.
 struct document *scene_load(const char *path, struct problems *problems, struct error *error);
 
-/// The same from memory; `name` stands for the path in messages.
+/// The same from memory; messages show `name` for the path.
 struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,
                              struct error *error);
 
@@ -29,10 +29,10 @@ char *scene_print(const struct document *document, size_t *size);
 ///
 ///     "recovers": { "file": "/home/me/walk.json", "content": "5f3a91c07be2d846" }
 ///
-/// An untitled document's file has none, nor has one whose path is no UTF-8, which JSON cannot hold.
+/// An untitled document's file has no such member; nor has one whose path is not UTF-8, which JSON cannot hold.
 struct scene_origin {
     char path[PATH_LIMIT]; ///< of the document's own file, or ""
-    uint64_t content;      ///< of that when it was read or written last (file_content()); 0: unknown
+    uint64_t content;      ///< of that file when it was last read or written (file_content()); 0: unknown
 };
 
 /// Reads that member of a file; all zeros if there is none.
@@ -45,7 +45,7 @@ char *scene_print_for(const struct document *document, const char *folder, const
 /// Writes the canonical text into a file, whole or not at all; paths in it are relative to the file's folder.
 bool scene_save(const struct document *document, const char *path, struct error *error);
 
-/// The same with its `origin`, readable by the user alone.
+/// The same with its `origin`, readable by this user alone.
 bool scene_save_for(const struct document *document, const char *path, const struct scene_origin *origin,
                     struct error *error);
 

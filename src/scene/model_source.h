@@ -1,5 +1,5 @@
-/// What the solver needs to know of models: where pinned points and floors are, how splines move them, and how joints move in clips.
-/// Implemented by a layer above (rig/posing.h).
+/// What the solver needs to know about models: places of pinned points and floors, how splines move them, and how joints move in clips.
+/// Implemented by a higher layer (rig/posing.h).
 #ifndef SCENE_MODEL_SOURCE_H
 #define SCENE_MODEL_SOURCE_H
 
@@ -11,8 +11,8 @@ struct evaluation;
 struct pin_point {
     double at[3];   ///< metres of the world
     double size;    ///< of its rig, metres
-    double slack;   ///< metres that do not count
-    bool is_linear; ///< it moves by Σ Re(c x), however far; else it hangs from `base`, no farther than `reach`
+    double slack;   ///< tolerance, metres
+    bool is_linear; ///< it moves by Σ Re(c x) at any distance; else it hangs from `base`, at most `reach` away
     double base[3], reach;
 };
 
@@ -25,15 +25,15 @@ struct low_point {
     int vertex;
 };
 
-enum { LOW_POINT_ROW = 128 }; ///< samples in which lowest points are found together
+enum { LOW_POINT_ROW = 128 }; ///< lowest points of this many samples are found together
 
-/// Samples of so many whole rows that all samples are in one.
+/// Samples rounded up to whole rows.
 static inline int low_point_samples(int samples)
 {
     return (samples + LOW_POINT_ROW - 1) / LOW_POINT_ROW * LOW_POINT_ROW;
 }
 
-enum { LOW_POINT_ROOM = 3 * (CHARACTER_MAX_DRIVES + 1) }; ///< numbers that finding them takes, for each of these
+enum { LOW_POINT_ROOM = 3 * (CHARACTER_MAX_DRIVES + 1) }; ///< numbers needed for finding them, per such sample
 
 struct model_source {
     /// Finds a pin's point as the splines are in `evaluation`, and how `count` splines move it from there (`c` may be NULL if
@@ -43,15 +43,15 @@ struct model_source {
     /// Adds to each spline's weight the mean of |c|² over the surface of a rig at rest.
     void (*weigh)(void *context, const struct document *document, int rig, const int *splines, int count,
                   double *weights);
-    /// Finds a character's lowest vertex at every sample; those not below `ceiling` may be skipped (then the height is that,
-    /// and the vertex -1). `room` is for LOW_POINT_ROOM numbers for each of low_point_samples(). false: its model is missing.
+    /// Finds a character's lowest vertex at every sample. Vertices not below `ceiling` may be skipped; the height is then `ceiling` and the vertex
+    /// -1. `room` has LOW_POINT_ROOM numbers per low_point_samples(). false: its model is missing.
     bool (*lowest)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
                    double ceiling, double *room, struct low_point *low);
     /// Writes the motion of a joint at each of the document's samples, in degrees or metres, without gain. false, or NULL: it is 0.
     bool (*follow)(void *context, const struct document *document, const struct joint_motion *motion,
                    double *samples);
     void *context;
-    uint64_t version; ///< changes when they may give something else for the same document
+    uint64_t version; ///< changes when the results may change for the same document
 };
 
 #endif

@@ -10,7 +10,7 @@ struct order_space {
     unsigned char *next;
 };
 
-/// Where tracks form a cycle: this parameter of this spline leads back to the spline.
+/// A cycle of tracks: this parameter of this spline leads back to the spline.
 struct order_cycle {
     int spline;
     enum parameter parameter;
@@ -34,23 +34,23 @@ enum reference_kind {
     REFERENCE_TRACK,    ///< a spline's parameter that follows
     REFERENCE_POSITION, ///< a coordinate of a tail's position that follows
     REFERENCE_CHANNEL,  ///< a tail's or chain's channel
-    REFERENCE_DRIVE,    ///< what moves a coordinate of a character
-    REFERENCE_MEADOW,   ///< what a meadow swings by
+    REFERENCE_DRIVE,    ///< a coordinate of a character
+    REFERENCE_MEADOW,   ///< a meadow's spline
 };
 
-/// Zero before the first.
+/// All zero before the first reference.
 struct reference {
     enum reference_kind kind;
     int owner;  ///< index of the spline or rig
     int which;  ///< enum parameter, coordinate 0 … 2, channel, or drive
-    int spline; ///< index of the spline that it names
-    int number; ///< the next one's of this owner
+    int spline; ///< index of the spline
+    int number; ///< number of this owner's next reference
 };
 
 /// Goes on to the next reference; false after the last.
 bool reference_next(const struct document *document, struct reference *reference);
 
-/// Makes a reference name another spline.
+/// Makes a reference refer to another spline.
 void reference_set(struct document *document, const struct reference *reference, int spline);
 
 /// How many references there are to a spline.

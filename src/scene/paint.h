@@ -1,4 +1,4 @@
-/// Paint on a character: how much further and earlier each of its vertices swings than its model says.
+/// Paint on a character: changes how far and how early each vertex swings.
 ///
 ///     Ñ' = Ñ e^{a + jψ}
 ///
@@ -11,7 +11,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// The limits of a and |ψ| (radians) that a file may hold.
+/// The limits of a and |ψ| (radians) in a file.
 #define PAINT_MOST_SWELL 10.0f
 #define PAINT_MOST_LEAD 1000.0f
 
@@ -32,17 +32,17 @@ void paint_drop(struct paint *paint);
 bool paint_is_plain(const struct paint *paint);
 bool paint_is_plain_at(const struct paint *paint, int coordinate);
 
-/// Bytes that it takes; 0 for NULL.
+/// Bytes of memory; 0 for NULL.
 size_t paint_bytes(const struct paint *paint);
 
-/// New values for some vertices of one coordinate: what a brush does in one frame.
+/// New values for some vertices of one coordinate, as a brush makes them in a frame.
 struct dab {
     int coordinate, count;
     const int *vertices;      ///< each at most once
     const float (*values)[2]; ///< a and ψ of each
 };
 
-/// Puts a dab into the paint; where that has another holder, a copy takes its place.
+/// Applies a dab to the paint; shared paint is copied first.
 void paint_dab(struct paint **paint, const struct dab *dab);
 
 /// Reads an .npy file of shape (coordinates, vertices, 2). float64, big endian and Fortran order are read, too. NULL with a sentence that names the file, what was

@@ -1,4 +1,4 @@
-/// The parameters of a spline, one row each: everything that files, edits, the solver's description and the editor know of it.
+/// The parameters of a spline, one row each, with everything that files, edits, the solver's description and the editor need.
 ///
 /// To add one, add a constant here, where it belongs in the file, a row in parameter.c, and a member of wiggly_desc that the
 /// solver uses.
@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <wiggly/more.h>
 
-/// What of a joint is followed: degrees about world up, or metres across the chain's direction or up.
+/// The part of a joint's motion that is followed: degrees about world up, or metres across the chain's direction or up.
 enum motion_of { MOTION_TURN, MOTION_ACROSS, MOTION_UP, MOTION_KINDS };
 
 /// The file's words for them, ended by NULL.
@@ -17,15 +17,15 @@ extern const char *const motion_words[];
 
 struct json_t;
 
-/// A joint, in the clip that its model plays, against its mean over the clip.
+/// The motion of a joint, in its model's clip, relative to its mean over the clip.
 struct joint_motion {
     atomic_int holders; ///< splines
     char *model;        ///< the name of a model rig, or its file
     bool by_file;       ///< `model` is the file
     char *joint;        ///< its name; not looked up here
     enum motion_of of;
-    double gain; ///< times what it does
-    char *chain; ///< name of the chain whose direction counts, or NULL
+    double gain; ///< factor
+    char *chain; ///< the chain whose direction counts, or NULL
     struct json_t *extra;
 };
 
@@ -37,11 +37,11 @@ bool motion_equals(const struct joint_motion *a, const struct joint_motion *b);
 void motion_hold(struct joint_motion *motion);
 void motion_drop(struct joint_motion *motion);
 
-/// A number, the index of a word, the total of another spline, or what a joint does in a clip.
+/// A number, the index of a word, another spline's total, or a joint's motion in a clip.
 struct param {
     double value;                ///< used if it follows nothing
-    int track;                   ///< index of the spline that is followed, or -1
-    struct joint_motion *motion; ///< of the joint that is followed (joint_motion.h), or NULL; a spline holds it
+    int track;                   ///< index of the followed spline, or -1
+    struct joint_motion *motion; ///< the followed joint, or NULL; a spline holds it
 };
 
 /// A constant, and the track of a spline.
@@ -60,9 +60,9 @@ enum parameter {
     PARAMETER_EQUILIBRIUM,
     PARAMETER_START,
     PARAMETER_PASSIVE,
-    PARAMETER_LOW, ///< these two are one member of the file, "limits": [low, high]
+    PARAMETER_LOW, ///< low and high are one member of the file, "limits": [low, high]
     PARAMETER_HIGH,
-    PARAMETER_VARIATION, ///< these two as well: "variation": { "seed", "amount" }
+    PARAMETER_VARIATION, ///< likewise: "variation": { "seed", "amount" }
     PARAMETER_SEED,
     PARAMETER_COUNT
 };
@@ -75,11 +75,11 @@ enum parameter_kind {
     PARAMETER_WHOLE,  ///< a whole number: an int
 };
 
-/// Where a file names a parameter that has its default. Any other value is always written.
+/// When a file contains a parameter with its default value. Other values are always written.
 enum parameter_print {
-    PRINT_USED,    ///< where the mode uses it
-    PRINT_ALWAYS,  ///< even there where the mode does not
-    PRINT_CHANGED, ///< nowhere
+    PRINT_USED,    ///< if the mode uses it
+    PRINT_ALWAYS,  ///< even if the mode does not use it
+    PRINT_CHANGED, ///< never
 };
 
 enum {
@@ -96,15 +96,15 @@ struct parameter_row {
     const char *key;  ///< in the file, where that is another
     const char *unit; ///< or NULL
     const char *hint, *undo;
-    const char *letter; ///< held while arrows change it, or NULL
+    const char *letter; ///< key held while arrows change it, or NULL
     enum parameter_kind kind;
     unsigned modes;          ///< that use it: IN_COMPLEX | …
     size_t place;            ///< in wiggly_desc
     double minimum, maximum; ///< of a constant
-    double complex_maximum;  ///< in complex mode, or 0: the same
-    double usual;            ///< where its slider ends, a frequency's at most at half the sample rate; 0: no slider
+    double complex_maximum;  ///< in complex mode, if different, else 0
+    double usual;            ///< end of its slider (a frequency's is at most half the sample rate); 0: no slider
     bool is_frequency;
-    double standard; ///< where a file does not name it
+    double standard; ///< if a file does not contain it
     enum parameter_print print;
     double fresh; ///< of a new spline
     double step;  ///< of arrow keys
@@ -127,11 +127,11 @@ static inline const char *parameter_key(enum parameter parameter)
     return row->key ? row->key : row->name;
 }
 
-/// The first parameter with that key in a file, or that holding that letter changes; PARAMETER_COUNT if there is none.
+/// The first parameter with that key in a file, or whose letter this is; PARAMETER_COUNT if there is none.
 enum parameter parameter_find(const char *name);
 enum parameter parameter_of_letter(int letter);
 
-/// Writes a parameter into its place in the description.
+/// Writes a parameter to its place in the description.
 void parameter_describe(enum parameter parameter, double value, const double *track, wiggly_desc *desc);
 
 #endif

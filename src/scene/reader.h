@@ -1,6 +1,6 @@
-/// What the parts of the loader share: the file being read, its problems, and readers of single values.
+/// Shared by the loader's parts: the file being read, its problems, and readers of single values.
 ///
-/// A reader that finds a problem reports it, leaves its target alone and lets the loader carry on to find the next one.
+/// A reader reports a problem, leaves its target unchanged and lets the loader continue with the next value.
 #ifndef SCENE_READER_H
 #define SCENE_READER_H
 
@@ -54,7 +54,7 @@ int source_line(struct source *source, const struct where *where);
 /// "splines[0].knots[2].frame"; "scene" for the root.
 void where_path(const struct where *where, char path[PATH_TEXT_SIZE]);
 
-/// The path of what is open at byte `offset`; the text need only be valid up to there.
+/// The path of the value that is open at byte `offset`; the text need only be valid up to there.
 void source_path_at(const struct source *source, size_t offset, char path[PATH_TEXT_SIZE]);
 
 // --- values

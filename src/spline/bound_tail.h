@@ -1,18 +1,18 @@
-/// What bounds press behind the last knot: a motion from rest on top of what moves by itself there. Internal to src/spline.
+/// The motion that bounds add after the last knot: from rest, on top of the free motion. Internal to src/spline.
 #ifndef SPLINE_BOUND_TAIL_H
 #define SPLINE_BOUND_TAIL_H
 
 #include "spline/problem.h"
 
-/// One spline's motion behind its sample `begin`.
+/// One spline's motion after its sample `begin`.
 typedef struct bound_tail {
     wiggly_desc desc; ///< of the real oscillator, as the spline counts samples
-    int begin, end;   ///< the samples after `begin` and before `end` can be pressed; end ≤ begin + 1: none
+    int begin, end;   ///< bounds may act on samples between these; end ≤ begin + 1: none
     bool is_complex;
     double weight;
 } bound_tail;
 
-/// How Re(c x) of a sample depends on e there and on the samples beside it.
+/// How Re(c x) of a sample depends on e at the samples around it.
 typedef struct tail_row {
     int sample;
     double on[3]; ///< samples before, at, after
@@ -29,13 +29,13 @@ static inline bool bound_tail_moves(const bound_tail *tail, int sample)
 /// Re(c x) at a sample that it moves.
 tail_row bound_tail_row(const bound_tail *tail, int sample, const double c[2]);
 
-/// e(sample) under that push on a row, from `begin` on into e, which has room for all the spline's samples and is 0 elsewhere: added.
+/// Adds e(sample) under that push on a row to e, which has room for all the spline's samples and is 0 elsewhere.
 void bound_tail_press(const bound_tail *tail, const tail_row *row, double push, double *pressed, double *e);
 
 /// Σ row · e.
 double bound_tail_see(const bound_tail *tail, const tail_row *row, const double *e);
 
-/// Adds e to x of a solved curve, and what turns with it.
+/// Adds e, and its imaginary part, to x of a solved curve.
 void bound_tail_add(const bound_tail *tail, const double *e, wiggly_curve *curve);
 
 #endif

@@ -9,7 +9,7 @@ typedef struct cplx_array {
     double *re, *im;
 } cplx_array;
 
-/// Powers are made so many at a time, and samples are filled so many at a time where there is room.
+/// Block sizes: powers are computed, and samples filled, this many at a time.
 enum { CHAIN_BLOCK = 8 };
 
 /// F^k = p + q [0 1; δ² 0] and W_k = [w00 w01; w01* w11] for k = 0 … longest stretch, in whole blocks.
@@ -18,7 +18,7 @@ typedef struct chain_powers {
     double *w00, *w11;
 } chain_powers;
 
-/// Where the entries of a stretch's form are; the complex ones are two numbers, re and im.
+/// Indices of the entries of a stretch's form; the complex ones are two numbers, re and im.
 enum {
     FORM_V00,
     FORM_V11,
@@ -40,22 +40,22 @@ typedef struct chain_stretch {
     double form[FORM_SIZE];
 } chain_stretch;
 
-/// What is known of a node's state (x, d) beside Re x.
+/// The known parts of a node's state (x, d) besides Re x.
 enum {
     NODE_FIXED_E = 1,     ///< Re e: the next sample is keyed
     NODE_AT_REST = 2,     ///< all of it
     NODE_FROM_REST = 4,   ///< x, and d costs twice what a jet does
-    NODE_SETTLED = 8,     ///< that d follows x: what is behind moves by itself
+    NODE_SETTLED = 8,     ///< d, from x: the motion after it is free
     NODE_POSE = 16,       ///< Im x
     NODE_FIXED_E_IM = 32, ///< Im e: the next sample is a pose
-    NODE_STILL = 64,      ///< where the stretch before it ends d is 0: neither side feels the other
+    NODE_STILL = 64,      ///< d of the stretch before it is 0, and its two sides are independent
 
     NODE_KNOWN_X = NODE_AT_REST | NODE_FROM_REST | NODE_POSE,
     NODE_KNOWN_D = NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED,
     NODE_KNOWN_D_IM = NODE_AT_REST | NODE_FIXED_E_IM | NODE_SETTLED,
 };
 
-/// From where a node's speed is seen: the sample ahead, both neighbours, the sample behind, or what moves by itself.
+/// From which side a node's speed is seen: the sample ahead, both neighbours, the sample behind, or the free motion.
 typedef enum chain_view { VIEW_AHEAD, VIEW_BOTH, VIEW_BEHIND, VIEW_TAIL, VIEW_COUNT } chain_view;
 
 /// h times a speed: Re(on_x x + on_d d − on_r r), r the jet at the node itself.
@@ -69,7 +69,7 @@ typedef struct chain_node {
     unsigned fixed;
     double value;   ///< Re x
     double im;      ///< Im x of a pose, else 0
-    double e;       ///< Re e where it is known
+    double e;       ///< Re e if it is known
     double next_im; ///< Im x of the next sample where Im e is fixed
     chain_view view;
     double slope, slope_weight; ///< slope_weight (h speed − slope)²
@@ -84,9 +84,9 @@ typedef struct chain_row {
     double right[3];    ///< → solution
 } chain_row;
 
-enum { CHAIN_RUN = 64 }; ///< samples that are filled from one state, at most
+enum { CHAIN_RUN = 64 }; ///< the most samples that are filled from one state
 
-/// Entries over pivots beyond which the error that is left is worth telling.
+/// Ratio of entries to pivots from which the remaining error is reported.
 #define TELLING_LOSS 300
 
 typedef enum chain_rank {
@@ -97,15 +97,15 @@ typedef enum chain_rank {
 
 typedef struct chain {
     bool is_complex;
-    bool cyclic;         ///< a loop: behind the last node comes the first one again
+    bool cyclic;         ///< a loop: the first node follows the last
     int count;           ///< samples of the system; a loop's are counted from its first node on
     int turned;          ///< a loop's: sample of its first node
     cplx lambda, delta2; ///< mean of the poles, square of half their difference
     start_cost start;    ///< times calm; on the first node
-    double im_weight;    ///< of (Im x)² at every sample, to first order; 0 where that is next to nothing
+    double im_weight;    ///< of (Im x)² at every sample, to first order; 0 if negligible
     chain_speed speed[VIEW_COUNT];
     cplx tail;       ///< d / x of a settled node
-    bool oscillates; ///< whether the speeds are those that the poles see
+    bool oscillates; ///< speeds are those given by the poles
     bool settles;    ///< the last node is settled, or the second sample of a last pair is
     bool posed;      ///< some Im x is known
     int run;         ///< samples of a stretch that are filled from one state and costate
@@ -124,20 +124,20 @@ typedef struct chain {
         to_first; ///< a loop's: of each node's row but the first, the inverse of its pivot times its coupling to the first, 3×3 or 1
     bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
     chain_rank rank;    ///< of the factor
-    bool loose;         ///< next to nothing holds the start: its errors are larger
+    bool loose;         ///< the start is nearly free, so errors are larger
     double rounding;    ///< of the poles
     double lost;        ///< entries over pivots of the factor, the largest of its rows
     double error;       ///< estimated error of x
-    double size;        ///< of what was solved for
-    double cubic_bound; ///< both poles at 1: what |x| stays below
+    double size;        ///< of the solution
+    double cubic_bound; ///< both poles at 1: a bound for |x|
 } chain;
 
-/// Solves for the nodes and writes x of every sample of the system (x_im only in complex mode). Where `kept` is set, only
-/// values have changed since the last solve and its factor is used again. false where the nodes' system has lost so many digits
-/// that its answer is not to be taken, or numbers are so large that sums might overflow.
+/// Solves for the nodes and writes x of every sample of the system (x_im only in complex mode). If `kept` is set, only values have changed
+/// since the last solve, and its factor is reused. false if the nodes' system has lost too many digits, or numbers are so large that sums
+/// might overflow.
 bool chain_solve(chain *chain, double *x_re, double *x_im);
 
-/// Forgets tables and factor: another filter, or their memory was used for something else.
+/// Clears tables and factor, because the filter has changed or their memory was used otherwise.
 void chain_forget(chain *chain);
 
 /// A form [h00 h01; h01* h11] of a state.
@@ -146,16 +146,16 @@ typedef struct state_form {
     cplx h01;
 } state_form;
 
-/// The start's cost on the first state; and what the jet of a settled sample costs that is the second of the last node's pair: 0 elsewhere.
+/// The start's cost on the first state; and the jet's cost of a settled sample that is the second of the last node's pair, else 0.
 state_form chain_start_form(const chain *chain);
 state_form chain_end_form(const chain *chain);
-/// From rest d, which is the jet there, counts twice.
+/// From rest d is the jet there, and counts twice.
 static inline state_form chain_node_form(const chain_node *node)
 {
     return (state_form){.h11 = node->fixed & NODE_FROM_REST ? 2 : 0};
 }
 
-/// By how much Re d and Im d follow Im x at a node.
+/// How much Re d and Im d of a node change with its Im x.
 static inline cplx chain_node_tie(const chain *c, const chain_node *node)
 {
     if (node->fixed & NODE_SETTLED) return (cplx){-c->tail.im, c->tail.re};
@@ -163,15 +163,15 @@ static inline cplx chain_node_tie(const chain *c, const chain_node *node)
                   node->fixed & NODE_FIXED_E_IM ? -c->lambda.re : 0};
 }
 
-/// d of a node as the end of the stretch before it.
+/// d of a node, as the end of the stretch before it.
 static inline cplx chain_end_d(const chain_node *node)
 {
     if (node->fixed & NODE_STILL) return (cplx){0, 0};
     return (cplx){node->d_re, node->d_im};
 }
 
-/// Weight times the excess of a slope's speed, at the nodes' present state: seen with a jet that the stretch before makes `jet`, as
-/// far as V₁₁ of its form holds it; 0 and 1 where there is none.
+/// Weight times the excess of a slope's speed at the nodes' present state. `jet` is the jet from the stretch before, and V₁₁ of its form how
+/// much it is held; 0 and 1 if there is no stretch.
 double chain_slope_pull(const chain *chain, const chain_node *node, cplx jet, double v11);
 
 /// An entry of a table of powers.
@@ -192,19 +192,19 @@ void chain_assemble(chain *chain);
 chain_rank chain_factor(chain *chain);
 /// rows' right ← solution.
 void chain_solve_nodes(chain *chain);
-/// rows' right ← the right-hand side: −½ of the energy's gradient where everything unknown is 0.
+/// rows' right ← the right-hand side: −½ of the energy's gradient with all unknowns 0.
 void chain_pull_known(chain *chain);
 /// The same at the nodes' present state, in double-double.
 void chain_gradient(chain *chain);
-/// Adds a pull on a node's x and d to rows' right: Re x is known and takes none.
+/// Adds a pull on a node's x and d to rows' right, except on Re x, which is known.
 void chain_pull(const chain *chain, int j, cplx on_x, cplx on_d);
-/// Takes it from what is known, and lets a tied d follow Im x.
+/// Removes it from known parts, and moves it from a tied d to Im x.
 void chain_hold_known(const chain *chain, int j);
-/// The same of the imaginary rows alone.
+/// The same for the imaginary rows alone.
 void chain_pull_imaginary(chain *chain);
 static inline int chain_next(const chain *c, int j) { return j + 1 < c->node_count ? j + 1 : 0; }
-/// How many stretches there are: one less than nodes, in a loop as many.
+/// Number of stretches: one less than nodes, in a loop the same.
 static inline int chain_stretches(const chain *c) { return c->cyclic ? c->node_count : c->node_count - 1; }
-/// State and costate that the run from sample k of a stretch begins with. ν is that of the stretch's end, set with the second run.
+/// State and costate at the start of the run at sample k of a stretch. ν is that of the stretch's end, set with the second run.
 void chain_begin_run(const chain *chain, const chain_node *p, const chain_node *q, int k, cplx nu[2], cplx weight[4]);
 #endif

@@ -1,4 +1,4 @@
-/// The nodes' system of a chain, one row at a time: what a chain and a loop share.
+/// The nodes' system of a chain, row by row: shared by open chains and loops.
 ///
 /// Unknowns of a row are (Im x, Re d, Im d), a diagonal block is 00 01 02 11 12 22, a coupling A_{j+1,j} row-major. In cubic and real mode
 /// Re d is the only unknown; the compiler then drops the unused results of these functions.
@@ -8,29 +8,29 @@
 #include "spline/chain.h"
 #include <math.h>
 
-/// A row's numbers stay in registers from one of its steps to the next.
+/// A row's numbers stay in registers from step to step.
 #define ALWAYS_INLINE static inline __attribute__((always_inline))
 
-/// A pivot below this part of what its diagonal would give has lost digits that refinement must bring back.
+/// A pivot below this share of its diagonal entry has lost digits; refinement must restore them.
 #define WEAKEST 1e-6
 
-/// Entries over pivots beyond which the chain is not the way to solve it.
+/// Ratio of entries to pivots from which the chain is not used.
 #define GREATEST_LOSS 1e7
 
-/// What a row takes from its node. A known unknown is kept out of the system by 0 in place of 1.
+/// A row's data from its node. Known unknowns are removed from the system by 0 instead of 1.
 typedef struct kernel_node {
-    double x, x_im, d, d_im;       ///< x and d as far as they are known
-    double tie, tie_im;            ///< Re d and Im d follow Im x by this much
+    double x, x_im, d, d_im;       ///< the known parts of x and d
+    double tie, tie_im;            ///< change of Re d and Im d with Im x
     double keep_x, keep_d, keep_i; ///< whether Im x, Re d, Im d is unknown
 } kernel_node;
 
-/// A node's slope: (h speed − target)², the speed as chain_speed has it. Weight 0 where there is none.
+/// A node's slope: (h speed − target)², with chain_speed's speed. Weight 0 if there is none.
 typedef struct kernel_slope {
     double target, weight;
     double x_re, x_im, d_re, d_im, r_re, r_im;
 } kernel_slope;
 
-/// The slope as a row of the unknowns before and at the node, and its residual if all of these are 0.
+/// The slope as a row of the unknowns before and at the node, and its residual with all of these 0.
 typedef struct kernel_link {
     double before[3], at[3], weight, miss;
 } kernel_link;
@@ -38,7 +38,7 @@ typedef struct kernel_link {
 /// Whether all pivots are positive, and none has lost digits.
 typedef struct kernel_rank {
     bool sound, firm;
-    double lost; ///< entries over pivots, of all three of a row together
+    double lost; ///< entries over pivots, for all three of a row together
 } kernel_rank;
 
 /// The Hermitian form [h00 h01; h01* h11] of a node's state.
@@ -51,7 +51,7 @@ ALWAYS_INLINE void kernel_form(double *d, double h00, double h01_re, double h01_
     d[5] += h11;
 }
 
-/// Its gradient, times −½, at a node. `posed`, here and below: there are nodes of which Im x is known.
+/// Its gradient, times −½, at a node. `posed`, here and below: Im x of some nodes is known.
 ALWAYS_INLINE void kernel_form_pull(bool posed, double *r, double h00, double h01_re, double h01_im, double h11,
                                     const kernel_node *at)
 {
@@ -128,7 +128,7 @@ ALWAYS_INLINE kernel_link kernel_link_of(bool posed, const kernel_slope *s, cons
     return (kernel_link){{-c_im, e_re, -e_im}, {-a_im, b_re, -b_im}, weight, weight * (s->target - seen)};
 }
 
-/// The slope at the first node, where there is no jet.
+/// The slope at the first node, without a jet.
 ALWAYS_INLINE kernel_link kernel_link_first(bool posed, const kernel_slope *s, const kernel_node *q)
 {
     double seen = s->x_re * q->x + (s->d_re * q->d - s->d_im * q->d_im);
@@ -160,7 +160,7 @@ ALWAYS_INLINE void kernel_add_pull(double *r, double miss, const double *g)
     for (int v = 0; v < 3; v++) r[v] += miss * g[v];
 }
 
-/// Folds a tied d into Im x, and takes what is known out of the block; 1 on its diagonal.
+/// Moves a tied d to Im x, and removes known parts from the block; 1 on its diagonal.
 ALWAYS_INLINE void kernel_hold(double *d, const kernel_node *node)
 {
     double kx = node->keep_x, kd = node->keep_d, ki = node->keep_i, t = node->tie, s = node->tie_im;
@@ -173,7 +173,7 @@ ALWAYS_INLINE void kernel_hold(double *d, const kernel_node *node)
     d[5] = d[5] * ki + (1.0 - ki);
 }
 
-/// The same in the columns of the coupling to the next node.
+/// The same for the columns of the coupling to the next node.
 ALWAYS_INLINE void kernel_hold_columns(double *n, const kernel_node *node)
 {
     for (int v = 0; v < 9; v += 3) {
@@ -183,7 +183,7 @@ ALWAYS_INLINE void kernel_hold_columns(double *n, const kernel_node *node)
     }
 }
 
-/// The same in the rows of the coupling to the node before.
+/// The same for the rows of the coupling to the node before.
 ALWAYS_INLINE void kernel_hold_rows(double *n, const kernel_node *node)
 {
     for (int v = 0; v < 3; v++) {
@@ -275,7 +275,7 @@ ALWAYS_INLINE void kernel_times(double *g, const double *p, const double *f)
     }
 }
 
-/// d −= F* G, of which the upper triangle is kept.
+/// d −= F* G; only the upper triangle is kept.
 ALWAYS_INLINE void kernel_subtract_square(double *d, const double *f, const double *g)
 {
     for (int r = 0, i = 0; r < 3; r++) {
@@ -298,21 +298,21 @@ ALWAYS_INLINE void kernel_subtract_transposed(double *r, const double *g, const 
     for (int v = 0; v < 3; v++) r[v] -= g[v] * z[0] + g[3 + v] * z[1] + g[6 + v] * z[2];
 }
 
-/// s ← d − n² / s, the pivot of the only unknown outside complex mode: only a division and a difference wait for the pivot before.
+/// s ← d − n² / s, the pivot outside complex mode: only a division and a difference wait for the pivot before.
 ALWAYS_INLINE kernel_rank kernel_pivot_one(double *s, double d, double n)
 {
     *s = d - n * n / *s;
     return (kernel_rank){.sound = *s > 0.0 && *s < INFINITY, .firm = *s >= WEAKEST * d, .lost = d / *s};
 }
 
-/// One row's rank added to all's.
+/// Merges one row's rank into the total.
 static inline void chain_add_rank(kernel_rank *all, kernel_rank rank)
 {
     all->sound = all->sound && rank.sound, all->firm = all->firm && rank.firm;
     all->lost = rank.lost > all->lost ? rank.lost : all->lost;
 }
 
-/// The rank of a factor in a word, and what it has lost.
+/// The rank of a factor, and what it has lost.
 static inline chain_rank chain_rank_with_loss(chain *c, kernel_rank rank)
 {
     c->lost = rank.lost;

@@ -8,66 +8,66 @@
 
 static inline bool limits_are_set(const wiggly_desc *desc) { return desc->low > -INFINITY || desc->high < INFINITY; }
 
-/// Puts the knots of a limited spline that was just posed into the solver's memory by sample, where held samples will come between
-/// them: its description becomes `ordered`. `all` is the curve with arrays of the solver's where `curve` has none.
+/// Sorts the knots of a limited spline that was just posed into the solver's memory, with room for held samples between them: its
+/// description becomes `ordered`. `all` is the curve with the solver's arrays for those that `curve` lacks.
 void limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
                   wiggly_curve *all);
 
-/// problem_find() of a limited spline. WIGGLY_ERROR_CAPACITY where more samples are to be held than there is room for.
+/// problem_find() for a limited spline. WIGGLY_ERROR_CAPACITY if more samples must be held than there is room for.
 wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);
 
-/// Puts the completed total on the limits where it misses them in its last digits.
+/// Rounds the completed total to the limits where it exceeds them in the last digits.
 void limits_clamp(const wiggly_solver *solver, const problem *p, wiggly_curve *curve);
 
-/// What a sample is: free, held at a limit, or keyed.
+/// The state of a sample: free, held at a limit, or keyed.
 enum { LIMITS_FREE = 0, LIMITS_LOW = -1, LIMITS_HIGH = 1, LIMITS_KEYED = 2 };
 
-/// A part of a limited spline: up to the last knot, or what the limits add to the motion behind it.
+/// A part of a limited spline: up to the last knot, or the motion that limits add after it.
 typedef struct limits_part {
     problem p; ///< with held samples as knots
     wiggly_desc desc;
-    int begin;    ///< sample of the spline that is sample 0 here
+    int begin;    ///< the spline's sample that is sample 0 here
     int from, to; ///< samples that may be held, as the spline counts them
     int held;     ///< how many are
 } limits_part;
 
-/// A limited spline in progress.
+/// A limited spline being solved.
 typedef struct limits_work {
     wiggly_solver *solver;
-    problem *p; ///< on its knots alone
+    problem *p; ///< with its knots alone
     wiggly_curve *curve;
     minimum *result;
-    double tail_error; ///< estimated, of what the limits add behind the last knot
+    double tail_error; ///< estimated error of the motion that limits add after the last knot
     one_sided search;  ///< of the samples from `from` on
     int from;
-    int attempts; ///< at it
+    int attempts; ///< of the search
     double missed;
-    bool fresh;             ///< the rows are to be set
+    bool fresh;             ///< the rows must be set
     bool has_room;          ///< for all samples that are to be held
     limits_part body, tail; ///< one of them may be empty: to < from
     int first;              ///< sample of the first block of the matrix
     wiggly_status status;
 } limits_work;
 
-/// Solves with the samples that are held; their `pull` becomes −½ of the energy's gradient there. false where there is no room for so many.
+/// Solves with the held samples; their `pull` becomes −½ of the energy's gradient. false if there is no room for so many.
 bool limits_solve(limits_work *work);
 
 /// Rows of the tail with nothing held, and `free` of the solver's memory.
 void limits_set_tail_rows(limits_work *w);
 
-/// What the search works with, and its arrays in the solver's memory.
+/// The search's input, and its arrays in the solver's memory.
 void limits_set_search(limits_work *w);
 
-/// The search's values as they are, and its limits.
+/// The search's present values, and its limits.
 void limits_measure(limits_work *w);
 
-/// How far x would go if what the limits pull, and not push, were let go; 0 where they pull nothing.
+/// How far x would move if samples pulled by limits were freed; 0 if none is.
 double limits_release(limits_work *w);
 
 static inline bool limits_has_body(const limits_work *w) { return w->body.to >= w->body.from; }
 static inline bool limits_has_tail(const limits_work *w) { return w->tail.to >= w->tail.from; }
 
-/// The part that a sample is in.
+/// The part that contains a sample.
 static inline limits_part *limits_part_of(limits_work *w, int sample)
 {
     return limits_has_tail(w) && sample >= w->tail.from ? &w->tail : &w->body;
@@ -86,7 +86,7 @@ static inline double limits_total(const limits_work *w, int sample)
 
 static inline bool limits_hold(const limits_work *w, int sample) { return w->solver->limits.held[sample] & 1; }
 
-/// Where a sample's limit is that holds it.
+/// The limit that holds a sample.
 static inline double limits_bound(const limits_work *w, int sample)
 {
     return w->solver->limits.held[sample] > 0 ? w->p->desc->high : w->p->desc->low;

@@ -4,11 +4,10 @@
 
 #include <stdbool.h>
 
-/// Unknowns of the two samples that a loop's border holds, and their numbers for one row.
+/// Unknowns of a loop's border, its last two samples, and their numbers for one row.
 enum { BORDER_MAX = 4, BORDER_ROW = 2 * BORDER_MAX };
 
-/// Blocks of (Re x, Im x); outside complex mode only the first number of each is looked at. Filled by system_matrix(), overwritten by
-/// the factor.
+/// Blocks of (Re x, Im x); outside complex mode only the first number of each is used. Filled by system_matrix(), overwritten by the factor.
 typedef struct pentadiagonal {
     int count; ///< block rows
     bool is_complex;
@@ -19,14 +18,14 @@ typedef struct pentadiagonal {
     double *below;  ///< A_{k+1,k}: 2×2 row-major       → L_{k+1,k}
     double *below2; ///< A_{k+2,k}                      → L_{k+2,k}
     double *border; ///< cyclic, of every row before the border BORDER_ROW numbers: 4×2 row-major → L_{border,k}
-    double corner[BORDER_MAX][BORDER_MAX]; ///< → Cholesky factor of what the rest leaves of it
+    double corner[BORDER_MAX][BORDER_MAX]; ///< → Cholesky factor of the eliminated corner
     double
         lost; ///< largest part of its diagonal entry that a pivot has lost, as entry / pivot; from the factorisation
 } pentadiagonal;
 
 typedef enum pentadiagonal_rank {
     RANK_BROKEN, ///< a pivot is not positive: there is no factor
-    RANK_WEAK,   ///< a pivot is lost in the rounding of its diagonal entry: what it solves for may be anything
+    RANK_WEAK,   ///< a pivot is lost in the rounding of its diagonal entry: solutions may be wrong
     RANK_FULL,
 } pentadiagonal_rank;
 

@@ -1,4 +1,4 @@
-/// Where the animator's parameters put the two poles, and the filter's coefficients (docs/mathematics.md, Poles).
+/// The poles for the animator's parameters, and the filter's coefficients (docs/mathematics.md, Poles).
 #ifndef SPLINE_POLES_H
 #define SPLINE_POLES_H
 
@@ -25,8 +25,8 @@ typedef struct poles {
 
 /// Coefficients of r_i = x_{i+1} − a x_i − b x_{i−1} + g ÿ, kept as distances from the cubic's a = 2, b = −1:
 ///     r_i = (x_{i+1} − 2x_i + x_{i−1}) − m (x_i − x_{i−1}) + p x_{i−1} + g ÿ,   m = μ₀ + μ₁, p = μ₀μ₁, μ = λ − 1,
-/// because at high sample rates a and b themselves hold no digit of the frequency. Where poles fade within a sample it is m and p that
-/// hold no digit of a and b, and weights of |b|⁻¹ make that count: the rest is kept beside them.
+/// because at high sample rates a and b hold no digit of the frequency. If poles fade within a sample, m and p hold no digit of a and b, and
+/// weights of |b|⁻¹ make that matter; so the rest is kept separately.
 typedef struct coefficients {
     cplx m, p;           ///< a = 2 + m + a_rest, −b = 1 + m + p + b_rest
     cplx a_rest, b_rest; ///< 0 up to FAST
@@ -44,7 +44,7 @@ static inline cplx coefficients_b(const coefficients *at)
     return (cplx){(2 + at->m.re - 1 + at->p.re) + at->b_rest.re, (at->m.im + at->p.im) + at->b_rest.im};
 }
 
-/// What swing at the start costs: two squares of the first state, taken as (x₀, e₀) with e₀ = x₁ − x₀,
+/// The cost of swing at the start: two squares of the first state, taken as (x₀, e₀) with e₀ = x₁ − x₀,
 ///     Σ weight |on_x x₀ + on_e e₀|²,
 /// the factored information matrix H of the stationary process, without the cancellation of its plain form. Weights are 0 where
 /// both poles are 0.
@@ -55,30 +55,30 @@ typedef struct start_cost {
     } row[2];
 } start_cost;
 
-/// h times the speed that two poles see in a sample and the difference to its neighbour: on_x x_j + on_e (x_{j+1} − x_j), or with
-/// (x_j − x_{j−1}) where it is taken backwards.
+/// h times the speed that the poles give from a sample and the difference to its neighbour: on_x x_j + on_e (x_{j+1} − x_j), or backwards with
+/// (x_j − x_{j−1}).
 typedef struct speed_form {
     cplx on_x, on_e;
 } speed_form;
 
-/// Fading below what a double tells apart, so that weights and their products stay finite.
+/// Faster decay makes no difference to a double, but weights and their products stay finite.
 #define DEEPEST 100.0
 
-/// ln of the most that one jet may weigh beside another: cubes of it stay finite.
+/// ln of the largest ratio of jets' weights: cubes of it stay finite.
 #define HEAVIEST 200.0
 
 /// ln |b|⁻¹ from which on a and b need all their digits.
 #define FAST 8.0
-/// And from which on they are kept as what they are.
+/// From here on they are stored as a and b.
 #define FASTEST 40.0
 
-/// The first of the samples from … to with the largest natural frequency, and that, rad/s.
+/// The first of the samples from … to with the largest natural frequency, and that frequency, rad/s.
 int poles_fastest(const wiggly_desc *desc, int from, int to, double *natural);
 
-/// ln |g|⁻² of a sample, by which its jet row is weighed; no more than HEAVIEST.
+/// ln |g|⁻² of a sample, the weight of its jet row; at most HEAVIEST.
 double poles_weight_exponent(const poles *at, double step);
 
-/// Poles at a sample. `floor` is the least damping ratio (0 but for loops and the start's cost).
+/// Poles at a sample. `floor` is the lowest damping ratio (0 except for loops and the start's cost).
 poles poles_at(const wiggly_desc *desc, int sample, double floor);
 
 /// True where no pole parameter that the mode uses has a track.
@@ -91,9 +91,9 @@ start_cost poles_start_cost(const poles *at, double step);
 speed_form poles_speed(const poles *at, double step, bool backwards);
 /// The start's cost at the poles `damped` on the state that has the same x and x' as (x₀, e₀) has with the poles `at`.
 start_cost poles_start_seen_from(start_cost cost, const poles *damped, const poles *at, double step);
-/// The one pole of what moves by itself, −ζω_n + jω_n√(1−ζ²).
+/// The single pole of the free motion, −ζω_n + jω_n√(1−ζ²).
 static inline cplx poles_passive(const poles *at) { return (cplx){-at->decay, at->centre}; }
-/// What one sample of moving by itself, by the pole `passive`, adds, as a part, where other poles see the speed as in `ahead`.
+/// Relative change of the free motion, with the pole `passive`, in one sample, where other poles give the speed `ahead`.
 cplx poles_tail(cplx passive, const speed_form *ahead, double step);
 cplx cplx_exp(cplx z);
 

@@ -6,19 +6,19 @@
 #include "spline/solver.h"
 #include <math.h>
 
-/// Values and equilibria beyond this are refused: sums of them must not overflow.
+/// Larger values and equilibria are refused, so that sums of them do not overflow.
 #define LARGEST_VALUE 1e300
 
-/// A slope row heavier than this is met to the last digit anyway, and could overflow.
+/// A heavier slope row is met to the last digit anyway, and might overflow.
 #define STIFFEST 1e20
 
 /// Below this calm a start or a loop may be loose.
 #define LOOSE_CALM 0.05
 
-/// What a singular document is solved with in place of calm 0.
+/// Replaces a calm of 0 if the document is singular.
 #define FALLBACK_CALM 0.05
 
-/// What missing a slope costs where nothing says so, 1/s.
+/// Default cost of missing a slope, 1/s.
 #define USUAL_STIFFNESS 1000
 
 static inline double knot_stiffness(const wiggly_knot *knot)
@@ -26,30 +26,30 @@ static inline double knot_stiffness(const wiggly_knot *knot)
     return knot->stiffness > 0 ? knot->stiffness : USUAL_STIFFNESS;
 }
 
-/// One solve in progress: the description with the rules of start and end applied. x = u + w: u is what moves by itself as the
-/// equilibrium does, w what is solved for. A cubic on a moving equilibrium is solved for its total.
+/// A solve in progress: the description with the rules of start and end applied. x = u + w: u is the response to the moving equilibrium, w is
+/// solved for. A cubic on a moving equilibrium is solved for its total.
 typedef struct problem {
     const wiggly_desc *desc;
-    const double *y;     ///< equilibrium of the whole domain, where it moves; a loop's last is its first
-    const double *about; ///< y + Re u of every sample, which w is measured from; NULL where that is `level`
+    const double *y;     ///< equilibrium of the whole domain, if it moves; a loop's last is its first
+    const double *about; ///< y + Re u of every sample, the level that w is measured from; NULL if that is `level`
     double level;
-    forced_response response; ///< u, where there is one, with the noise of a variation; else its arrays are NULL
+    forced_response response; ///< u, if there is one, with the noise of a variation; else its arrays are NULL
     cplx held;                ///< the noise before `first`
     wiggly_start start;
     double calm;
-    wiggly_status status;      ///< WIGGLY_CALMED where u is not that of the calm as asked
+    wiggly_status status;      ///< WIGGLY_CALMED if u is for another calm than the given one
     int first;                 ///< sample of the system's row 0
     int count;                 ///< samples from there to the domain's end (in a loop, round it)
     const system_pulls *pulls; ///< or NULL
     int earliest, latest;      ///< samples of the earliest and of the latest knot or pull, or -1
-    bool settles;              ///< behind the latest knot w moves by itself: the system ends there
+    bool settles;              ///< w is free after the latest knot: the system ends there
     bool strict;               ///< one plain solve is not enough: the total is far smaller than x
     bool level_slope;          ///< a level slope is implied at the earliest knot
     bool free_end;             ///< c·H = 0
     int still;                 ///< sample of the earliest still knot, or -1
-    int knot;                  ///< of what problem_pose() refuses: index of the knot that it is about, or -1
-    double unit;     ///< what weights are times that are not jets': the oscillator's |g|² at `first`, else 1
-    start_cost cost; ///< of the start's swing, times calm; weights 0 where it is free
+    int knot;                  ///< index of the knot that problem_pose() refuses, or -1
+    double unit;               ///< unit of all weights but the jets': the oscillator's |g|² at `first`, else 1
+    start_cost cost;           ///< of the start's swing, times calm; weights 0 if it is free
 } problem;
 
 static inline double problem_y(const problem *p, int sample)
@@ -57,10 +57,10 @@ static inline double problem_y(const problem *p, int sample)
     return p->y ? p->y[sample] : p->desc->equilibrium.value;
 }
 
-/// What w is measured from: a knot's w is its value less this.
+/// The level that w is measured from: a knot's w is its value minus this.
 static inline double problem_about(const problem *p, int sample) { return p->about ? p->about[sample] : p->level; }
 
-/// w that a knot asks for; of a still one 0, or where a cubic is solved for its total, what keeps that at the equilibrium.
+/// A knot's target for w. For a still knot it is 0 or, if a cubic is solved for its total, keeps that at the equilibrium.
 static inline double problem_knot_re(const problem *p, const wiggly_knot *knot)
 {
     if (!knot->still) return knot->value - problem_about(p, knot->sample);
@@ -78,19 +78,19 @@ static inline bool problem_is_whole(const problem *p, const wiggly_knot *knot)
     return p->desc->mode == WIGGLY_COMPLEX && (knot->has_phase || knot->still);
 }
 
-/// Whether the first sample is a still knot's: what is before it is at rest.
+/// Whether the first sample has a still knot: it is at rest before.
 static inline bool problem_starts_still(const problem *p) { return p->still >= 0 && p->still == p->first; }
 
 /// Rows of the system: the samples that are solved for.
 static inline int problem_rows(const problem *p) { return p->settles ? p->latest - p->first + 1 : p->count; }
 
-/// The least damping ratio that the problem takes.
+/// The lowest damping ratio that the problem uses.
 static inline double problem_least_damping(const problem *p)
 {
     return p->start == WIGGLY_LOOP ? LEAST_DAMPING * p->calm : 0;
 }
 
-/// Whether next to nothing holds the start, or brakes a loop.
+/// Whether the start is nearly free, or a loop nearly undamped.
 static inline bool problem_is_loose(const problem *p)
 {
     return p->calm < LOOSE_CALM && p->start != WIGGLY_REST && p->desc->mode != WIGGLY_CUBIC;
@@ -102,50 +102,48 @@ static inline const constant_filter *problem_filter(wiggly_solver *solver, const
     return solver_filter(solver, p->desc, problem_least_damping(p));
 }
 
-/// Whether anything asks for a motion: knots or pulls.
+/// Whether there are knots or pulls.
 static inline bool problem_is_asked(const problem *p) { return p->earliest >= 0; }
 
-/// Whether the oscillator's rules hold: jets weighed by |g|⁻², speeds that the poles see, the tail.
+/// Whether the oscillator's rules apply: jets weighted by |g|⁻², speeds given by the poles, the tail.
 static inline bool problem_oscillates(const problem *p) { return p->desc->passive == WIGGLY_OSCILLATOR; }
 
-/// What Im x costs at a sample of that natural frequency, times h³: T⁻⁴ (1 + (ω_n T)⁸)⁻¹, without `unit`.
+/// The cost of Im x at a sample of that natural frequency, times h³: T⁻⁴ (1 + (ω_n T)⁸)⁻¹, without `unit`.
 double problem_im_weight(const problem *p, double natural);
 
-/// Puts everything of the system into the solver's rows; x holds the fixed values and 0 elsewhere.
+/// Writes the whole system to the solver's rows; x holds the fixed values and 0 elsewhere.
 void problem_set_rows(wiggly_solver *solver, const problem *p);
 
-/// Slope row of a knot that has one, or of the implied one, without an oscillator's coefficients; weight 0 where it is without effect.
+/// A knot's slope row, or the implied one, without an oscillator's coefficients; weight 0 if it has no effect.
 slope_row problem_slope(const problem *p, int sample, double slope, double stiffness);
 
 /// Another calm, with the start's cost and a loop's forced response for it.
 void problem_set_calm(wiggly_solver *solver, problem *p, double calm);
 
-/// w of `count` samples of the tail, the first of them `from` ≥ 1 samples behind the latest knot, from w there; im outside complex mode
-/// is not written.
+/// w of `count` samples of the tail, starting `from` ≥ 1 samples after the latest knot, from w there; im is written only in complex mode.
 void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from, int count, double *re, double *im);
 
-/// The same for all samples behind the latest knot; arrays of the whole spline.
+/// The same for all samples after the latest knot; arrays of the whole spline.
 void problem_settle(wiggly_solver *solver, const problem *p, double *re, double *im);
 
-/// Whether the document is one for the chain: constant parameters, a constant equilibrium, no seam.
+/// Whether the chain can solve the document: constant parameters, a constant equilibrium, no seam.
 bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 
 /// Whether a description has noise that its knots are solved over: some amount, an oscillator of constant poles that has a frequency.
 bool variation_is_set(const wiggly_desc *desc);
 
-/// Adds the noise of every sample to u of a problem whose domain is known, and its value before `first` to what is held there.
+/// Adds every sample's noise to u, once the domain is known, and the value before `first` to the held value.
 void variation_add(problem *p);
 
-/// Checks a description and applies the rules of the start; y receives the equilibrium where it moves, N numbers. What is wrong,
-/// or WIGGLY_OK.
+/// Checks a description and applies the rules of the start; y receives the equilibrium if it moves, N numbers. Returns the error or WIGGLY_OK.
 wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);
 
-/// Solves by the chain: x of the system, M numbers each (x_im in complex mode). false where it declines: one knot without any
-/// hold, digits lost, or numbers so large that something might overflow.
+/// Solves by the chain: x of the system, M numbers each (x_im in complex mode). false if the chain cannot: a single knot with nothing else,
+/// digits lost, or numbers so large that something might overflow.
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im);
 
-/// w of a posed spline into re and im of the curve, and how that went; where a problem is singular as asked, of the nearest one that is
-/// not, which `p` becomes.
+/// w of a posed spline into re and im of the curve, and its status. If the problem is singular, solves the nearest one that is not, and `p`
+/// becomes that.
 wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);
 
 /// Whether a slope is implied at the earliest knot, because nothing else holds the spline.
@@ -161,10 +159,10 @@ extent extent_of(const double *values, int count);
 /// The largest magnitude.
 static inline double extent_size(extent e) { return fmax(fabs(e.low), fabs(e.high)); }
 
-/// Whether max |x| is beyond what the knots can mean. `solved` is the chain where that found x, else NULL.
+/// Whether max |x| is implausible for the knots. `solved` is the chain if that found x, else NULL.
 bool problem_blew_up(const problem *p, const chain *solved, const wiggly_curve *curve);
 
-/// What follows from x: samples outside the system, the total, the equilibrium, the band's centre.
+/// Computes the rest from x: samples outside the system, the total, the equilibrium, the band's centre.
 void problem_complete(wiggly_solver *solver, const problem *p, wiggly_curve *curve);
 
 #endif

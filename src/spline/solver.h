@@ -7,35 +7,35 @@
 #include "spline/forced_response.h"
 #include "spline/system.h"
 
-/// The least damping ratio of the start's cost, and times calm of a loop.
+/// The lowest damping ratio for the start's cost; times calm, for a loop.
 #define LEAST_DAMPING 0.05
 
-/// What constant parameters come to; computed anew only when they change.
+/// Results of constant parameters, computed anew only when they change.
 typedef struct constant_filter {
     bool known;
-    wiggly_desc desc; ///< that it is of, without knots
+    wiggly_desc desc; ///< its description, without knots
     double floor;     ///< least damping ratio
     poles at;
     start_cost start; ///< at calm 1; the oscillator's is in units of the jets' weight
     cplx lambda, delta2;
     int run;          ///< samples of a stretch that the chain fills from one state
-    speed_form ahead; ///< the speed that the poles see in a sample and the one ahead
-    double unit;      ///< |g|² of the oscillator: what all weights but the jets' are times
-    cplx passive;     ///< h p of what moves by itself
-    cplx tail;        ///< what one sample of that adds, as the poles see it
+    speed_form ahead; ///< the speed that the poles give from a sample and the next
+    double unit;      ///< |g|² of the oscillator: unit of all weights but the jets'
+    cplx passive;     ///< h p of the free motion
+    cplx tail;        ///< relative change of the free motion in one sample, as the poles give it
 } constant_filter;
 
-/// What limits need (limits.h).
+/// Memory for limits (limits.h).
 typedef struct limit_memory {
     wiggly_knot *own, *all; ///< the knots by sample; with held samples
-    signed char *held;      ///< of each sample
-    double *pull;           ///< of each held one: how hard the limit holds it
+    signed char *held;      ///< per sample
+    double *pull;           ///< per held sample: how hard the limit holds it
     double *spare;          ///< for the search for them
     double *by_push;        ///< the same, two numbers a sample
     double *stiffness;      ///< the same
-    double *re, *im;        ///< where the curve has no arrays
-    double *free[2];        ///< behind the last knot: Re w by itself, and what 1 of Im w there adds to it
-    double *pushed[2];      ///< what the limits add to each of them
+    double *re, *im;        ///< for arrays that the curve lacks
+    double *free[2];        ///< after the last knot: the free Re w, and the effect of an Im w of 1 there
+    double *pushed[2];      ///< the limits' effect on each of them
     int solves;             ///< after the first one, of the last limited spline
 } limit_memory;
 
@@ -48,10 +48,10 @@ struct wiggly_solver {
     system_rows rows;
     pentadiagonal matrix;
     constant_filter filter;
-    chain chain; ///< its large arrays lie over the matrix's: a solve uses one of the two
+    chain chain; ///< shares its large arrays' memory with the matrix: a solve uses one of the two
     limit_memory limits;
-    forced_response response; ///< what moves by itself as the equilibrium does
-    double *y;                ///< equilibrium, where the curve has no array for it
+    forced_response response; ///< to the moving equilibrium
+    double *y;                ///< equilibrium, if the curve has no array for it
     wiggly_knot *filled;      ///< the knots of one of many
     int *order;               ///< indices of the description's knots by sample
     int *knot_at;             ///< scratch: index of the knot on each sample, or -1
