@@ -202,6 +202,7 @@ docs/app.md~more than twice as far~src/scene/warnings.c~FAR = 2;
 docs/app.md~Within two seconds~src/app/recovery.c~INTERVAL = 1;
 docs/app.md~from 75 % to 300 %~src/app/state.h~UI_SCALE_LEAST 0.75
 docs/app.md~from 75 % to 300 %~src/app/state.h~UI_SCALE_MOST 3.0
+docs/app.md~four knots~include/wiggly/more.h~WIGGLY_FEWEST_EXPLAINED 4
 docs/keys.md~75 … 300 %~src/app/state.h~UI_SCALE_MOST 3.0
 docs/keys.md~0.1 … 4×~src/editor/core/playback.c~{0.1, 0.25, 0.5, 1, 2, 4}
 docs/keys.md~by 1 % of the view~src/editor/stage/pins.c~NUDGE = 0.01;
@@ -245,10 +246,15 @@ docs/mathematics.md~at least 0.05·c~src/spline/solver.h~LEAST_DAMPING 0.05
 docs/mathematics.md~\ge 10^{-4}~src/spline/pin_rows.c~out_of_reach = 1e-4, firm = 0.04
 docs/mathematics.md~(0.04/\varepsilon)~src/spline/pin_rows.c~firm = 0.04
 docs/mathematics.md~10⁻⁵ of the character's size~src/scene/floors.c~DEEP = 1e-5
+docs/mathematics.md~an eighth of a period~src/spline/variation.c~CELLS = 8
 docs/mathematics.md~+ 30\,~src/spline/explain.c~pluck = 30;
 docs/mathematics.md~(0.03\,~src/spline/explain.c~blur = 0.03;
 docs/mathematics.md~to 1.25 times~src/spline/explain.c~headroom = 1.25;
 docs/mathematics.md~ζ from 0.01 to 0.6~src/spline/explain.c~{0.01, 0.02, 0.035, 0.05, 0.08, 0.12, 0.18, 0.27, 0.4, 0.6}
+tests/README.md~makes 200 small faults~tools/mutate.py~"--count", type=int, default=200
+tools/README.md~a knot every 24 samples~tools/bench/input.c~KNOT_EVERY = 24
+tools/README.md~gaps of 12 to 36~tools/bench/input.c~LEAST_GAP = 12, GAPS = 25
+tools/README.md~ten thousand splines~tools/bench/batch.c~CROWD = 10000
 END
 
 # --- assets: a licence for each, and no picture that no page shows
