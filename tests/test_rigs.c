@@ -102,6 +102,26 @@ SESSION_TEST(test_a_model_goes_with_its_chains,
     assert_one_step(s, before);
 }
 
+/// A chain goes, too, where its own spline follows a joint by the chain's axes, as Shift+J makes it.
+SESSION_TEST(test_a_chain_goes_with_its_splines,
+             panel_open_models(
+                 s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"u\", \"equilibrium\": {\"model\": \"dog\", "
+                    "\"joint\": \"hips\", \"of\": \"across\", \"chain\": \"ear\"}, \"knots\": []}], \"rigs\": ["
+                    "{\"type\": \"model\", \"name\": \"dog\", \"model\": \"assets/models/dog.glb\"}, {\"type\": "
+                    "\"chain\", \"name\": \"ear\", \"model\": \"dog\", \"from\": \"ear_1_L\", \"to\": \"ear_2_L\", "
+                    "\"channels\": [{\"spline\": \"u\"}]}]}"))
+{
+    const char *before = session_saved(s);
+    for (int keep = 0; keep < 2; keep++) {
+        session_key(s, KEY_DELETE, MOD_SHIFT);
+        session_key(s, keep ? 'K' : 'W', 0);
+        assert_int_equal(s->document->rig_count, 1);
+        assert_int_equal(s->document->spline_count, keep);
+        assert_one_step(s, before);
+        session_key(s, 'Z', MOD_CTRL);
+    }
+}
+
 /// The file dialog asks the app for it; a bad file leaves a sentence and the document as it was.
 SESSION_TEST(test_a_file_is_asked_for, panel_open(s, "{\"frames\": [0, 48], \"splines\": []}", 1280, 720))
 {

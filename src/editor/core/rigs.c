@@ -161,7 +161,10 @@ struct removal {
     bool *mine, *others; ///< by spline: used by removed rigs, by others
 };
 
-static bool goes(const struct removal *removal, int rig) { return rig_body(removal->document, rig) == removal->rig; }
+static bool goes(const struct removal *removal, int rig)
+{
+    return rig == removal->rig || rig_body(removal->document, rig) == removal->rig;
+}
 
 static void survey(struct removal *removal, const struct document *document, int rig)
 {
