@@ -319,6 +319,7 @@ SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR)
 {
     panel_enter(s, "chain.turn", "30");
     const char *before = session_saved(s);
+    assert_null(need_missing(&s->editor->core, NEEDS_TWIN));
     panel_click(s, "chain.twin");
     assert_int_equal(s->document->rig_count, 3);
     const struct rig *twin = s->document->rigs[2];
@@ -329,6 +330,7 @@ SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR)
     assert_near(twin->chain.turn, -30, 0); // turned the other way round, as in a mirror
     assert_int_equal(twin->chain.channels[0].spline, s->document->rigs[1]->chain.channels[0].spline);
     assert_false(panel_shows(s, "chain.twin")); // there is one now
+    assert_non_null(need_missing(&s->editor->core, NEEDS_TWIN));
     assert_one_step(s, before);
 }
 
@@ -336,6 +338,7 @@ SESSION_TEST(test_a_tail_has_no_twin, open_beast(s, TAIL))
 {
     assert_true(panel_shows(s, "rig.delete"));
     assert_false(panel_shows(s, "chain.twin"));
+    assert_non_null(need_missing(&s->editor->core, NEEDS_TWIN));
 }
 
 int main(void) { return tests_run(folder_make, folder_remove); }

@@ -315,6 +315,11 @@ SESSION_TEST(test_what_can_be_done_now, session_open(s, scene))
     assert_string_equal(missing(s, 'Y', MOD_CTRL), "There is nothing to redo.");
     session_key(s, 'Z', MOD_CTRL);
     assert_null(missing(s, 'Y', MOD_CTRL));
+    assert_string_equal(missing(s, KEY_END, 0), "Select a knot first.");
+    assert_null(missing(s, 'H', 0));
+    for (int i = s->document->rig_count; i > 0; i--) assert_done(edit_rig_remove(s->document, i - 1, &error));
+    inspector_add(s->editor->inspector, ADD_MEADOW);
+    assert_string_equal(missing(s, 'H', 0), "Add a tail, a chain or a soft character first.");
 }
 
 enum { MAX_CHORDS = 256 };

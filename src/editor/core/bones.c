@@ -287,6 +287,7 @@ static bool begins_at(const struct document *document, int model, const char *fr
 /// The names of both ends of the twin; false where it has none, or is there already.
 static bool find_twin(const struct core *core, int rig, char from[BONE_NAME_SIZE], char to[BONE_NAME_SIZE])
 {
+    if (core->document->rigs[rig]->kind != RIG_CHAIN) return false;
     const struct chain *chain = &core->document->rigs[rig]->chain;
     const int model = rig_body(core->document, rig);
     const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
@@ -295,10 +296,13 @@ static bool find_twin(const struct core *core, int rig, char from[BONE_NAME_SIZE
            !begins_at(core->document, model, from);
 }
 
-bool bones_has_twin(const struct core *core, int chain)
+int bones_mirrorable(const struct core *core, int chain)
 {
     char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE];
-    return find_twin(core, chain, from, to);
+    if (chain < core->document->rig_count && find_twin(core, chain, from, to)) return chain;
+    int rig = core->document->rig_count - 1;
+    while (rig >= 0 && !find_twin(core, rig, from, to)) rig--;
+    return rig;
 }
 
 void bones_make_twin(struct core *core, int chain)

@@ -38,8 +38,9 @@ void bones_pick(struct core *core, enum bone_use use, int which);
 /// Its first spline becomes the active one.
 void bones_make_chain(struct core *core, int follow);
 
-/// Whether a chain's bones have twins on the other side (ear_L and ear_R, LeftEar and RightEar) that no chain begins at.
-bool bones_has_twin(const struct core *core, int chain);
+/// A chain whose bones have twins on the other side (ear_L and ear_R, LeftEar and RightEar) that no chain begins at: `chain` if it
+/// has, else the last; -1: none.
+int bones_mirrorable(const struct core *core, int chain);
 /// Makes the chain of the twins, mirrored, by the same splines.
 void bones_make_twin(struct core *core, int chain);
 

@@ -56,9 +56,13 @@ static bool has_kind(const struct core *core, enum rig_kind kind)
 
 static bool has_tail(const struct core *core) { return has_kind(core, RIG_TAIL) || has_kind(core, RIG_CHAIN); }
 
+static bool has_twin(const struct core *core) { return bones_mirrorable(core, 0) >= 0; }
+
 static bool has_body(const struct core *core) { return has_kind(core, RIG_TAIL); }
 
 static bool has_character(const struct core *core) { return has_kind(core, RIG_CHARACTER); }
+
+static bool has_pinnable(const struct core *core) { return has_tail(core) || has_character(core); }
 
 static bool has_model(const struct core *core) { return has_kind(core, RIG_MODEL); }
 
@@ -83,6 +87,8 @@ static const struct {
     [NEEDS_BONE] = {has_bone, "Click a bone of an imported character first."},
     [NEEDS_RIG] = {has_rig, "Add a tail or a character first."},
     [NEEDS_TAIL] = {has_tail, "Add a tail or a chain first."},
+    [NEEDS_TWIN] = {has_twin, "Make a chain of bones with a free other side first (ear_L, ear_R)."},
+    [NEEDS_PINNABLE] = {has_pinnable, "Add a tail, a chain or a soft character first."},
     [NEEDS_BODY] = {has_body, "Add a tail first."},
     [NEEDS_CHARACTER] = {has_character, "Add a soft character first."},
     [NEEDS_MODEL] = {has_model, "Open a character from a file first."},

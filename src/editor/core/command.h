@@ -51,6 +51,8 @@ enum need {
     NEEDS_BONE,
     NEEDS_RIG,
     NEEDS_TAIL, ///< or a chain
+    NEEDS_TWIN, ///< a chain that can be mirrored
+    NEEDS_PINNABLE,
     NEEDS_BODY,
     NEEDS_CHARACTER,
     NEEDS_MODEL,

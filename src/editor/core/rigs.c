@@ -142,7 +142,7 @@ void rigs_copy(struct core *core, int rig)
     case RIG_MEADOW:
     case RIG_KINDS:
         core_message(core, false,
-                     copy.kind == RIG_CHAIN ? "A chain is copied with its character, or mirrored below."
+                     copy.kind == RIG_CHAIN ? "A chain is copied with its character: copy that."
                                             : "There is a meadow already.");
         return;
     }

@@ -328,19 +328,14 @@ static void build_mirror(struct inspector *in)
 
 void inspector_mirror(struct inspector *in, int unused)
 {
-    const struct rig *shown = inspector_shown(in);
     (void)unused;
-    if (!shown || shown->kind != RIG_CHAIN || !bones_has_twin(in->core, in->rig)) {
-        core_message(in->core, false, "No chain with unused twin bones (ear_L, ear_R) is selected.");
-        return;
-    }
-    bones_make_twin(in->core, in->rig);
+    bones_make_twin(in->core, bones_mirrorable(in->core, in->rig));
     in->rig = in->core->document->rig_count - 1;
 }
 
 static void build_twin(struct inspector *in)
 {
-    if (!bones_has_twin(in->core, in->rig)) return;
+    if (bones_mirrorable(in->core, in->rig) != in->rig) return;
     const struct rect row = ui_row(&in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
     ui_hint(&in->ui, button,
             "Add the mirrored chain, bent by the same splines; you can choose others for its channels");
