@@ -112,6 +112,15 @@ SESSION_TEST(test_mouse_in_the_list, open_session(s))
     expect_request(s, REQUEST_OPEN, "/home/me/scenes/walk.json");
 }
 
+SESSION_TEST(test_the_wheel_goes_through_the_list, open_session(s))
+{
+    session_key(s, 'O', MOD_CTRL);
+    session_wheel(s, -1);
+    assert_int_equal(s->editor->dialogs->dialog.choice, 2);
+    session_wheel(s, 1);
+    assert_int_equal(s->editor->dialogs->dialog.choice, 0);
+}
+
 static const struct recovery_offer offer = {.name = "walk.json", .when = "21 November 2026, 10:00:00", .others = 1};
 
 static void open_offer(struct session *session)

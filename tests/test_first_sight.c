@@ -39,6 +39,8 @@ SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
     for (size_t i = 0; i < sizeof hidden / sizeof hidden[0]; i++) assert_false(panel_shows(s, hidden[i]));
     session_frame(s);
     assert_in_range(count_controls(s), 10, 20);
+    assert_true(session_shows(s, "Wiggly"));
+    assert_false(session_shows(s, "Spring")); // no spline of the scene is one
 }
 
 SESSION_TEST(test_more_opens_the_rest_and_closes_it, open_first(s))

@@ -414,6 +414,7 @@ static bool dialog_event(struct dialogs *dialogs, struct core *core, const struc
                                         : path_key(dialogs, core, event->key);
         if (done) return true;
     }
+    if (event->kind == EVENT_WHEEL && !is_question(dialog) && !exports) move_choice(dialog, event->dy > 0 ? -3 : 3);
     struct rect box = dialog_box(dialogs, core);
     ui_begin_event(&dialog->ui, box, event);
     build(dialogs, core);

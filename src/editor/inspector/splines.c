@@ -7,7 +7,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { MAX_ROWS = 8, SWATCH = 22 }; ///< splines listed at once; pixels
+enum { MAX_ROWS = 8, SWATCH = 22, KIND = 56 }; ///< splines listed at once; pixels
 
 static const char rename_line[] = "rename";
 
@@ -138,12 +138,12 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     bool active = s == in->core->active, dropped = false;
     char name[192];
     snprintf(name, sizeof name, "spline.%s", spline->name);
-    const float icons = in->core->more ? 2 * INSPECTOR_ICON : 0;
-    struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - icons, r.h};
+    const float right = in->core->more ? 2 * INSPECTOR_ICON : KIND;
+    struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - right, r.h};
     if (active && ui_line_is_open(ui, rename_line)) {
         build_rename(in, s, label);
     } else {
-        ui_hint(ui, label, "Click to edit (PgUp, PgDn), F2 to rename, drag to reorder");
+        ui_hint(ui, label, "Click to edit (PgUp, PgDn), M for another kind, F2 to rename, drag to reorder");
         enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
         if (event == UI_ROW_PRESSED) core_activate(in->core, s);
         if (event == UI_ROW_TWICE) {
@@ -155,6 +155,8 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     struct rect swatch = {r.x, r.y, SWATCH, r.h};
     if (!in->core->more) {
         paint_chip(in, s, swatch);
+        ui_label_right(ui, (struct rect){label.x + label.w, r.y, KIND - 4, r.h},
+                       parameter_rows[PARAMETER_MODE].labels[spline_mode(spline)], theme()->text_dim);
         return dropped;
     }
     snprintf(name, sizeof name, "color.%s", spline->name);
