@@ -334,6 +334,18 @@ SESSION_TEST(test_a_chain_gets_a_twin_on_the_other_side, open_beast(s, LEFT_EAR)
     assert_one_step(s, before);
 }
 
+/// Sections come below, without scrolling.
+SESSION_TEST(test_a_clicked_chain_leaves_its_feel_in_sight, open_beast(s, LEFT_EAR))
+{
+    editor_resize(s->editor, 1280, 720, 1);
+    s->editor->core.more = false;
+    session_frame(s);
+    session_click(s, "bone(ear_L_2)");
+    session_frame(s);
+    assert_string_equal(selected(s), "ear_L_2");
+    assert_near(s->editor->inspector->scroll.offset, 0, 0);
+}
+
 SESSION_TEST(test_a_tail_has_no_twin, open_beast(s, TAIL))
 {
     assert_true(panel_shows(s, "rig.delete"));

@@ -105,6 +105,7 @@ void inspector_show_clicked(struct inspector *in)
     in->core->clicked = 0;
     if (rig < 0 || rig >= in->core->document->rig_count) return;
     inspector_show_rig(in, rig);
+    in->seen_bone = in->core->bone; // of a chain
     in->revealed = NULL;
 }
 
