@@ -112,35 +112,6 @@ static void run_brush(struct editor *e, int argument)
     if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
 }
 
-enum section_name {
-    SECTION_SPLINE,
-    SECTION_RIGS,
-    SECTION_MODEL,
-    SECTION_TAIL,
-    SECTION_CHARACTER,
-    SECTION_MEADOW,
-    SECTION_PINS,
-    SECTION_ADVANCED,
-    SECTION_POLES,
-    SECTION_LIMITS,
-    SECTION_VARIATION,
-    SECTION_SCENE,
-    SECTION_HISTORY
-};
-
-static void run_section(struct editor *e, int section)
-{
-    static const char *const names[] = {
-        [SECTION_SPLINE] = "section.spline",       [SECTION_RIGS] = "section.rigs",
-        [SECTION_MODEL] = "section.model",         [SECTION_TAIL] = "section.tail",
-        [SECTION_CHARACTER] = "section.character", [SECTION_MEADOW] = "section.meadow",
-        [SECTION_PINS] = "section.pins",           [SECTION_ADVANCED] = "section.advanced",
-        [SECTION_POLES] = "section.poles",         [SECTION_LIMITS] = "section.limits",
-        [SECTION_VARIATION] = "section.variation", [SECTION_SCENE] = "section.scene",
-        [SECTION_HISTORY] = "section.history"};
-    inspector_unfold(e->inspector, names[section]);
-}
-
 static void run_theme(struct editor *e, int argument)
 {
     (void)e;
@@ -254,6 +225,8 @@ enum {
             __VA_ARGS__                                                                                              \
         }                                                                                                            \
     }
+/// A row only in the palette.
+#define PALETTE(named, need, function, number) COMMAND(named, NOTHING, 0, need, 0, function, number, {0})
 /// A row only in F1: a gesture or held key.
 #define GESTURE(gestured, named, heading, places)                                                                    \
     {                                                                                                                \
@@ -438,43 +411,42 @@ const struct command commands[] = {
     COMMAND("A fox in a meadow", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 10, {'0', CTRL}),
 
     // Not in F1.
-    COMMAND("Open Spline: kind, equilibrium, start", NOTHING, 0, SPLINE, 0, .run = run_section, SECTION_SPLINE, {0}),
-    COMMAND("Open Rigs", NOTHING, 0, NOTHING, 0, .run = run_section, SECTION_RIGS, {0}),
-    COMMAND("Open Imported character: clip, bones", NOTHING, 0, MODEL, 0, .run = run_section, SECTION_MODEL, {0}),
-    COMMAND("Open Tail or chain set-up: channels", NOTHING, 0, TAIL, 0, .run = run_section, SECTION_TAIL, {0}),
-    COMMAND("Open Character: channels, paint", NOTHING, 0, CHARACTER, 0, .run = run_section, SECTION_CHARACTER, {0}),
-    COMMAND("Open Meadow", NOTHING, 0, MEADOW, 0, .run = run_section, SECTION_MEADOW, {0}),
-    COMMAND("Open Pins", NOTHING, 0, PINNABLE, 0, .run = run_section, SECTION_PINS, {0}),
-    COMMAND("Open Advanced: bandwidth, calm", NOTHING, 0, SPLINE, 0, .run = run_section, SECTION_ADVANCED, {0}),
-    COMMAND("Open Poles and response", NOTHING, 0, SPLINE, 0, .run = run_section, SECTION_POLES, {0}),
-    COMMAND("Open Limits and steadiness", NOTHING, 0, SPLINE, 0, .run = run_section, SECTION_LIMITS, {0}),
-    COMMAND("Open Variation", NOTHING, 0, SWING, 0, .run = run_section, SECTION_VARIATION, {0}),
-    COMMAND("Open Scene: frame rate, range", NOTHING, 0, NOTHING, 0, .run = run_section, SECTION_SCENE, {0}),
-    COMMAND("Open History", NOTHING, 0, NOTHING, 0, .run = run_section, SECTION_HISTORY, {0}),
-    COMMAND("Add a tail", NOTHING, 0, NOTHING, 0, .inspector = inspector_add, ADD_TAIL, {0}),
-    COMMAND("Add a character or model from a file", NOTHING, 0, NOTHING, 0, .inspector = inspector_add, ADD_FILE,
-            {0}),
-    COMMAND("Add a meadow", NOTHING, 0, NO_MEADOW, 0, .inspector = inspector_add, ADD_MEADOW, {0}),
-    COMMAND("Copy the rig", NOTHING, 0, RIG, 0, .inspector = inspector_add, ADD_COPY, {0}),
-    COMMAND("Feel like a cat's tail", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 0, {0}),
-    COMMAND("Feel like a whip", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 1, {0}),
-    COMMAND("Feel heavy", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 2, {0}),
-    COMMAND("Feel like jelly", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 3, {0}),
-    COMMAND("Feel like an antenna", NOTHING, 0, SPLINE, 0, .inspector = inspector_preset, 4, {0}),
-    COMMAND("Roll a variation of the motion", NOTHING, 0, SWING, 0, .inspector = inspector_roll, 0, {0}),
-    COMMAND("Play at normal speed", NOTHING, 0, NOTHING, 0, .core = playback_change_speed, 0, {0}),
-    COMMAND("Add a spline", NOTHING, 0, NOTHING, 0, .core = change_list, LIST_ADD, {0}),
-    COMMAND("Duplicate the spline", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_COPY, {0}),
-    COMMAND("Delete the spline", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_REMOVE, {0}),
-    COMMAND("Move the spline up in the list", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_UP, {0}),
-    COMMAND("Move the spline down in the list", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_DOWN, {0}),
-    COMMAND("Solo: show only this spline, or all again", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_SOLO, {0}),
-    COMMAND("Hide the spline, or show it", NOTHING, 0, SPLINE, 0, .core = change_list, LIST_HIDE, {0}),
-    COMMAND("Phase map on or off", NOTHING, 0, PAINT, 0, .core = core_flip, SWITCH_PHASE_MAP, {0}),
-    COMMAND("Stiff twin on or off", NOTHING, 0, CHARACTER, 0, .core = core_flip, SWITCH_TWIN, {0}),
-    COMMAND("Remove all paint", NOTHING, 0, PAINT, 0, .core = characters_clean_paint, 0, {0}),
-    COMMAND("Mirror the chain to the other side", NOTHING, 0, TWIN, 0, .inspector = inspector_mirror, 0, {0}),
-    COMMAND("Record the next drag of the body", NOTHING, 0, BODY, 0, .core = core_flip, SWITCH_RECORD, {0}),
+    PALETTE("Open Spline: kind, equilibrium, start", SPLINE, .section = "section.spline", 0),
+    PALETTE("Open Rigs", NOTHING, .section = "section.rigs", 0),
+    PALETTE("Open Imported character: clip, bones", MODEL, .section = "section.model", 0),
+    PALETTE("Open Tail or chain set-up: channels", TAIL, .section = "section.tail", 0),
+    PALETTE("Open Character: channels, paint", CHARACTER, .section = "section.character", 0),
+    PALETTE("Open Meadow", MEADOW, .section = "section.meadow", 0),
+    PALETTE("Open Pins", PINNABLE, .section = "section.pins", 0),
+    PALETTE("Open Advanced: bandwidth, calm", SPLINE, .section = "section.advanced", 0),
+    PALETTE("Open Poles and response", SPLINE, .section = "section.poles", 0),
+    PALETTE("Open Limits and steadiness", SPLINE, .section = "section.limits", 0),
+    PALETTE("Open Variation", SWING, .section = "section.variation", 0),
+    PALETTE("Open Scene: frame rate, range", NOTHING, .section = "section.scene", 0),
+    PALETTE("Open History", NOTHING, .section = "section.history", 0),
+    PALETTE("Add a tail", NOTHING, .inspector = inspector_add, ADD_TAIL),
+    PALETTE("Add a character or model from a file", NOTHING, .inspector = inspector_add, ADD_FILE),
+    PALETTE("Add a meadow", NO_MEADOW, .inspector = inspector_add, ADD_MEADOW),
+    PALETTE("Copy the rig", RIG, .inspector = inspector_add, ADD_COPY),
+    PALETTE("Feel like a cat's tail", SPLINE, .inspector = inspector_preset, 0),
+    PALETTE("Feel like a whip", SPLINE, .inspector = inspector_preset, 1),
+    PALETTE("Feel heavy", SPLINE, .inspector = inspector_preset, 2),
+    PALETTE("Feel like jelly", SPLINE, .inspector = inspector_preset, 3),
+    PALETTE("Feel like an antenna", SPLINE, .inspector = inspector_preset, 4),
+    PALETTE("Roll a variation of the motion", SWING, .inspector = inspector_roll, 0),
+    PALETTE("Play at normal speed", NOTHING, .core = playback_change_speed, 0),
+    PALETTE("Add a spline", NOTHING, .core = change_list, LIST_ADD),
+    PALETTE("Duplicate the spline", SPLINE, .core = change_list, LIST_COPY),
+    PALETTE("Delete the spline", SPLINE, .core = change_list, LIST_REMOVE),
+    PALETTE("Move the spline up in the list", SPLINE, .core = change_list, LIST_UP),
+    PALETTE("Move the spline down in the list", SPLINE, .core = change_list, LIST_DOWN),
+    PALETTE("Solo: show only this spline, or all again", SPLINE, .core = change_list, LIST_SOLO),
+    PALETTE("Hide the spline, or show it", SPLINE, .core = change_list, LIST_HIDE),
+    PALETTE("Phase map on or off", PAINT, .core = core_flip, SWITCH_PHASE_MAP),
+    PALETTE("Stiff twin on or off", CHARACTER, .core = core_flip, SWITCH_TWIN),
+    PALETTE("Remove all paint", PAINT, .core = characters_clean_paint, 0),
+    PALETTE("Mirror the chain to the other side", TWIN, .inspector = inspector_mirror, 0),
+    PALETTE("Record the next drag of the body", BODY, .core = core_flip, SWITCH_RECORD),
     COMMAND("Nudge right", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_RIGHT, {KEY_RIGHT, ALT},
             {KEY_RIGHT, ALT_SHIFT}, {KEY_RIGHT, ALT_CTRL}),
     COMMAND("Nudge left", NOTHING, 0, CHOSEN, REPEATS, .run = run_nudge, WAY_LEFT, {KEY_LEFT, ALT},
@@ -506,6 +478,7 @@ void command_run(struct editor *editor, const struct command *command)
     if (command->core) command->core(core, argument);
     if (command->curves) command->curves(editor->curves, core, argument);
     if (command->inspector) command->inspector(editor->inspector, argument);
+    if (command->section) inspector_unfold(editor->inspector, command->section);
     if (command->request) ask_for(editor, command->request, argument);
     const bool pins = command->when & PINS && has_pin(editor);
     if (pins) pins_select_neighbour(core, argument);

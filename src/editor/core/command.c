@@ -100,7 +100,7 @@ static const struct {
 bool command_runs(const struct command *command)
 {
     return command->run || command->core || command->curves || command->inspector || command->knot ||
-           command->request;
+           command->section || command->request;
 }
 
 const char *need_missing(const struct core *core, enum need need)

@@ -1,4 +1,4 @@
-/// The commands of keys, F1 and the palette. The table is in editor/commands.c.
+/// Commands for keys, F1 and the palette. The table is in editor/commands.c.
 #ifndef EDITOR_CORE_COMMAND_H
 #define EDITOR_CORE_COMMAND_H
 
@@ -8,7 +8,7 @@ struct editor;
 struct curves;
 struct inspector;
 
-/// Under which heading F1 lists a command.
+/// The heading in F1.
 enum about {
     ABOUT_KNOTS,
     ABOUT_DRAG,
@@ -23,11 +23,11 @@ enum about {
     ABOUT_WINDOW,
     ABOUT_SCENES,
     ABOUT_COUNT,
-    ABOUT_NOTHING = ABOUT_COUNT ///< F1 does not list it
+    ABOUT_NOTHING = ABOUT_COUNT ///< not in F1
 };
 extern const char *const about_titles[ABOUT_COUNT];
 
-/// The place under the pointer, one bit each: F1 begins with ten rows about it.
+/// Bits for the place under the pointer. F1 begins with ten rows about it.
 enum place {
     ON_CURVES = 1,
     ON_KNOT = 2,
@@ -37,13 +37,13 @@ enum place {
     ON_INSPECTOR = 32
 };
 
-/// Needs of a command.
+/// What a command needs.
 enum need {
     NEEDS_NOTHING,
     NEEDS_UNDO,
     NEEDS_REDO,
     NEEDS_SPLINE,
-    NEEDS_SWING,    ///< a spline that is no cubic
+    NEEDS_SWING,    ///< a spline that is not cubic
     NEEDS_KNOTS,    ///< a spline with knots
     NEEDS_SELECTED, ///< a selected knot
     NEEDS_CHOSEN,   ///< a selected knot or pin
@@ -62,12 +62,12 @@ enum need {
     NEEDS_COUNT
 };
 
-/// When its keys work.
+/// When a command's keys work.
 enum when {
-    REPEATS = 1,  ///< also while the key is kept down
-    ANY_TIME = 2, ///< also while a drag holds a step of the history open
+    REPEATS = 1,  ///< also while the key is held
+    ANY_TIME = 2, ///< also during a drag, while its undo step is open
     FIRST = 4,    ///< before a drag, the inspector or a popup get the key
-    PINS = 8      ///< goes from pin to pin where one is selected
+    PINS = 8      ///< goes from pin to pin if one is selected
 };
 
 enum { CHORD_TYPED = 1 << 8 /* among `mods`: it is the typed character, wherever a keyboard has it */ };
@@ -80,37 +80,37 @@ struct chord {
 
 enum {
     COMMAND_CHORDS = 5,
-    COMMAND_SHOWN = 2, ///< of them, in F1 and the palette; docs/keys.md has all
-    COMMAND_KEYS = 96  ///< bytes of their names
+    COMMAND_SHOWN = 2, ///< in F1 and the palette; docs/keys.md lists all
+    COMMAND_KEYS = 96  ///< bytes for their names
 };
 
-/// A row of the table: a command's name and function. A row without a function is a gesture, which only F1 shows.
+/// A row of the table. A row without a function is a gesture, listed only in F1.
 struct command {
-    const char *name; ///< in plain words; NULL: neither F1 nor the palette lists it
+    const char *name; ///< NULL: not listed
     enum about about;
     unsigned at;                         ///< of enum place
-    struct chord chords[COMMAND_CHORDS]; ///< up to one without a key
+    struct chord chords[COMMAND_CHORDS]; ///< ends at one without a key
     enum need needs;
     unsigned when;       ///< of enum when
-    const char *gesture; ///< with the mouse or a held key; in place of the chords
+    const char *gesture; ///< of the mouse or a held key; replaces the chords
     void (*run)(struct editor *editor, int argument);
     void (*core)(struct core *core, int argument);
     void (*curves)(struct curves *curves, struct core *core, int argument);
     void (*inspector)(struct inspector *inspector, int argument);
-    const struct knot *(*knot)(struct core *core, int argument); ///< which is to be seen then
-    enum request_kind request;                                   ///< its number is the argument
+    const struct knot *(*knot)(struct core *core, int argument); ///< returns the knot to scroll to
+    const char *section;                                         ///< inspector section to open
+    enum request_kind request;                                   ///< gets the argument as its number
     int argument;
 };
 
-/// Whether it is more than a gesture.
+/// false for a gesture.
 bool command_runs(const struct command *command);
-/// The need that is not met, as in "Select a knot first."; NULL: the command can run now.
+/// The missing need, as in "Select a knot first."; NULL: the command can run.
 const char *command_missing(const struct core *core, const struct command *command);
-/// The same for a need.
 const char *need_missing(const struct core *core, enum need need);
-/// Its first keys, "Ctrl+Y or Ctrl+Shift+Z", or its gesture; "" for a command without a key.
+/// Its first keys, "Ctrl+Y or Ctrl+Shift+Z", or its gesture; "" for neither.
 void command_keys(const struct command *command, char text[COMMAND_KEYS]);
-/// Name of a key: "Esc", "PgUp", "←". NULL: it has none.
+/// A key's name, as "Esc", "PgUp", "←", or NULL.
 const char *command_key_name(int key);
 
 #endif
