@@ -28,7 +28,6 @@ const char *bones_title(const struct document *document, int model, const char *
     return title;
 }
 
-/// Selects a bone of a model rig.
 static void bones_select(struct core *core, int model, int node)
 {
     const struct imported *shown = bones_character(core, model);
@@ -49,7 +48,6 @@ int bones_joints(const struct core *core, int rig)
     return shown && chain_find(&shown->gltf, bent->chain.from, bent->chain.to, &bones, NULL) ? bones.count : 1;
 }
 
-/// Reports the new chain.
 static void tell(struct core *core, const struct rig *made, int model, bool follows)
 {
     const char *clip = core->document->rigs[model]->model.clip;
@@ -139,7 +137,7 @@ static bool is_chain_on(const struct document *document, int rig, int model)
     return document->rigs[rig]->kind == RIG_CHAIN && rig_body(document, rig) == model;
 }
 
-/// A chain of a model that a spline bends, and the first of its channels that does; NULL where there is none.
+/// A chain of a model that a spline bends, and the first such channel; NULL if there is none.
 static const struct rig *bent_by(const struct document *document, int spline, int model,
                                  const struct channel **channel)
 {
@@ -154,7 +152,7 @@ static const struct rig *bent_by(const struct document *document, int spline, in
     return NULL;
 }
 
-/// The gain with which a chain's channel bends as far as its joint has moved, as chains do that are made to follow.
+/// The gain with which a channel bends its chain as far as its joint has moved.
 static double gain_for(const struct core *core, int model, const struct chain *chain, const struct channel *channel)
 {
     const struct imported *character = bones_character(core, model);
@@ -166,13 +164,13 @@ static double gain_for(const struct core *core, int model, const struct chain *c
     return isfinite(gain) && gain > 0 ? core_round(gain, 0.01 * gain) : 1;
 }
 
-/// Along the way that a channel bends its chain.
+/// The motion along a channel's axis.
 static enum motion_of motion_along(enum axis axis)
 {
     return axis == AXIS_SIDE ? MOTION_ACROSS : axis == AXIS_UP ? MOTION_UP : MOTION_TURN;
 }
 
-/// Has the chains' channels bend by the displacement alone: the joint that the spline follows carries them already.
+/// Makes the chains' channels bend by the displacement alone, because the followed joint already carries them.
 static bool bend_by_the_rest(struct core *core, int spline, int model)
 {
     const struct document *document = core->document;
@@ -219,7 +217,7 @@ void bones_follow(struct core *core, int spline, int model, int node)
     core_end(core, done && (!is_new || bend_by_the_rest(core, spline, model)));
 }
 
-/// The names of a chain's ends with another bone at one of them; false with a sentence.
+/// The names of a chain's ends after one of them moves to `node`; false with an error.
 static bool find_ends(const struct gltf *gltf, const struct chain *chain, bool first, int node, char *ends[2],
                       struct error *error)
 {
@@ -233,7 +231,7 @@ static bool find_ends(const struct gltf *gltf, const struct chain *chain, bool f
     return chain_find(gltf, ends[0], ends[1], &bones, error);
 }
 
-/// Splines that follow a chain's last bone go on to follow its new one.
+/// Splines that followed a chain's old last bone follow its new one.
 static bool follow_end(struct core *core, const char *chain, const char *old, char *new)
 {
     const struct document *document = core->document;
@@ -275,7 +273,6 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
     core_message(core, false, text);
 }
 
-/// Whether a chain of the model begins at a bone.
 static bool begins_at(const struct document *document, int model, const char *from)
 {
     for (int r = 0; r < document->rig_count; r++) {
@@ -284,7 +281,7 @@ static bool begins_at(const struct document *document, int model, const char *fr
     return false;
 }
 
-/// The names of both ends of the twin; false where it has none, or is there already.
+/// The names of the twin chain's ends; false if there is no twin or it already has a chain.
 static bool find_twin(const struct core *core, int rig, char from[BONE_NAME_SIZE], char to[BONE_NAME_SIZE])
 {
     if (core->document->rigs[rig]->kind != RIG_CHAIN) return false;

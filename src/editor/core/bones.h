@@ -1,41 +1,40 @@
-/// The bones of imported characters: which is selected, and the chains that are made of them.
+/// The bones of imported characters: selection, and chains made of them.
 #ifndef EDITOR_CORE_BONES_H
 #define EDITOR_CORE_BONES_H
 
 #include "editor/core/state.h"
 
-/// The imported character of a model rig, NULL where it could not be read.
+/// The character of a model rig, or NULL if its file could not be read.
 const struct imported *bones_character(const struct core *core, int model);
-/// The selected bone's node, and the rig of its character; −1 where none is selected or its character is gone.
+/// The selected bone's node, and its character's rig; −1 if none is selected or the character is gone.
 int bones_selected(const struct core *core, int *model);
 enum { BONES_TITLE = 512 };
-/// Title of a bone: its name; with several characters the rig's before it, as in "dog 2/tail_1".
+/// A bone's name, with its rig's before it if there are several characters: "dog 2/tail_1".
 const char *bones_title(const struct document *document, int model, const char *name, char title[BONES_TITLE]);
-/// A click on a bone: answers a pick, else selects it.
+/// A click on a bone answers a pick, else selects the bone.
 void bones_clicked(struct core *core, int model, int node);
-/// Selects none.
 void bones_clear(struct core *core);
 
-/// The joints of a tail or chain; 1 for a chain whose bones are not there.
+/// Number of joints of a tail or chain; 1 for a chain whose bones are missing.
 int bones_joints(const struct core *core, int rig);
 
-/// Sets the clip of a model rig (by its index; NULL: none) in one step; import_choose_clip() sets the scene's length.
+/// Sets a model rig's clip (NULL: none) in one step. import_choose_clip() sets the scene's length.
 void bones_choose_clip(struct core *core, int model, const char *clip);
 
-/// The bones of a character to choose from, in the order of its file, those below `top` (−1: all); at most `most`. Returns how many.
+/// Lists a character's bones below `top` (−1: all) in file order, at most `most`. Returns how many.
 int bones_below(const struct imported *character, int top, int *nodes, int most);
 
-/// Has a spline's equilibrium follow a joint of a model rig (−1: the best one), as one step. Keeps the kind of motion, its gain and
-/// the chain whose axes count; the first time they suit a chain that the spline bends.
+/// Makes a spline's equilibrium follow a joint of a model rig (−1: the best one), in one step. Keeps the kind of motion, the gain and the
+/// reference chain; the first time, they suit a chain the spline bends.
 void bones_follow(struct core *core, int spline, int model, int node);
-/// Has a chain begin (or end) at another bone, as one step. One that begins beside its old end goes on to its own tip. Its splines that
-/// follow its last bone go on to do so.
+/// Moves a chain's first or last bone, in one step. A first bone beside the old end makes the chain go on to its own tip. Splines that
+/// follow the last bone follow the new one.
 void bones_set_end(struct core *core, int chain, bool first, int node);
-/// The next click on a bone is for `use`.
+/// Uses the next click on a bone for `use`.
 void bones_pick(struct core *core, enum bone_use use, int which);
 
-/// Makes the selected bone, and those behind it to the tip, a chain; where `follow` is set one that swings after its motion in the clip.
-/// Its first spline becomes the active one.
+/// Makes the selected bone and those down to the tip a chain. With `follow` the chain swings after its motion in the clip. Its first spline
+/// becomes active.
 void bones_make_chain(struct core *core, int follow);
 
 /// A chain whose bones have twins on the other side (ear_L and ear_R, LeftEar and RightEar) that no chain begins at: `chain` if it

@@ -1,4 +1,4 @@
-/// The character that is worked on, and the brush that paints on it: chosen in the inspector, by keys and on the stage.
+/// The selected soft character and its brush.
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "rig/models.h"
@@ -32,7 +32,7 @@ const struct coordinate *characters_coordinate(const struct core *core)
     return figure ? &figure->character.coordinates[coordinate] : NULL;
 }
 
-/// Shows the phases along the axis in which the coordinate moves most, where no other was chosen.
+/// Shows the phases along the axis of the largest movement, unless another was chosen.
 static void choose_axis(struct core *core, const struct figure *figure, int coordinate)
 {
     const float *largest = figure->largest[coordinate];

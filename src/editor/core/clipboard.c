@@ -1,4 +1,4 @@
-/// Knots on the clipboard, and duplicates: copy, cut, paste at the playhead, duplicate.
+/// Copies, cuts, pastes and duplicates knots.
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -17,7 +17,7 @@ static void say_count(struct core *core, const char *what, int count)
     core_message(core, false, text);
 }
 
-/// The selected knots in core's originals, which no drag needs now; how many there are.
+/// Collects the selected knots in core's originals, which no drag is using; returns how many.
 static int collect(struct core *core)
 {
     if (history_is_open(core->history)) return 0;
@@ -26,7 +26,7 @@ static int collect(struct core *core)
     return core->originals.count;
 }
 
-/// The originals as text. Those of one spline do not say which, so that they can be pasted into any.
+/// The originals as text. Knots of a single spline leave out its name, so that they can be pasted into any.
 static char *print_originals(const struct originals *originals, const struct document *document)
 {
     const size_t count = (size_t)originals->count;
@@ -38,7 +38,7 @@ static char *print_originals(const struct originals *originals, const struct doc
     }
     char *text = knots_print(&list);
     free(list.knots);
-    free(list.splines); // the names are the document's
+    free(list.splines); // the document owns the names
     return text;
 }
 
@@ -54,7 +54,7 @@ bool core_copy_knots(struct core *core, bool cut)
     return true;
 }
 
-/// Inserts a copy of a knot in the open step.
+/// Inserts a shifted copy of a knot in the open step.
 static bool insert(struct core *core, int spline, const struct knot *knot, double shift)
 {
     struct knot copy = *knot;
@@ -63,7 +63,7 @@ static bool insert(struct core *core, int spline, const struct knot *knot, doubl
     return core_put_knot(core, spline, &copy);
 }
 
-/// Closes the step that inserted knots from an id on, and selects them; takes it back where it is not `good`.
+/// Closes the step and selects the knots inserted from `first_id` on; not `good`: reverts it.
 static bool end_insertion(struct core *core, unsigned first_id, bool good)
 {
     struct document *document = core->document;
@@ -76,7 +76,7 @@ static bool end_insertion(struct core *core, unsigned first_id, bool good)
     return true;
 }
 
-/// The spline that a knot of a list goes to: the one that it is of, or else the active one.
+/// The spline a listed knot goes to: the one it names, else the active one.
 static int target_of(const struct core *core, const struct knot_list *list, int k)
 {
     const char *name = list->splines ? list->splines[k] : NULL;
@@ -110,7 +110,6 @@ void core_paste_knots(struct core *core, const char *text)
     knot_list_free(&list);
 }
 
-/// Whether copies of the originals would find free samples, `shift` frames later.
 static bool has_room(const struct originals *originals, const struct document *document, double shift)
 {
     for (int i = 0; i < originals->count; i++) {
@@ -121,8 +120,7 @@ static bool has_room(const struct originals *originals, const struct document *d
     return true;
 }
 
-/// How far behind the originals their copies go, in frames: as far as the last of them is behind the one before, or further to
-/// where nothing is in the way.
+/// Shift of the copies in frames: as far behind the last original as that is behind the one before, or further until all have room.
 static double copies_shift(const struct originals *originals, const struct document *document)
 {
     double first = INFINITY, last = -INFINITY, before = -INFINITY;
@@ -139,7 +137,7 @@ static double copies_shift(const struct originals *originals, const struct docum
     return shift;
 }
 
-/// The frame on which the scene must end for the copies to fit; a loop's last sample is its first one.
+/// The last frame the scene needs for the copies. A loop's last sample is its first one.
 static int copies_end(const struct originals *originals, const struct document *document, double shift)
 {
     double end = document->last_frame;

@@ -49,7 +49,7 @@ void core_settle(struct core *core)
     if (core->error.kind == ERROR_NONE) return;
     core_message(core, true, core->error.text);
     core->error = (struct error){0};
-    selection_drop_from(&core->selection, core->document->next_id); // the knot that the drag inserted
+    selection_drop_from(&core->selection, core->document->next_id); // the knot the drag had inserted
 }
 
 bool core_set_parameter(struct core *core, int spline, enum parameter parameter, double value)
@@ -90,7 +90,7 @@ void core_refresh(struct core *core)
     }
 }
 
-/// Where undo has removed the active spline, the one before it becomes active again.
+/// If undo removed the active spline, the previously active one becomes active.
 static void return_to_active(struct core *core)
 {
     const struct document *document = core->document;
@@ -211,7 +211,7 @@ void core_flip(struct core *core, int which)
 {
     const struct {
         bool *on;
-        const char *said[2]; ///< off, on
+        const char *said[2]; ///< messages for off and on
     } switches[] = {
         [SWITCH_SNAP] = {&core->no_snap,
                          {"Snapping on: hold Ctrl to place knots between frames.",

@@ -1,12 +1,12 @@
-/// A drag of the pointer: how far it has gone, its step of the history, and when its owner is called.
+/// A drag of the pointer: distance, undo step, and calls to its owner.
 #include "editor/core/drag.h"
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include <math.h>
 
-static const float CLICK_REACH = 3; ///< pixels that a click may wander
-static const double FINE = 0.1;     ///< of the pointer's way, with Shift
+static const float CLICK_REACH = 3; ///< pixels a click may move
+static const double FINE = 0.1;     ///< of the pointer's movement, with Shift
 
 bool drag_snaps(const struct core *core, unsigned mods) { return core->no_snap == !!(mods & MOD_CTRL); }
 
@@ -37,7 +37,7 @@ void drag_restart(const struct core *core)
     if (core->drag.moved && core->drag.label) history_restart(core->history);
 }
 
-/// Adds up the pointer's way; a press that hardly moves stays a click.
+/// Adds up the pointer's movement. Below CLICK_REACH the press stays a click.
 static void move(struct core *core, const struct event *event)
 {
     struct drag *drag = &core->drag;
@@ -104,7 +104,7 @@ void drag_end(struct core *core, bool keep)
         if (!keep) selection_drop_from(&core->selection, core->document->next_id);
         if (!keep && core->pin.id >= core->document->next_id) pins_clear(core);
         history_end(core->history);
-        core_settle(core); // a body's last edits may have added the first splines
+        core_settle(core); // dragging a body may have added the first splines
     }
     *drag = (struct drag){0};
 }

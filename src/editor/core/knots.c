@@ -1,4 +1,4 @@
-/// Inserting, deleting and choosing knots.
+/// Inserts, deletes and selects knots.
 #include "editor/core/knots.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
@@ -24,7 +24,7 @@ static void select_only(struct core *core, unsigned id)
     selection_set(&core->selection, id, true);
 }
 
-/// Inserts and selects a knot; where there is one on that sample already, that one is selected.
+/// Inserts and selects a knot, or selects the one at that sample.
 static void insert_at(struct core *core, const struct knot *knot)
 {
     const struct document *document = core->document;
@@ -40,7 +40,7 @@ static void insert_at(struct core *core, const struct knot *knot)
     core_edited(core, -1);
 }
 
-/// The frame for a knot of the active spline: a whole one when `snap`, inside the range.
+/// A frame for a knot of the active spline: in range, and whole if `snap`.
 static double knot_frame(const struct core *core, double frame, bool snap)
 {
     const struct document *document = core->document;
@@ -72,7 +72,7 @@ void core_insert_on_curve(struct core *core, double frame, bool snap, bool slope
     insert_at(core, &knot);
 }
 
-/// A knot as it holds something else, at its place on the curve.
+/// A knot after changing what it holds, at its place on the curve.
 static struct knot held(const struct core *core, int spline, const struct knot *knot, enum holds holds)
 {
     const wiggly_value here = evaluation_at(core->evaluation, spline, document_sample(core->document, knot->frame));
@@ -105,7 +105,7 @@ void core_set_hold(struct core *core, int holds)
         const struct original *original = &core->originals.list[i];
         struct knot knot = held(core, original->spline, &original->knot, (enum holds)holds);
         if (holds == HOLDS_POSE && spline_mode(core->document->splines[original->spline]) != WIGGLY_COMPLEX) continue;
-        if (holds == HOLDS_POSE && original->knot.has_phase) continue; // it stays the pose that it is
+        if (holds == HOLDS_POSE && original->knot.has_phase) continue; // already a pose
         if (holds == HOLDS_STILL) knot.has_slope = false;
         core_put_knot(core, original->spline, &knot);
     }
@@ -150,7 +150,7 @@ void core_select_all(struct core *core, int all_splines)
     selected_settle(core);
 }
 
-/// Index of the first knot after, or last one before, a position; -1 where there is none.
+/// Index of the first knot after, or last one before, a position; -1 if none.
 static int beside(const struct document *document, const struct spline *spline, double position, int direction)
 {
     const int before = spline_lower_bound(document, spline, (int)ceil(position)) - 1;

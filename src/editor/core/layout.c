@@ -1,4 +1,4 @@
-/// Where the panels are: stage over curves at the left, inspector at the right, status line below; while presenting, they slide in.
+/// Panel layout: stage above curves at the left, inspector at the right, status line below. While presenting, panels slide in.
 #include "editor/core/core.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -8,10 +8,9 @@ static const float MIN_STAGE = 120, MIN_CURVES = 140, MIN_LEFT = 480, MIN_INSPEC
 
 static float clamped(float value, float lo, float hi) { return fmaxf(lo, fminf(value, hi)); }
 
-/// Slow at both ends.
 static float eased(float share) { return share * share * (3 - 2 * share); }
 
-/// Moves the panels of a layout to where they have slid to, and gives the stage the window.
+/// Offsets sliding panels, and gives the stage the window.
 static void presenter_arrange(const struct presenter *presenter, struct layout *l)
 {
     const float across = roundf((1 - eased(presenter->side)) * l->inspector.w);
@@ -87,7 +86,7 @@ void core_divider_move(struct core *core, enum divider divider, float x, float y
 }
 
 static const double SLIDE = 0.18; ///< seconds
-static const float NEAR = 14;     ///< logical pixels from an edge that call a panel
+static const float NEAR = 14;     ///< logical pixels from an edge that call its panel
 
 static bool is_wanted(const struct core *core, enum panel panel)
 {

@@ -1,5 +1,4 @@
-/// The parameters of the active spline: changes by key in small steps, of which equal ones are one undo step; and the frequency and damping
-/// that explain its knots best.
+/// Changes the active spline's parameters by keys, and finds the frequency and damping that explain its knots.
 #include "base/need.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -9,7 +8,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { NUDGE_PARAMETER = 100 }; ///< a kind of nudges for core_merge_key()
+enum { NUDGE_PARAMETER = 100 }; ///< kind for core_merge_key()
 
 const struct channel *core_active_channel(const struct core *core, int *rig, int *channel)
 {
@@ -48,7 +47,7 @@ static void nudge_lag(struct core *core, double degrees)
     core_end(core, edit_angles(core->document, at, ANGLE_LAG, &lag, &core->error));
 }
 
-/// Of the largest knot.
+/// Of the largest value.
 static const double FRESH_ROOM = 0.15;
 
 double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter)
@@ -72,7 +71,7 @@ double core_fresh_limit(const struct spline *spline, enum parameter parameter)
     return is_high ? ceil(100 * (edge + room) - 1e-6) / 100 : floor(100 * (edge - room) + 1e-6) / 100;
 }
 
-/// Says why a parameter does nothing now; false where it does something.
+/// Shows why a parameter has no effect now; false if it has one.
 static bool say_idle(struct core *core, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
@@ -131,7 +130,7 @@ void core_cycle_choice(struct core *core, int parameter)
              core_set_parameter(core, core->active, (enum parameter)parameter, next <= row->maximum ? next : 0));
 }
 
-/// Why it cannot be done; NULL: it can.
+/// Why it cannot be done, or NULL.
 static const char *obstacle(const struct spline *spline)
 {
     const struct param *p = spline->parameter;
@@ -142,7 +141,7 @@ static const char *obstacle(const struct spline *spline)
     return NULL;
 }
 
-/// How many explanations the knots have.
+/// Finds explanations of the knots; returns how many.
 static int explain(const struct core *core, const struct spline *spline, wiggly_explanation found[2])
 {
     const struct evaluation *evaluation = core->evaluation;
@@ -164,7 +163,7 @@ static int explain(const struct core *core, const struct spline *spline, wiggly_
     return count;
 }
 
-/// Numbers for the spline, rounded as they are saved.
+/// Rounded as in files.
 static double frequency_of(const wiggly_explanation *found) { return round(found->frequency * 100) / 100; }
 
 static double damping_of(const wiggly_explanation *found) { return round(found->damping * 1000) / 1000; }

@@ -1,4 +1,4 @@
-/// First state of a new document: the active spline, the playhead, nothing selected.
+/// Initial state for a new document.
 #include "editor/core/bones.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/// The spline that is active first: the first that moves something, else the first; -1 if there is none.
+/// The first active spline: the first that moves something, else the first; -1 if none.
 static int first_spline(const struct document *document)
 {
     for (int kind = 0; kind < RIG_KINDS; kind++) {
@@ -19,7 +19,7 @@ static int first_spline(const struct document *document)
     return document->spline_count > 0 ? 0 : -1;
 }
 
-/// Plays scenes that loop, play a clip or have a description; turns on auto-key where a body is animated.
+/// Plays scenes that loop, have a clip or a description. Turns on auto-key if a body is animated.
 static void open_playback(struct core *core)
 {
     const struct document *document = core->document;

@@ -1,4 +1,4 @@
-/// Edits of pins, which the stage, the ruler, the inspector and the keyboard ask for.
+/// Edits of pins.
 #include "editor/core/pins.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
@@ -10,7 +10,7 @@
 
 enum pin_nudge { NUDGE_PLACE, NUDGE_FRAME };
 
-static const double RESOLUTION = 1e-4; ///< metres that the document gets
+static const double RESOLUTION = 1e-4; ///< metres, of saved positions
 
 const struct pin *pins_next(const struct document *document, struct pin_place *place)
 {
@@ -35,7 +35,7 @@ uint32_t pins_color(const struct document *document, int rig)
     return spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
 }
 
-/// Selects a pin, and no knots.
+/// Selects a pin and deselects knots.
 static void pins_select(struct core *core, unsigned id)
 {
     selection_clear(&core->selection);
@@ -101,7 +101,7 @@ void pins_put_here(struct core *core, int rig, int point, const double to[3])
     playback_seek(core, frame);
 }
 
-/// Equal nudges of the same pin are one step.
+/// Equal nudges of a pin are one undo step.
 static uint64_t merge_key(const struct pin *pin, enum pin_nudge kind)
 {
     return hash_word(hash_word(HASH_START, (uint64_t)kind), pin->id);
@@ -145,7 +145,7 @@ void pins_delete(struct core *core)
     if (core_end(core, edit_pin_remove(core->document, rig, pin->id, &core->error))) pins_clear(core);
 }
 
-/// Whether a pin comes before another: by frames, then by ids.
+/// Orders by frame, then id.
 static bool is_before(const struct pin *a, const struct pin *b)
 {
     return a->frame != b->frame ? a->frame < b->frame : a->id < b->id;

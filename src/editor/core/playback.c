@@ -1,5 +1,4 @@
-/// Time: playing, stepping, scrubbing, and the part of the scene that is played, which is never saved. The position is in
-/// samples and may lie between two.
+/// Playback: playing, stepping, scrubbing, and the played range, which is never saved. The position is in samples, fractional.
 #include "editor/core/core.h"
 #include <math.h>
 #include <stdio.h>
@@ -11,7 +10,7 @@ void playback_range(const struct core *core, double range[2])
     range[0] = fmax(part[0], document->first_frame);
     range[1] = fmin(part[1], document->last_frame);
     if (range[0] < range[1]) return;
-    range[0] = document->first_frame; // nothing of it is left in the scene
+    range[0] = document->first_frame; // the range lies outside the scene
     range[1] = document->last_frame;
 }
 
@@ -54,7 +53,7 @@ void playback_mark(struct core *core, int end)
     playback_say_range(core);
 }
 
-static const double REFRESH = 60; ///< pictures a second that a display shows at least
+static const double REFRESH = 60; ///< frames per second a display shows at least
 
 static const double speeds[] = {0.1, 0.25, 0.5, 1, 2, 4};
 
@@ -67,7 +66,7 @@ static void go_to(struct core *core, double position)
     core->playback.position = fmin(fmax(position, 0), last_position(core->document));
 }
 
-/// The range that is played, in samples.
+/// The played range in samples.
 static void range_positions(const struct core *core, double range[2])
 {
     playback_range(core, range);
@@ -86,10 +85,10 @@ void playback_toggle(struct core *core)
     if (at_end || playback->position < range[0] || playback->position > range[1]) playback->position = range[0];
 }
 
-/// Whole frames between two positions that had no picture, beyond those that a display has no time for at this speed.
+/// Whole frames between two positions that were not shown, beyond those a display cannot show at this speed.
 static long frames_dropped(const struct document *document, double from, double to, double speed)
 {
-    const double rounding = 1e-6; // a sum of steps may end just before the frame that it means
+    const double rounding = 1e-6; // a sum of steps may end just before its frame
     double passed = floor(to / document->substeps + rounding) - floor(from / document->substeps + rounding);
     double expected = fmax(1, ceil(document->fps * speed / REFRESH));
     return passed > expected ? (long)(passed - expected) : 0;

@@ -8,8 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double APART = 1.25; ///< from one rig's middle to the next one's, in widths
-static const double ROOM = 1.2;   ///< metres across where a width is not known
+static const double APART = 1.25; ///< distance between rigs, in widths
+static const double ROOM = 1.2;   ///< metres, if a width is unknown
 
 enum lead rigs_lead(const struct document *document)
 {
@@ -27,10 +27,10 @@ bool rigs_have_knots(const struct document *document)
     return s < document->spline_count;
 }
 
-/// Ends the open step, and has all of the stage in sight.
+/// Closes the step and refits the camera.
 static void finish(struct core *core, bool done) { core->refit_stage = core_end(core, done); }
 
-/// Where a rig stands along x, and how wide it is.
+/// A rig's x and width.
 static double place_of(const struct core *core, int rig, double *width)
 {
     const struct rig *at = core->document->rigs[rig];
@@ -46,7 +46,7 @@ static double place_of(const struct core *core, int rig, double *width)
     return at->kind == RIG_TAIL ? at->tail.position[0].value : 0;
 }
 
-/// A free place along x, to the right of all rigs, for one of that width.
+/// A free x to the right of all rigs, for a rig of that width.
 static double free_place(const struct core *core, double wide)
 {
     double right = -INFINITY;
@@ -59,7 +59,7 @@ static double free_place(const struct core *core, double wide)
     return isfinite(right) ? core_round(right, 0.01) : 0;
 }
 
-/// The active spline, or a new one with a knot at the playhead; -1 where that cannot be.
+/// The active spline, or a new one with a knot at the playhead; -1 on failure.
 static int spline_to_use(struct core *core)
 {
     if (core_active_spline(core)) return core->active;
@@ -103,7 +103,7 @@ void rigs_add_meadow(struct core *core)
     finish(core, meadow.meadow.spline >= 0 && edit_rig_add(core->document, &meadow, &core->error));
 }
 
-/// Copies of the chains on a model, on its copy, the last rig.
+/// Copies a model's chains onto its copy, the last rig.
 static bool copy_chains(struct core *core, int model, const char *copy)
 {
     const int count = core->document->rig_count;
@@ -128,7 +128,7 @@ void rigs_copy(struct core *core, int rig)
     struct rig copy = *document->rigs[rig];
     place_of(core, rig, &width);
     const double place = free_place(core, width);
-    copy.pin_count = 0; // pins drive both
+    copy.pin_count = 0; // pins would drive both
     switch (copy.kind) {
     case RIG_TAIL:
         break;
@@ -154,7 +154,7 @@ void rigs_copy(struct core *core, int rig)
     finish(core, done);
 }
 
-/// Rigs and splines that are removed with a rig: its chains, and splines that move nothing else.
+/// What goes with a rig: its chains, and splines that move nothing else.
 struct removal {
     const struct document *document;
     int rig;
@@ -182,7 +182,7 @@ static void forget(struct removal *removal)
     free(removal->others);
 }
 
-/// The names of the splines that move nothing but this rig, comma separated; how many.
+/// The names of splines that move only this rig, comma-separated; returns how many.
 static int own_splines(const struct document *document, int rig, char *names, size_t size)
 {
     struct removal removal;
@@ -201,7 +201,7 @@ static int own_splines(const struct document *document, int rig, char *names, si
     return count;
 }
 
-/// Splines that follow a joint of a removed rig keep the value at the playhead.
+/// Splines that follow a joint of a removed rig keep their value at the playhead.
 static bool let_go(struct core *core, const struct removal *removal)
 {
     const struct document *document = core->document;

@@ -1,5 +1,5 @@
-/// Which knots are selected: a bit for each id, so that membership costs nothing in a drag of thousands. Walks over the selected ones of all
-/// splines, keeps them as they were for an edit, and moves them.
+/// The selected knots: one bit per id, so that lookups are cheap in drags of thousands. Iterates over them, stores them before an edit, and
+/// moves them.
 #include "editor/core/selection.h"
 #include "base/need.h"
 #include "editor/core/core.h"
@@ -11,7 +11,7 @@ bool selection_has(const struct selection *selection, unsigned id)
     return id < selection->capacity && (selection->bits[id / 64] >> (id % 64) & 1u);
 }
 
-/// Room for the ids below `end`, and for some more: ids are given in turn.
+/// Ids are consecutive, so this reserves some more.
 static void reserve(struct selection *selection, unsigned end)
 {
     if (end <= selection->capacity) return;
@@ -68,7 +68,7 @@ void selection_copy(struct selection *to, const struct selection *from)
     if (from->bits) memcpy(to->bits, from->bits, from->capacity / 8);
 }
 
-/// Knots that cannot be seen are not edited, unless their spline is the one that is worked on.
+/// Hidden knots are not edited, except the active spline's.
 static bool is_open(const struct core *core, int spline)
 {
     return spline == core->active || spline_list_shows(core, spline);
@@ -128,7 +128,7 @@ void core_collect(struct core *core, bool later)
     }
 }
 
-/// Whether the knot on that sample is one of the originals, which are sorted.
+/// Whether the knot at a sample is one of the originals, which are sorted.
 static bool is_original(const struct originals *originals, const struct document *document, int spline, int sample)
 {
     int low = 0, high = originals->count;
@@ -172,7 +172,7 @@ enum room originals_room(const struct core *core, knot_rule *rule, const void *h
     return room;
 }
 
-/// Whether a rule reverses their order.
+/// Whether a rule reverses the knots' order.
 static bool are_reversed(const struct originals *originals, knot_rule *rule, const void *how)
 {
     const struct original *list = originals->list;
@@ -182,8 +182,7 @@ static bool are_reversed(const struct originals *originals, knot_rule *rule, con
     return false;
 }
 
-/// So that they do not run into each other, those that go to the right go first, the last one ahead of all. Where their order is reversed,
-/// all are taken out before.
+/// To avoid collisions, knots moving right go first, the last one first. If the order is reversed, all are removed before.
 bool originals_put(struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE])
 {
     const struct originals *originals = &core->originals;

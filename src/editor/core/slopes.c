@@ -1,17 +1,18 @@
-/// The slopes of the selected knots: on, off, flat, Catmull-Rom, turned and made firmer by keys.
+/// The selected knots' slopes: on, off, flat, Catmull-Rom, turned and stiffened by keys.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
 #include <math.h>
 
-/// Kinds of nudges for core_merge_key(), apart from those of nudge.c.
+/// Kinds for core_merge_key(), different from nudge.c's.
 enum nudge_kind { NUDGE_SLOPE = 50, NUDGE_STIFFNESS };
 
-static const double FIRM = 1000;                ///< stiffness where a knot has none yet, 1/s (the default)
-static const double TURN = 0.05, FIRMER = 1.25; ///< of the visible values, a second; of the stiffness: a key press
-static const double SLOPE_RESOLUTION = 1e-3;    ///< of the visible values, a second
+static const double FIRM = 1000; ///< default stiffness, 1/s
+static const double TURN = 0.05,
+                    FIRMER = 1.25; ///< per key press: of the visible values, a second; factor on the stiffness
+static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 
-/// The curve's slope at a knot, in values a second: one that leaves it as it is.
+/// The curve's slope at a knot, in values a second.
 static double slope_at(const struct core *core, int spline, const struct knot *knot)
 {
     int sample = document_sample(core->document, knot->frame);
@@ -19,7 +20,7 @@ static double slope_at(const struct core *core, int spline, const struct knot *k
     return isfinite(slope) ? slope : 0;
 }
 
-/// A slope for one knot of a spline, in values a second.
+/// Computes a knot's slope, in values a second.
 typedef double slope_rule(const struct core *core, struct knot_place at);
 
 static double flat(const struct core *core, struct knot_place at)
@@ -29,8 +30,7 @@ static double flat(const struct core *core, struct knot_place at)
     return 0;
 }
 
-/// Catmull and Rom: the slope of the chord from the knot before to the knot after; at an end of the curve to the only one
-/// beside it, in a loop around its end.
+/// Catmull-Rom: the slope of the chord between both neighbours; at an end, to the only neighbour. A loop wraps around.
 static double catmull_rom(const struct core *core, struct knot_place at)
 {
     const struct document *document = core->document;
@@ -48,12 +48,12 @@ static double catmull_rom(const struct core *core, struct knot_place at)
     return frames > 0 ? rise / frames * document->fps : 0;
 }
 
-/// Calls for a change of every selected knot as one step.
+/// A change of every selected knot in one step.
 struct knot_change {
     const char *label;
-    uint64_t kind;    ///< for merging, 0: never
-    bool on;          ///< slopes are switched on where they are not, or off
-    slope_rule *rule; ///< slope to set, or NULL
+    uint64_t kind;    ///< for merging; 0: never
+    bool on;          ///< turns missing slopes on, or all off
+    slope_rule *rule; ///< or NULL
     double slope;     ///< added
     double stiffness; ///< multiplied
 };
@@ -98,7 +98,7 @@ void slopes_stiffen(struct core *core, int direction)
     change_knots(core, &change);
 }
 
-/// Whether all selected knots but still ones, which cannot, have a slope.
+/// Still knots do not count, because they cannot have slopes.
 static bool all_sloped(const struct core *core)
 {
     bool all = true;

@@ -107,7 +107,7 @@ double spline_list_present(const struct core *core, int spline, enum parameter p
     return parameter_clamped(parameter, spline_mode(follower), value);
 }
 
-/// Finds the last reference to a spline: releasing that one first keeps the indices of the others. false: there is none.
+/// Finds the last reference to a spline. Removing the last one first keeps the others' indices valid. false: none.
 static bool last_reference(const struct document *document, int spline, struct reference *last)
 {
     bool found = false;
@@ -119,7 +119,7 @@ static bool last_reference(const struct document *document, int spline, struct r
     return found;
 }
 
-/// Ends that a place follows the active spline.
+/// Stops something from following the active spline.
 static bool release(struct core *core, const struct reference *reference)
 {
     struct document *document = core->document;
@@ -215,7 +215,6 @@ static void set_range(struct core *core, int first, int last, enum range_fit fit
     core_end(core, edit_range(core->document, first, last, fit, &core->error));
 }
 
-/// How many knots a range would leave outside.
 static int count_outside(const struct document *document, int first, int last)
 {
     struct document moved = *document;

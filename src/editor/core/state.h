@@ -1,6 +1,5 @@
-/// State of the editor and its panels: layout, selection, playback, hover, views, requests to the app.
-///
-/// Knots are remembered by id, splines and tails by index.
+/// State of the editor and its panels: layout, selection, playback, hover, views, requests to the app. Knots are stored by id, splines and
+/// tails by index.
 #ifndef EDITOR_CORE_STATE_H
 #define EDITOR_CORE_STATE_H
 
@@ -17,46 +16,46 @@
 
 enum { CORE_MAX_RECENT = 16, STOPPED_SIZE = 96 /* of what stops an edit, in words */ };
 
-/// The world of the editor, owned by the app.
+/// What the app lends to the editor.
 struct editor_world {
     struct document *document;
     struct history *history;
-    const struct evaluation *evaluation; ///< as of the last solve: the frame before, until editor_show()
-    const struct models *models;         ///< the characters' models; NULL: none
+    const struct evaluation *evaluation; ///< of the last solve; until editor_show() that is the previous frame's
+    const struct models *models;         ///< NULL: none
 };
 
-/// A request to the app after a frame's events (files and windows are its business).
+/// A request the app carries out after the event, mostly about files and windows.
 enum request_kind {
     REQUEST_NONE,
     REQUEST_NEW,
     REQUEST_OPEN,      ///< path
-    REQUEST_ADD,       ///< path: a character or model, to the scene on the table
-    REQUEST_SAVE,      ///< to the document's own path, or ask
+    REQUEST_ADD,       ///< path: a character or model for this scene
+    REQUEST_SAVE,      ///< to the document's path; asks if it has none
     REQUEST_SAVE_AS,   ///< path
-    REQUEST_OVERWRITE, ///< the document's own file, which somebody else has changed
-    REQUEST_KEEP_MINE, ///< the same, but not before the next REQUEST_SAVE
-    REQUEST_THEIRS,    ///< the document's file as it is now in place of the document, as a step of the history
-    REQUEST_FIGURE,    ///< number: a figure of the paper, or one of the scenes after them
+    REQUEST_OVERWRITE, ///< the document's file, which another program changed
+    REQUEST_KEEP_MINE, ///< keeps the document; the next REQUEST_SAVE overwrites the file
+    REQUEST_THEIRS,    ///< loads the document's changed file, in one undo step
+    REQUEST_FIGURE,    ///< number: of the paper's figure or built-in scene
     REQUEST_QUIT,
-    REQUEST_RECOVER, ///< the work that was offered
-    REQUEST_FORGET,  ///< the same, for good
+    REQUEST_RECOVER, ///< offered unsaved work
+    REQUEST_FORGET,  ///< deletes that work
     REQUEST_SCREENSHOT,
     REQUEST_FULLSCREEN,
-    REQUEST_UI_SCALE,    ///< number: 1 larger, -1 smaller, 0 as the display's own
-    REQUEST_COPY,        ///< editor_clipboard() onto the clipboard
-    REQUEST_PASTE,       ///< an EVENT_PASTE with its text
-    REQUEST_EXPORT,      ///< path, wish; answered once it is done
-    REQUEST_EXPORT_STOP, ///< the running one; that answers then
+    REQUEST_UI_SCALE,    ///< number: 1 larger, -1 smaller, 0 the display's own
+    REQUEST_COPY,        ///< core.clipboard to the clipboard
+    REQUEST_PASTE,       ///< answered by EVENT_PASTE
+    REQUEST_EXPORT,      ///< path, wish; answered when done
+    REQUEST_EXPORT_STOP, ///< stops the running export, which then answers
 };
 
-/// Options of an export. A format ignores those it has no use for; all zero is a good start.
+/// Export options. A format ignores those it does not have. Zero: defaults.
 struct export_wish {
-    bool part; ///< these frames alone
+    bool part; ///< only these frames
     double first, last;
-    int keys;          ///< a frame; 0: the scene's substeps
-    int width, height; ///< of pictures; 0: as the format likes
-    char rig[64];      ///< by its name; "": all
-    char clip[64];     ///< name of the animation; "": the scene's
+    int keys;          ///< per frame; 0: the scene's substeps
+    int width, height; ///< of pictures; 0: the format's default
+    char rig[64];      ///< name; "": all
+    char clip[64];     ///< of the animation; "": the scene's
     bool is_cubic, is_signed, transparent;
 };
 
@@ -67,42 +66,42 @@ struct request {
     struct export_wish wish;
 };
 
-/// Unsaved work that an earlier run left behind.
+/// Unsaved work of an earlier run.
 struct recovery_offer {
-    char name[256]; ///< name of its document
-    char when[64];  ///< date and time, as text
-    int others;     ///< older ones there are besides
+    char name[256]; ///< of its document
+    char when[64];  ///< date and time
+    int others;     ///< number of older ones
 };
 
-/// Rectangles of the panels, in logical pixels; made by core_layout().
+/// The panels' rectangles in logical pixels, from core_layout().
 struct layout {
     struct rect window, stage, curves, inspector, status;
-    struct rect ruler;      ///< frame numbers, on top of the plot
-    struct rect sheet;      ///< the dope sheet's rows, below the ruler; empty where it is not shown
+    struct rect ruler;      ///< frame numbers above the plot
+    struct rect sheet;      ///< the dope sheet's rows below the ruler; empty if closed
     struct rect value_axis; ///< numbers left of the plot
     struct rect plot;
-    struct rect open;  ///< of the stage, the part that no panel covers
-    float stage_share; ///< of the height above the status line; kept when the window changes its size
+    struct rect open;  ///< part of the stage no panel covers
+    float stage_share; ///< of the height above the status line
     float inspector_width;
-    float sheet_height; ///< as the curves want it
+    float sheet_height; ///< set by the curves
 };
 
 /// F5: the stage fills the window, and panels slide in over it.
 struct presenter {
     bool on;
     bool pinned;  ///< Tab: all panels stay
-    bool shares;  ///< they take their room from the stage, until they are away again
-    bool pointed; ///< the pointer has moved since, so that it may call a panel
+    bool shares;  ///< panels shrink the stage until they are hidden again
+    bool pointed; ///< the pointer has moved, so it may call a panel
     bool side_wanted, below_wanted;
-    float side, below; ///< 0 … 1: how far the inspector is in, and the curves with the status line
+    float side, below; ///< 0 … 1: visible part of the inspector; of curves and status line
 };
 
-/// The edges that change the panels' sizes: above the curves, left of the inspector.
+/// Edges that resize panels: above the curves, left of the inspector.
 enum divider { DIVIDER_NONE, DIVIDER_STAGE, DIVIDER_INSPECTOR };
 
 enum panel { PANEL_NONE, PANEL_STAGE, PANEL_CURVES, PANEL_INSPECTOR, PANEL_STATUS };
 
-/// Selected knots of any spline, or splines: one bit an id.
+/// A set of ids, one bit each: selected knots, or splines.
 struct selection {
     uint64_t *bits;
     unsigned capacity; ///< ids
@@ -111,39 +110,39 @@ struct selection {
 struct drag_owner;
 struct core;
 
-/// The running drag; see drag.h.
+/// The running drag, see drag.h.
 struct drag {
-    const struct drag_owner *owner; ///< NULL: nothing is dragged
-    void *room;                     ///< the panel that began it
-    const char *label;              ///< of its step in the history; NULL: it edits nothing
-    const char *hint;               ///< the status line's sentence while it runs, or NULL
+    const struct drag_owner *owner; ///< NULL: none
+    void *room;                     ///< the panel that started it
+    const char *label;              ///< of its undo step; NULL: no edits
+    const char *hint;               ///< text for the status line, or NULL
     enum event_button button;
     float x, y; ///< pointer at the last step
     float start_x, start_y;
-    double moved_x, moved_y; ///< sum of movements, the fine ones scaled down
+    double moved_x, moved_y; ///< total movement, fine parts scaled down
     double dt;               ///< seconds since the last frame
-    bool moved;              ///< past the threshold below which a press is a click
-    bool lock_x, lock_y;     ///< only the frame, only the value may change
+    bool moved;              ///< far enough not to be a click
+    bool lock_x, lock_y;     ///< only frames, only values
     bool snap;
-    bool stale;    ///< the pointer moved since the edits were made
-    unsigned knot; ///< id of the active spline's knot that is held; 0: none
-    bool stopped;  ///< the status line names the reason
+    bool stale;    ///< the pointer moved since the last edits
+    unsigned knot; ///< id of the held knot; 0: none
+    bool stopped;  ///< the status line says why it stopped
 };
 
-/// A knot as it was before the edit that moves it.
+/// A knot before an edit moves it.
 struct original {
     int spline;
     struct knot knot;
-    double equilibrium; ///< at the knot; known while it is scaled
+    double equilibrium; ///< at the knot, while scaling
 };
 
-/// The knots that an edit moves, by spline and in each of them by sample.
+/// The knots an edit moves, by spline and sample.
 struct originals {
     struct original *list;
     int count, capacity;
 };
 
-/// The item under the pointer, in the curves and on the stage.
+/// The item under the pointer, in curves and stage.
 enum hover_kind {
     HOVER_NONE,
     HOVER_KNOT,
@@ -151,11 +150,11 @@ enum hover_kind {
     HOVER_CURVE,
     HOVER_RULER,
     HOVER_UNITS,
-    HOVER_SHEET, ///< the dope sheet's switch
-    HOVER_ROW,   ///< of the dope sheet, beside its marks
+    HOVER_SHEET, ///< the dope sheet's triangle
+    HOVER_ROW,   ///< a row of the dope sheet, beside its marks
     HOVER_WARNING,
-    HOVER_JOINT, ///< of a tail, or of a chain
-    HOVER_BONE,  ///< of an imported character, without a chain
+    HOVER_JOINT, ///< of a tail or chain
+    HOVER_BONE,  ///< of an imported character, in no chain
     HOVER_BODY,
     HOVER_PLAY,
     HOVER_LOOP,
@@ -164,89 +163,89 @@ enum hover_kind {
     HOVER_UI_SCALE,
     HOVER_PRESENT,
     HOVER_LIMIT,
-    HOVER_BOX,   ///< a handle of the box round the selected knots
-    HOVER_POINT, ///< of a rig, that can be pinned
+    HOVER_BOX,   ///< a handle of the selection box
+    HOVER_POINT, ///< a point of a rig that can be pinned
     HOVER_PIN,   ///< on the stage or the ruler
-    HOVER_FLOOR, ///< of the rig, a character
+    HOVER_FLOOR, ///< of a character
 };
 
 struct hover {
     enum hover_kind kind;
     int spline;
     unsigned knot;
-    int handle; ///< HOVER_SLOPE: which end, as in curves_handle(); HOVER_WARNING, HOVER_BOX: which one; HOVER_LIMIT: 1: the high one
+    int handle; ///< HOVER_SLOPE: end, as in curves_handle(); HOVER_WARNING, HOVER_BOX: index; HOVER_LIMIT: 1 for the high one
     int rig,
-        joint; ///< HOVER_BODY: of the tail; HOVER_JOINT: of the tail or chain; HOVER_POINT: a joint whose end it is, or a vertex
-    unsigned pin;    ///< HOVER_PIN: its id
+        joint;       ///< HOVER_BODY, HOVER_JOINT: joint; HOVER_POINT: joint or vertex
+    unsigned pin;    ///< HOVER_PIN: id
     double fraction; ///< of the segment after the joint
-    int model, node; ///< of HOVER_BONE and of a chain's HOVER_JOINT: the character's rig and the bone
-    float x, y;      ///< of the point on the tail
+    int model, node; ///< HOVER_BONE, and HOVER_JOINT of a chain: the character's rig and the bone
+    float x, y;      ///< a point on the tail
 };
 
 struct playback {
     bool playing;
-    bool looping;    ///< over the range that is played (Ctrl+L)
-    double position; ///< in samples; may lie between two
+    bool looping;    ///< over the played range (Ctrl+L)
+    double position; ///< in samples, fractional
     double speed;    ///< 1: real time
-    long dropped;    ///< frames of the scene that no picture showed, since it plays
-    double range[2]; ///< frames of the part that is played, as far as the scene has them; of all: infinite
+    long dropped;    ///< scene frames skipped since playback began
+    double range[2]; ///< the played frames; infinite: all
 };
 
 struct message {
     char text[768];
     bool is_error;
-    double seconds_left; ///< of a message that is not an error
+    double seconds_left; ///< for messages that are not errors
 };
 
-/// Figures of the status line.
+/// Performance in the status line.
 struct figures {
-    double fps, solve_us; ///< frames a second, microseconds of solving
+    double fps, solve_us; ///< frames per second, µs of solving
 };
 
 struct status {
-    struct figures told, shown; ///< by the app last, and as taken over for a while
-    double age;                 ///< seconds since that
+    struct figures told, shown; ///< latest from the app; displayed
+    double age;                 ///< seconds since `shown` was updated
     long dropped;               ///< as shown
-    float stage_scale;          ///< the stage's resolution relative to the window's, per side; 0 means 1
+    float stage_scale;          ///< resolution of the stage per side relative to the window's; 0 means 1
 };
 
 enum { CORE_MAX_EDITED = 8 };
 
-/// Edits that the curves have not shown yet, as they are not solved: their view follows.
+/// Edits since the last frame, for the curves' view to follow after the solve.
 struct edited {
-    bool selection; ///< the selected knots
-    int count;      ///< all knots of these splines
+    bool selection; ///< the selected knots were edited
+    int count;      ///< number of splines edited
     int spline[CORE_MAX_EDITED];
 };
 
 struct answer {
-    const char *name;  ///< of its button
+    const char *name;  ///< of its widget
     const char *label; ///< on it
-    int key;           ///< letter that answers as well
+    int key;           ///< a letter that also answers
 };
 
-/// A question that a dialog asks. The last answer is the one that changes nothing; Esc gives it.
+/// A dialog's question. The last answer changes nothing; Esc gives it.
 struct question {
     char title[320];
-    char note[256]; ///< below it, unless the dialog has an error to show
+    char note[256]; ///< smaller text below; an error replaces it
     const struct answer *answers;
     int count;
-    void (*answered)(void *dialogs, struct core *core, int answer); ///< by another than the last
+    void (*answered)(void *dialogs, struct core *core, int answer); ///< called for any answer but the last
 };
 
-/// Subject of core's question.
+/// What core's question is about.
 struct subject {
     double fps;
     int first, last;
     int rig;
 };
 
-/// The character that is worked on, and how it is looked at; zero is a valid start.
+/// The selected soft character and its display. Zero is a valid start.
 struct character_view {
     int character, drive; ///< selected in the inspector
-    bool mapped;          ///< the selected coordinate's phases as colours
-    int axis;             ///< of movement whose phases are shown: x, y, z
-    bool compare;         ///< beside each character its stiff twin, without phases
+    bool mapped;          ///< shows the phase map
+    int axis;             ///< axis of the shown phases: x, y, z
+    bool compare;         ///< shows a stiff twin beside each character
 };
 
 enum brush_mode {
@@ -256,77 +255,77 @@ enum brush_mode {
     BRUSH_MORE,
     BRUSH_LESS,
     BRUSH_SMOOTH_AMPLITUDE,
-    BRUSH_ERASE, ///< restore the model
+    BRUSH_ERASE, ///< restores the model
 };
 
-/// The bone that is selected. It is found again after undo, as long as its character is there.
+/// The selected bone. It survives undo while its character exists.
 struct bone_selection {
     bool any;
-    int model;     ///< number of its rig among those of imported characters
-    uint64_t file; ///< gltf.id of its file
+    int model;     ///< index among imported characters
+    uint64_t file; ///< gltf.id of the file
     int node;
 };
 
-/// The pin that is selected. Its id finds it again after undo.
+/// The selected pin, by id, so that it survives undo.
 struct pin_selection {
     bool any;
     unsigned id;
 };
 
-/// Use of the next click on a bone; otherwise it selects it.
+/// What the next click on a bone does.
 enum bone_use { BONE_SELECTED, BONE_FOLLOWED, BONE_FIRST, BONE_LAST };
 
 struct bone_pick {
     enum bone_use use;
-    int which; ///< the spline that is to follow it, or the chain that is to begin or end with it
+    int which; ///< the spline that will follow it, or the chain whose end it becomes
 };
 
-/// The brush that paints phase and amplitude onto a character's surface.
+/// Paints phase and amplitude onto a character.
 struct brush {
     bool on;
     enum brush_mode mode;
-    double radius;   ///< share of the character's height
+    double radius;   ///< of the character's height
     double strength; ///< 0 … 1
 };
 
-/// Overlays on the stage; kept when another document is opened.
+/// Overlays on the stage, independent of the document.
 struct overlays {
     bool onion, trail;
-    bool ghost; ///< the pose at the knot that is dragged or nudged
+    bool ghost; ///< the pose at the dragged or nudged knot
 };
 
-/// How the curves panel shows things; a view, never part of the document.
+/// View options of the curves panel, independent of the document.
 struct curve_options {
-    bool normalise; ///< every curve as high as the active one; the axis shows the active one's values
-    bool seconds;   ///< on the ruler, in place of frames
+    bool normalise; ///< all curves as high as the active one, whose values the axis shows
+    bool seconds;   ///< on the ruler instead of frames
     bool sheet;     ///< the dope sheet is open
-    bool phase;     ///< the imaginary part of the active curve, from which its phase is seen
+    bool phase;     ///< the imaginary part of the active curve
 };
 
-/// A knot by its indices.
+/// A knot's indices.
 struct knot_place {
     int spline, knot;
 };
 
 struct core {
-    struct document *document; ///< the document, the app's, as the next three: set by editor_open()
+    struct document *document; ///< owned by the app, like the next three: set by editor_open()
     struct history *history;
     const struct evaluation *evaluation;
     const struct models *models;
 
     struct layout layout;
     float scale;
-    double ui_scale; ///< part of it that the user has chosen
+    double ui_scale; ///< the user's share of it
     struct presenter presenter;
-    int active;                       ///< spline, -1 where there is none
-    unsigned active_id;               ///< its id, by which it is found again when the list has changed
-    unsigned recent[CORE_MAX_RECENT]; ///< ids of those that were active before, the last one first
+    int active;                       ///< spline, or -1
+    unsigned active_id;               ///< its id, to find it when the list changes
+    unsigned recent[CORE_MAX_RECENT]; ///< ids of previously active splines, the latest first
     struct selection selection;
-    struct selection hidden, solo; ///< splines, by their ids
-    unsigned visibility;           ///< grows whenever these change
-    double visible;                ///< the height of the values that the curves show
-    bool no_snap;                  ///< knots go between the frames, and onto them with Ctrl
-    int seen_first, seen_substeps; ///< of the scene, which the playhead's position counts in
+    struct selection hidden, solo; ///< sets of spline ids
+    unsigned visibility;           ///< grows when these change
+    double visible;                ///< height of the visible values
+    bool no_snap;                  ///< Ctrl inverts this
+    int seen_first, seen_substeps; ///< of the scene, as the playhead counts
     struct playback playback;
     struct drag drag;
     struct originals originals;
@@ -335,37 +334,37 @@ struct core {
     enum look look;
     float pointer_x, pointer_y;
     unsigned mods;
-    int held_key; ///< F Z B C L while pressed, else 0
+    int held_key; ///< F Z B C L while held, else 0
     bool space_down, space_used;
 
     struct character_view characters;
     struct bone_selection bone;
-    struct bone_pick pick; ///< ends with the next edit
+    struct bone_pick pick; ///< until the next edit
     struct pin_selection pin;
-    int clicked; ///< the rig on the stage that was clicked, from 1, until the inspector shows it
+    int clicked; ///< clicked rig + 1, until the inspector shows it
     struct brush brush;
     struct overlays overlays;
     struct curve_options curves;
-    double nudged_seconds; ///< that the ghost of the nudged knot is still shown
-    bool auto_key;         ///< a body that is dragged gets knots at the playhead, else the whole shot moves
-    bool record_armed;     ///< the next drag of a body is recorded from its start
-    bool more;             ///< the inspector shows all sections and controls
-    bool plain;            ///< a picture of the stage without text over it
-    bool refit_stage;      ///< all of the stage is to be in sight
-    bool refit_curves;     ///< all curves are to be, once they are solved
+    double nudged_seconds; ///< remaining time of a nudged knot's ghost
+    bool auto_key;         ///< dragging a body sets knots at the playhead instead of moving the whole shot
+    bool record_armed;     ///< record the next drag of a body
+    bool more;             ///< the inspector shows everything
+    bool plain;            ///< the stage without text
+    bool refit_stage;      ///< fit the camera to the stage
+    bool refit_curves;     ///< show all curves after the solve
 
-    unsigned serial;       ///< of the document on the table
-    char title[256];       ///< the file's name, or "untitled"
-    char path[PATH_LIMIT]; ///< of the document's own file, or ""
+    unsigned serial;       ///< of the document
+    char title[256];       ///< file name, or "untitled"
+    char path[PATH_LIMIT]; ///< of the document's file, or ""
     struct message message;
     struct status status;
-    struct error error;       ///< of the last edit that failed, until core_settle()
+    struct error error;       ///< of the last failed edit, until core_settle()
     bool unkept;              ///< unsaved work has no recovery file
-    bool unshown;             ///< something of the status line has changed since it was drawn
-    struct question question; ///< the next question, before an edit; no answers: none
+    bool unshown;             ///< the status line must be redrawn
+    struct question question; ///< to ask next; no answers: none
     struct subject subject;
-    char *clipboard;        ///< knots that were copied, as text; NULL at first
-    struct request request; ///< the app carries it out after the event
+    char *clipboard;        ///< copied knots as text, or NULL
+    struct request request; ///< for the app, after the event
     struct drawlist list;
 };
 
