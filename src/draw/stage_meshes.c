@@ -6,8 +6,7 @@
 #include <string.h>
 
 enum { PICTURE_UNIT = 1 };
-enum { EDGES = 8192, CORNERS = SKIRT_CORNERS * EDGES }; ///< whose skirts are drawn at once
-enum { APART = 256 };                                   ///< corners; Mesa takes arrays that are nearer for one
+enum { EDGES = 768, CORNERS = SKIRT_CORNERS * EDGES }; ///< whose skirts are drawn at once
 /// Number of meshes on the GPU, more than a picture shows; and after how many pictures an unused one is freed.
 enum {
     MAX_SHOWN = STAGE_MAX_CHARACTERS + STAGE_MAX_MODELS,
@@ -33,7 +32,8 @@ struct shown {
     float blink;
 };
 
-/// Arranged as meshes are: llvmpipe compiles a shader anew for each arrangement.
+/// Arranged as meshes are, and at places that never change: llvmpipe compiles a shader anew for each arrangement, and Mesa rearranges a
+/// vertex array that changes often.
 struct skirts {
     float place[CORNERS][3], normal[CORNERS][3];
     struct posed_look look[CORNERS];
@@ -58,7 +58,10 @@ static void create_skirts(struct stage_meshes *meshes)
     meshes->skirts = need(1, sizeof *meshes->skirts);
     glGenVertexArrays(1, &meshes->skirt_array);
     glBindVertexArray(meshes->skirt_array);
-    meshes->skirt_buffer = gl_buffer(GL_ARRAY_BUFFER, 0, NULL, GL_STREAM_DRAW);
+    meshes->skirt_buffer = gl_buffer(GL_ARRAY_BUFFER, sizeof *meshes->skirts, NULL, GL_STREAM_DRAW);
+    gl_attribute(POSED_PLACE, 3, GL_FLOAT, 0, offsetof(struct skirts, place));
+    gl_attribute(POSED_NORMAL, 3, GL_FLOAT, 0, offsetof(struct skirts, normal));
+    posed_look_attributes(sizeof *meshes->skirts->look, offsetof(struct skirts, look));
     meshes->skirt_indices = gl_buffer(GL_ELEMENT_ARRAY_BUFFER, 6 * EDGES * sizeof *indices, indices, GL_STATIC_DRAW);
     glBindVertexArray(0);
     free(indices);
@@ -242,14 +245,12 @@ static void draw_edges(const struct stage_meshes *meshes, int count)
     glBindBuffer(GL_ARRAY_BUFFER, meshes->skirt_buffer);
     const struct skirts *skirts = meshes->skirts;
     const size_t corners = (size_t)(SKIRT_CORNERS * count), looks = corners * sizeof *skirts->look;
-    const size_t part = corners < APART ? APART * sizeof *skirts->place : corners * sizeof *skirts->place;
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(2 * part + looks), NULL, GL_STREAM_DRAW);
-    glBufferSubData(GL_ARRAY_BUFFER, 0, (GLsizeiptr)(corners * sizeof *skirts->place), skirts->place);
-    glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)part, (GLsizeiptr)(corners * sizeof *skirts->normal), skirts->normal);
-    glBufferSubData(GL_ARRAY_BUFFER, (GLintptr)(2 * part), (GLsizeiptr)looks, skirts->look);
-    gl_attribute(POSED_PLACE, 3, GL_FLOAT, 0, 0);
-    gl_attribute(POSED_NORMAL, 3, GL_FLOAT, 0, part);
-    posed_look_attributes(sizeof *skirts->look, 2 * part);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(offsetof(struct skirts, look) + looks), NULL, GL_STREAM_DRAW);
+    glBufferSubData(GL_ARRAY_BUFFER, offsetof(struct skirts, place), (GLsizeiptr)(corners * sizeof *skirts->place),
+                    skirts->place);
+    glBufferSubData(GL_ARRAY_BUFFER, offsetof(struct skirts, normal), (GLsizeiptr)(corners * sizeof *skirts->normal),
+                    skirts->normal);
+    glBufferSubData(GL_ARRAY_BUFFER, offsetof(struct skirts, look), (GLsizeiptr)looks, skirts->look);
     glDrawElements(GL_TRIANGLES, 6 * count, GL_UNSIGNED_SHORT, NULL);
 }
 
