@@ -80,13 +80,11 @@ void stage_upload(struct stage_renderer *renderer, const struct stage_view *view
               stage_flat_upload(renderer->flat, view);
 }
 
-/// Clears depth, and draws the rigs; with a `seam`, reeds blend into what is behind.
+/// With a `seam`, reeds blend into what is behind.
 static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float scale, float seam)
 {
-    glEnable(GL_DEPTH_TEST);
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
-    glClear(GL_DEPTH_BUFFER_BIT);
     stage_meshes_draw(renderer->meshes, view, scale, 0.0f);
     stage_meadows_draw(&renderer->meadows, &renderer->programs[PROGRAM_MEADOW], view, seam);
 }
@@ -101,8 +99,8 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
 {
     const float scale = (float)height / view->viewport.h, seam = 2.0f / (view->projection[5] * (float)height);
     glViewport(x, y, width, height);
-    glDisable(GL_DEPTH_TEST);
-    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ZERO, GL_ONE);
+    glEnable(GL_DEPTH_TEST);
+    glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     stage_flat_draw(renderer->flat, &renderer->programs[PROGRAM_FLAT], y, height);
     draw_rigs(renderer, view, scale, seam);
     // Edges without multisampling: a skirt a pixel wide (draw/posed.h) fades out from the outlines over whatever is behind: the
@@ -116,6 +114,8 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
 void stage_draw_rigs(struct stage_renderer *renderer, const struct stage_view *view, int width, int height)
 {
     glViewport(0, 0, width, height);
+    glEnable(GL_DEPTH_TEST);
+    glClear(GL_DEPTH_BUFFER_BIT);
     draw_rigs(renderer, view, (float)height / view->viewport.h, 0.0f);
     end_rigs();
 }

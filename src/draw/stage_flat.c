@@ -130,11 +130,13 @@ void stage_flat_draw(const struct stage_flat *flat, const struct program *progra
     glUniform2f(program->at[AT_ROWS], (float)y, 1.0f / (float)height);
     glUniform1i(program->at[AT_SHADOW], false);
     glBindVertexArray(flat->vertex_array);
-    glDisable(GL_BLEND);
+    glEnable(GL_BLEND);
+    glDepthFunc(GL_ALWAYS);
+    glDepthRange(1, 1); // clears depth as well
     glDrawArrays(GL_TRIANGLES, 0, SCENERY * CORNERS);
     glUniform1i(program->at[AT_SHADOW], true);
-    glEnable(GL_BLEND);
     glDrawArrays(GL_TRIANGLES, SCENERY * CORNERS, (flat->quads - SCENERY) * CORNERS);
     glDisable(GL_BLEND);
+    glDepthRange(0, 1);
     glBindVertexArray(0);
 }
