@@ -6,10 +6,11 @@
 #endif
 in vec3 world;
 in vec3 world_normal;
+in vec4 tint;  // opacity last; of a coat: the place in bind space, and how much of it is the tail's
+in vec2 at;    // in the picture; of a coat: how deep in what is white and dark, metres
+in vec2 phase; // of the phase map: movement as a share of the largest, at the angle by which it leads; of a coat: how brown, and the
+               // share of the light from all around that reaches it
 #ifdef FURRED
-in vec3 marking; // how deep in what is white and dark (metres), and how brown
-in vec4 place;   // in bind space, and how much of it is the tail's
-in float open_around; // share of the light from all around that reaches it
 #ifdef FACED
 uniform mat4 head_from_bind; // to the head's own space, which looks towards -z
 uniform float blink;         // how far the lids are closed
@@ -19,8 +20,7 @@ const vec3 BROWN = vec3(0.19462, 0.05951, 0.02122);  // #7A4528
 const vec3 WHITE = vec3(0.90466, 0.87962, 0.80695);  // #F4F1E8
 const vec3 DARK = vec3(0.02416, 0.01229, 0.00913);   // #2B1D18
 #else
-in vec3 fur;
-in vec2 phase; // of the phase map: movement as a share of the largest, at the angle by which it leads
+uniform vec4 base; // the material's colour
 #endif
 in float open_sky;
 #if defined(FURRED) || defined(PICTURED)
@@ -35,8 +35,6 @@ uniform vec3 earth; // the light that comes up from the ground
 uniform float line; // pixels: width of the phase map's lines; 0 where no phases are shown
 #endif
 #ifdef PICTURED
-in vec2 at; // in the picture
-in float opacity;
 uniform sampler2D picture;
 uniform float cutoff; // opacity below which nothing is drawn; 0: all is
 uniform bool blended; // opacity is to be seen
@@ -84,7 +82,7 @@ float wave(float x)
 // metres.
 float strands(float grain)
 {
-    vec3 q = place.xyz * mix(vec3(30.0, 5.4, 30.0), vec3(17.5, 17.5, 3.2), place.w);
+    vec3 q = tint.xyz * mix(vec3(30.0, 5.4, 30.0), vec3(17.5, 17.5, 3.2), tint.w);
     float woven = wave(q.x + 0.6 * q.y + 0.30 * wave(0.41 * q.z)) +
                   wave(q.z - 0.7 * q.y + 0.27 * wave(0.53 * q.x + 0.8 * q.y));
     return 0.5 * woven * clamp(1.6 - 100.0 * grain, 0.0, 1.0);
@@ -94,7 +92,7 @@ float strands(float grain)
 // Eyes, nose and mouth, drawn on the head from the front: both sides at once. `gloss` is how wet it is.
 vec3 with_face(vec3 coat, float sharp, out float gloss)
 {
-    vec3 in_head = (head_from_bind * vec4(place.xyz, 1.0)).xyz;
+    vec3 in_head = (head_from_bind * vec4(tint.xyz, 1.0)).xyz;
     vec3 p = vec3(abs(in_head.x), in_head.yz);
     // A dark corner of the eye runs towards the nose.
     vec2 from = p.xy - vec2(0.058, 0.004);
@@ -134,12 +132,12 @@ vec3 with_face(vec3 coat, float sharp, out float gloss)
 
 vec3 coat_here(out float gloss)
 {
-    float grain = 0.6 * length(fwidth(place.xyz));
+    float grain = 0.6 * length(fwidth(tint.xyz));
     float sharp = 1.0 / max(grain, 1e-5);
     float hair = strands(grain);
-    vec3 coat = mix(ORANGE, BROWN, clamp(marking.z + 0.10 * hair * (0.4 + marking.z), 0.0, 1.0)) * (1.0 + 0.07 * hair);
-    coat = mix(coat, WHITE * (1.0 + 0.05 * hair), marked(marking.x + TUFT * hair));
-    coat = mix(coat, DARK * (1.0 + 0.3 * hair), marked(marking.y + TUFT * hair));
+    vec3 coat = mix(ORANGE, BROWN, clamp(phase.x + 0.10 * hair * (0.4 + phase.x), 0.0, 1.0)) * (1.0 + 0.07 * hair);
+    coat = mix(coat, WHITE * (1.0 + 0.05 * hair), marked(at.x + TUFT * hair));
+    coat = mix(coat, DARK * (1.0 + 0.3 * hair), marked(at.y + TUFT * hair));
 #ifdef FACED
     return with_face(coat, sharp, gloss);
 #else
@@ -197,9 +195,9 @@ void main()
     float gloss;
     vec3 coat = coat_here(gloss);
 #else
-    vec4 surface = vec4(fur, 1.0);
+    vec4 surface = vec4(base.rgb * tint.rgb, 1.0);
 #ifdef PICTURED
-    surface = vec4(fur, opacity) * texture(picture, at);
+    surface = base * tint * texture(picture, at);
     float masked = mask(surface.a);
     if (masked <= 0.0) discard;
     if (!blended) surface.a = masked;
@@ -218,9 +216,9 @@ void main()
     // The sky's rim is thin, and keeps to what faces up.
     float rim = 0.22 * graze2 * graze2 * graze2 * open_sky * upward;
 #ifdef FURRED
-    around *= mix(FUR_LIGHT, vec3(1.0), open_around);
-    key *= 0.5 + 0.5 * open_around;
-    rim *= open_around * open_around;
+    around *= mix(FUR_LIGHT, vec3(1.0), phase.y);
+    key *= 0.5 + 0.5 * phase.y;
+    rim *= phase.y * phase.y;
 #endif
     vec3 light = KEY * key + around;
     vec3 linear = coat * light * EXPOSURE + RIM * rim;

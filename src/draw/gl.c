@@ -52,7 +52,7 @@ static bool is_linked(GLuint program, const char *name, struct error *error)
 
 GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error)
 {
-    const GLuint vertex = compile(GL_VERTEX_SHADER, vertex_name, define);
+    const GLuint vertex = compile(GL_VERTEX_SHADER, vertex_name, NULL);
     const GLuint fragment = compile(GL_FRAGMENT_SHADER, fragment_name, define);
     GLuint program = glCreateProgram();
     glAttachShader(program, vertex);

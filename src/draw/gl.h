@@ -7,8 +7,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>", in which `define` (NULL: nothing)
-/// is defined. On failure 0, with the driver's first complaint as a sentence.
+/// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>", the latter with `define` defined
+/// (NULL: nothing). On failure 0, with the driver's first complaint as a sentence.
 GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error);
 
 /// A buffer with `bytes` of data (NULL: none yet), bound to the target.

@@ -8,8 +8,8 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-/// What a vertex looks like: its colour, linear, with opacity; its place in a picture; and its phase, as in stage_mesh.frag. A coat's are as
-/// stage_skirt.vert has them.
+/// What a vertex looks like: its colour, linear, with opacity; its place in a picture; and its phase, as in stage_mesh.frag. Of a coat they
+/// mean what is said there too.
 struct posed_look {
     float color[4], uv[2], phase[2], cover; ///< the last: 1 on the surface, 0 a pixel off it
 };
