@@ -1,4 +1,4 @@
-/// What is part of the binary: files (shaders, fonts, the default scene), in a table that is generated at build time, and how it was built.
+/// Contents of the binary: files (shaders, fonts, the default scene), in a table generated at build time, and build information.
 #ifndef BASE_EMBEDDED_H
 #define BASE_EMBEDDED_H
 
@@ -11,7 +11,7 @@ struct embedded {
     size_t size;
 };
 
-/// A file that is there.
+/// A file that exists.
 const struct embedded *embedded_find(const char *name);
 
 /// The next file whose name begins with `folder`, after `previous` or from the start (NULL); NULL after the last.

@@ -44,11 +44,11 @@ void printable(const char *text, char *shown, size_t size);
 /// Writes a line, and its end, that may repeat a path, a name or an argument.
 void print_line(FILE *stream, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/// Writes a field of a table by RFC 4180: a name and what follows it, quoted if it has a comma, a quote or a line break. A file or a pipe
-/// gets the name as it is, a terminal as printable() makes it.
+/// Writes a field of a table by RFC 4180: a name and a suffix, quoted if it has a comma, a quote or a line break. A file or pipe gets the name
+/// unchanged, a terminal gets printable().
 void print_field(FILE *stream, const char *name, const char *suffix);
 
-/// A number to be printed in steps of `unit`: 0 where it would be shown as −0.
+/// A number for printing in steps of `unit`: 0 if it would be printed as −0.
 static inline double printable_number(double value, double unit) { return fabs(value) <= unit / 2 ? 0 : value; }
 
 #endif

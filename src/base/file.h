@@ -12,9 +12,9 @@
 /// `size` does not count. Errors name the path and say: no such file, a directory, no permission, too large.
 bool file_read(const char *path, size_t limit, char **data, size_t *size, struct error *error);
 
-/// Writes to a temporary file beside `path`, checks every call, fsyncs, renames. On failure the old file is intact
-/// and the temporary one is gone. A symbolic link's target is replaced, not the link. Owner, group, mode and ACL of the old file are kept;
-/// where the system does not let us, the new one allows everybody else less, never more.
+/// Writes a temporary file beside `path`, checks every call, fsyncs, renames. On failure the old file is intact and the temporary one is gone. A
+/// symbolic link's target is replaced, not the link. The old file's owner, group, mode and ACL are kept; if the system does not allow that, the
+/// new file gives others fewer rights, never more.
 bool file_write_atomic(const char *path, const void *data, size_t size, struct error *error);
 
 /// The same for output written piece by piece. A device or a pipe is written directly, but a pipe must have a reader.
@@ -34,16 +34,16 @@ bool file_output_commit(struct file_output *output, struct error *error);
 /// Closes and removes the temporary file.
 void file_output_discard(struct file_output *output);
 
-/// Opens a file to be written in its place, a line at a time, as logs are; a pipe must have a reader. NULL with a sentence.
+/// Opens a file to be written in place, line by line, like a log; a pipe must have a reader. NULL and an error on failure.
 FILE *file_open_growing(const char *path, struct error *error);
 
-/// Whether a path is a regular file's, or nothing's yet; else false with a sentence. For saves and exports: devices and pipes keep nothing.
+/// Whether a path is a regular file or free; else false and an error. For saves and exports, because devices and pipes keep nothing.
 bool file_check_place(const char *path, struct error *error);
 
-/// Moves a file that is whole to its place; one that is there is replaced, and its rights are kept.
+/// Moves a complete file to its place; an existing file is replaced, and its rights are kept.
 bool file_move(const char *from, const char *to, struct error *error);
 
-/// Removes the temporary files of all outputs that are open; for a signal's handler that ends the program.
+/// Removes the temporary files of all open outputs; for the handler of a signal that ends the program.
 void file_remove_unfinished(void);
 
 /// Makes a folder beside `path` for files that are moved there when all are whole. What a killed program leaves of it, files and all,
@@ -51,7 +51,7 @@ void file_remove_unfinished(void);
 /// which the caller frees; −1 with errno set.
 int file_folder_beside(const char *path, char **folder);
 
-/// A hash of what is in a file now, to tell whether somebody else has written it; 0 where it cannot be read.
+/// A hash of a file's present content, to tell whether another program has written it; 0 if it cannot be read.
 uint64_t file_content(const char *path);
 
 // Paths relative to a folder. Absolute paths stay as they are; "" and NULL mean the working folder.
@@ -71,7 +71,7 @@ bool path_resolve(const char *folder, const char *path, char absolute[PATH_LIMIT
 /// Rewrites a path relative to one folder as a path relative to another. false if nothing changes or the path is too long.
 bool path_rebase(const char *path, const char *from, const char *to, char moved[PATH_LIMIT]);
 
-/// Whether a file's name ends so, as ".glb", in small letters or capitals.
+/// Whether a file's name ends in this, like ".glb", in upper or lower case.
 bool path_has_end(const char *path, const char *end);
 
 #endif

@@ -10,7 +10,7 @@
 /// No texture coordinates, or no material.
 #define LOOKS_NONE UINT32_MAX
 
-/// The pictures of a surface together, bytes: any number of materials may name one small file.
+/// Limit for the bytes of a surface's pictures together, because many materials may name one small file.
 enum { LOOKS_IMAGES_LIMIT = 256 << 20 };
 
 struct looks_material {
@@ -20,17 +20,17 @@ struct looks_material {
     size_t image_size;
 };
 
-/// What a surface has besides places and colours. NULL: it has none of that.
+/// The look of a surface besides places and colours. Members are NULL if it has none.
 struct looks {
     float (*uv)[2]; ///< texture coordinates, (0, 0) the upper left of the picture
     int uv_count;
     uint32_t
         *corner; ///< per index: which texture coordinates, or LOOKS_NONE; NULL: each vertex has those of its number
-    uint32_t *material; ///< per triangle: which material, or LOOKS_NONE
-    uint8_t *joined;    ///< per triangle: 1 where it goes on with the polygon (a fan) of the triangle before
+    uint32_t *material; ///< per triangle: its material, or LOOKS_NONE
+    uint8_t *joined;    ///< per triangle: 1 if it continues the polygon (a fan) of the triangle before
     struct looks_material *materials;
     int material_count;
-    char *left_out; ///< a file of materials or a picture that could not be read, for people
+    char *left_out; ///< a file of materials or a picture that could not be read, to show
 };
 
 /// Metres, right-handed, y up; triangles counter-clockwise seen from outside. All zero is the empty surface.
@@ -43,7 +43,7 @@ struct surface {
     struct looks looks;
 };
 
-/// Whether a triangle names a vertex twice: it has no area, and an edge from a vertex to itself. No reader keeps one.
+/// Whether a triangle names a vertex twice. Such triangles have no area; no reader keeps them.
 static inline bool triangle_repeats(const uint32_t corner[3])
 {
     return corner[0] == corner[1] || corner[1] == corner[2] || corner[2] == corner[0];
@@ -58,11 +58,11 @@ static inline bool triangle_repeats(const uint32_t corner[3])
 /// position (`v x y z r g b`) are sRGB in the file, as Blender writes them; a vertex without one is white if others have one.
 bool surface_read(const char *path, struct surface *surface, struct error *error);
 
-/// Writes positions, colours, texture coordinates and polygons with 9 digits, so that they read back equal (colours but for a float's
-/// last bit), and where there are materials NAME.mtl and their pictures NAME-1.png … beside it. Atomic, like file_output_commit().
+/// Writes positions, colours, texture coordinates and polygons with 9 digits, so that they read back equal (colours except for a float's last
+/// bit), and for materials NAME.mtl with pictures NAME-1.png … beside it. Atomic, like file_output_commit().
 bool obj_write(const char *path, const struct surface *surface, struct error *error);
 
-/// Per vertex, 1 where some triangle has it; the caller frees it.
+/// Per vertex: 1 if a triangle has it. The caller frees it.
 uint8_t *surface_used_vertices(const struct surface *surface);
 
 /// The box around the vertices that triangles have, m; lo > hi if there are none.
@@ -71,10 +71,10 @@ void surface_bounds(const struct surface *surface, double lo[3], double hi[3]);
 /// Leaves an empty surface.
 void surface_free(struct surface *surface);
 
-/// Whether something of it is seen: a colour other than white, or a picture.
+/// Whether its look is visible: a colour other than white, or a picture.
 bool looks_show(const struct looks *looks);
 
-/// Leaves out which materials triangles have where none has one, and polygons where all are triangles.
+/// Drops materials if no triangle has one, and polygons if all are triangles.
 void looks_drop_unused(struct looks *looks, int triangles);
 
 /// "png" or "jpeg" by a picture's first bytes, or NULL.

@@ -1,4 +1,4 @@
-/// What the readers of surfaces share: the surface that grows while they read, the words of text files; and the readers. Private to src/model.
+/// Shared by the readers of surfaces: the surface being read, and words of text files; and the readers. Private to src/model.
 #ifndef MODEL_SURFACE_READERS_H
 #define MODEL_SURFACE_READERS_H
 
@@ -22,7 +22,7 @@ void builder_vertex(struct surface_builder *builder, const double position[3]);
 
 /// Colours the newest vertex, sRGB; those before the first coloured one become white, and so do later ones without.
 void builder_color(struct surface_builder *builder, const double srgb[3]);
-/// The first of three numbers that is far from any colour (0 … 1); NULL: none is. What is beyond that could not be written and read again.
+/// The first of three numbers that is far outside the range of colours (0 … 1), which could not be written and read again; NULL: none.
 const double *builder_wrong_color(const double srgb[3]);
 void builder_linear_color(struct surface_builder *builder, const float rgb[3]);
 
@@ -35,14 +35,14 @@ void builder_corner(struct surface_builder *builder, uint32_t vertex, uint32_t u
 /// Closes the polygon and returns how many corners it had.
 int builder_end_polygon(struct surface_builder *builder);
 
-/// The material of that name, made white where it is new.
+/// The material of that name; a new one is white.
 uint32_t builder_material(struct surface_builder *builder, const char *name);
 
-/// Drops triangles that name a vertex twice, and what all lack: texture coordinates without corners, materials without triangles. Fails
-/// where there are no vertices or no triangles then; `kind` says what it is, as in "a PLY file". On failure the surface is empty.
+/// Drops triangles that name a vertex twice, texture coordinates without corners, and materials without triangles. Fails if no vertices or no
+/// triangles remain; `kind` is for the message, as in "a PLY file". On failure the surface is empty.
 bool builder_finish(struct surface_builder *builder, const char *path, const char *kind, struct error *error);
 
-/// Makes one of vertices at the same place, which have no colours.
+/// Merges vertices at the same place, which have no colours.
 void builder_merge(struct surface_builder *builder);
 
 // A file being read, and the words of a text, one after the other.
@@ -62,14 +62,14 @@ bool words_more(struct words *words);
 bool words_take(struct words *words, const char *word);
 void words_skip_line(struct words *words);
 
-/// Takes a finite number, or a whole one from `least` to `most`. Fails with what was expected.
+/// Reads a finite number, or a whole one from `least` to `most`. Fails with what was expected.
 bool words_number(struct words *words, const char *what, double *number);
 bool words_integer(struct words *words, const char *what, long least, long most, long *number);
 
 /// "file:line: expected …, got …"
 bool words_expected(struct words *words, const char *what);
 
-// The readers of single formats, for surface_read(), which finishes what they build.
+// The readers of single formats, for surface_read(), which completes the surface.
 
 bool obj_read(struct words *words, struct surface_builder *builder);
 bool ply_read(struct words *words, struct surface_builder *builder);

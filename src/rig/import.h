@@ -5,18 +5,18 @@
 #include "model/gltf.h"
 #include "scene/document.h"
 
-/// Whether a file is a character: by its name, .glb or .gltf, or by how it begins.
+/// Whether a file is a character: by its name, .glb or .gltf, or by its first bytes.
 bool import_suits(const char *path);
 
-/// A new document, without a path of its own, with the character of the file, as import_add() adds it. Its range is the first clip's,
-/// its frame rate the one that the clip's keys lie on. NULL with a sentence.
+/// A new document without a path, with the character of the file, as import_add() adds it. It takes the first clip's range, and the frame rate of
+/// the clip's keys. NULL and an error on failure.
 struct document *import_scene(const char *path, struct error *error);
 
 /// Adds the character in a file to a document: a soft one, whose first coordinate `spline` drives (-1: a new one), or an imported
 /// one, which plays its first clip. False with a sentence.
 bool import_add(struct document *document, const char *path, int spline, struct error *error);
 
-/// Has a model rig play a clip of its file, NULL: none. In a scene that has no splines yet, frame rate and range become the clip's.
+/// Makes a model rig play a clip of its file, NULL: none. A scene without splines takes the clip's frame rate and range.
 bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
                         struct error *error);
 

@@ -1,5 +1,5 @@
-/// An imported character made ready for posing: its file, its rest pose, the boxes that its poses are bounded
-/// by, and its bones as one sees and points at them: a line from each joint to the next.
+/// An imported character prepared for posing: its file, its rest pose, bounding boxes, and its bones as you see and click them: a line from each
+/// joint to the next.
 ///
 /// Bones are the joints of skins; in a file without skins all nodes that have a parent.
 #ifndef RIG_IMPORTED_H
@@ -8,7 +8,7 @@
 #include "model/gltf.h"
 #include "scene/rig.h"
 
-/// From a node to a child that is a bone too; where there is none, on to a tip.
+/// From a node to a child that is a bone, too; if there is none, to a tip.
 struct bone {
     int node;     ///< that turns it
     int child;    ///< −1: it ends in a tip
@@ -37,8 +37,8 @@ void imported_free(struct imported *imported);
 /// Where a bone begins and ends in a pose, in the character's space.
 void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3]);
 
-/// Where an animal's back is, as x and z from its middle: where its tail ends, else away from glTF's front, +z. False for a
-/// character that is seen from the front: no bone has "tail" in its name, and it is wider than long or has no bones.
+/// Direction of an animal's back, as x and z from its middle: towards its tail's end, else away from glTF's front, +z. False for a character seen
+/// from the front: no bone has "tail" in its name, and it is wider than long or has no bones.
 bool imported_back(const struct imported *imported, float back[2]);
 
 // --- bones of a chain
@@ -52,7 +52,7 @@ struct chain_bones {
 bool chain_find(const struct gltf *gltf, const char *from, const char *to, struct chain_bones *bones,
                 struct error *error);
 
-/// The bone at the end of the only way down from `from`; −1 with a sentence where the way branches, or is too long.
+/// The bone at the end of the only way down from `from`; −1 and an error if the way branches, or is too long.
 int chain_end(const struct gltf *gltf, int from, struct error *error);
 
 // --- pairs
@@ -63,7 +63,7 @@ enum { BONE_NAME_SIZE = 256 };
 /// side.
 bool bone_other_side(const char *name, char other[BONE_NAME_SIZE]);
 
-/// The bones of the same chain on the other side, by the names of its ends. false where there is none.
+/// The bones of the same chain on the other side, by the names of its ends. false if there is none.
 bool chain_find_twin(const struct gltf *gltf, const char *from, const char *to, struct chain_bones *bones);
 
 #endif

@@ -22,10 +22,10 @@ void meadow_destroy(struct meadow *meadow);
 /// reeds, samples or knots than before.
 void meadow_update(struct meadow *meadow, const struct document *document, const struct evaluation *evaluation);
 
-/// How many the last update solved.
+/// Number of reeds solved by the last update.
 int meadow_solved(const struct meadow *meadow);
 
-/// How many there are; how each stands; and its value at a position in samples.
+/// Number of reeds; the place of each; and its value at a position in samples.
 int meadow_count(const struct meadow *meadow);
 const struct reed *meadow_reed(const struct meadow *meadow, int reed);
 wiggly_value meadow_value(const struct meadow *meadow, int reed, double position);

@@ -1,5 +1,5 @@
-/// The models of a document's characters, soft and imported: read when a document is opened, and kept by path, so that
-/// another scene with the same models reads nothing.
+/// The models of a document's characters, soft and imported: read when a document is opened, and cached by path, so that another scene with the
+/// same models reads nothing.
 #ifndef RIG_MODELS_H
 #define RIG_MODELS_H
 
@@ -18,7 +18,7 @@ void models_destroy(struct models *models);
 /// all the same.
 bool models_update(struct models *models, const struct document *document, struct error *error);
 
-/// Whether these are the models that the document's rigs name, as when edits have added or removed some since models_update().
+/// Whether these are the models of the document's rigs; false if edits have added or removed some since models_update().
 bool models_suit(const struct models *models, const struct document *document);
 
 /// Applies the document's paint to the figures of its characters, and gives its tails foxes of their joints: call it once a frame before
@@ -35,16 +35,16 @@ const struct figure *models_figure(const struct models *models, int character);
 /// Changes whenever models_update() is called; 0 for none. `models` may be NULL.
 uint64_t models_version(const struct models *models);
 
-/// What a rig of the document shows, a model rig or the fox of a tail; NULL: it is none, or could not be read. `models` may be NULL.
+/// The model of a model rig, or the fox of a tail; NULL: neither, or it could not be read. `models` may be NULL.
 const struct imported *models_imported(const struct models *models, const struct document *document, int rig);
 
-/// Solves the document's meadow where it has changed.
+/// Solves the document's meadow if it has changed.
 void models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation);
 
 /// The meadow as it was last solved; NULL: none. `models` may be NULL.
 const struct meadow *models_meadow(const struct models *models);
 
-/// Memory for a pose of it: one for what is shown, one for all else. NULL where models_imported() is.
+/// Memory for its pose: one for the shown pose, one for all others. NULL if models_imported() is.
 struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig, bool shown);
 
 #endif

@@ -21,7 +21,7 @@ void opened_solve(struct opened *opened, enum solver_choice solver);
 
 void opened_free(struct opened *opened);
 
-/// What its rigs are posed from.
+/// The context for posing its rigs.
 struct posing opened_posing(const struct opened *opened);
 
 #endif

@@ -7,24 +7,24 @@
 #include "rig/models.h"
 #include "scene/evaluate.h"
 
-/// How the same knots are shown: by the paper's method, without lag, or as classical cubics (the splines are then solved so).
+/// How the same knots are shown: by the paper's method, without lag, or as classical cubics (the splines are then solved that way).
 enum look { LOOK_WIGGLY, LOOK_STIFF, LOOK_CUBIC };
 
-/// What moves a rig besides the document, as a drag does.
+/// Motion of a rig in addition to the document's, for example by a drag.
 struct by_hand {
     wiggly_value input[RIG_MAX_INPUTS]; ///< added to each of its inputs (rig.h)
     double base[3];                     ///< metres
 };
 
-/// What rigs are posed from.
+/// The context for posing rigs.
 struct posing {
     const struct document *document;
     const struct evaluation *evaluation; ///< NULL: all splines are 0
     const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
     bool at_rest; ///< clips do not play
-    bool shown; ///< an imported character's pose is the one that stays until its next like that; else until any other
-    /// Adds to `hand` how a rig of the document is moved by hand; NULL: none is.
+    bool shown;   ///< an imported character's pose stays until the next shown one; otherwise until any other
+    /// Adds a rig's motion by hand to `hand`; NULL: there is none.
     void (*move)(const void *context, int rig, struct by_hand *hand);
     const void *context; ///< for `move`
 };
@@ -36,13 +36,13 @@ struct rig_pose {
         struct {
             const struct figure *figure;
             struct morph morph;
-            float position[3]; ///< what it stands on, metres
+            float position[3]; ///< where it stands, metres
         } character;
         struct {
             const struct imported *imported;
             const struct gltf_pose *pose; ///< the models' own: see struct posing
             float root[16];               ///< its space → world
-            float ground;                 ///< height of what it stands on, metres
+            float ground;                 ///< height of the ground under it, metres
         } model;
         struct {
             float lo[3], hi[3]; ///< the box around it
@@ -55,11 +55,11 @@ struct rig_pose {
 bool rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
               struct rig_pose *pose);
 
-/// The same of what a rig of the document shows: a tail's fox is a model, as an imported character is.
+/// The same for the model that a rig shows: a tail's fox, or an imported character.
 bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                    struct rig_pose *pose);
 
-/// What a rig bends: the model that a chain is of, −1: there is none. All else is a body of its own.
+/// The rig that a rig bends: a chain's model, −1: there is none. Any other rig is its own body.
 int rig_body(const struct document *document, int rig);
 
 /// The box around a posed rig that is a body, metres.
@@ -69,7 +69,7 @@ void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 /// PART_DISPLACEMENT. LOOK_STIFF takes every lag as 0.
 double channel_bend(const struct channel *channel, wiggly_value value, int n, int joints, enum look look);
 
-/// How far a channel moves a part of the body, degrees or percent: gain·(y + Re(e^{−j·n·lag} x)), for its n-th joint from 1 on.
+/// How far a channel moves the n-th joint, from 1 on, of a body part, degrees or percent: gain·(y + Re(e^{−j·n·lag} x)).
 double channel_moves(const struct channel *channel, wiggly_value value, int n, enum look look);
 
 /// The document's models as the scene's source for pins, floors and motions; they must not move in memory. `models` may be NULL.

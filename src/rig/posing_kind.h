@@ -4,7 +4,7 @@
 
 #include "rig/posing.h"
 
-/// How points of a rig are found and moved, as model_source.find() and weigh(). `posing` is as the paper has it, and `sample` a pin's.
+/// How points of a rig are found and moved, like model_source.find() and weigh(). `posing` uses the paper's look; `sample` is a pin's.
 struct pinning_functions {
     bool (*find)(const struct posing *posing, int rig, double sample, int which, const int *splines, int count,
                  pin_pull *c, struct pin_point *point);
@@ -13,46 +13,46 @@ struct pinning_functions {
 
 extern const struct pinning_functions strand_pinning;
 
-/// For angles of files, which are in degrees.
+/// For angles in files, which are degrees.
 static inline double radians(double degrees) { return degrees * 3.14159265358979323846 / 180.0; }
 
 struct posing_functions {
     /// All of `pose` but its kind is filled in. false if its model is missing.
     bool (*pose)(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                  struct rig_pose *pose);
-    void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]); ///< NULL: it is no body
-    const struct pinning_functions *pins;                                  ///< NULL: it takes none
+    void (*bounds)(const struct rig_pose *pose, float lo[3], float hi[3]); ///< NULL: it is not a body
+    const struct pinning_functions *pins;                                  ///< NULL: it has no pins
 };
 
 /// The places of its bones in its clip alone, or at rest, in the models' memory for what is shown or that for all else; NULL where there is no
 /// model.
 struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, bool shown);
 
-/// Where an imported character stands: columns and place of its space in the world.
+/// The place of an imported character: columns and place of its space in the world.
 void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);
 
 /// Seconds into a clip, which starts at frame 0 and repeats, at a position in samples.
 double posing_clip_time(const struct document *document, double position, double duration);
 
-/// The values of a rig's inputs, with what moves it by hand.
+/// The values of a rig's inputs, including motion by hand.
 void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                    wiggly_value values[RIG_MAX_INPUTS]);
 
-/// How far it is moved by hand, metres.
+/// Its displacement by hand, metres.
 void posing_base(const struct posing *posing, int rig, const struct by_hand *by_hand, double base[3]);
 
-/// Where a tail begins, metres of the world, and how the body's parts are moved.
+/// The base of a tail, metres of the world, and the motion of the body's parts.
 struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
                        const struct by_hand *by_hand, double base[3]);
 
-/// Height of what the body of a tail stands on.
+/// Height of the ground under a tail's body.
 float tail_ground(const struct tail *tail);
 
-/// As model_source.lowest() and follow().
+/// Like model_source.lowest() and follow().
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);
 bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples);
 
-/// Adds what a channel's spline does to a point that a bend of joint n takes along `way`, metres a radian.
+/// Adds the effect of a channel's spline on a point that a bend of joint n moves along `way`, metres per radian.
 void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c);
 
 /// Σ |c|²

@@ -1,4 +1,4 @@
-/// Tails and chains alike: joints in a row, each the parent of the next, that splines bend.
+/// Shared by tails and chains: joints in a row, each the parent of the next, bent by splines.
 ///
 /// A joint that a clip turns by q turns by q · exp(side · a_s) · exp(up · a_u) · exp(twist · a_t): each axis a is one of the character's space,
 /// taken into the joint's own frame at rest, so that a chain bends in a plane whatever the rolls of its bones. A tail is straight at
@@ -18,10 +18,10 @@ struct chain_axes {
 struct chain_axes chain_axes_at_rest(const struct imported *imported, const struct chain *chain,
                                      const struct chain_bones *bones);
 
-/// Where the bones begin at rest, and the tip, in the character's space: one more than bones.
+/// The ends of the bones at rest, in the character's space: one more than bones.
 void chain_points_at_rest(const struct imported *imported, const struct chain_bones *bones, float (*point)[3]);
 
-/// What bends, and how.
+/// A bent rig, and its bends.
 struct strand {
     const struct channel *channels;
     int channel_count, joints;
@@ -32,28 +32,28 @@ struct strand {
     struct chain_axes axes;
 };
 
-/// False where the model lacks the chain's bones.
+/// False if the model lacks the chain's bones.
 bool strand_of_chain(const struct chain *chain, const struct imported *imported, struct strand *strand);
 
-/// The strand that a rig is, if it bends that body.
+/// The strand of a rig, if it bends that body.
 bool strand_find(const struct posing *posing, int body, int rig, struct strand *strand);
 
 /// The axes of a joint in its own frame at rest, by enum axis.
 void strand_axes(const struct strand *strand, int joint, double axis[3][3]);
 
-/// The sign that a mirrored chain gives an axis; and radians by which a joint turns about each, which it is in.
+/// The sign that a mirrored chain gives an axis; and the radians by which a joint turns about each axis.
 double strand_sign(const struct strand *strand, enum axis axis);
 void strand_angles(const struct strand *strand, const wiggly_value *values, enum look look, int joint,
                    double angle[3]);
 
-/// The axes of a joint as the turns behind each leave them, in its own frame bent so.
+/// The axes of a joint as left by the turns after each, in its own bent frame.
 void strand_turned_axes(const struct strand *strand, const wiggly_value *values, int joint, double axis[3][3]);
 
 /// Turns a joint's rotation (x y z w) by the values of the channels (eq. 27).
 void strand_turn(const struct strand *strand, const wiggly_value *values, enum look look, int joint,
                  double rotation[4]);
 
-/// Bends the joints of a model over the clip's pose. Leaves world matrices alone. Allocates nothing.
+/// Bends the joints of a model on top of the clip's pose. Does not change world matrices. Allocates nothing.
 void strand_bend(const struct strand *strand, const wiggly_value *values, enum look look, struct gltf_pose *pose);
 
 enum { PATH_MAX_NODES = 512 };
@@ -62,12 +62,12 @@ enum { PATH_MAX_NODES = 512 };
 struct path_node {
     int node; ///< of the model
     double offset[3], rotation[4], turn[9],
-        scale[3];           ///< against the one before; `turn` is the rotation, or the node's own matrix
-    double at[3], frame[9]; ///< in the world, before it scales
+        scale[3];           ///< relative to the one before; `turn` is the rotation, or the node's own matrix
+    double at[3], frame[9]; ///< in the world, before its own scale
     double arm[3];          ///< to the point of path_arms(), in its frame
 };
 
-/// The way from the root to a strand's tip, in double precision: floats are too coarse for what is solved.
+/// The way from the root to a strand's tip, in double precision, because floats are too coarse for solving.
 struct path {
     struct path_node nodes[PATH_MAX_NODES];
     int first, count; ///< the strand's joints are the last ones, from `first` on
@@ -75,17 +75,17 @@ struct path {
     double end[3];    ///< the tip in the world
 };
 
-/// Poses a tail or chain at a position in samples. False where its model is missing, or has more nodes above it.
+/// Poses a tail or chain at a position in samples. False if its model is missing, or has too many nodes above it.
 bool path_find(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                struct path *path);
 
-/// Where the strand's joint ends, in the world.
+/// The end of the strand's joint in the world.
 const double *path_end(const struct path *path, int joint);
 
-/// Finds the arms of all nodes up to one of the strand's joints, to where that ends.
+/// Finds the arms of all nodes up to one of the strand's joints, to that joint's end.
 void path_arms(struct path *path, int joint);
 
-/// How the point of path_arms() moves for each radian that a node turns about an axis of its own frame.
+/// Motion of the point of path_arms() per radian of a node's turn about an axis of its own frame.
 void path_way(const struct path_node *node, const double axis[3], double way[3]);
 
 /// Metres along the first `count` joints.

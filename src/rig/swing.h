@@ -1,8 +1,8 @@
-/// Follow-through without a solve: how a spline answers while its base is moved by hand.
+/// Follow-through without a solve: a spline's response while you move its base by hand.
 ///
-/// Between frames the base moves evenly, so its acceleration is a kick at each frame and x swings freely in between: that is
-/// integrated exactly, whatever the frame rate. The oscillator takes the solver's own step (spline/oscillator.h), with x = q and
-/// z = q'. The filter of eq. 25 in continuous time is ẍ − (s₀ + s₁) ẋ + s₀s₁ x = −ÿ, from rest, y being the base. With z = ẋ − s₁ x:
+/// Between frames the base moves evenly, so its acceleration is a kick at each frame and x is free between. That is integrated exactly, at any
+/// frame rate. The oscillator uses the solver's own step (spline/oscillator.h), with x = q and z = q'. The filter of eq. 25 in continuous time is
+/// ẍ − (s₀ + s₁) ẋ + s₀s₁ x = −ÿ, from rest, y being the base. With z = ẋ − s₁ x:
 ///
 ///     z += −Δẏ,    x(t) = e^{s₁t} x + φ(t) z,    z(t) = e^{s₀t} z,    φ(t) = (e^{s₀t} − e^{s₁t}) / (s₀ − s₁).
 #ifndef RIG_SWING_H
@@ -25,8 +25,8 @@ struct swing_filter {
     double peak;     ///< largest |x| after a sudden move of the base by 1
 };
 
-/// The response of a spline with these parameters at the time shown, and a damping ratio of at least 0.05, so that it comes to
-/// rest. false if nothing pulls it back: cubics, frequency 0.
+/// The response of a spline with these parameters at the shown time, with a damping ratio of at least 0.05, so that it comes to rest. false if
+/// nothing pulls it back: cubics, frequency 0.
 bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_COUNT], struct swing_filter *filter);
 
 /// The base's velocity changes by `kick`, then `dt` seconds pass.
@@ -35,24 +35,24 @@ void swing_step(struct swing *swing, const struct swing_filter *filter, double k
 /// Whether less than a tenth of a millimetre of swing is left.
 bool swing_settled(const struct swing *swing, const struct swing_filter *filter);
 
-/// What of a tail or chain follows through: straight, where its tip goes as its joints bend.
+/// Follow-through of a tail or chain, taken as straight: where its tip goes as its joints bend.
 struct swing_arm {
     int joints;
     double length;          ///< metres
-    double direction[2][3]; ///< for AXIS_SIDE and AXIS_UP: unit vectors along which the base must move to bend it so
+    double direction[2][3]; ///< for AXIS_SIDE and AXIS_UP: unit vectors along which the base moves to bend it so
 };
 
-/// Of a rig that is a tail or chain; false where its model is missing.
+/// For a rig that is a tail or chain; false if its model is missing.
 bool swing_arm(const struct posing *posing, int rig, struct swing_arm *arm);
 
-/// Whether a channel, one of `count`, hangs on the base: those of the displacement do or, if there is none for an axis, all of that axis.
+/// Whether a channel, one of `count`, reacts to the base: those of the displacement do or, if an axis has none, all of its channels.
 bool swing_hangs(const struct channel *channels, int count, const struct channel *channel);
 
-/// Units of a channel's spline for a metre of x. A channel of the displacement takes metres as they are; for another the swing
-/// after a sudden move of the base takes the tip about as far as the base went.
+/// Units of a channel's spline per metre of x. A channel of the displacement uses metres; for others the swing after a sudden move of the base
+/// takes the tip about as far as the base went.
 double swing_scale(const struct swing_arm *arm, const struct channel *channel, const struct swing_filter *filter);
 
-/// Unit vector along which the base must move to drive channels of an axis; 0 for a twist.
+/// The base's direction of motion, a unit vector, that drives channels of an axis; 0 for a twist.
 void swing_direction(const struct swing_arm *arm, enum axis axis, double direction[3]);
 
 #endif

@@ -10,7 +10,7 @@
 
 struct document;
 
-// --- channels: splines that bend joints, each joint later than the one before, or move a part of the tail's fox
+// --- channels: splines that bend joints, each joint later than the one before, or move a part of the fox's body
 
 enum {
     ANGLES_MAX_JOINTS = 256,
@@ -20,7 +20,7 @@ enum {
 /// How they are written in the file.
 enum angle_form { ANGLES_ONE, ANGLES_EACH, ANGLES_RAMP };
 
-/// The angle at a place from 0 (the first joint) to 1 (the last); straight between points, constant before the first and behind the last.
+/// The angle at a place from 0 (the first joint) to 1 (the last): linear between points, constant outside.
 struct ramp_point {
     double at, angle;
 };
@@ -28,27 +28,27 @@ struct ramp_point {
 /// Degrees.
 struct angles {
     enum angle_form form;
-    int count; ///< of joints of ANGLES_EACH, of points of ANGLES_RAMP
+    int count; ///< number of joints for ANGLES_EACH, of points for ANGLES_RAMP
     union {
         double value[ANGLES_MAX_JOINTS]; ///< value[0] alone of ANGLES_ONE
         struct ramp_point ramp[RAMP_MAX_POINTS];
     };
 };
 
-/// The angle of a joint, of `joints` in all. Behind the last number of ANGLES_EACH it stays the last.
+/// The angle of a joint, of `joints` in all. Joints beyond the last number of ANGLES_EACH have the last one.
 double angles_at(const struct angles *angles, int joint, int joints);
 
-/// How far a joint lags behind the first: of one number, that times `joint`; else the joint's own.
+/// Lag of a joint behind the first: a single number times `joint`; else the joint's own number.
 double angles_lag(const struct angles *lag, int joint, int joints);
 
-/// How many angles it is made of: 1, one a joint or one a point of the ramp. And each of them.
+/// Its number of angles: 1, one per joint, or one per point of the ramp. And each of them.
 int angles_count(const struct angles *angles);
 double angles_number(const struct angles *angles, int index);
 void angles_set_number(struct angles *angles, int index, double degrees);
 
 bool angles_equal(const struct angles *a, const struct angles *b);
 
-enum { SCENE_MAX_CHANNELS = 64 }; ///< of one rig
+enum { SCENE_MAX_CHANNELS = 64 }; ///< per rig
 
 /// What a channel does: bend joints about an axis, or move a part of the body. Tails do not twist; only tails move parts of a body.
 enum axis {
@@ -71,10 +71,10 @@ bool axis_bends(enum axis axis);
 const char *axis_word(enum axis axis);
 const char *axis_unit(enum axis axis);
 
-/// The gain that a new channel has: one that shows.
+/// A visible gain for a new channel.
 double axis_gain(enum axis axis);
 
-/// Which part of its spline a channel bends by: the total y + Re(e^{−j·n·lag} x), or without the equilibrium y. The latter is for a rig
+/// The part of its spline that a channel bends by: the total y + Re(e^{−j·n·lag} x), or that without the equilibrium y. The latter is for rigs
 /// on something that moves: y is the base's motion, and x is relative to it.
 enum channel_part { PART_TOTAL, PART_DISPLACEMENT };
 
@@ -83,7 +83,7 @@ struct channel {
     enum axis axis;
     enum channel_part of;
     struct angles lag;  ///< see angles_lag()
-    struct angles gain; ///< degrees (or percent) per unit of the spline; of what moves the body the first counts
+    struct angles gain; ///< degrees (or percent) per unit of the spline; a part of the body uses the first
     struct json_t *extra;
 };
 
@@ -109,7 +109,7 @@ struct tail {
 
 enum { CHARACTER_MAX_DRIVES = 4 };
 
-/// What moves one complex normal coordinate of a character (eq. 30): A e^{−j·lag} x.
+/// The drive of a complex normal coordinate of a character (eq. 30): A e^{−j·lag} x.
 struct drive {
     char *name;       ///< of the coordinate in the model
     int spline;       ///< index
@@ -118,25 +118,25 @@ struct drive {
     struct json_t *extra;
 };
 
-/// A soft character in a scene (paper, section 7.2). Its model is a separate file, which is not read here and may be missing.
+/// A soft character in a scene (paper, section 7.2). Its model is a separate file, which may be missing and is not read here.
 struct character_rig {
     char *model;           ///< a file, relative to the document's folder unless absolute
     struct paint *painted; ///< NULL: none, or its file could not be read
-    char *paint_file;      ///< .npy that the scene names for its paint, or NULL
+    char *paint_file;      ///< .npy file of its paint, or NULL
     double position[3];    ///< metres
     struct drive *drives;  ///< at most CHARACTER_MAX_DRIVES
     int drive_count;
     bool has_floor;
-    double floor; ///< height above which all of it is kept, metres of the world
-    int phases; ///< axis 0 … 2 along which its first coordinate's phases are shown at first; −1: its own colours
+    double floor; ///< height of its floor, metres of the world
+    int phases; ///< axis 0 … 2 along which its first coordinate's phases are shown at first; −1: the model's colours
 };
 
 #define DRIVE_DEFAULT_AMPLITUDE 1.0
 
-/// An imported character: a glTF file, which is not read here and may be missing.
+/// An imported character: a glTF file, which may be missing and is not read here.
 struct model_rig {
     char *model;        ///< the file, relative to the document's folder unless absolute
-    char *clip;         ///< of its animations, the one that it plays; NULL: it stands at rest
+    char *clip;         ///< the animation that it plays; NULL: it stands at rest
     double position[3]; ///< metres
     double scale;       ///< times the file's metres; above 0
     double turn;        ///< degrees about world up
@@ -155,7 +155,7 @@ struct chain {
 
 enum { MEADOW_MAX_REEDS = 4096 };
 
-/// Reeds that all swing by one spline, each by a variation of its own.
+/// Reeds that all swing by one spline, each with its own variation.
 struct meadow_rig {
     int spline;
     int count;        ///< reeds, 1 … MEADOW_MAX_REEDS
@@ -168,10 +168,10 @@ struct meadow_rig {
 
 enum { SCENE_MAX_PINS = 1024 }; ///< over all rigs together
 
-/// At one frame, a point of a rig is to be at a place. All splines that drive the rig are solved through it.
+/// A place for a point of a rig at a frame. All splines that drive the rig are solved through it.
 struct pin {
     double frame;         ///< as written; may be fractional
-    int point;            ///< of a character: a vertex of its model; of a tail or chain: a joint, whose end it is
+    int point;            ///< a vertex of a character's model; the end of a joint of a tail or chain
     double to[3];         ///< metres of the world
     unsigned id;          ///< as a knot's
     struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL
@@ -212,7 +212,7 @@ struct rig {
 /// The file's word for a kind: "tail" …
 const char *rig_word(enum rig_kind kind);
 
-/// What to call it in a sentence: its name, or the file or joint that it is about, or its kind.
+/// Its name in a sentence: its own, else its file, joint or kind.
 const char *rig_title(const struct rig *rig);
 
 /// Whether it is a character that is kept above a floor.
@@ -225,11 +225,11 @@ static inline bool rig_has_floor(const struct rig *rig)
 int rig_input_count(const struct rig *rig);
 int rig_input(const struct rig *rig, int input);
 
-/// The same for inputs that move points which pins can hold; −1 for an input that moves only the body. And the first such spline; −1: none.
+/// The same for inputs that can move pinned points; −1 for an input that moves only the body. And the first such spline; −1: none.
 int rig_point_input(const struct rig *rig, int input);
 int rig_point_spline(const struct rig *rig);
 
-/// Its channels and how many; NULL and 0 for a kind that has none.
+/// Its channels and how many; NULL and 0 if its kind has none.
 struct channel *rig_channels(const struct rig *rig, int *count);
 
 /// The file's word for a point that can be pinned, "vertex" or "joint"; NULL: such a rig has no pins.
@@ -238,15 +238,15 @@ const char *rig_pin_key(const struct rig *rig);
 /// A rig of a kind with the file format's defaults, without a name or an id. It has one holder.
 struct rig *rig_create(enum rig_kind kind);
 
-/// A clone has one holder; what it holds is its own, but for paint and what is known of its file, which are counted.
+/// A clone with one holder. It shares only paint and unknown keys, which are counted.
 struct rig *rig_clone(const struct rig *rig);
 struct rig *rig_hold(struct rig *rig);
 void rig_drop(struct rig *rig);
 
-/// Whether a document may have a rig as an edit made it; −0 becomes 0, and a chain's model is looked up.
+/// Whether an edited rig is allowed in a document. Turns −0 into 0 and looks up a chain's model.
 bool rig_check(const struct document *document, struct rig *rig, struct error *error);
 
-/// Whether two are the same but for name, pins and unknown keys.
+/// Whether two are equal except for name, pins and unknown keys.
 bool rig_equals(const struct rig *a, const struct rig *b);
 
 /// Bytes that it takes and another (or NULL) does not, not counting unknown keys.

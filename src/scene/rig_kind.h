@@ -1,4 +1,4 @@
-/// What the scene layer knows of each kind of rig: its members in the file, and what drives it. Private to src/scene.
+/// The scene layer's data of each kind of rig: its members in the file, and its drives. Private to src/scene.
 #ifndef SCENE_RIG_KIND_H
 #define SCENE_RIG_KIND_H
 
@@ -7,7 +7,7 @@
 struct rig_functions {
     const char *word;           ///< in the file
     const struct field *fields; ///< in the order of the file
-    size_t title;               ///< place of the text that it goes by without a name
+    size_t title;               ///< place of the text that names it if it has no name
     const struct field *pins;   ///< the rows of a pin; NULL: it takes none
     bool is_bent;               ///< by channels
 };

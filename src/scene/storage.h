@@ -16,44 +16,44 @@ void pool_free(struct pool *pool);
 
 /// The motion of a joint that a spline's equilibrium follows, read for every sample.
 struct baked {
-    uint64_t key; ///< of what was read; 0: nothing yet
+    uint64_t key; ///< hash of what was read; 0: nothing yet
     double gain;
     double *raw, *samples; ///< without gain and with it
-    bool is_new;           ///< the spline is to be solved again
+    bool is_new;           ///< the spline must be solved again
 };
 
 struct spline_state {
     struct spline *held; ///< as it was solved
     struct baked baked;
     bool solved; ///< in this update
-    bool forced; ///< to be solved whether edited or not: what moves its pinned rigs has changed
+    bool forced; ///< must be solved even if it is unchanged, because something that moves its pinned rigs has changed
 };
 
-enum { FLOORS_MOST_BOUNDS = 256 }; ///< points that a group keeps above floors
+enum { FLOORS_MOST_BOUNDS = 256 }; ///< per group
 
 struct floors {
     wiggly_bound *bounds;
     int *rig, *vertex;       ///< of each bound
     double (*c)[2];          ///< of each bound, for each member
-    struct low_point *low;   ///< of the rig in hand, at each sample
-    int in_hand;             ///< that rig, where nothing has been solved since; else -1
-    double *room;            ///< to find them in
-    double *sunk;            ///< for each rig and sample: how far below its floor knots and pins hold it
+    struct low_point *low;   ///< of the current rig, at each sample
+    int in_hand;             ///< that rig, if nothing has been solved since; else -1
+    double *room;            ///< memory for finding them
+    double *sunk;            ///< per rig and sample: depth below its floor at which knots and pins hold it
     struct floor_left *left; ///< of each rig
     int count;               ///< bounds
 };
 
-/// A pin of the group in hand.
+/// A pin of the current group.
 struct held_pin {
     int rig;
     const struct pin *pin;
     bool is_found;
-    struct pin_point from; ///< where its pulls are those of
+    struct pin_point from; ///< the point at which its pulls were found
     double passed[3];      ///< Σ Re(c x) there
     double ease;           ///< pin_ease() without pins
 };
 
-/// How much there is room for.
+/// Capacities.
 struct pinned_room {
     int knots;      ///< of one spline, as the solver needs them
     int all_knots;  ///< of all splines
@@ -82,7 +82,7 @@ struct pinned {
     bool *bases;    ///< of the group in hand, pin_groups_find_bases()
     double *weight; ///< of pulling it
 
-    // in hand, in an update
+    // The current group of an update
     struct evaluation *evaluation;
     const struct document *document;
     int group; ///< as `which` has it
@@ -118,37 +118,37 @@ struct storage {
 wiggly_desc storage_describe(const struct evaluation *evaluation, const struct document *document, int spline,
                              bool cubic);
 
-/// Adds the spline's knots, for which `knots` must have room.
+/// Adds the spline's knots; `knots` must have room for them.
 void storage_add_knots(wiggly_desc *desc, const struct document *document, int spline, wiggly_knot *knots);
 
-/// Knots that the solver needs room for: a limited spline needs as many more as samples may be held.
+/// Knots that the solver needs room for; with limits, also one for each sample that may be held.
 int storage_knot_room(const struct spline *spline, int samples);
 
-/// A curve at rest, for where there is no solution.
+/// A curve at rest, used if there is no solution.
 void storage_flatten(wiggly_curve *curve, const wiggly_desc *desc);
 
 /// Makes room for the document's groups. Without pins it costs nothing.
 void pinned_resize(struct evaluation *evaluation, const struct document *document);
 void pinned_free(struct pinned *pinned);
 
-/// Begins an update: puts the splines into an order for groups, and finds what is to be solved again because rigs or pins have changed.
-/// Whether there are groups: if not, storage->order is the order.
+/// Begins an update: orders the splines for groups, and finds which must be solved again because rigs or pins have changed. Returns whether
+/// there are groups; if not, storage->order is the order.
 bool pinned_begin(struct evaluation *evaluation, const struct document *document);
 
-/// Takes a group in hand. Whether it moves with something that was solved in this update.
+/// Makes a group the current one. Returns whether something solved in this update moves it.
 bool pinned_take(struct pinned *pinned, int which);
 
-/// Solves the group in hand into the members' curves. false if it cannot be solved together.
+/// Solves the current group into the members' curves. false if it cannot be solved together.
 bool pinned_solve(struct pinned *pinned, wiggly_status *status);
 
-/// Measures what is left of all pins.
+/// Measures the remaining offsets of all pins.
 void pinned_measure(struct pinned *pinned);
 
-/// Makes room for floors. And whether a rig of the group in hand has one.
+/// Makes room for floors. And whether a rig of the current group has one.
 void floors_resize(struct pinned *pinned, int samples);
 bool floors_concern(const struct pinned *pinned);
 
-/// Solves the group in hand once more, above its floors; `status` is what solving it without them gave.
+/// Solves the current group again, above its floors; `status` is the result without them.
 wiggly_status floors_solve(struct pinned *pinned, wiggly_status status);
 
 #endif

@@ -1,4 +1,4 @@
-/// A growing text with the pieces that JSON is made of; numbers and colours as files have them.
+/// A growing text for JSON; numbers and colours as in files.
 #ifndef SCENE_TEXT_H
 #define SCENE_TEXT_H
 

@@ -1,4 +1,4 @@
-/// A damped oscillator's motion by itself over a time, in closed form: q'' + 2d q' + k q = 0, whatever the damping.
+/// The free motion of a damped oscillator over a time, in closed form: q'' + 2d q' + k q = 0, for any damping.
 #ifndef SPLINE_OSCILLATOR_H
 #define SPLINE_OSCILLATOR_H
 
@@ -9,7 +9,7 @@ typedef struct oscillator {
     double d, k;
 } oscillator;
 
-/// The same step for all state: [q q'] ← m [q q'].
+/// The step for any state: [q q'] ← m [q q'].
 typedef struct step_matrix {
     double q_q, q_v, v_q, v_v;
 } step_matrix;
@@ -30,8 +30,8 @@ static inline step_matrix oscillator_step(oscillator o, double h)
     return (step_matrix){c + o.d * s, s, -o.k * s, c - o.d * s};
 }
 
-/// What q' + d q is multiplied by for the imaginary part of an oscillation on one side of the axis, faded out where ω_d is so slow
-/// over `seconds` or so small a part of ω_n that it would diverge.
+/// The factor of q' + d q that gives the imaginary part of an oscillation on one side of the axis. It fades out where it would diverge: if ω_d
+/// is slow over `seconds`, or a small share of ω_n.
 static inline double oscillator_turn(oscillator o, double seconds)
 {
     double omega2 = fmax(0, o.k - o.d * o.d);

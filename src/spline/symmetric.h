@@ -5,11 +5,11 @@
 /// Eigenvalues, and the eigenvectors as the columns of `vectors`; `a` is destroyed. For a symmetric positive semidefinite `a`.
 void symmetric_eigen(int n, double *a, double *values, double *vectors);
 
-/// The first `count` rows of a's lower triangle ← their Cholesky factor, the others what they are to each other where the first are kept
-/// still: the Schur complement. A row that depends on those before it is left out: its unknown comes out 0.
+/// Replaces the first `count` rows of a's lower triangle by their Cholesky factor, and the others by their Schur complement. A row that depends
+/// on those before it is left out: its unknown becomes 0.
 void symmetric_reduce(int n, int count, double *a);
 
-/// b ← a⁻¹ b, of an a whose rows are all factored.
+/// b ← a⁻¹ b, with all of a's rows factored.
 void symmetric_solve(int n, const double *a, double *b);
 
 /// y ← a x.

@@ -1,4 +1,4 @@
-/// The least-squares problem of one spline: its rows, before anything is squared (docs/mathematics.md, Energy, times h³).
+/// The least-squares problem of one spline: its rows, before squaring (docs/mathematics.md, Energy, times h³).
 ///
 /// Unknowns are x_0 … x_{M−1}, M = `count`, sample k of the system being sample first + k of the spline; in a loop indices
 /// are taken modulo M. Rows, each with the weight by which its square enters E·h³:
@@ -6,9 +6,9 @@
 ///     slope   w       Re(here x_j + ahead (x_{j+1} − x_j) + behind (x_j − x_{j−1})) − target                  (eq. 9)
 ///     start   w       on_x x_0 + on_e (x_1 − x_0), twice
 ///     im      w_k     Im x_k                                              complex mode
-/// Outside a loop x_{−1} is 0 and x_M is (1 + tail) x_{M−1}. Fixed unknowns (knots on Re x, poses and rest on both, outside complex mode
-/// every Im x) keep the value that x holds. At a still knot the jet is two rows, r_i with x_i for x_{i+1} and with x_i for x_{i−1}, as far
-/// as there are samples on that side: what is before it and what is behind it do not feel each other.
+/// Outside a loop x_{−1} is 0 and x_M is (1 + tail) x_{M−1}. Fixed unknowns keep the value in x: Re x at knots, both parts at poses and at
+/// rest, every Im x outside complex mode. A still knot has two jet rows, r_i with x_i for x_{i+1} and with x_i for x_{i−1}, if there are samples
+/// on that side, so that its two sides are independent.
 #ifndef SPLINE_SYSTEM_H
 #define SPLINE_SYSTEM_H
 
@@ -23,29 +23,29 @@ typedef struct slope_row {
     double weight, target;
 } slope_row;
 
-/// Pulls on x of one spline, by sample. They hold nothing, but from the first to the last pin their samples count as knots for where
-/// it starts and ends (pins.c).
+/// Pulls on x of one spline, by sample. They fix nothing, but for where a spline starts and ends, samples from the first to the last pin count
+/// as knots (pins.c).
 typedef struct system_pulls {
     int count;
     int earliest, latest; ///< samples of pins, -1: none
     int *sample;          ///< of the spline
-    cplx *pull;           ///< on Re x and Im x: what is added to −½ ∇(E·h³)
+    cplx *pull;           ///< on Re x and Im x: added to −½ ∇(E·h³)
 } system_pulls;
 
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
-    bool fast;   ///< there are coefficients with a rest
-    bool unlike; ///< jets weigh so differently that a squared matrix would lose the light ones
+    bool fast;   ///< some coefficients have a rest
+    bool unlike; ///< jets' weights differ so much that a squared matrix would lose the light ones
     bool cut;    ///< a jet would weigh more beside another than it does here
     bool
         is_held; ///< the start costs enough, or there is none, that no more than its knot-free stretches cost it digits
-    double noise;         ///< rounding of the known values, where they are differences to an equilibrium
+    double noise;         ///< rounding of the known values, if they are differences to an equilibrium
     bool is_open;         ///< the start costs nothing
     int jet_from, jet_to; ///< a loop has a jet at every sample
     double
         stretch; ///< samples of the longest knot-free stretch, or as many as it takes to swing back where that is less
-    coefficients *at; ///< of row i; g is folded into `drive` and not kept
+    coefficients *at; ///< of row i, except g, which is included in `drive`
     cplx *drive;      ///< f_i
     const double
         *driven; ///< the equilibrium of row 0 on, where f_i = g_i ÿ_i with all the digits that it has; or NULL
@@ -54,42 +54,42 @@ typedef struct system_rows {
     unsigned char *fixed;
     slope_row *slopes; ///< by sample
     int slope_count;
-    start_cost start;          ///< times calm; weights 0 where it is free
+    start_cost start;          ///< times calm; weights 0 if it is free
     const system_pulls *pulls; ///< or NULL
-    int first;                 ///< sample of the spline that row 0 is: pulls are counted by these
-    cplx tail;                 ///< x_M / x_{M−1} − 1: what moves by itself behind the last sample
+    int first;                 ///< the spline's sample of row 0, from which pulls are counted
+    cplx tail;                 ///< x_M / x_{M−1} − 1, for the free motion after the last sample
     double *x;                 ///< 2M: re, im
     double *gradient;          ///< like x
     double *jet;               ///< scratch of the residual: w r as double-doubles, 4M
 } system_rows;
 
-/// A row's coefficients on the samples j − 1, j and j + 1 that there are: `before` and `after` are their numbers or -1.
+/// A row's coefficients on the existing ones of the samples j − 1, j and j + 1: `before` and `after` are their numbers or -1.
 typedef struct stencil {
     int before, at, after;
     cplx c[3];
 } stencil;
 
-/// A slope row as coefficients, with a sample behind the last folded into the last.
+/// A slope row as coefficients; a sample after the last is expressed by the last.
 stencil system_slope_stencil(const system_rows *rows, const slope_row *slope);
 
-/// gradient = −½ ∇(E·h³) at x, 0 at fixed unknowns; jets in double-double through the un-squared rows, so that it is right to
-/// the last digits of x even where the squared matrix has lost them.
+/// gradient = −½ ∇(E·h³) at x, 0 at fixed unknowns. Jets are double-double through the unsquared rows, so that it is right to the last digits
+/// of x even if the squared matrix has lost them.
 void system_gradient(const system_rows *rows);
 
-/// The same where x holds nothing but what is known: all of it is small sums, and plain double will do.
+/// The same if x holds only known values: these are small sums, and plain double is enough.
 void system_right_side(const system_rows *rows);
 
-/// What the rows pull at x, in plain double, and at fixed unknowns too: what holds them pulls as hard the other way.
+/// The rows' pull at x, in plain double, at fixed unknowns, too: the force that holds them is its opposite.
 void system_forces(const system_rows *rows);
 
-/// Everything that is known 0: what is left is the answer to pulls.
+/// Sets all known values to 0: the solution is then the response to pulls.
 void system_forget_known(const system_rows *rows);
 
 /// The squared matrix Rᵀ W R with fixed unknowns as rows of the identity, ready to be factored.
 void system_matrix(const system_rows *rows, pentadiagonal *matrix);
 
-/// The factor that pentadiagonal_factor() makes of that, from the rows themselves, whose condition was never squared: by rotations to
-/// triangular form. For long domains.
+/// The same factor as pentadiagonal_factor() of that, but by rotations from the rows themselves, so that the condition is not squared. For
+/// long domains.
 pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *matrix);
 
 #endif

@@ -1,5 +1,5 @@
-/// Threads, locks and signals over what a system has: POSIX threads, or Windows' own. C11's <threads.h> is missing from several C
-/// libraries, and the thread sanitizer does not see through it.
+/// Threads, locks and signals by POSIX threads or Windows' own. Several C libraries lack C11's <threads.h>, and the thread sanitizer does not
+/// support it.
 #ifndef SPLINE_THREAD_H
 #define SPLINE_THREAD_H
 
@@ -35,7 +35,7 @@ static inline void thread_signal_create(thread_signal *signal) { InitializeCondi
 static inline void thread_signal_destroy(thread_signal *signal) { (void)signal; }
 static inline void thread_wake(thread_signal *signal) { WakeAllConditionVariable(signal); }
 
-/// Lets go of the lock until the signal comes; it may also return without one.
+/// Releases the lock until the signal comes; may also return without one.
 static inline void thread_wait(thread_signal *signal, thread_lock *lock)
 {
     SleepConditionVariableSRW(signal, lock, INFINITE, 0);
@@ -64,7 +64,7 @@ static inline void thread_signal_create(thread_signal *signal) { pthread_cond_in
 static inline void thread_signal_destroy(thread_signal *signal) { pthread_cond_destroy(signal); }
 static inline void thread_wake(thread_signal *signal) { pthread_cond_broadcast(signal); }
 
-/// Lets go of the lock until the signal comes; it may also return without one.
+/// Releases the lock until the signal comes; may also return without one.
 static inline void thread_wait(thread_signal *signal, thread_lock *lock) { pthread_cond_wait(signal, lock); }
 #endif
 
