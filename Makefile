@@ -70,7 +70,7 @@ FUZZ_SUPPORT := $(filter-out tests/fuzz/fuzz_%.c,$(wildcard tests/fuzz/*.c))
 TEST_SUPPORT := $(filter-out tests/test_%.c,$(wildcard tests/*.c))
 
 GENERATED := $(B)/generated
-OBJECTS := $(SOURCES:%.c=$(B)/obj/%.o) $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o
+OBJECTS := $(SOURCES:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o
 LIBRARY_OBJECTS := $(LIBRARY_SOURCES:%.c=$(B)/obj/%.o)
 SHARED_LIBRARY := $(B)/libwiggly.so.$(VERSION)
 LIBRARIES := $(B)/libwiggly.a $(if $(findstring mingw,$(CC)),,$(SHARED_LIBRARY))
@@ -82,6 +82,8 @@ TEST_PROGRAMS := $(patsubst tests/%.c,$(B)/tests/%,$(filter %.c,$(TESTS)))
 PACKAGES := glfw3 epoxy egl jansson cglm stb
 PKG_CFLAGS = $(eval PKG_CFLAGS := $(patsubst -I%,-isystem %,$(shell pkg-config --cflags $(PACKAGES))))$(PKG_CFLAGS)
 PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs glfw3 epoxy egl jansson))$(PKG_LIBS)
+# Nor are libraries that wiggly does without: -D for what is there, and how to link it. CODECS= builds without them.
+CODECS = $(eval CODECS := $(shell tools/find-codecs.sh "$(CC)"))$(CODECS)
 
 # No fused multiply-add and no -ffast-math anywhere: a scene gives the same bits at every optimisation level, number of threads
 # and width of vectors; only libm's exp, expm1, sin, cos and pow may differ from one machine to the next.
@@ -98,10 +100,10 @@ OWN_CFLAGS := $(OPTIMISE) $(WARNINGS)
 FIXED_CFLAGS := -std=c11 -fno-fast-math -ffp-contract=off -fPIC -fno-semantic-interposition $(ERRORS) $(SANITIZERS)
 SPLINE_CFLAGS := $(if $(VARIANT),,-O3 -fno-math-errno -fno-trapping-math)
 
-# src/timing/allocations.c counts what our own objects allocate.
-WRAPPED := malloc calloc realloc strdup
+# src/timing/allocations.c counts what our own objects allocate, src/model/draco.cpp limits what Draco allocates.
+WRAPPED := malloc calloc realloc strdup _Znwm _Znam
 OWN_LDFLAGS := $(SANITIZERS) -Wl,--as-needed $(WRAPPED:%=-Wl,--wrap=%)
-LIBS = $(PKG_LIBS) -lm -ldl -lpthread $(LDLIBS)
+LIBS = $(PKG_LIBS) $(filter-out -D%,$(CODECS)) -lm -ldl -lpthread $(LDLIBS)
 TEST_LIBS = -lcmocka -llapacke -lopenblas -lquadmath
 
 $(B)/obj/src/spline/%.o: OWN_CFLAGS += $(filter -O%,$(SPLINE_CFLAGS))
@@ -231,6 +233,15 @@ $(B)/obj/%.o: %.c $(B)/flags | packages
 	$(if $(Q),@echo "CC $<")
 	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
 
+$(B)/obj/src/model/glb_unpack.o: OWN_CPPFLAGS += $(filter -D%,$(CODECS))
+$(B)/obj/src/model/glb_unpack.o: $(B)/codecs
+# By the C compiler's own C++, so that it takes the same flags; without Draco it is empty. UBSan's runtime for C++ is not linked.
+$(B)/obj/src/model/draco.o: src/model/draco.cpp src/model/draco.h $(B)/flags $(B)/codecs | packages
+	@mkdir -p $(@D)
+	$(if $(Q),@echo "CC $<")
+	$(Q)$(CC) $(if $(filter -DWITH_DRACO,$(CODECS)),-x c++ -std=c++17 $(OWN_CPPFLAGS) $(CPPFLAGS) -Wall -Wextra $(filter -Werror,$(WARNINGS)),-x c) \
+	    $(OPTIMISE) $(CFLAGS) -fPIC $(SANITIZERS) $(if $(SANITIZE),-fno-sanitize=undefined) -c $(if $(filter -DWITH_DRACO,$(CODECS)),$<,/dev/null) -o $@
+
 $(B)/obj/%.o: $(GENERATED)/%.c $(B)/flags | packages
 	@mkdir -p $(@D)
 	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
@@ -287,10 +298,10 @@ FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) sr
     $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/posed.c $(addprefix src/simulation/,\
     drive.c region.c lattice.c tiling.c voxels.c solid.c winding.c element.c eigen.c)
 fuzzers: $(FUZZERS:%=$(B)/%)
-$(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
+$(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
 	$(Q)rm -f $@ && ar rcs $@ $^
 $(FUZZERS:%=$(B)/%): $(B)/%: $(B)/obj/tests/fuzz/%.o $(B)/fuzzed.a
-	$(Q)$(CC) -fsanitize=fuzzer$(comma)address$(comma)undefined -Wl,--as-needed $^ $(LIBS) -o $@
+	$(Q)$(CC) -fsanitize=fuzzer$(comma)address$(comma)undefined -Wl,--as-needed -Wl,--wrap=_Znwm -Wl,--wrap=_Znam $^ $(LIBS) -o $@
 
 # --- generated ---------------------------------------------------------------------------------------------------------
 
@@ -302,12 +313,14 @@ $(GENERATED)/embedded_data.S $(GENERATED)/embedded_table.c &: tools/embed.sh $(E
 replace = @mkdir -p $(@D); printf '%s\n' '$(1)' > $@.$$$$; cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@
 $(B)/flags: FORCE
 	$(call replace,$(CC) $(OWN_CPPFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS) $(SPLINE_CFLAGS))
+$(B)/codecs: FORCE | packages
+	$(call replace,$(CODECS))
 $(B)/objects: FORCE
 	$(call replace,$(OBJECTS))
 $(B)/embedded: FORCE
 	$(call replace,$(EMBEDDED))
 $(B)/parts.txt: FORCE | packages
-	@mkdir -p $(@D); tools/find-parts.sh > $@.$$$$ && { cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@; }
+	@mkdir -p $(@D); tools/find-parts.sh $(if $(filter -DWITH_DRACO,$(CODECS)),draco) > $@.$$$$ && { cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@; }
 $(GENERATED)/build.c: FORCE | packages
 	@tools/build-info.sh $@ "$(CC)" "$(filter -O% -f% -m%,$(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS))$(if $(SPLINE_CFLAGS),; spline $(SPLINE_CFLAGS))"
 

@@ -13,7 +13,7 @@ static bool there(const char *folder, const char *why)
     return false;
 }
 
-/// What of assimp's models is wrong on purpose, or compressed.
+/// What of assimp's models is wrong on purpose, or compressed where Draco's library is missing.
 static bool is_bad(const char *path)
 {
     static const char *const bad[] = {"BoxWithInfinites", "IndexOutOfRange", "MissingBin", "RecursiveNodes",

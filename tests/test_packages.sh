@@ -50,6 +50,19 @@ holds "and nothing installed" [ ! -s "$calls" ]
 stand_in dpkg-query 'shift 3; for p in "$@"; do [ $p = cppcheck ] || printf "%s installed " "$p"; done'
 stand_in apt-cache 'exit 0'
 
+# Draco is good to have: it comes along with others where the system has it, and is no reason to install anything.
+without() { stand_in dpkg-query "shift 3; for p in \"\$@\"; do case \$p in $1) ;; *) printf '%s installed ' \"\$p\" ;; esac; done"; }
+stand_in apt-cache '[ "$2" != libmeshoptimizer-dev ]'
+without 'libdraco-dev | libmeshoptimizer-dev'
+: >"$calls"
+expect 0 "what is good to have may be missing" on_that_system build
+holds "and nothing is installed" [ ! -s "$calls" ]
+without 'libdraco-dev | libmeshoptimizer-dev | gcc'
+expect 0 "on a bare system" on_that_system build
+says "it is installed with the rest, where it exists" "--no-install-recommends gcc libdraco-dev" "$(cat "$calls")"
+without cppcheck
+stand_in apt-cache 'exit 0'
+
 stand_in apt-get 'exit 100'
 expect 3 "apt-get that fails is reported" on_that_system check
 says "with the package" "could not install: cppcheck" "$err"

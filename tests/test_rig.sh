@@ -46,6 +46,19 @@ expect 0 "a clip of its own for knots alone" "$WIGGLY" rig $dog --chain tail_1 -
 grep -q '"joint"' "$scratch/plain.json"
 holds "follows nothing" [ $? -eq 1 ]
 
+for packed in draco meshopt; do
+    file=tests/fuzz/seeds/gltf/$packed.glb
+    "$WIGGLY" check "$file" >"$scratch/said" 2>&1 || { echo "skip - $(tail -n 1 "$scratch/said")"; continue; }
+    for chain in "--chain root:tip" ""; do # without a chain nothing else changes
+        expect 0 "a character compressed by $packed" "$WIGGLY" rig $file $chain -o "$scratch/packed.json"
+        expect 0 "is exported" "$WIGGLY" export "$scratch/packed.json" -o "$scratch/plain.gltf"
+        says "and said to be plain" "meshes decompressed" "$out"
+        holds "with nothing compressed" not grep -qiE "draco|EXT_meshopt" "$scratch/plain.gltf"
+        expect 0 "as it was read" "$WIGGLY" check "$scratch/plain.gltf"
+        says "with all its triangles" "32 triangles and 2 joints" "$out"
+    done
+done
+
 expect 1 "a soft character" "$WIGGLY" rig assets/models/creature.glb
 says "has no bones" "creature.glb: expected a character with bones, got a soft one" "$err"
 expect 1 "a bone that is not there" "$WIGGLY" rig $dog --chain wing -o "$scratch/no.json"

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Finds what of other people's work becomes part of the binary: the fonts, and the licence of each of them and of the
-# header-only libraries. Prints a line for each: name in the binary, tab, file.
+# Finds what of other people's work becomes part of the binary: the fonts, and the licences of each of them, of the header-only
+# libraries and of the libraries that are named. Prints a line for each: name in the binary, tab, file.
 # The layout is made for Inter and JetBrains Mono; where they are not installed, any sans and any monospaced font will do.
 set -eu
 export LC_ALL=C
@@ -39,6 +39,5 @@ included() { # <pkg-config module>
     font font/label Inter,sans-serif weight=80
     font font/label-bold Inter,sans-serif weight=180
     font font/number 'JetBrains Mono,monospace' weight=80:spacing=100
-    included cglm
-    included stb
+    for module in cglm stb "$@"; do included "$module"; done
 } | awk '!seen[$0]++'

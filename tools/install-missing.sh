@@ -1,20 +1,21 @@
 #!/bin/sh
 # Installs the Debian packages that the named sets need and that are not there. Fast and silent when nothing is missing.
-# "a|b": a, or b where the system has no package a.
+# "a|b": a, or b where the system has no package a. "a|": wanted, but never asked for alone, so that a build without it stays quiet.
 # Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [bare] [whole]
 set -eu
 
 packages_of() {
     case $1 in
     build) echo gcc libc6-dev pkg-config libglfw3-dev libepoxy-dev libegl-dev libcglm-dev libjansson-dev libstb-dev \
-        fontconfig fonts-inter "fonts-jetbrains-mono|fonts-dejavu-core" libegl1 libgl1-mesa-dri ;;
+        fontconfig fonts-inter "fonts-jetbrains-mono|fonts-dejavu-core" libegl1 libgl1-mesa-dri \
+        "g++|" "libdraco-dev|" "libmeshoptimizer-dev|" ;;
     test) echo g++ liblapacke-dev libopenblas-dev libcmocka-dev xvfb x11-xkb-utils xdotool imagemagick ;;
     bench) echo liblapacke-dev libopenblas-dev ;;
     check) echo clang-format-14 cppcheck ;;
     clang) echo clang "libclang-rt-dev|libclang-rt-14-dev" ;; # with its sanitizers and its fuzzer
     bare) echo debootstrap ;;
     whole) # what parts of the suite are skipped without; Debian's npm, with hundreds of packages, only where there is no other
-        echo ffmpeg weston cmake assimp-testmodels gcc-mingw-w64-x86-64 gcc-aarch64-linux-gnu libc6-dev-arm64-cross \
+        echo ffmpeg weston cmake assimp-testmodels libdraco-dev libmeshoptimizer-dev gcc-mingw-w64-x86-64 gcc-aarch64-linux-gnu libc6-dev-arm64-cross \
             qemu-user "$(command -v npm >/dev/null || echo nodejs npm)" ;;
     *)
         echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang, bare and whole" >&2
@@ -63,18 +64,19 @@ for choice in $wanted; do names="$names ${choice%|*} ${choice#*|}"; done
 # shellcheck disable=SC2086 # the list is split on purpose
 installed=" $(dpkg-query -W -f '${Package} ${db:Status-Status} ' $names 2>/dev/null || true)"
 missing=""
+besides=""
 for choice in $wanted; do
     there=""
     for package in "${choice%|*}" "${choice#*|}"; do
         case "$installed" in *" $package installed "*) there=yes ;; esac
     done
-    [ -n "$there" ] || missing="$missing $choice"
+    case $there$choice in yes*) ;; *"|") besides="$besides $choice" ;; *) missing="$missing $choice" ;; esac
 done
 [ -z "$missing" ] && exit 0
 
 # Of each choice the first that the package lists have; the last where they have none.
 chosen() {
-    for choice in $missing; do
+    for choice in $missing $besides; do
         for package in "${choice%|*}" "${choice#*|}"; do
             apt-cache show "$package" >/dev/null 2>&1 && break
         done

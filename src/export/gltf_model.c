@@ -183,13 +183,15 @@ static bool put_clip(struct export_range *range, const struct form *form, struct
     return true;
 }
 
-static bool write_file(struct export_range *range, const struct form *form, FILE *out, struct error *error)
+static bool write_file(struct export_range *range, const struct form *form, bool *was_packed, FILE *out,
+                       struct error *error)
 {
     struct original o = {0};
     const struct model_body *body = form->owned;
     const bool has_clip = body->bone_count > 0, binary = range->format->is_binary;
     if (!glb_open(&o.source, body->gltf->path, error)) return false;
-    o.is_same = (memcmp(o.source.data, "glTF", 4) == 0) == binary;
+    *was_packed = glb_is_packed(&o.source);
+    o.is_same = !*was_packed && (memcmp(o.source.data, "glTF", 4) == 0) == binary;
     bool done;
     if (!has_clip && o.is_same) {
         done = check_place(range, &o.source, error) && write_same(body->gltf->path, out, error);
@@ -206,12 +208,15 @@ bool gltf_model_write(struct export_range *range, FILE *out, struct error *error
 {
     struct form form;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
-    const bool done = write_file(range, &form, out, error);
+    bool was_packed = false;
+    const bool done = write_file(range, &form, &was_packed, out, error);
     const int bones = ((const struct model_body *)form.owned)->bone_count;
     if (bones > 0) {
-        snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys", bones, range->key_count);
+        snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys%s", bones, range->key_count,
+                 was_packed ? ", meshes decompressed" : "");
     } else {
-        snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, because no chain moves it");
+        snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, %sbecause no chain moves it",
+                 was_packed ? "meshes decompressed, " : "");
     }
     form_close(&form);
     return done;

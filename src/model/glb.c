@@ -156,6 +156,7 @@ static bool read_buffer(struct glb *glb, const json_t *buffers, size_t index, st
                         struct error *error)
 {
     const json_t *described = json_array_get(buffers, index);
+    if (glb_is_fallback(described)) return true;
     const char *uri = json_string_value(json_object_get(described, "uri"));
     const struct glb_buffer *same = uri ? same_file(glb, buffers, index, uri) : NULL;
     struct error why = {0};
@@ -187,7 +188,7 @@ bool glb_read_buffers(struct glb *glb, struct error *error)
             return fail(error, ERROR_INPUT, "%s: buffers[%zu]: expected at most %d MiB in all, got more", glb->path,
                         i, GLB_FILE_LIMIT >> 20);
     }
-    return true;
+    return glb_unpack(glb, error);
 }
 
 // --- accessors
@@ -224,7 +225,11 @@ static const json_t *view_of(const struct glb *glb, int64_t index)
 
 bool glb_view(const struct glb *glb, int64_t index, struct glb_bytes *bytes)
 {
-    const json_t *view = view_of(glb, index);
+    return glb_bytes(glb, view_of(glb, index), bytes);
+}
+
+bool glb_bytes(const struct glb *glb, const json_t *view, struct glb_bytes *bytes)
+{
     int64_t buffer = glb_integer(view, "buffer", 0);
     int64_t start = glb_integer(view, "byteOffset", 0), length = glb_integer(view, "byteLength", -1);
     if (start < 0 || length < 0 || buffer < 0 || buffer >= glb->buffer_count) return false;
@@ -277,6 +282,13 @@ static int components_of(const json_t *accessor)
         if (strcmp(type, types[i].name) == 0) return types[i].components;
     }
     return 0;
+}
+
+size_t glb_element(const json_t *accessor, int *type, int *components)
+{
+    *type = (int)glb_integer(accessor, "componentType", -1);
+    *components = components_of(accessor);
+    return (size_t)(size_of_type(*type) * *components);
 }
 
 /// Reads all numbers; false if some lie outside the file. Without a buffer view (and bytes) all are zero.

@@ -44,7 +44,8 @@ bool glb_open(struct glb *glb, const char *path, struct error *error);
 bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error);
 void glb_close(struct glb *glb);
 
-/// The buffers that the JSON names: the chunk, files beside it and data URIs.
+/// The buffers that the JSON names: the chunk, files beside it and data URIs. Of a packed file, the JSON and the only buffer become
+/// those of a plain one.
 bool glb_read_buffers(struct glb *glb, struct error *error);
 
 /// The bytes of a data URI, or of a file named relative to ours; the caller frees `owned`. The error does not name our file.
@@ -56,8 +57,22 @@ int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise);
 /// Whether the file has some of an accessor's numbers; otherwise all are zero.
 bool glb_is_stored(const struct glb *glb, int64_t accessor);
 
-/// The bytes of a buffer view; false where there are none.
+/// The bytes of a buffer view, by its number or as JSON; false where there are none.
 bool glb_view(const struct glb *glb, int64_t index, struct glb_bytes *bytes);
+bool glb_bytes(const struct glb *glb, const json_t *view, struct glb_bytes *bytes);
+
+/// The size of an accessor's elements, in bytes; 0 where it has no known ones.
+size_t glb_element(const json_t *accessor, int *type, int *components);
+
+// Compressed meshes (glb_unpack.c).
+
+/// The package that this program was built without, and would decompress meshes of this extension; NULL of all others.
+const char *glb_missing_codec(const char *extension);
+
+/// Whether the file has compressed meshes that glb_read_buffers() decompresses, or no buffer for some that it need not read.
+bool glb_is_packed(const struct glb *glb);
+bool glb_is_fallback(const json_t *buffer);
+bool glb_unpack(struct glb *glb, struct error *error);
 
 /// The numbers of an accessor: normalised integers as −1 … 1, sparse elements in their places.
 struct glb_numbers {

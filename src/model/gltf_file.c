@@ -72,7 +72,7 @@ void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, jso
     gltf_append(file, json_object_get(object, key), value);
 }
 
-static void add_bounds(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components)
+void gltf_file_bound(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components)
 {
     json_t *low = json_array(), *high = json_array();
     for (int k = 0; k < components; k++) {
@@ -113,7 +113,7 @@ json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, co
         add_view(file, data, count * (size_t)(kind->components * number_size(kind->type)), kind->target);
     json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", view, "componentType", kind->type, "count",
                                  (json_int_t)count, "type", kind->shape);
-    if (bounds) add_bounds(file, accessor, data, count, kind->components);
+    if (bounds) gltf_file_bound(file, accessor, data, count, kind->components);
     return gltf_append(file, file->accessors, accessor);
 }
 

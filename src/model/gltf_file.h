@@ -39,6 +39,9 @@ size_t gltf_file_append(struct gltf_file *file, const void *bytes, size_t size);
 json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
                          bool bounds);
 
+/// States the least and largest of an accessor's elements.
+void gltf_file_bound(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components);
+
 /// Adds bytes that no accessor finds, as those of a picture, and returns the buffer view's number.
 json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t size);
 

@@ -144,12 +144,7 @@ static bool is_shown(const char *extension)
            !strcmp(extension, GLTF_POLYGONS);
 }
 
-static bool packs_meshes(const char *extension)
-{
-    return strstr(extension, "_draco_") || strstr(extension, "_meshopt_");
-}
-
-static bool check_extensions(struct gltf_reader *r)
+static bool check_required(struct gltf_reader *r)
 {
     size_t i;
     const json_t *extension;
@@ -157,10 +152,20 @@ static bool check_extensions(struct gltf_reader *r)
     {
         const char *name = json_string_value(extension);
         gltf_at(r, "extensionsRequired[%zu]", i);
-        if (name && packs_meshes(name))
-            return gltf_bad(r, ": expected meshes that are not compressed, got %.60s; export without compression",
-                            name);
+        const char *package = name ? glb_missing_codec(name) : NULL;
+        if (package)
+            return gltf_bad(r,
+                            ": expected meshes that are not compressed, got %.60s; export without compression, or "
+                            "install %s and build wiggly again",
+                            name, package);
     }
+    return true;
+}
+
+static bool check_used(struct gltf_reader *r)
+{
+    size_t i;
+    const json_t *extension;
     json_array_foreach(gltf_array(r, "extensionsUsed"), i, extension)
     {
         const char *name = json_string_value(extension);
@@ -229,8 +234,8 @@ uint64_t gltf_new_id(void)
 
 static bool read_all(struct gltf_reader *r)
 {
-    if (!check_version(r) || !check_arrays(r) || !check_extensions(r)) return false;
-    if (!glb_read_buffers(&r->file, r->error)) return false;
+    if (!check_version(r) || !check_arrays(r) || !check_required(r)) return false;
+    if (!glb_read_buffers(&r->file, r->error) || !check_used(r)) return false;
     r->pixel_room = PIXEL_ROOM + r->file.room;
     r->gltf->path = strdup(r->file.path);
     r->gltf->id = gltf_new_id();

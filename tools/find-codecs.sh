@@ -1,0 +1,16 @@
+#!/bin/sh
+# Finds the libraries that decompress meshes, which wiggly does without: prints, on a line, what to compile and to link with.
+# Draco is linked as an archive, for src/model/draco.cpp to watch over its allocations. Usage: tools/find-codecs.sh <compiler>
+compiler=$1
+
+there() { # <language> <header> <library>: prints where the library is
+    # shellcheck disable=SC2086 # the compiler may have arguments
+    echo "#include <$2>" | $compiler -x "$1" -E - >/dev/null 2>&1 || return 1
+    # shellcheck disable=SC2086
+    file=$($compiler -print-file-name="$3")
+    [ "$file" != "$3" ] && echo "$file"
+}
+
+draco=$(there c++ draco/core/status.h libdraco.a) && draco="-DWITH_DRACO $draco -lstdc++"
+meshopt=$(there c meshoptimizer.h libmeshoptimizer.so) && meshopt="-DWITH_MESHOPT -lmeshoptimizer"
+echo $draco $meshopt
