@@ -69,6 +69,21 @@ expect 1 "a clip that is not there" "$WIGGLY" rig $dog --clip Fly --chain tail_1
 says "and those that are" 'expected a clip called "Fly"' "$err"
 expect 2 "a chain without a file to write" "$WIGGLY" rig $dog --chain tail_1
 expect 2 "a file that nobody knows" "$WIGGLY" rig $dog --chain tail_1 -o "$scratch/no.fbx"
+printf 'Kaydara FBX Binary' >"$scratch/a.FBX"
+for command in "rig" "check" "live --headless --frames 1"; do
+    expect 1 "FBX, in wiggly $command" "$WIGGLY" $command "$scratch/a.FBX"
+    says "is told the way" "a.FBX: expected glTF, got FBX: import it in Blender and export glTF, or run blender -b " "$err"
+    says "with the file to make" "export_scene.gltf(filepath='$scratch/a.glb', use_selection=True)" "$err"
+done
+skeleton=/usr/share/assimp/models/FBX/animation_with_skeleton.fbx
+if [ -e $skeleton ] && command -v blender >/dev/null; then
+    expect 0 "Blender converts FBX" tools/from-fbx.sh $skeleton "$scratch/skeleton.glb"
+    says "with its bones and its clip" "chains you can use with --chain:
+  Bone:Bone.006_end (8 bones)" "$("$WIGGLY" check "$scratch/skeleton.glb")"
+else
+    echo "skip - Blender or assimp-testmodels is not installed"
+fi
+
 expect 2 "what is no character" "$WIGGLY" rig assets/scenes/tail.json
 expect 1 "a character that is not there" "$WIGGLY" rig "$scratch/none.glb"
 holds "nothing is written where something is wrong" [ ! -e "$scratch/no.json" ]

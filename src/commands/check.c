@@ -4,6 +4,7 @@
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/report.h"
+#include "rig/import.h"
 #include "rig/posing.h"
 #include "scene/evaluate.h"
 #include "scene/load.h"
@@ -119,5 +120,5 @@ int command_check(int argc, char **argv)
     };
     enum options_result result = options_parse(&usage, argc, argv, &path);
     if (result != OPTIONS_RUN) return (int)result;
-    return path_has_end(path, ".glb") || path_has_end(path, ".gltf") ? check_character(path) : check_scene(path);
+    return import_suits(path) ? check_character(path) : check_scene(path);
 }

@@ -93,7 +93,7 @@ static bool run(const struct job *job, struct error *error)
 /// Checks what the option table cannot.
 static enum options_result check(const struct usage *usage, const struct job *job)
 {
-    if (!path_has_end(job->character, ".glb") && !path_has_end(job->character, ".gltf"))
+    if (!import_suits(job->character))
         return options_wrong(usage, "expected a character ending in .glb or .gltf, got '%s'", job->character);
     if (job->chains.count > 0 && !job->output)
         return options_wrong(usage, "-o FILE is missing: name the file to write");

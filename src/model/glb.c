@@ -55,12 +55,23 @@ static bool read_chunks(struct glb *glb, size_t size, struct error *error)
     return read_json(glb, glb->data + HEADER + CHUNK_HEADER, length, error);
 }
 
+static bool refuse_fbx(const char *path, struct error *error)
+{
+    return fail(error, ERROR_INPUT,
+                "%s: expected glTF, got FBX: import it in Blender and export glTF, or run blender -b --python-expr "
+                "\"import bpy; bpy.ops.import_scene.fbx(filepath='%s'); "
+                "bpy.ops.export_scene.gltf(filepath='%.*s.glb', use_selection=True)\"",
+                path, path, (int)strlen(path) - 4, path);
+}
+
 bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error)
 {
     *glb = (struct glb){.path = path, .data = data, .room = GLB_ROOM + GLB_GROWTH * size};
     stage_tell("reading a glTF file", 0, (long)size);
     const bool binary = size >= 4 && word_at(data) == GLB_MAGIC;
-    const bool parsed = binary ? read_chunks(glb, size, error) : read_json(glb, data, size, error);
+    const bool parsed = path_has_end(path, ".fbx") ? refuse_fbx(path, error)
+                        : binary                   ? read_chunks(glb, size, error)
+                                                   : read_json(glb, data, size, error);
     if (parsed && (json_is_object(glb->json) || expected(glb, "a JSON object", error))) return true;
     glb_close(glb);
     return false;

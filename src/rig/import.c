@@ -28,7 +28,7 @@ static bool is_glb(const char *path)
 
 bool import_suits(const char *path)
 {
-    return path_has_end(path, ".glb") || path_has_end(path, ".gltf") || is_glb(path);
+    return path_has_end(path, ".glb") || path_has_end(path, ".gltf") || path_has_end(path, ".fbx") || is_glb(path);
 }
 
 /// Number of a clip's keys on whole frames.
