@@ -1,4 +1,4 @@
-/// Records draw commands; intersects and shrinks rectangles.
+/// Records draw commands, and computes with rectangles.
 #include "ui/drawlist.h"
 #include "base/hash.h"
 #include "base/need.h"
@@ -43,7 +43,7 @@ struct rect drawlist_push_clip(struct drawlist *list, struct rect r)
 
 void drawlist_set_clip(struct drawlist *list, struct rect clip) { list->clip = clip; }
 
-/// Appends a command whose pixels lie in `bounds`. NULL if nothing of it would show or there is no room.
+/// Appends a command with pixels in `bounds`. NULL if nothing would be visible or the list is full.
 static struct draw_command *add(struct drawlist *list, enum draw_kind kind, struct rect bounds, uint32_t color)
 {
     bool finite = isfinite(bounds.x) && isfinite(bounds.y) && isfinite(bounds.w) && isfinite(bounds.h);
@@ -58,7 +58,6 @@ static struct draw_command *add(struct drawlist *list, enum draw_kind kind, stru
     return command;
 }
 
-/// Hashes the finished command and keeps it.
 static void commit(struct drawlist *list, struct draw_command *command)
 {
     uint64_t hash =
@@ -77,7 +76,7 @@ static void commit(struct drawlist *list, struct draw_command *command)
     list->count++;
 }
 
-/// Copies points into the pool. false where they do not fit.
+/// Copies points into the pool; false if it is full.
 static bool add_points(struct drawlist *list, struct draw_command *command, const float *xy, int count)
 {
     if (count > list->point_capacity - list->point_count) {
@@ -102,7 +101,7 @@ static struct rect bounds_of(const float *xy, int count, float margin)
         y1 = y > y1 ? y : y1;
         sum += (x + y) * 0.0f;
     }
-    // 0 · x is NaN if x is not finite: comparisons alone would overlook a NaN.
+    // 0 · x is NaN if x is not finite; comparisons would miss a NaN.
     return (struct rect){x0 - margin + sum, y0 - margin, x1 - x0 + 2.0f * margin, y1 - y0 + 2.0f * margin};
 }
 
@@ -152,7 +151,7 @@ void drawlist_convex(struct drawlist *list, const float *xy, int count, uint32_t
 
 enum { CORNER_MAX = 9 };
 
-/// The outline of a rounded rectangle, clockwise from the top left; returns the number of points (at most 4 · CORNER_MAX).
+/// The outline, clockwise from the top left; returns the number of points (at most 4 · CORNER_MAX).
 static int rounded_outline(struct rect r, float radius, float *xy)
 {
     float limit = 0.5f * fminf(r.w, r.h);
@@ -206,11 +205,11 @@ void drawlist_circle(struct drawlist *list, const float middle[2], float radius,
     drawlist_rounded_line(list, around(middle, radius), radius, width, color);
 }
 
-/// Appends `length` bytes of text, and a NUL after them in the pool.
+/// Appends `length` bytes of text and a NUL to the pool.
 static void add_text(struct drawlist *list, const struct draw_command *style, const char *text, size_t length,
                      float width)
 {
-    // Overhanging letters, accents and rounding to device pixels reach beyond the advance widths.
+    // Glyphs and rounding to device pixels reach beyond the advance widths.
     float size = style->width;
     struct rect bounds = {style->x - 0.3f * size - 1.0f, style->y - 1.3f * size, width + 0.6f * size + 2.0f,
                           1.8f * size};
@@ -239,7 +238,7 @@ void drawlist_text(struct drawlist *list, float x, float y, enum font font, floa
     if (*utf8) add_text(list, &style, utf8, strlen(utf8), font_width(font, size, utf8));
 }
 
-/// Length in bytes of the longest prefix at most `width` wide and `limit` bytes long.
+/// Length of the longest prefix at most `width` wide and `limit` bytes long.
 static size_t fitting_length(enum font font, float size, float width, size_t limit, const char *utf8)
 {
     const char *end = utf8;

@@ -11,7 +11,7 @@ static const char *const special_names[] = {"Escape", "Enter", "Tab",  "Backspac
 
 _Static_assert(sizeof special_names / sizeof *special_names == KEY_COUNT - KEY_ESCAPE, "each has a name");
 
-/// The names of keys whose name is their character: upper-case letters, digits, punctuation.
+/// Names of keys that are a character: upper-case letters, digits, punctuation.
 static const char printed_names[] = "!\0\"\0#\0$\0%\0&\0'\0(\0)\0*\0+\0,\0-\0.\0/\0"
                                     "0\0001\0002\0003\0004\0005\0006\0007\0008\0009\0:\0;\0<\0=\0>\0?\0@\0"
                                     "A\0B\0C\0D\0E\0F\0G\0H\0I\0J\0K\0L\0M\0N\0O\0P\0Q\0R\0S\0T\0U\0V\0W\0X\0Y\0Z\0"

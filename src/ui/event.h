@@ -1,11 +1,10 @@
-/// Input events, the same from a window, a replay or a test. Positions in logical pixels from the top left.
+/// Input events from a window, a replay or a test. Positions are logical pixels from the top left.
 #ifndef UI_EVENT_H
 #define UI_EVENT_H
 
 #include <stdbool.h>
 #include <stdint.h>
 
-/// The mouse cursors that the editor asks for and the platform shows.
 enum mouse_cursor { CURSOR_ARROW, CURSOR_HAND, CURSOR_HORIZONTAL, CURSOR_VERTICAL, CURSOR_MOVE, CURSOR_TEXT };
 
 enum event_kind {
@@ -16,11 +15,11 @@ enum event_kind {
     EVENT_WHEEL,   ///< dx, dy, mods, x, y
     EVENT_SIZE,    ///< x, y: new logical size; scale
     EVENT_DROP,    ///< path
-    EVENT_PASTE,   ///< text: the clipboard's, as the editor has asked for
+    EVENT_PASTE,   ///< text of the clipboard, as requested
     EVENT_CLOSE,   ///< the window's close button
     EVENT_EXPOSE,  ///< the window's content was lost
-    EVENT_FOCUS,   ///< the window has the keyboard again
-    EVENT_CAPTION, ///< text: caption of a demo; empty for none
+    EVENT_FOCUS,   ///< the window got the keyboard focus
+    EVENT_CAPTION, ///< text: a demo's caption; empty for none
 };
 
 enum event_action { ACTION_RELEASE, ACTION_PRESS, ACTION_REPEAT };
@@ -29,7 +28,7 @@ enum event_mods { MOD_SHIFT = 1, MOD_CTRL = 2, MOD_ALT = 4, MOD_SUPER = 8 };
 
 enum event_button { BUTTON_LEFT, BUTTON_RIGHT, BUTTON_MIDDLE };
 
-/// Letters and digits are their upper-case ASCII code, punctuation printed on a key its ASCII code.
+/// Letters and digits are their upper-case ASCII code, punctuation is its ASCII code.
 enum key {
     KEY_NONE = 0,
     KEY_SPACE = ' ',
@@ -68,16 +67,16 @@ struct event {
     enum event_action action; ///< of key and button
     unsigned mods;            ///< enum event_mods
     enum event_button button;
-    int clicks; ///< 1, or 2 for the second press of a double click (decided by the platform or the replay)
+    int clicks; ///< 2 for the second press of a double-click
     uint32_t codepoint;
     float x, y, dx, dy;
-    float scale;      ///< device pixels a logical pixel
-    double time;      ///< seconds, when it arrived
+    float scale;      ///< device pixels per logical pixel
+    double time;      ///< arrival, in seconds
     const char *path; ///< EVENT_DROP: valid during the frame
     const char *text; ///< EVENT_PASTE, EVENT_CAPTION: UTF-8, valid during the call
 };
 
-/// Names for replays: "A", "Left", "F1", ","; 0 / NULL if there is none.
+/// Names for replays: "A", "Left", "F1", ","; KEY_NONE or NULL if there is none.
 const char *key_name(int key);
 int key_from_name(const char *name);
 

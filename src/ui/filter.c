@@ -1,4 +1,4 @@
-/// Matches typed text with the rows of a list.
+/// Matches typed text with list rows.
 #include "ui/filter.h"
 #include "base/error.h"
 #include <ctype.h>

@@ -1,4 +1,4 @@
-/// Loads fonts, measures text, and packs the glyphs of all fonts and sizes into one texture.
+/// Loads fonts, measures text, and packs all glyphs into one texture.
 #include "ui/font.h"
 #include "base/embedded.h"
 #include "base/need.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-// The implementation lives here and nowhere else; the library is not written for our warnings.
+// The library does not compile with our warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -17,7 +17,7 @@
 #include <stb/stb_truetype.h>
 #pragma GCC diagnostic pop
 
-/// Every character the program can show has a slot: an index into tables, the same for all fonts.
+/// Every supported character has a slot, an index common to all fonts.
 enum { SLOTS = 291, OVERSAMPLE = 3 };
 
 struct face {
@@ -30,7 +30,7 @@ struct face {
     } glyphs[SLOTS];
 };
 
-/// Read once at start-up and never written again.
+/// Read-only after start-up.
 static struct face faces[FONT_COUNT];
 
 static const char *const file_names[FONT_COUNT] = {
@@ -39,7 +39,7 @@ static const char *const file_names[FONT_COUNT] = {
     [FONT_NUMBER] = "font/number",
 };
 
-/// Ranges of characters with slots, in order: ASCII, Latin-1, Greek, and the symbols of the interface.
+/// Characters with slots, in order: ASCII, Latin-1, Greek, interface symbols.
 static const struct {
     uint32_t first, last;
 } runs[] = {
@@ -51,7 +51,7 @@ static const struct {
 };
 enum { RUN_COUNT = sizeof runs / sizeof runs[0] };
 
-/// The slot of a character, or that of '?'.
+/// A character's slot, or that of '?'.
 static int slot_of(uint32_t codepoint)
 {
     int slot = 0;
@@ -81,7 +81,7 @@ static void read_face(enum font font)
     face->cap_height = stbtt_GetCodepointBox(&face->info, 'H', &x0, &y0, &x1, &y1) ? (float)y1 * scale : 0.7f;
 }
 
-/// Which font has the character: the one asked for, else the others in turn; glyph 0 (a box) if none has.
+/// Finds a character in the font, else in the others; glyph 0 (a box) if none has it.
 static struct face_glyph find_glyph(enum font font, uint32_t codepoint)
 {
     struct face_glyph glyph = {.source = font, .index = 0};
@@ -116,7 +116,7 @@ float font_width(enum font font, float size, const char *utf8)
 
 float font_cap_height(enum font font, float size) { return faces[font].cap_height * size; }
 
-/// Bytes of a text that fit into `width`, ending at a space if possible; at least one character.
+/// Bytes of text that fit into `width`, up to a space if possible, at least one character.
 static size_t line_length(enum font font, float size, const char *utf8, float width)
 {
     float ems = 0.0f;
@@ -153,12 +153,12 @@ struct glyph_table {
     struct glyph glyphs[FONT_COUNT][SIZE_COUNT][SLOTS];
 };
 
-/// Glyphs are set in rows like type: left to right, each row below the tallest glyph of the last.
+/// Places glyphs in rows, each below the tallest glyph of the last.
 struct typesetter {
     int x, y, row_height;
 };
 
-/// Finds room for w × h texels, with a gap on all sides so that filtering never sees a neighbour.
+/// Reserves w × h texels with a gap on all sides, so that filtering never mixes neighbours.
 static void set_type(struct typesetter *setter, int w, int h, struct glyph *glyph)
 {
     if (setter->x + w + GAP > ATLAS_WIDTH) {
@@ -176,12 +176,11 @@ static void set_type(struct typesetter *setter, int w, int h, struct glyph *glyp
 
 enum { ENTRY_COUNT = FONT_COUNT * SIZE_COUNT * SLOTS };
 
-/// One entry of the table.
 struct entry {
     struct glyph *glyph;
     const struct face_glyph *source;
     const stbtt_fontinfo *info;
-    float em, scale; ///< device pixels, and to a unit of the font
+    float em, scale; ///< device pixels; device pixels per font unit
 };
 
 static struct entry table_entry(const struct atlas *atlas, int i)
@@ -195,7 +194,7 @@ static struct entry table_entry(const struct atlas *atlas, int i)
     return entry;
 }
 
-/// Three samples across make a pixel, and the filter that does so takes two columns more.
+/// Three samples across make a pixel; their filter needs two more columns.
 static void place_glyph(struct typesetter *setter, struct entry entry)
 {
     struct glyph *glyph = entry.glyph;
@@ -225,7 +224,7 @@ static void rasterise_glyph(struct atlas *atlas, struct entry entry)
     glyph->xoff2 += shift_x;
 }
 
-/// Light text on dark looks thinner than it is: coverage^0.85, measured by eye.
+/// Light text on dark looks too thin: coverage^0.85, chosen by eye.
 static void thicken(struct atlas *atlas)
 {
     unsigned char curve[256];

@@ -1,4 +1,4 @@
-/// Small buttons with icons, drawn in a square of 14 pixels around (0, 0), y down.
+/// Icon buttons. Icons are drawn in 14 × 14 pixels around (0, 0), y down.
 #include "ui/widgets_internal.h"
 #include <math.h>
 
@@ -6,15 +6,14 @@ enum { MAX_POINTS = 17 };
 
 static const float THIN = 1.4f;
 
-/// A line through points; an arc of an ellipse: its middle, its radii, and from where to where in turns, clockwise from the right; a
-/// disc or a circle: its middle and its radius.
+/// A line through points; an arc: middle, radii, start and end in turns clockwise from the right; a disc or ring: middle and radius.
 enum shape { LINE, ARC, DOT, RING };
 
 static const struct part {
     enum ui_icon icon;
     enum shape shape;
-    int count;    ///< points of a line or an arc
-    float at[10]; ///< x, y, …
+    int count;    ///< points of a line or arc
+    float at[10]; ///< coordinates
 } parts[] = {
     {UI_ICON_ADD, LINE, 2, {-5, 0, 5, 0}},
     {UI_ICON_ADD, LINE, 2, {0, -5, 0, 5}},

@@ -4,7 +4,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { POPUP_PAD = 4, MAX_ROWS = 10, ROW_NAME = 96 }; ///< around its content; rows of a list seen at once
+enum { POPUP_PAD = 4, MAX_ROWS = 10, ROW_NAME = 96 }; ///< padding; visible rows
 
 void ui_popup_open(struct ui *ui, const char *name, int which, struct rect anchor)
 {
@@ -26,7 +26,7 @@ bool ui_popup_is_open(const struct ui *ui, const char *name) { return ui->popup.
 
 static bool is_beside(const struct ui *ui) { return ui->popup.room.w > 0; }
 
-/// Below the anchor, or above it if there is more room; always inside the panel, or in its own room.
+/// Below the anchor, or above if there is more room; inside the panel or `room`.
 static struct rect place(const struct ui *ui, float width, float height)
 {
     struct rect anchor = ui->popup.anchor, area = is_beside(ui) ? ui->popup.room : ui->area;
@@ -42,7 +42,7 @@ void ui_popup_begin(struct ui *ui, float width, float height)
     struct rect box = place(ui, width, height + 2 * POPUP_PAD);
     ui->blocked = false;
     ui->popup.built = true;
-    ui->stop_count = 0; // Tab stays inside
+    ui->stop_count = 0; // Tab stays in the popup
     if (is_beside(ui)) ui->clip = ui->popup.room;
     if (is_beside(ui) && ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, ui->popup.room);
     if (ui->pass == UI_PASS_DRAW) {
@@ -57,7 +57,7 @@ static void popup_key(struct ui *ui)
 {
     const struct event *event = ui->event;
     if (event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER)) {
-        ui_popup_close(ui); // the key is the editor's
+        ui_popup_close(ui); // the editor handles the key
         return;
     }
     ui->used = true;
@@ -80,13 +80,13 @@ void ui_popup_end(struct ui *ui)
     if (ui->used) return;
     const struct event *event = ui->event;
     bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS;
-    if (press) ui->used = true; // a press outside its widgets does nothing else
+    if (press) ui->used = true; // a press beside the popup's widgets is used up
     if (press && !rect_contains(box, event->x, event->y)) ui_popup_close(ui);
     if (event->kind == EVENT_KEY) popup_key(ui);
     if (event->kind == EVENT_WHEEL || event->kind == EVENT_TEXT) ui->used = true;
 }
 
-/// Marks the field that opens the popup: several may open the same one.
+/// Id of the field that opens the popup; several may open the same one.
 static uint32_t opener_id(const char *name, int which)
 {
     char full[96];
@@ -99,7 +99,7 @@ void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, cons
     struct rect field = ui_field_of(r);
     uint32_t id = opener_id(name, which);
     if (ui_clicked(ui, id, field))
-        ui_popup_open(ui, name, which, field); // a second press counts as outside and closes it
+        ui_popup_open(ui, name, which, field); // a second press counts as outside, which closes it
     if (ui->pass != UI_PASS_DRAW) return;
     bool hot = ui_hovered(ui, field) || (ui_popup_is_open(ui, name) && ui->popup.which == which);
     drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
@@ -147,7 +147,7 @@ static const char *row_name(char name[ROW_NAME], const struct ui_item *item)
     return name;
 }
 
-/// The least fit of a row to be shown.
+/// The least fit of a shown row.
 static enum fit least_fit(const struct ui *ui, const struct ui_item *items, int count)
 {
     enum fit best = FIT_NOT;
@@ -158,7 +158,7 @@ static enum fit least_fit(const struct ui *ui, const struct ui_item *items, int 
     return ui_filter_least(best);
 }
 
-/// Typed text changes the filter, and the first row that is left gets the focus. Space is for that row.
+/// Typed text changes the filter and focuses the first matching row. Space picks that row.
 static void type_filter(struct ui *ui, const struct ui_item *items, int count)
 {
     const struct event *event = ui->event;
@@ -175,7 +175,7 @@ static void type_filter(struct ui *ui, const struct ui_item *items, int count)
     }
 }
 
-/// Above the rows: the typed text, or a hint.
+/// Shows the typed text or a hint above the rows.
 static void show_filter(struct ui *ui, struct rect area)
 {
     const char *typed = ui->popup.filter.typed;

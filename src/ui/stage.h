@@ -1,4 +1,4 @@
-/// The stage's contents: a camera, soft and imported characters, and their shadows. Made by the editor, drawn by draw/.
+/// The stage's contents: camera, characters, meadows, shadows. The editor fills it, draw/ draws it.
 #ifndef UI_STAGE_H
 #define UI_STAGE_H
 
@@ -13,47 +13,47 @@
 enum {
     STAGE_MAX_TAILS = 8,
     STAGE_MAX_CHARACTERS = 4,
-    STAGE_MAX_MODELS = 4 + STAGE_MAX_TAILS, ///< imported characters, and the foxes of tails
+    STAGE_MAX_MODELS = 4 + STAGE_MAX_TAILS, ///< imported characters, and tails' foxes
     STAGE_MAX_REEDS = 4096,
     STAGE_MAX_BLOBS = 20 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
 };
 
-/// One soft character to draw, standing on the ground at `position`.
+/// A soft character standing at `position`.
 struct stage_character {
-    const struct figure *figure; ///< lives until the next frame at least
+    const struct figure *figure; ///< valid until the next frame at least
     struct morph morph;
     float position[3];
-    int rig;            ///< of the document's characters
+    int rig;            ///< index in the document
     bool is_twin;       ///< the stiff one of a pair
-    bool coarse;        ///< half the triangles
-    int map_coordinate; ///< whose phases its colours show, −1 for its own colours
-    int map_axis;       ///< of movement, 0 … 2: x, y, z
+    bool coarse;        ///< with half the triangles
+    int map_coordinate; ///< coordinate whose phases are shown; −1: own colours
+    int map_axis;       ///< axis of the shown phases: x, y, z
 };
 
-/// One imported character, or fox, to draw.
+/// An imported character or a fox.
 struct stage_model {
-    const struct gltf *gltf;      ///< both live until the next frame at least
-    const struct gltf_pose *pose; ///< as the file has it
-    float root[16];               ///< its space → world
-    float ground, dusk;           ///< heights, metres: of what it stands on, and up to where that keeps light from it
-    float lo[3], hi[3];           ///< the box around it, world
+    const struct gltf *gltf;      ///< both valid until the next frame at least
+    const struct gltf_pose *pose; ///< in the file's order
+    float root[16];               ///< model → world
+    float ground, dusk;           ///< metres: height of the ground, and up to which it shades the model
+    float lo[3], hi[3];           ///< bounding box, world
 };
 
-/// A reed of a meadow as it stands now.
+/// A reed of a meadow.
 struct stage_reed {
     float place[3], height; ///< metres
     float still, re, im;    ///< y and x of its spline
-    float turn;             ///< radians that its wind is off +x
-    float pushed[2];        ///< radians towards +x and +z, over its whole length
+    float turn;             ///< radians between its wind and +x
+    float pushed[2];        ///< radians towards +x and +z, over its length
     float shade, width;     ///< 0 … 1; metres
 };
 
-/// Reeds; live until the next frame at least.
+/// Valid until the next frame at least.
 struct stage_meadow {
     const struct stage_reed *reeds;
     int count;
-    float lag, gain;    ///< radians a joint
-    float lo[3], hi[3]; ///< the box around it, world
+    float lag, gain;    ///< radians per joint
+    float lo[3], hi[3]; ///< bounding box, world
 };
 
 struct stage_view {
@@ -61,8 +61,8 @@ struct stage_view {
     float view[16];       ///< world → eye, column-major
     float projection[16]; ///< eye → clip
     float eye[3];         ///< camera position, world
-    float middle[2];      ///< x and z of the middle of the lit ground
-    float key_from[3];    ///< where the key light comes from: a direction of the world, unit length
+    float middle[2];      ///< x and z of the lit ground's middle
+    float key_from[3];    ///< unit vector towards the key light, world
     struct stage_colors colors;
     bool has_tail; ///< the ground is never small
     struct stage_character characters[STAGE_MAX_CHARACTERS];
@@ -72,17 +72,17 @@ struct stage_view {
     struct stage_meadow meadow;
     struct shadow_blob blobs[STAGE_MAX_BLOBS];
     int blob_count;
-    uint64_t hash; ///< of everything above: equal hash, equal pixels
+    uint64_t hash; ///< of everything above: equal hashes mean equal pixels
 };
 
-/// Adds one where there is room.
+/// Adds a blob if there is room.
 static inline void stage_add_blob(struct stage_view *view, float x, float z, float radius, float strength)
 {
     if (view->blob_count < STAGE_MAX_BLOBS)
         view->blobs[view->blob_count++] = (struct shadow_blob){x, z, radius, strength};
 }
 
-/// Hash of the state that all pictures of the stage share: viewport, camera, light and colours.
+/// Hash of viewport, camera, light and colours.
 static inline uint64_t stage_scenery_hash(const struct stage_view *view)
 {
     uint64_t hash = hash_bytes(HASH_START, &view->viewport, sizeof view->viewport);

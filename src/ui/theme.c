@@ -63,7 +63,7 @@ static const struct theme themes[THEME_COUNT] = {
         },
 };
 
-/// From the first dark theme. Documents store these, so they never change.
+/// Documents store these colours, so they never change. They are the first dark theme's.
 static const uint32_t stored[THEME_SPLINE_COLORS] = {0xFFB000, 0x4FA3E3, 0xE39AC8, 0x1F9E7A, 0xF4F1E8, 0xC8502A};
 
 static enum theme_kind in_use = THEME_DARK;
@@ -131,8 +131,7 @@ uint32_t theme_spline(uint32_t rgb)
     return theme_readable(rgb << 8 | 0xFFu, theme()->panel, 3);
 }
 
-/// Lightness of grey; radius of the circle of hues; added lightness at re = 1 and at im = 1; exponent of the amplitude, which
-/// makes small movements visible.
+/// Oklab: lightness of grey; chroma; added lightness at re = 1 and im = 1; exponent of the amplitude, which makes small movements visible.
 static const float LIGHTNESS = 0.70f, CHROMA = 0.10f, SWING_RE = 0.09298f, SWING_IM = 0.19939f, SPREAD = 0.6f;
 
 /// Oklab → cube roots of cone responses → linear RGB.

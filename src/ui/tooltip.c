@@ -1,4 +1,4 @@
-/// Tooltips: when one appears, where, and how it is drawn.
+/// When and where tooltips appear, and how they look.
 #include "ui/tooltip.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -8,7 +8,7 @@
 
 enum { WIDTH = 260, LINE = 16, PAD_X = 8, PAD_Y = 5, BELOW = 6, MARGIN = 4 };
 
-static const double WAIT = 0.5; ///< seconds of rest
+static const double WAIT = 0.5; ///< seconds the pointer must rest
 
 void tooltip_offer(struct tooltip *tooltip, const char *text, float x, float y, struct rect at)
 {

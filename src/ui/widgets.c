@@ -195,7 +195,7 @@ bool ui_hovered(const struct ui *ui, struct rect r)
            rect_contains(ui->clip, ui->pointer_x, ui->pointer_y);
 }
 
-/// A hint may come before the widget that it is for, or after it.
+/// A hint may come before or after its widget.
 static void hint_focus(struct ui *ui, struct rect r, const char *text)
 {
     const struct rect *focus = &ui->focus_rect;

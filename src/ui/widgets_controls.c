@@ -1,4 +1,4 @@
-/// Labels, buttons, toggles, lists of choices and sections.
+/// Labels, buttons, toggles, choices and sections.
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>
@@ -64,7 +64,7 @@ void ui_paragraph(struct ui *ui, const char *text, uint32_t color)
     }
 }
 
-/// A small triangle: right if the section is closed, down if it is open.
+/// A triangle pointing right if closed, down if open.
 static void paint_arrow(struct ui *ui, float x, float y, bool closed, uint32_t color)
 {
     const float right[6] = {x + 1, y - 4, x + 5, y, x + 1, y + 4};
@@ -93,7 +93,6 @@ bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed
 
 float ui_text_width(const char *text) { return font_width(FONT_LABEL, THEME_TEXT_NORMAL, text); }
 
-/// Text in the middle of `r`, cut if it does not fit.
 static void paint_centred(struct ui *ui, struct rect r, const char *text, uint32_t color)
 {
     float w = fminf(r.w - 8, ui_text_width(text));
@@ -133,7 +132,6 @@ bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on)
     return pressed;
 }
 
-/// The background of a list row.
 static void paint_row(struct ui *ui, uint32_t id, struct rect r, bool selected, bool lit)
 {
     const struct rect back = {r.x - 4, r.y + 1, r.w + 8, r.h - 2};
@@ -213,7 +211,7 @@ bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui
     return true;
 }
 
-enum { DRAG_THRESHOLD = 4 }; ///< pixels below which a press is a click
+enum { DRAG_THRESHOLD = 4 }; ///< pixels; a shorter way is a click
 
 bool ui_is_dragged(const struct ui *ui, const char *name) { return ui->held == ui_id(name) && ui->moved; }
 

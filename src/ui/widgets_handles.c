@@ -1,8 +1,8 @@
-/// Points that are dragged in two directions.
+/// Handles that are dragged in two directions.
 #include "ui/widgets_internal.h"
 #include <math.h>
 
-enum { REACH = 11, DRAG_THRESHOLD = 2 }; ///< pixels around a point where a press takes it; a shorter way is a click
+enum { REACH = 11, DRAG_THRESHOLD = 2 }; ///< pixels: around a point; a shorter drag is a click
 
 static uint32_t id_of(const struct ui_handle *handle) { return ui_id(handle->name); }
 
@@ -20,7 +20,7 @@ static int nearest(const struct ui_handle *handles, int count, float x, float y)
     return best;
 }
 
-/// The handle follows the pointer, keeping the offset of the press; Shift: a tenth as fast.
+/// The handle keeps its offset from the pointer; Shift: a tenth as fast.
 static enum ui_change held_event(struct ui *ui, struct ui_handle *handle)
 {
     const struct event *event = ui->event;

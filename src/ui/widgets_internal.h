@@ -1,4 +1,4 @@
-/// Functions that the files of the widgets share: input tests and shapes.
+/// Functions that the widgets' files share.
 #ifndef UI_WIDGETS_INTERNAL_H
 #define UI_WIDGETS_INTERNAL_H
 
@@ -8,33 +8,33 @@
 
 #define UI_RADIUS 4.0f
 
-/// The field of a row: inset so that neighbouring rows do not touch.
+/// A row's field, inset so that neighbours do not touch.
 struct rect ui_field_of(struct rect row);
 
-/// Whether the running event is this button going down over `r`, not clipped and not used yet; then it is used up.
+/// Whether this event presses `button` over `r`, unclipped and unused; then it is used.
 bool ui_pressed(struct ui *ui, struct rect r, enum event_button button);
-/// The running event's press holds that widget from now on.
+/// Makes the widget hold the pointer.
 void ui_hold(struct ui *ui, uint32_t id);
-/// Keys and buttons while something is held: the release drops it, Esc cancels; others are used up.
+/// Handles events while something is held: release drops it, Esc cancels, others are used up.
 enum ui_change ui_held_change(struct ui *ui);
-/// Whether the running event presses or repeats a key and widget `id` has the focus; the caller marks it as used.
+/// Whether this event presses or repeats a key and the widget has the focus. The caller marks it as used.
 bool ui_focused_key(const struct ui *ui, uint32_t id);
-/// Counts a widget as shown although it was not built in this pass: the next one will build it.
+/// Keeps a widget alive that was not built in this pass.
 void ui_keep(struct ui *ui, uint32_t id);
-/// Moves the focus to the next (1) or previous (-1) widget, wrapping round, and scrolls it into view.
+/// Moves the focus to the next (1) or previous (-1) widget, cyclically, and scrolls to it.
 void ui_move_focus(struct ui *ui, int direction);
 /// Enter or Space on the focused widget; used up.
 bool ui_activated(struct ui *ui, uint32_t id);
-/// Registers a widget that is pressed. true if it was, with the left button or by Enter or Space.
+/// Registers a pressable widget; true if pressed with the left button, Enter or Space.
 bool ui_clicked(struct ui *ui, uint32_t id, struct rect r);
 
-/// The outline of a control; `hot`: under the pointer.
+/// `hot`: under the pointer.
 void ui_outline(struct ui *ui, struct rect r, float radius, bool hot);
 void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r);
 void ui_number_text(struct ui *ui, struct rect r, const char *text, uint32_t color);
-/// What an event does to the line that is being typed in `field`: UI_LINE_DONE by a press elsewhere, Enter, or Tab, which is not used up.
+/// An event's effect on the line typed in `field`: UI_LINE_DONE by a press elsewhere, Enter, or Tab, which is not used up.
 enum ui_line ui_typing_event(struct ui *ui, uint32_t id, struct rect field);
-/// The line that is being typed, with its caret, inside `r`.
+/// Draws the typed line and its caret.
 void ui_paint_text(struct ui *ui, struct rect r, const struct ui_text *text, enum font font, float size,
                    bool focused);
 

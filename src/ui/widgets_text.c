@@ -1,4 +1,4 @@
-/// Editing a line of text, and the fields that hold one.
+/// Text editing, and text fields.
 #include "base/error.h"
 #include "ui/widgets_internal.h"
 #include <math.h>
@@ -114,7 +114,7 @@ bool ui_text_event(struct ui_text *text, const struct event *event, bool *change
     return used;
 }
 
-/// Width of the bytes [from, to) of the line.
+/// Width of the bytes [from, to).
 static float width_between(const struct ui_text *text, int from, int to, enum font font, float size)
 {
     char part[UI_TEXT_SIZE];
@@ -153,7 +153,7 @@ void ui_line_begin(struct ui *ui, const char *name, const char *text)
     ui->text.all = true;
     ui->focus = ui->typing = ui_id(name);
     ui_keep(ui, ui->typing);
-    ui->began = true; // the press that began it does not end it
+    ui->began = true; // the press that began typing must not end it
 }
 
 bool ui_line_is_open(const struct ui *ui, const char *name) { return ui->typing == ui_id(name); }

@@ -1,16 +1,16 @@
-/// Numbers: sliders and number fields, which differ only in how a drag maps to a value.
+/// Sliders and number fields, which differ only in how a drag maps to a value.
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { DRAG_THRESHOLD = 2, HANDLE = 3 }; ///< pixels below which a press is a click; height of a bar's handle
-static const double no_limit = 1e300;    ///< limits from here on are none
+enum { DRAG_THRESHOLD = 2, HANDLE = 3 }; ///< pixels: a shorter drag is a click; height of a bar's handle
+static const double no_limit = 1e300;    ///< larger limits mean none
 
 static bool has_bar(const struct ui_number *number) { return number->maximum > number->minimum; }
 
-/// The double nearest to the decimal that is shown, so that a dragged value is saved as shown.
+/// The double nearest to the shown decimal, so that files hold what is shown.
 static double round_decimals(double value, int decimals)
 {
     char text[400];
@@ -35,7 +35,7 @@ static void format_number(const struct ui_number *number, double value, char *te
     }
 }
 
-/// "1.5", "1,5" as many keypads type it, or "1.5 Hz": a decimal number and perhaps the unit. Not hexadecimal, not "inf".
+/// "1.5", "1,5" (many keypads type a comma), or "1.5 Hz". Not hexadecimal, not "inf".
 static bool parse_number(const struct ui_number *number, const char *typed, double *value)
 {
     char copy[UI_TEXT_SIZE], *comma;
@@ -84,7 +84,7 @@ static void complain_range(struct ui *ui, const struct ui_number *number, const 
     snprintf(ui->complaint, sizeof ui->complaint, "%.40s: expected %s, got %.10g", what, range, typed);
 }
 
-/// Takes the typed text; false (with the reason in ui->complaint) if it is no number or out of range.
+/// Parses the typed text; false, with the reason in ui->complaint, if it is no number or out of range.
 static bool take_typed(struct ui *ui, const struct ui_number *number, double *value)
 {
     double typed;
@@ -125,7 +125,7 @@ static enum ui_change typing_event(struct ui *ui, uint32_t id, struct rect field
     return change;
 }
 
-/// Starts the mapping from pixels to values at `x`: on a bar where the pointer is, in a field or a fine drag at the value.
+/// Starts the drag's mapping at `x`: on a bar at the pointer, in a field or a fine drag at the value.
 static void set_anchor(struct ui *ui, struct rect field, const struct ui_number *number, float x, double value)
 {
     ui->anchor_x = x;
@@ -162,7 +162,7 @@ static enum ui_change held_event(struct ui *ui, struct rect field, const struct 
     return UI_DRAG;
 }
 
-/// Back to the default, if there is one.
+/// Restores the default, if any.
 static enum ui_change reset(const struct ui_number *number, double *value)
 {
     if (isnan(number->fallback) || *value == number->fallback) return UI_NONE;
@@ -219,17 +219,17 @@ static enum ui_change idle_event(struct ui *ui, uint32_t id, struct rect field, 
     return focused_event(ui, id, number, value);
 }
 
-/// Where a value is on the bar, 0 … 1.
+/// Position on the bar, 0 … 1.
 static float part_of(const struct ui_number *number, double value)
 {
     double part = (value - number->minimum) / (number->maximum - number->minimum);
     return (float)fmax(0, fmin(1, part));
 }
 
-/// The left side of a bar's handle, 2 wide, within the field's outline.
+/// Left side of a bar's handle, kept inside the outline.
 static float handle_x(struct rect field, float at) { return field.x + fmaxf(3, fminf(at - 1, field.w - 4)); }
 
-/// A bar with 0 inside would end within the text, so it is a strip below, with a mark at 0.
+/// A bar with 0 inside would end behind the text, so it is a strip below with a mark at 0.
 static void paint_strip(struct ui *ui, struct rect field, float zero, float at, bool hot)
 {
     const float height = 2;
@@ -241,8 +241,7 @@ static void paint_strip(struct ui *ui, struct rect field, float zero, float at, 
     drawlist_rect(ui->list, (struct rect){field.x + zero - 0.5f, strip.y - 1, 1, height + 1}, theme()->text_dim);
 }
 
-/// Filled from the left end to the value: faintly, because text stands on it, with a strip below to be seen from afar. The handle stays
-/// below the text.
+/// Fills faintly up to the value, because text is drawn over it, with a clear strip and the handle below the text.
 static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value, bool hot,
                       bool held)
 {
@@ -293,7 +292,7 @@ static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, 
     ui_focus_ring(ui, id, field);
 }
 
-/// A bar is found at its handle, so that a press there and a drag to "name,value" sets that value.
+/// Finds a bar's handle, so that pressing there and dragging to "name,value" sets that value.
 static void find_bar(struct ui *ui, struct rect field, const struct ui_number *number, double value)
 {
     ui->found_x = field.x + field.w * part_of(number, ui->find_has_value ? ui->find_value : value);
@@ -320,7 +319,7 @@ enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *nu
     case UI_PASS_EVENT:
         break;
     }
-    // A press elsewhere ends the typing even if another widget has used it.
+    // A press elsewhere ends typing even if another widget has used it.
     bool press = ui->event->kind == EVENT_BUTTON && ui->event->action == ACTION_PRESS;
     if (ui->typing == id && (press || !ui->used)) return typing_event(ui, id, field, number, value);
     if (ui->used || ui->blocked) return UI_NONE;
