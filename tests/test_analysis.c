@@ -1,5 +1,6 @@
 /// The analysis against an independent computation (tests/analysis/reference.py) and against what was planted in the data.
 #include "analysis/analysis.h"
+#include "analysis/slabs.h"
 #include "analysis/spectrum.h"
 #include "planted.h"
 #include "with_lapack.h"
@@ -7,7 +8,7 @@
 static void analyse(struct analysis *analysis, const struct motion *motion, double fps, int modes,
                     const double direction[3])
 {
-    const struct analysis_plan plan = {ANALYSIS_CPCA, fps, modes, direction, 0};
+    const struct analysis_plan plan = {ANALYSIS_CPCA, fps, modes, direction, NULL, 0};
     assert_done(analysis_create(analysis, &lapack, motion, &plan, &error));
 }
 
@@ -58,7 +59,7 @@ TEST(eigenvalues_agree_with_numpy)
     uint32_t seed = 1;
     read_reference(&r);
     make_motion(&motion, REFERENCE_FRAMES, REFERENCE_VERTICES, reference_motion, &seed);
-    assert_done(slabs_gram(&lapack, &motion, gram, means, &error));
+    assert_done(slabs_gram(&lapack, &motion, NULL, gram, means, &error));
     for (int j = 0; j < 3 * REFERENCE_VERTICES; j++) assert_near(means[j], j, 0.7); // the offset, of less motion
     assert_true(spectrum_create(&spectrum, &lapack, gram, motion.frames));
     assert_true(spectrum_real_shares(&lapack, gram, motion.frames, 2, shares));
@@ -131,7 +132,7 @@ static double transform_error(const struct ringing *r, int frames)
     double means[3 * RINGING_VERTICES];
     assert_non_null(gram);
     make_motion(&motion, frames, RINGING_VERTICES, ringing, (void *)(uintptr_t)r);
-    assert_done(slabs_gram(&lapack, &motion, gram, means, &error));
+    assert_done(slabs_gram(&lapack, &motion, NULL, gram, means, &error));
     struct predictor predictor = hilbert_predictor(gram, frames);
     hilbert_transform(&lapack, &predictor, frames, h);
     for (int j = 0; j < 3 * RINGING_VERTICES; j++) {
@@ -319,7 +320,7 @@ TEST(what_cannot_be_analysed_gets_one_sentence)
         struct motion motion;
         struct analysis analysis;
         make_motion(&motion, cases[i].frames, 2, cases[i].at, &r);
-        const struct analysis_plan plan = {ANALYSIS_POLES, 24, 1, NULL, 0};
+        const struct analysis_plan plan = {ANALYSIS_POLES, 24, 1, NULL, NULL, 0};
         assert_refusal(analysis_create(&analysis, &lapack, &motion, &plan, &error), cases[i].says);
         motion_close(&motion);
     }

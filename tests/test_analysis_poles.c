@@ -65,7 +65,7 @@ static void grow(struct plant *p, uint32_t seed)
 static void analyse(struct analysis *analysis, struct plant *p, int modes)
 {
     struct motion motion;
-    const struct analysis_plan plan = {ANALYSIS_POLES, p->fps, modes, NULL, 0};
+    const struct analysis_plan plan = {ANALYSIS_POLES, p->fps, modes, NULL, NULL, 0};
     make_motion(&motion, p->frames, VERTICES, planted, p);
     assert_done(analysis_create(analysis, &lapack, &motion, &plan, &error));
     motion_close(&motion);
@@ -199,7 +199,7 @@ TEST(few_knots_move_it_so)
     struct plant p = {1, 192, 48, {2}, {0.05}, {0.1}, .noise = 0.2};
     grow(&p, 1);
     for (int forced = 0; forced < 2; forced++) {
-        const struct analysis_plan plan = {ANALYSIS_POLES, p.fps, 1, NULL, 0};
+        const struct analysis_plan plan = {ANALYSIS_POLES, p.fps, 1, NULL, NULL, 0};
         struct motion motion;
         struct analysis a;
         struct knots knots;
@@ -284,7 +284,7 @@ static void kick(struct kicked *body)
 
 static void analyse_kicked(struct analysis *a, struct kicked *body, int first)
 {
-    const struct analysis_plan plan = {ANALYSIS_POLES, 48, 3, NULL, first};
+    const struct analysis_plan plan = {ANALYSIS_POLES, 48, 3, NULL, NULL, first};
     struct motion motion;
     kick(body);
     make_motion(&motion, KICKED_FRAMES, VERTICES, kicked, body);
@@ -332,7 +332,7 @@ static double quick(int i, int j, void *user)
 TEST_OF(struct motion, motion, make_motion(motion, 192, VERTICES, quick, NULL), motion_close(motion),
         motion_near_half_the_rate_is_told)
 {
-    const struct analysis_plan plan = {ANALYSIS_POLES, 48, 2, NULL, 0};
+    const struct analysis_plan plan = {ANALYSIS_POLES, 48, 2, NULL, NULL, 0};
     struct analysis a;
     assert_done(analysis_create(&a, &lapack, motion, &plan, &error));
     assert_near(a.fast_share, 1 / 3.0, 0.02); // powers go as 1 / damping

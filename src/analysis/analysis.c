@@ -2,6 +2,7 @@
 #include "analysis/analysis.h"
 #include "analysis/basis.h"
 #include "analysis/poles.h"
+#include "analysis/slabs.h"
 #include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>
@@ -249,7 +250,7 @@ static bool form_shapes(struct analysis *a, struct work *w, struct error *error)
     share_motion(a, w);
     drift_adapt(&w->drift, w->weights, 2 * a->count);
     for (size_t t = 0; t < frames; t++) slopes[t] = w->drift.weights[frames + t];
-    bool done = slabs_combine(w->lapack, w->motion, w->weights, 2 * a->count + 1, combined, error);
+    bool done = slabs_combine(w->lapack, w->motion, w->plan->base, w->weights, 2 * a->count + 1, combined, error);
     for (size_t k = 0; done && k < count; k++) {
         const double *re = combined + 2 * k * columns, *im = re + columns;
         for (size_t n = 0; n < columns; n++) a->components[k].shape[n / 3][n % 3] = re[n] + I * im[n];
@@ -313,7 +314,8 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     a->mean = need((size_t)motion->vertices, sizeof *a->mean);
     work.gram = need(n * n, sizeof *work.gram);
     work.weights = need((2 * (size_t)plan->modes + 1) * n, sizeof *work.weights);
-    bool done = slabs_gram(lapack, motion, work.gram, a->mean[0], error) && find_components(a, &work, error);
+    bool done =
+        slabs_gram(lapack, motion, plan->base, work.gram, a->mean[0], error) && find_components(a, &work, error);
     free(work.gram);
     free(work.free);
     free(work.weights);

@@ -4,8 +4,7 @@
 
 #include "analysis/component.h"
 #include "analysis/poles.h"
-#include "base/lapack.h"
-#include "model/motion.h"
+#include "analysis/rigid.h"
 
 enum {
     ANALYSIS_FRAMES_MIN = 8,
@@ -20,10 +19,11 @@ enum analysis_method {
 
 struct analysis_plan {
     enum analysis_method method;
-    double fps;              ///< frames per second
-    int modes;               ///< at most this many components, 1 … ANALYSIS_MODES_MAX
-    const double *direction; ///< three numbers that fix the gauge (see component_turn()), or NULL
-    int first;               ///< first frame without a drive, from which poles are found; 0 by CPCA
+    double fps;               ///< frames per second
+    int modes;                ///< at most this many components, 1 … ANALYSIS_MODES_MAX
+    const double *direction;  ///< three numbers that fix the gauge (see component_turn()), or NULL
+    const struct rigid *base; ///< what the motion is seen from; NULL: as it is
+    int first;                ///< first frame without a drive, from which poles are found; 0 by CPCA
 };
 
 struct analysis {

@@ -1,21 +1,10 @@
-/// Complex principal components of a motion: two passes over the motion, and the matrices between them.
+/// Complex principal components of a motion.
 #ifndef ANALYSIS_SPECTRUM_H
 #define ANALYSIS_SPECTRUM_H
 
 #include "base/lapack.h"
-#include "model/motion.h"
 #include <complex.h>
 #include <stdbool.h>
-
-// The two passes over a motion, a slab of columns at a time. Each column's mean over time is removed.
-
-/// G = S Sᵀ, frames × frames, row after row, both halves filled; and the mean over time of every column.
-bool slabs_gram(const struct lapack *lapack, const struct motion *motion, double *gram, double *means,
-                struct error *error);
-
-/// W S: `rows` weightings of the frames (rows × frames) give rows × columns.
-bool slabs_combine(const struct lapack *lapack, const struct motion *motion, const double *weights, int rows,
-                   double *combined, struct error *error);
 
 // The Hilbert transform of all columns at once, as a matrix on the frames.
 

@@ -1,0 +1,258 @@
+/// Fits the motion of a base to a rigid one, frame by frame.
+///
+/// With the centre r̄ of the base's vertices at rest and M = Σ (r − r̄) (x − x̄)ᵀ over them, Σ |R (r − r̄) − (x − x̄)|² is least for the
+/// rotation by the unit quaternion that is the largest eigenvector of (Horn 1987)
+///
+///     ⎡ Mxx+Myy+Mzz  Myz−Mzy      Mzx−Mxz       Mxy−Myx     ⎤
+///     ⎢ ·            Mxx−Myy−Mzz  Mxy+Myx       Mzx+Mxz     ⎥
+///     ⎢ ·            ·            −Mxx+Myy−Mzz  Myz+Mzy     ⎥
+///     ⎣ ·            ·            ·             −Mxx−Myy+Mzz⎦
+///
+/// A point or a line leaves rotations open. A little weight on the identity chooses the smallest.
+#include "analysis/rigid.h"
+#include "analysis/slabs.h"
+#include "base/need.h"
+#include <math.h>
+#include <stdlib.h>
+
+static const double still = 1e-5;    ///< of the motion of the vertex that moves most: one that moves less rests
+static const double straight = 1e-6; ///< of its squared size: how much area a line has
+static const double nothing = 1e-6;  ///< of its size: a base that moves less rests; the rounding of float data
+static const double identity = 1e-7; ///< weight of no rotation
+
+/// What a pass over the motion gives.
+struct survey {
+    const struct surface *rest;
+    bool *base;             ///< per vertex
+    double centre[3];       ///< r̄
+    double spread[3][3];    ///< Σ (r − r̄) (r − r̄)ᵀ
+    int count;              ///< vertices of the base
+    double (*moment)[3][3]; ///< M per frame
+    double (*mean)[3];      ///< x̄ per frame
+    double *extent;         ///< per vertex: squared size of the box that it moves in
+};
+
+/// Centre and spread of the base at rest.
+static void measure_rest(struct survey *s)
+{
+    s->count = 0;
+    for (int c = 0; c < 3; c++) s->centre[c] = 0;
+    for (int n = 0; n < 9; n++) s->spread[n / 3][n % 3] = 0;
+    for (int v = 0; v < s->rest->vertex_count; v++) s->count += s->base[v];
+    for (int n = 0; n < 3 * s->rest->vertex_count; n++) {
+        if (s->base[n / 3]) s->centre[n % 3] += (double)s->rest->position[n / 3][n % 3] / s->count;
+    }
+    for (int v = 0; v < s->rest->vertex_count; v++) {
+        const float *r = s->rest->position[v];
+        for (int n = 0; n < 9 && s->base[v]; n++)
+            s->spread[n / 3][n % 3] += ((double)r[n / 3] - s->centre[n / 3]) * ((double)r[n % 3] - s->centre[n % 3]);
+    }
+}
+
+static double size_of(const struct survey *s) { return s->spread[0][0] + s->spread[1][1] + s->spread[2][2]; }
+
+/// Whether the base has no area: the second of the spread's invariants is 0.
+static bool is_hinge(const struct survey *s)
+{
+    double area = 0, size = size_of(s);
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3;
+        area += s->spread[a][a] * s->spread[b][b] - s->spread[a][b] * s->spread[a][b];
+    }
+    return area <= straight * size * size;
+}
+
+static void add_vertex(struct survey *s, const struct slab *slab, int vertex)
+{
+    const double *x = slab->numbers + 3 * vertex - slab->first;
+    double low[3], high[3];
+    for (int c = 0; c < 3; c++) low[c] = INFINITY, high[c] = -INFINITY;
+    for (int t = 0; t < slab->motion->frames; t++, x += slab->count) {
+        for (int c = 0; c < 3; c++) {
+            low[c] = fmin(low[c], x[c]);
+            high[c] = fmax(high[c], x[c]);
+        }
+        if (!s->base[vertex]) continue;
+        for (int a = 0; a < 3; a++) {
+            const double away = (double)s->rest->position[vertex][a] - s->centre[a];
+            s->mean[t][a] += x[a] / s->count;
+            for (int b = 0; b < 3; b++) s->moment[t][a][b] += away * x[b];
+        }
+    }
+    for (int c = 0; c < 3; c++) s->extent[vertex] += (high[c] - low[c]) * (high[c] - low[c]);
+}
+
+static bool read_motion(struct survey *s, const struct motion *motion, struct error *error)
+{
+    struct slab slab = slab_start(motion);
+    while (slab_next(&slab, error)) {
+        for (int v = slab.first / 3; v < (slab.first + slab.count) / 3; v++) add_vertex(s, &slab, v);
+    }
+    return slab_end(&slab);
+}
+
+/// Makes the vertices that rest the base; false, with all of them in it, if none does.
+static bool keep_still(struct survey *s)
+{
+    const int vertices = s->rest->vertex_count;
+    double largest = 0, least = INFINITY;
+    for (int v = 0; v < vertices; v++) {
+        if (!s->base[v]) continue;
+        largest = fmax(largest, s->extent[v]);
+        least = fmin(least, s->extent[v]);
+    }
+    const double most = still * still * largest;
+    for (int v = 0; v < vertices && least <= most; v++) s->base[v] &= s->extent[v] <= most;
+    measure_rest(s);
+    return least <= most;
+}
+
+/// Horn's quaternion of a frame.
+static void fit_turn(const struct lapack *lapack, const double m[3][3], double weight, double q[4])
+{
+    double k[16] = {0}, values[4];
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        k[0] += m[a][a];
+        k[1 + a] = m[b][c] - m[c][b];
+        k[5 * (1 + a)] = m[a][a] - m[b][b] - m[c][c];
+        k[4 * (1 + (a < b ? a : b)) + 1 + (a < b ? b : a)] = m[a][b] + m[b][a];
+    }
+    k[0] += weight;
+    const bool found = lapack->dsyevd(LAPACK_ROWS_FIRST, 'V', 'U', 4, k, 4, values) == 0;
+    for (int i = 0; i < 4; i++) q[i] = found ? k[4 * i + 3] : i == 0; // the last column
+}
+
+static void fill_turn(const double q[4], double r[3][3])
+{
+    for (int a = 0; a < 3; a++) {
+        const int b = (a + 1) % 3, c = (a + 2) % 3;
+        r[a][a] = q[0] * q[0] + q[1 + a] * q[1 + a] - q[1 + b] * q[1 + b] - q[1 + c] * q[1 + c];
+        r[a][b] = 2 * (q[1 + a] * q[1 + b] - q[0] * q[1 + c]);
+        r[b][a] = 2 * (q[1 + a] * q[1 + b] + q[0] * q[1 + c]);
+    }
+}
+
+static void fit(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames)
+{
+    const double size = size_of(s), reach = sqrt(size / s->count);
+    double first[4], moved = 0;
+    rigid->turn = need((size_t)frames, sizeof *rigid->turn);
+    rigid->place = need((size_t)frames, sizeof *rigid->place);
+    for (int t = 0; t < frames; t++) {
+        double q[4], same = 0, travel = 0, away = 0;
+        fit_turn(lapack, (const double(*)[3])s->moment[t], identity * size, q);
+        for (int i = 0; i < 4; i++) first[i] = t == 0 ? q[i] : first[i];
+        for (int i = 0; i < 4; i++) same += q[i] * first[i];
+        fill_turn(q, rigid->turn[t]);
+        for (int a = 0; a < 3; a++) {
+            const double *r = rigid->turn[t][a];
+            rigid->place[t][a] = s->mean[t][a] - r[0] * s->centre[0] - r[1] * s->centre[1] - r[2] * s->centre[2];
+            travel += pow(s->mean[t][a] - s->mean[0][a], 2);
+            away += pow(s->mean[t][a] - s->centre[a], 2);
+        }
+        rigid->travel = fmax(rigid->travel, sqrt(travel));
+        rigid->angle = fmax(rigid->angle, 2 * acos(fmin(fabs(same), 1)) * 180 / M_PI);
+        moved = fmax(moved, sqrt(away) + 2 * reach * sqrt(fmax(1 - q[0] * q[0], 0)));
+    }
+    rigid->frames = moved > nothing * reach ? frames : 0;
+}
+
+bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct motion *motion,
+                const struct surface *rest, const bool *base, struct error *error)
+{
+    const size_t frames = (size_t)motion->frames, vertices = (size_t)rest->vertex_count;
+    struct survey s = {.rest = rest};
+    uint8_t *used = surface_used_vertices(rest);
+    *rigid = (struct rigid){0};
+    s.base = need(vertices + 1, sizeof *s.base);
+    s.moment = need_zeroed(frames, sizeof *s.moment);
+    s.mean = need_zeroed(frames, sizeof *s.mean);
+    s.extent = need_zeroed(vertices + 1, sizeof *s.extent);
+    rigid->whole = true;
+    for (size_t v = 0; v < vertices; v++) {
+        s.base[v] = used[v] && (!base || base[v]);
+        rigid->whole &= s.base[v] == used[v];
+    }
+    measure_rest(&s);
+    const bool done = s.count == 0 || read_motion(&s, motion, error);
+    if (done && s.count > 0 && (base || !keep_still(&s))) fit(rigid, lapack, &s, motion->frames);
+    rigid->hinged = done && s.count > 0 && is_hinge(&s);
+    free(used);
+    free(s.base);
+    free(s.moment);
+    free(s.mean);
+    free(s.extent);
+    return done;
+}
+
+void rigid_free(struct rigid *rigid)
+{
+    free(rigid->turn);
+    free(rigid->place);
+    *rigid = (struct rigid){0};
+}
+
+void rigid_undo(const struct rigid *rigid, double *numbers, int columns)
+{
+    for (int t = 0; t < rigid->frames; t++) {
+        const double(*r)[3] = (const double(*)[3])rigid->turn[t], *p = rigid->place[t];
+        for (double *x = numbers + (size_t)t * (size_t)columns, *end = x + columns; x < end; x += 3) {
+            const double away[3] = {x[0] - p[0], x[1] - p[1], x[2] - p[2]};
+            for (int c = 0; c < 3; c++) x[c] = r[0][c] * away[0] + r[1][c] * away[1] + r[2][c] * away[2];
+        }
+    }
+}
+
+/// bᵀ A⁻¹ b for a symmetric positive A, by Cholesky's factor of it; a direction without a pivot counts nothing.
+static double inverse_square(double a[3][3], double b[3])
+{
+    double sum = 0;
+    for (int i = 0; i < 3; i++) {
+        const double whole = a[i][i];
+        for (int k = 0; k < i; k++) {
+            a[i][i] -= a[i][k] * a[i][k];
+            b[i] -= a[i][k] * b[k];
+        }
+        const double pivot = a[i][i] > straight * whole ? sqrt(a[i][i]) : INFINITY;
+        b[i] /= pivot;
+        sum += b[i] * b[i];
+        for (int j = i + 1; j < 3; j++) {
+            for (int k = 0; k < i; k++) a[j][i] -= a[j][k] * a[i][k];
+            a[j][i] /= pivot;
+        }
+    }
+    return sum;
+}
+
+/// Of one displacement per vertex: what its translation m and its turn explain, |m|² n + Lᵀ I⁻¹ L with L = Σ (r − r̄) × u and the
+/// inertia I; its own power goes to `whole`.
+static double rigid_power(const struct survey *s, const double complex (*shape)[3], bool imaginary, double *whole)
+{
+    double sum[3] = {0}, swing[3] = {0}, inertia[3][3];
+    for (int v = 0; v < s->rest->vertex_count; v++) {
+        double u[3], r[3];
+        for (int c = 0; c < 3; c++) {
+            u[c] = !s->base[v] ? 0 : imaginary ? cimag(shape[v][c]) : creal(shape[v][c]);
+            r[c] = (double)s->rest->position[v][c] - s->centre[c];
+            sum[c] += u[c];
+            *whole += u[c] * u[c];
+        }
+        for (int c = 0; c < 3; c++) swing[c] += r[(c + 1) % 3] * u[(c + 2) % 3] - r[(c + 2) % 3] * u[(c + 1) % 3];
+    }
+    for (int n = 0; n < 9; n++) inertia[n / 3][n % 3] = (n / 3 == n % 3 ? size_of(s) : 0) - s->spread[n / 3][n % 3];
+    return (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / s->count + inverse_square(inertia, swing);
+}
+
+double rigid_share(const double complex (*shape)[3], const struct surface *rest)
+{
+    struct survey s = {.rest = rest, .base = need((size_t)rest->vertex_count + 1, sizeof *s.base)};
+    uint8_t *used = surface_used_vertices(rest);
+    double whole = 0;
+    for (int v = 0; v < rest->vertex_count; v++) s.base[v] = used[v];
+    measure_rest(&s);
+    double part = s.count > 0 ? rigid_power(&s, shape, false, &whole) + rigid_power(&s, shape, true, &whole) : 0;
+    free(used);
+    free(s.base);
+    return whole > 0 ? part / whole : 0;
+}
