@@ -76,9 +76,28 @@ ok "and its fit is what the scene solves to" $?
 expect 0 "a driven base" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 3 --fps 48 --substeps 4 --drive burst \
     --drive-frequency 2.75 --damping 0.1 --shake side -o "$scratch/burst.npy"
 says "says since when it swings freely" "the drive stops at 1.091 s" "$out"
-analyze 0 "from there on" "$scratch/burst.npy" --rest "$scratch/box.obj" --fps 48 --from 1.091 -o "$scratch/burst.glb"
-printf '%s\n' "$out" | awk '/Hz, damping/ { good = $2 > 1.99 && $2 < 2.01 && $6 + 0 > 0.098 && $6 + 0 < 0.102 } END { exit !good }'
-ok "it swings as it does by itself" $?
+swings() { # <name>: whether it does as the box does by itself
+    printf '%s\n' "$out" | awk '/Hz, damping/ { good = $2 > 1.99 && $2 < 2.01 && $6 + 0 > 0.098 && $6 + 0 < 0.102 } END { exit !good }'
+    ok "$1 swings as the box does by itself" $?
+}
+analyze 0 "nothing is told twice: analyze knows mesh, frame rate, direction and where the drive ends" "$scratch/burst.npy" -o "$scratch/burst.glb"
+swings "what a burst leaves"
+from_base=$(grep -v burst.npy <<<"$out" | sed 's/burst/world/')
+expect 0 "the same burst, seen from outside" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 3 --fps 48 --substeps 4 --drive burst \
+    --drive-frequency 2.75 --damping 0.1 --shake side --world -o "$scratch/world.npy"
+analyze 0 "its base's motion is removed" "$scratch/world.npy" -o "$scratch/burst.glb"
+says "and said" "  removed the motion of the base: up to 0.0882 m and 0 degrees" "$out"
+holds "the rest is as seen from the base" [ "$(grep -v 'world.npy\|removed' <<<"$out")" = "$from_base" ]
+mkdir "$scratch/found" && cp "$scratch/world.npy" "$scratch/found"
+analyze 0 "a motion of somebody else's, with what holds it" "$scratch/found/world.npy" --rest "$scratch/box.obj" --fps 48 --from 1.091 \
+    --pin 0.1 -o "$scratch/burst.glb"
+swings "it"
+analyze 0 "without" "$scratch/found/world.npy" --rest "$scratch/box.obj" --fps 48 -o "$scratch/burst.glb"
+says "the whole mesh counts" "  removed the motion of the whole mesh: up to " "$out"
+cp "$scratch/burst.simulation.json" "$scratch/up.simulation.json"
+analyze 0 "what simulate wrote for another motion" "$scratch/up.npy" --fps 30 -o "$scratch/burst.glb"
+says "is left out" "up.simulation.json: warning: is of another motion (144 frames of 8 vertices)" "$err"
+rm "$scratch/up.simulation.json"
 
 awk '/^v/ { print $1, $2, -$4, $3; next } { print }' "$scratch/box.obj" >"$scratch/z-up.obj"
 analyze 0 "a mesh with z up" "$scratch/up.npy" --rest "$scratch/z-up.obj" --fps 30 -o "$scratch/out/z-up.glb"
@@ -96,12 +115,16 @@ refused() { # <exit status> <what it says> <arguments>...
     [ "$(printf '%s\n' "$err" | wc -l)" -eq 1 ] && [ ! -e "$scratch/none.glb" ]
     ok "and no more, and writes nothing" $?
 }
+cp "$scratch/up.npy" "$scratch/broken.npy" && echo '{"fps": 0}' >"$scratch/broken.simulation.json"
 head -c 1000 "$scratch/up.npy" >"$scratch/cut.npy"
 rest="--rest $scratch/box.obj"
 # shellcheck disable=SC2086 # the options are split on purpose
 {
     refused 2 "give --fps N" "$scratch/up.npy" $rest
-    refused 2 "--rest mesh.obj is missing" "$scratch/up.npy"
+    refused 2 "--rest mesh.obj is missing" "$scratch/found/world.npy"
+    refused 2 "--pin: expected a height, none, plane:" "$scratch/up.npy" $rest --pin round
+    refused 1 "no vertex is in the region of --pin" "$scratch/up.npy" $rest --fps 30 --pin sphere:9,9,9,1
+    refused 1 "broken.simulation.json: expected what wiggly simulate writes" "$scratch/broken.npy" $rest
     refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake sideways
     refused 2 "--shake: expected up, side, front" "$scratch/up.npy" $rest --shake up:side
     refused 2 "--method: expected poles or cpca" "$scratch/up.npy" $rest --fps 30 --method pca

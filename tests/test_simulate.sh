@@ -12,6 +12,7 @@ expect 0 "a box is shaken" "$WIGGLY" simulate "$scratch/box.obj" --shake side "$
 says "says what was written" "box.npy: 6 frames of 8 vertices at 24 fps" "$out"
 holds "the .npy holds 6 × 8 × 3 floats" [ "$(stat -c %s "$scratch/box.npy")" -eq $((128 + 6 * 8 * 3 * 4)) ]
 holds "the rest mesh has the same vertices" [ "$(grep -c '^v ' "$scratch/box.rest.obj")" -eq 8 ]
+says "what was done is beside it" '"fps": 24.0' "$(<"$scratch/box.simulation.json")"
 first=$(cat "$scratch/box.npy" | cksum)
 expect 0 "again" "$WIGGLY" simulate "$scratch/box.obj" --shake side "${quick[@]}" -o "$scratch/box.npy" --verbose
 holds "the same command gives the same bytes" [ "$first" = "$(cat "$scratch/box.npy" | cksum)" ]

@@ -1,4 +1,4 @@
-/// The monotonic clock, and progress reports of long work.
+/// The monotonic clock, and who hears how far long work is.
 #include "base/progress.h"
 #include <stddef.h>
 #include <time.h>

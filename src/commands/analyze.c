@@ -5,32 +5,46 @@
 #include "base/need.h"
 #include "commands/analyze_scene.h"
 #include "commands/commands.h"
+#include "commands/companion.h"
 #include "commands/open_mesh.h"
 #include "commands/options.h"
 #include "commands/progress.h"
 #include "model/character.h"
+#include "simulation/region.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX, DIRECTION_SIZE = 64 };
 
 static const double recommended_bandwidth = 0.1; ///< the spline's default; an analysis of one oscillation cannot tell
 static const double fast_warning = 0.01;         ///< share of power near half the frame rate that causes a warning
+static const double rigid_warning = 0.5;         ///< share of a coordinate that turns about a point or line at rest
 static const double fast_pole = 0.8;             ///< share of half the frame rate; higher frequencies cause a warning
 
 struct job {
     const char *files[FILES_MAX + 1]; ///< NULL-terminated
-    const char *rest, *output, *scene, *coordinates, *shake;
-    struct mesh_options opening; ///< of `rest`
-    double fps;                  ///< 0: from the files
-    int method;                  ///< 0: default, else as in method_of()
+    const char *rest, *output, *scene, *coordinates, *shake, *pin;
+    char rest_found[COMPANION_PATH]; ///< NAME.rest.obj beside the first motion, used unless `rest` is given
+    struct mesh_options opening;     ///< of `rest`
+    double fps;                      ///< 0: from the files
+    int method;                      ///< 0: default, else as in method_of()
     int modes;
     bool no_normals;
-    double from; ///< seconds
+    double from;          ///< seconds; below 0: what the files say
+    struct region pinned; ///< what `pin` says
     double directions[FILES_MAX][3];
     int direction_count; ///< 0, 1 for all, or one per file
+};
+
+/// A motion and what is known of it.
+struct input {
+    struct motion motion;
+    struct companion made; ///< all zero if wiggly did not simulate it
+    struct rigid base;
+    double fps;
 };
 
 struct result {
@@ -132,16 +146,17 @@ static void report(const struct coordinate *to, const struct analyzed *analyzed,
            printable_number(c->first_lag, 1), printable_number(c->last_lag, 1));
 }
 
-static void report_motion(const struct job *job, const struct motion *motion, const struct analysis *a, double fps)
+static void report_motion(const struct job *job, const struct input *in, const struct analysis *a)
 {
-    print_line(stdout, "%s: %d frames of %d vertices at %g fps", motion->path, motion->frames, motion->vertices, fps);
-    double speed = sqrt(a->drift[0] * a->drift[0] + a->drift[1] * a->drift[1] + a->drift[2] * a->drift[2]);
-    if (a->drift_share > 0) {
-        char along[DIRECTION_SIZE];
-        print_direction(a->drift, speed, along);
-        printf("  removed a steady drift: %.1f %% of the motion, on average %.3g m/s along %s\n",
-               100 * fmin(a->drift_share, 1), speed, along);
+    const struct rigid *base = &in->base;
+    print_line(stdout, "%s: %d frames of %d vertices at %g fps", in->motion.path, in->motion.frames,
+               in->motion.vertices, in->fps);
+    if (base->frames > 0) {
+        printf("  removed the motion of the %s: up to %.3g m and %.3g degrees\n", base->whole ? "whole mesh" : "base",
+               printable_number(base->travel, 1e-4), printable_number(base->angle, 0.01));
     }
+    if (base->frames > 0 && base->whole && !job->pin)
+        printf("    (no vertex rests; if something holds the mesh, name it with --pin)\n");
     if (a->count < job->modes)
         printf("  %d of %d coordinates: the motion has no more poles that matter\n", a->count, job->modes);
 }
@@ -169,30 +184,79 @@ static void warn_of_cancelling(const struct motion *motion, const struct analysi
                motion->path, a->cancelled, a->cancelled > 1 ? "s" : "");
 }
 
-static bool check_motion(const struct job *job, const struct motion *motion, const struct character *rest,
-                         double *fps, struct error *error)
+/// A base that is a point or a line allows turns about it.
+static void warn_of_turns(const struct job *job, const struct input *in, const struct analysis *a,
+                          const struct surface *rest)
 {
+    for (int k = 0; !job->pin && in->base.hinged && k < a->count; k++) {
+        const double share = rigid_share((const double complex(*)[3])a->components[k].shape, rest);
+        if (share < rigid_warning) continue;
+        print_line(
+            stderr,
+            "%s: warning: %.0f %% of coordinate %d turns the whole mesh about the vertices at rest; set --pin to "
+            "what holds it, or to none",
+            in->motion.path, 100 * share, k + 1);
+    }
+}
+
+/// The mesh at rest, whose arrays stay the character's.
+static struct surface rest_of(const struct character *c)
+{
+    return (struct surface){.position = c->position,
+                            .color = c->color,
+                            .vertex_count = c->vertex_count,
+                            .indices = c->indices,
+                            .index_count = c->index_count};
+}
+
+/// How the base moves: what --pin names, else what a simulation pinned, else what rests.
+static bool find_base(const struct job *job, struct input *in, const struct surface *rest,
+                      const struct lapack *lapack, struct error *error)
+{
+    const bool simulated = in->made.frames > 0;
+    struct region region = job->pinned;
+    if (!job->pin && simulated && !region_parse(in->made.pin, &region))
+        return fail(error, ERROR_INPUT, "%s: expected a region in what simulate wrote beside it, got \"%s\"",
+                    in->motion.path, in->made.pin);
+    if (!job->pin && simulated && !in->made.world && region.kind != REGION_NONE) return true;
+    if (!job->pin && !simulated) return rigid_find(&in->base, lapack, &in->motion, rest, NULL, error);
+    bool *pinned = need((size_t)rest->vertex_count + 1, sizeof *pinned);
+    for (int v = 0; v < rest->vertex_count; v++) pinned[v] = region.kind == REGION_NONE;
+    bool done =
+        region.kind == REGION_NONE || region_vertices(&region, rest, pinned) > 0 ||
+        fail(error, ERROR_INPUT, "%s: no vertex is in the region of --pin: name one that holds some", job->rest);
+    done = done && rigid_find(&in->base, lapack, &in->motion, rest, pinned, error);
+    free(pinned);
+    return done;
+}
+
+/// Opens a motion and finds what is known of it.
+static bool open_input(const struct job *job, int file, const struct surface *rest, const struct lapack *lapack,
+                       struct input *in, struct error *error)
+{
+    const struct motion *motion = &in->motion;
+    if (!motion_open(&in->motion, job->files[file], error)) return false;
     if (motion->vertices != rest->vertex_count)
         return fail(error, ERROR_INPUT, "%s: expected %d vertices as %s has, got %d", motion->path,
                     rest->vertex_count, job->rest, motion->vertices);
-    *fps = job->fps > 0 ? job->fps : motion->fps;
-    if (*fps > 0) return true;
-    return fail(error, ERROR_USAGE, "%s: the file has no frame rate: give --fps N", motion->path);
+    if (!companion_read(motion->path, motion->frames, motion->vertices, &in->made, error)) return false;
+    in->fps = job->fps > 0 ? job->fps : motion->fps > 0 ? motion->fps : in->made.fps;
+    if (!(in->fps > 0)) return fail(error, ERROR_USAGE, "%s: the file has no frame rate: give --fps N", motion->path);
+    return find_base(job, in, rest, lapack, error);
 }
 
-/// Warns if a motion is centred far from the rest mesh: it may have other axes, units or an offset. Walking motions may be anywhere.
+/// Warns if a motion is centred far from the rest mesh: it may have other axes, units or an offset.
 static void warn_of_distance(const struct motion *motion, const struct analysis *analysis,
                              const struct character *rest)
 {
-    double centre[3] = {0}, walked[3] = {0}, distance = 0, size = 0;
+    double centre[3] = {0}, distance = 0, size = 0;
     for (int n = 0; n < 3 * rest->vertex_count; n++) {
         double at = (double)rest->position[n / 3][n % 3];
         centre[n % 3] += at / rest->vertex_count;
-        if (analysis->drift_share > 0) walked[n % 3] += (analysis->mean[n / 3][n % 3] - at) / rest->vertex_count;
     }
     for (int n = 0; n < 3 * rest->vertex_count; n++) {
         double at = (double)rest->position[n / 3][n % 3];
-        double away = analysis->mean[n / 3][n % 3] - at - walked[n % 3];
+        double away = analysis->mean[n / 3][n % 3] - at;
         distance += away * away;
         size += (at - centre[n % 3]) * (at - centre[n % 3]);
     }
@@ -231,28 +295,34 @@ static void keep_all(const struct job *job, const struct analysis *analysis, con
 static bool analyse(const struct job *job, int file, const struct lapack *lapack, struct result *result,
                     struct error *error)
 {
-    struct motion motion;
+    const struct surface rest = rest_of(&result->character);
+    struct input in = {.motion.file = -1};
     struct analysis analysis = {0};
-    double fps = 0;
-    if (!motion_open(&motion, job->files[file], error)) return false;
-    bool done = check_motion(job, &motion, &result->character, &fps, error);
+    bool done = open_input(job, file, &rest, lapack, &in, error);
+    const bool directed = job->direction_count > 0;
+    const double from = method_of(job) == ANALYSIS_CPCA ? 0 : job->from >= 0 ? job->from : in.made.from;
     const struct analysis_plan plan = {
         .method = method_of(job),
-        .fps = fps,
+        .fps = in.fps,
         .modes = job->modes,
-        .first = (int)fmin(ceil(job->from * fps), ANALYSIS_FRAMES_MAX),
-        .direction = job->direction_count ? job->directions[job->direction_count > 1 ? file : 0] : NULL,
+        .first = (int)fmin(ceil(from * in.fps), ANALYSIS_FRAMES_MAX),
+        .direction = directed             ? job->directions[job->direction_count > 1 ? file : 0]
+                     : in.made.frames > 0 ? in.made.shake
+                                          : NULL,
+        .base = &in.base,
     };
-    done = done && analysis_create(&analysis, lapack, &motion, &plan, error);
+    done = done && analysis_create(&analysis, lapack, &in.motion, &plan, error);
     if (done) {
-        warn_of_distance(&motion, &analysis, &result->character);
-        warn_of_speed(&motion, &analysis, fps);
-        warn_of_cancelling(&motion, &analysis);
-        report_motion(job, &motion, &analysis, fps);
-        keep_all(job, &analysis, &motion, fps, result);
+        warn_of_distance(&in.motion, &analysis, &result->character);
+        warn_of_speed(&in.motion, &analysis, in.fps);
+        warn_of_cancelling(&in.motion, &analysis);
+        warn_of_turns(job, &in, &analysis, &rest);
+        report_motion(job, &in, &analysis);
+        keep_all(job, &analysis, &in.motion, in.fps, result);
     }
     analysis_free(&analysis);
-    motion_close(&motion);
+    rigid_free(&in.base);
+    motion_close(&in.motion);
     return done;
 }
 
@@ -315,7 +385,11 @@ static const char *check(struct job *job)
 {
     int files = 0;
     while (job->files[files]) files++;
+    if (!job->rest && companion_path(job->files[0], ".rest.obj", job->rest_found) &&
+        access(job->rest_found, R_OK) == 0)
+        job->rest = job->rest_found;
     if (!job->rest) return "--rest mesh.obj is missing: name the mesh at rest";
+    if (job->pin && !region_parse(job->pin, &job->pinned)) return "--pin: expected " REGION_FORMS;
     if (!job->output) return "-o creature.glb is missing: name the file to write";
     if (job->from > 0 && method_of(job) == ANALYSIS_CPCA)
         return "--from has no effect with --method cpca: leave one out";
@@ -326,25 +400,29 @@ static const char *check(struct job *job)
 
 int command_analyze(int argc, char **argv)
 {
-    struct job job = {.modes = 1, .opening = {.scale = 1}};
+    struct job job = {.modes = 1, .opening = {.scale = 1}, .from = -1};
     const struct option_spec options[] = {
         {"--rest", NULL, "FILE",
-         "required: the mesh at rest (OBJ, STL, PLY, OFF, glTF), with the same vertices in the same order",
-         OPTION_TEXT, &job.rest, 0, 0},
+         "mesh at rest (OBJ, STL, PLY, OFF, glTF), the same vertices in order (that of the simulation)", OPTION_TEXT,
+         &job.rest, 0, 0},
         MESH_OPTIONS(&job.opening),
         {"--output", "-o", "FILE", "required: the character to write (.glb)", OPTION_OUTPUT, &job.output, 0, 0},
-        {"--fps", NULL, "N", "frames per second; required for .npy and .pc2", OPTION_REAL, &job.fps, 1e-3, 100000},
+        {"--fps", NULL, "N", "frames per second (those of the file or of the simulation)", OPTION_REAL, &job.fps,
+         1e-3, 100000},
         {"--modes", NULL, "K", "coordinates per motion, most important first (1)", OPTION_INT, &job.modes, 1,
          MODES_MAX},
         {"--no-normals", NULL, NULL, "leave out the morph targets' normals: a smaller file, the same in wiggly",
          OPTION_FLAG, &job.no_normals, 0, 0},
         {"--shake", NULL, "DIR",
-         "direction of the shake: up, side, front or x,y,z; one for all or one per file (up:side)", OPTION_TEXT,
-         &job.shake, 0, 0},
+         "direction of the shake: up, side, front or x,y,z; one for all or one per file, up:side (the simulation's)",
+         OPTION_TEXT, &job.shake, 0, 0},
+        {"--pin", NULL, "WHERE",
+         "what holds the mesh, and whose motion is removed, as in simulate; none: the whole mesh (what rests)",
+         OPTION_TEXT, &job.pin, 0, 0},
         {"--method", NULL, "poles|cpca", "one coordinate per pole (default), or complex principal components",
          OPTION_WORD, &job.method, 0, 0},
-        {"--from", NULL, "S", "the second when the drive stops: poles are found from there on (0)", OPTION_REAL,
-         &job.from, 0, 1e6},
+        {"--from", NULL, "S", "the second when the drive stops: poles are found from there on (the simulation's)",
+         OPTION_REAL, &job.from, 0, 1e6},
         {"--scene", NULL, "FILE", "also write a scene whose knots repeat the motions", OPTION_OUTPUT, &job.scene, 0,
          0},
         {"--coordinates", NULL, "FILE", "also write the time series of each coordinate and its spline, as CSV",

@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "commands/commands.h"
+#include "commands/companion.h"
 #include "commands/open_mesh.h"
 #include "commands/options.h"
 #include "commands/progress.h"
@@ -18,7 +19,7 @@
 struct job {
     const char *mesh, *output;
     struct mesh_options opening;
-    char rest[4096]; ///< path of the rest mesh beside the output
+    char rest[COMPANION_PATH]; ///< path of the rest mesh beside the output
     const char *shake_text, *drive_text, *pin_text;
     double budget; ///< millions of element-steps
     struct shake_job shake;
@@ -44,6 +45,23 @@ static bool start_drive(struct job *job, const struct soft *soft, struct error *
     return true;
 }
 
+/// What analyze needs to know of the motion.
+static bool write_companion(const struct job *job, const struct soft *soft, const struct surface *surface,
+                            struct error *error)
+{
+    const struct shake_job *shake = &job->shake;
+    struct companion made = {.frames = shake_frames(shake), .vertices = surface->vertex_count, .fps = shake->fps};
+    const double end = shake->loads.drive ? drive_end(shake->loads.drive) : 0;
+    made.from = end < shake->seconds ? end : 0;
+    made.world = shake->world;
+    memcpy(made.shake, shake->shake.direction, sizeof made.shake);
+    if (job->pin_text)
+        snprintf(made.pin, sizeof made.pin, "%s", job->pin_text);
+    else
+        snprintf(made.pin, sizeof made.pin, "%.6g", 0.05 * soft->height);
+    return companion_write(job->output, &made, error);
+}
+
 static bool shake(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
 {
     struct floor floor = {0};
@@ -52,7 +70,7 @@ static bool shake(struct job *job, struct soft *soft, const struct surface *surf
         floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young, job->soft.density);
         job->shake.loads.floor = &floor;
     }
-    good = good && simulate_shake(&job->shake, soft, surface, error);
+    good = good && simulate_shake(&job->shake, soft, surface, error) && write_companion(job, soft, surface, error);
     floor_free(&floor);
     drive_free(&job->drive);
     return good;
@@ -165,12 +183,10 @@ static const char *check(struct job *job)
         return "--output: expected a name ending in .npy for --modal";
     if (!path_has_end(job->output, ".npy") && !path_has_end(job->output, ".pc2"))
         return "--output: expected a name ending in .npy or .pc2";
-    if (strlen(job->output) + 16 > sizeof job->rest) return "--output: the name is too long";
+    if (!companion_path(job->output, ".rest.obj", job->rest)) return "--output: the name is too long";
     if (!options_direction(job->shake_text, job->shake.shake.direction))
         return "--shake: expected up, side, front or a vector x,y,z";
-    if (job->pin_text && !region_parse(job->pin_text, &job->soft.pin))
-        return "--pin: expected a height, none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r or color:RRGGBB";
-    snprintf(job->rest, sizeof job->rest, "%.*s.rest.obj", (int)strlen(job->output) - 4, job->output);
+    if (job->pin_text && !region_parse(job->pin_text, &job->soft.pin)) return "--pin: expected " REGION_FORMS;
     job->shake.mesh = job->mesh;
     job->shake.output = job->output;
     job->shake.budget = 1e6 * job->budget;
@@ -194,8 +210,8 @@ int command_simulate(int argc, char **argv)
     job.soft.frequency = job.soft.density = 0;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE",
-         "required: NAME.npy or NAME.pc2 (--modal: .npy); the rest mesh goes to NAME.rest.obj", OPTION_TEXT,
-         &job.output, 0, 0},
+         "required: NAME.npy or NAME.pc2 (--modal: .npy); writes NAME.rest.obj and NAME.simulation.json, too",
+         OPTION_TEXT, &job.output, 0, 0},
         MESH_OPTIONS(&job.opening),
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (default: up)", OPTION_TEXT, &job.shake_text, 0,
          0},

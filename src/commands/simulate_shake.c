@@ -163,7 +163,7 @@ static void report(const struct shake_job *job, const struct soft *soft, const s
         printf("  %d steps a frame; error of the motion %.2g %%\n", record->substeps, 100 * left);
     }
     if (job->loads.drive && drive_end(job->loads.drive) < job->seconds)
-        printf("  the drive stops at %.4g s: give that to analyze --from\n", drive_end(job->loads.drive));
+        printf("  the drive stops at %.4g s: what follows is its free swing\n", drive_end(job->loads.drive));
     if (left > job->accuracy) {
         fflush(stdout);
         print_line(
@@ -174,10 +174,12 @@ static void report(const struct shake_job *job, const struct soft *soft, const s
     }
 }
 
+int shake_frames(const struct shake_job *job) { return (int)fmax(1, round(job->seconds * job->fps)); }
+
 bool simulate_shake(const struct shake_job *job, struct soft *soft, const struct surface *surface,
                     struct error *error)
 {
-    const int frames = (int)fmax(1, round(job->seconds * job->fps)), nodes = soft->body.node_count;
+    const int frames = shake_frames(job), nodes = soft->body.node_count;
     struct record fine = {.frames = frames, .nodes = nodes}, coarse = fine;
     struct file_output output;
     const double started = clock_now();

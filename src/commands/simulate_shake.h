@@ -20,6 +20,9 @@ struct shake_job {
     bool verbose;
 };
 
+/// How many frames are written.
+int shake_frames(const struct shake_job *job);
+
 /// Simulates, writes the motion and prints the cost. Of `soft` it changes only the body's scratch memory.
 bool simulate_shake(const struct shake_job *job, struct soft *soft, const struct surface *surface,
                     struct error *error);

@@ -88,29 +88,51 @@ static bool colored_nodes(const struct region *region, const struct lattice *lat
     return found > 0 || fail(error, ERROR_INPUT, "%s: no vertex has the colour %06X of --pin", name, region->color);
 }
 
-bool region_nodes(const struct region *region, const struct lattice *lattice, const struct surface *surface,
-                  const char *name, bool *inside, struct error *error)
+/// Whether points are in a region other than a colour's. `lowest`: a foot of the usual height is at least as high.
+static void check_points(const struct region *region, const struct surface *surface, double lowest,
+                         const double (*point)[3], int count, bool *inside)
 {
-    if (region->kind == REGION_COLOR) return colored_nodes(region, lattice, surface, name, inside, error);
     double lo[3], hi[3];
     surface_bounds(surface, lo, hi);
     double foot = region->size < 0 ? 0.05 * (hi[1] - lo[1]) : region->size;
     double rounding = 1e-9 * (hi[1] - lo[1]); // so that the layer of nodes at this height counts
-    double top = lo[1] + foot, lowest = INFINITY;
-    for (int i = 0; i < lattice->node_count; i++) lowest = fmin(lowest, lattice->node[i][1]);
-    if (region->size < 0) top = fmax(top, lowest); // if the feet are thinner than a cell
-    for (int i = 0; i < lattice->node_count; i++) {
+    double top = lo[1] + foot;
+    if (region->size < 0) top = fmax(top, lowest);
+    for (int i = 0; i < count; i++) {
         double away[3], ahead = 0, squared = 0;
         for (int c = 0; c < 3; c++) {
-            away[c] = lattice->node[i][c] - region->point[c];
+            away[c] = point[i][c] - region->point[c];
             ahead += away[c] * region->normal[c];
             squared += away[c] * away[c];
         }
-        if (region->kind == REGION_FOOT) inside[i] = lattice->node[i][1] <= top + rounding;
+        if (region->kind == REGION_FOOT) inside[i] = point[i][1] <= top + rounding;
         if (region->kind == REGION_PLANE) inside[i] = ahead <= 0;
         if (region->kind == REGION_SPHERE) inside[i] = squared <= region->size * region->size;
     }
+}
+
+bool region_nodes(const struct region *region, const struct lattice *lattice, const struct surface *surface,
+                  const char *name, bool *inside, struct error *error)
+{
+    if (region->kind == REGION_COLOR) return colored_nodes(region, lattice, surface, name, inside, error);
+    double lowest = INFINITY; // if the feet are thinner than a cell
+    for (int i = 0; i < lattice->node_count; i++) lowest = fmin(lowest, lattice->node[i][1]);
+    check_points(region, surface, lowest, (const double(*)[3])lattice->node, lattice->node_count, inside);
     return true;
+}
+
+int region_vertices(const struct region *region, const struct surface *surface, bool *inside)
+{
+    double(*point)[3] = need((size_t)surface->vertex_count + 1, sizeof *point);
+    int found = 0;
+    for (int n = 0; n < 3 * surface->vertex_count; n++) point[n / 3][n % 3] = (double)surface->position[n / 3][n % 3];
+    check_points(region, surface, -INFINITY, (const double(*)[3])point, surface->vertex_count, inside);
+    for (int i = 0; i < surface->vertex_count; i++) {
+        if (region->kind == REGION_COLOR) inside[i] = surface->color && has_color(region, surface->color[i]);
+        found += inside[i];
+    }
+    free(point);
+    return found;
 }
 
 enum { FILE_LIMIT = 1 << 30 };

@@ -23,12 +23,18 @@ struct region {
     uint32_t color;                   ///< 0xRRGGBB, sRGB
 };
 
+/// What region_parse() takes, for error texts.
+#define REGION_FORMS "a height, none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r or color:RRGGBB"
+
 /// H, none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r or color:RRGGBB. False if it is none of these.
 bool region_parse(const char *text, struct region *region);
 
 /// Whether each node of the lattice is in the region. Error: no vertex has the colour; `name` is the surface's.
 bool region_nodes(const struct region *region, const struct lattice *lattice, const struct surface *surface,
                   const char *name, bool *inside, struct error *error);
+
+/// Whether each vertex of the surface is in the region, which is not REGION_NONE; returns how many are.
+int region_vertices(const struct region *region, const struct surface *surface, bool *inside);
 
 // How much softer than the material each element is, set by --soft.
 //
