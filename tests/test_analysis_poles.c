@@ -1,4 +1,4 @@
-/// The analysis by poles on planted oscillations: frequency, damping and shape, whatever the frame rate, noise and drift.
+/// The analysis by poles on planted oscillations: frequency, damping and shape, whatever the frame rate and noise.
 #include "analysis/analysis.h"
 #include "analysis/component.h"
 #include "planted.h"
@@ -6,13 +6,12 @@
 
 enum { VERTICES = 60, COLUMNS = 3 * VERTICES, MOST = 2, SEEDS = 3 };
 
-/// Σ_k Re(Ñ_k z_k^t), with noise and a walk along x.
+/// Σ_k Re(Ñ_k z_k^t), with noise.
 struct plant {
     int count, frames;
     double fps;
     double frequency[MOST], damping[MOST], size[MOST];
     double noise; ///< root mean square, relative to that of the swing
-    double speed; ///< m/s along x
     double complex shape[MOST][COLUMNS];
     double level;   ///< of the noise: its root mean square, metres
     uint32_t state; ///< of the noise
@@ -42,8 +41,7 @@ static double swing(const struct plant *p, int i, int j)
 static double planted(int i, int j, void *user)
 {
     struct plant *p = user;
-    double walk = j % 3 == 0 ? p->speed * i / p->fps : 0;
-    return 0.01 * j + swing(p, i, j) + walk + (p->level > 0 ? p->level * bell(&p->state) : 0);
+    return 0.01 * j + swing(p, i, j) + (p->level > 0 ? p->level * bell(&p->state) : 0);
 }
 
 static void grow(struct plant *p, uint32_t seed)
@@ -164,23 +162,6 @@ TEST(through_noise)
         struct plant p = {2, (int)(4 * rates[r]), rates[r], {2, 2.3}, {0.05, 0.05}, {0.1, 0.1}, .noise = 0.2};
         hold(p, (struct bars){0.01, 0.05, 0.99});
     }
-}
-
-TEST(a_walk_is_taken_out_and_said)
-{
-    struct plant p = {2, 96, 24, {1.3, 3}, {0.05, 0.1}, {0.05, 0.02}, .speed = 0.5};
-    hold(p, (struct bars){1e-5, 1e-4, 1 - 1e-5});
-    struct analysis a;
-    grow(&p, 1);
-    analyse(&a, &p, 1);
-    assert_near(a.drift[0], 0.5, 1e-4);
-    assert_near(a.drift[1], 0, 1e-4);
-    assert_true(a.drift_share > 0.5);
-    analysis_free(&a);
-    p.speed = 0;
-    analyse(&a, &p, 1);
-    assert_near(a.drift_share, 0, 0);
-    analysis_free(&a);
 }
 
 /// What a harmonic force at 2.7 Hz does to two bodies, the second softer and so behind: the force's own swing, which comes in over half a second, and
@@ -313,7 +294,7 @@ TEST(what_was_driven_has_its_poles_where_it_swings_freely)
 /// From the driven frames come three poles, two of them with shapes of 6 and 13 m in antiphase for a motion of 1.2 m.
 TEST(motions_that_cancel_are_left_out_and_said)
 {
-    struct kicked body = {.frequency = {1.04, 2.2, 6.5}};
+    struct kicked body = {.frequency = {1.04, 2.2, 6.6}};
     struct analysis a;
     analyse_kicked(&a, &body, 0);
     assert_int_equal(a.cancelled, 1);

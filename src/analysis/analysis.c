@@ -1,4 +1,4 @@
-/// The whole analysis of one motion: G, its drift, its poles or principal components, their shapes.
+/// The whole analysis of one motion: G, its poles or principal components, their shapes.
 #include "analysis/analysis.h"
 #include "analysis/basis.h"
 #include "analysis/poles.h"
@@ -9,8 +9,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double least_drift = 0.02; ///< share of the motion's variance from which a drift counts
-static const double least_swing = 1e-9; ///< share left without the drift; less is the rounding of float data
 static const double cancelling = 2;     ///< times the motion's power: a larger component only cancels another
 static const double fast_from = 0.8;    ///< of half the frame rate
 static const double least_gain = 0.002; ///< share of the motion's power that a steady pole must explain
@@ -22,13 +20,13 @@ struct work {
     const struct lapack *lapack;
     const struct motion *motion;
     const struct analysis_plan *plan;
-    double *gram; ///< of the motion; from find_drift() on without its drift
+    double *gram; ///< of the motion; from find_poles() on about its middle
     double *free; ///< of the undriven frames, if some are driven
     double power; ///< trace of `gram`
     struct pole poles[SUBSPACE_POLES_MAX];
     int pole_count;
-    struct drift drift;
-    double *weights; ///< rows over the frames: Re Ñ and Im Ñ of each component without the drift, then the drift's
+    double *middle;  ///< see middle_create(); NULL by CPCA, which has the mean
+    double *weights; ///< rows over the frames: Re Ñ and Im Ñ of each component
 };
 
 static double trace(const double *gram, int frames)
@@ -53,14 +51,6 @@ static double fast_share(const double *gram, int frames)
     return fmax(share / power, 0);
 }
 
-static bool swings(const struct work *w, const double *gram, const struct basis *line, struct error *error)
-{
-    double power = trace(gram, line->frames);
-    if (!(power > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, but nothing moves", w->motion->path);
-    if (power - basis_gain(line, 2, gram) > least_swing * power) return true;
-    return fail(error, ERROR_INPUT, "%s: expected an oscillation, got a steady drift alone", w->motion->path);
-}
-
 static bool fail_frames(struct error *error, const struct motion *motion)
 {
     return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory for %d frames", motion->path, motion->frames);
@@ -77,27 +67,25 @@ static const double *cut_gram(struct work *w)
     return w->free;
 }
 
-/// Finds poles and drift in the undriven frames, and removes the drift from G.
-static bool find_drift(struct work *w, struct basis *basis, struct error *error)
+/// Finds the poles of the undriven frames, and removes from G the position that vertices swing about; that by CPCA is the mean.
+static bool find_poles(struct work *w, struct basis *basis, struct error *error)
 {
     int first = w->plan->first, frames = w->motion->frames - first;
     const double *gram = cut_gram(w);
     const double least = first > 0 ? least_gain_afterwards : least_gain;
-    basis_create(basis, frames, 2 + 2 * TIME_SERIES_MAX);
-    drift_append(basis);
-    if (!swings(w, gram, basis, error)) return false;
-    int found = subspace_poles(w->lapack, gram, frames, w->poles);
+    w->power = trace(gram, frames);
+    if (!(w->power > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, but nothing moves", w->motion->path);
+    double *ones = need((size_t)frames, sizeof *ones);
+    for (int t = 0; t < frames; t++) ones[t] = 1;
+    basis_append(basis, ones);
+    free(ones);
+    const int found = subspace_poles(w->lapack, gram, frames, w->poles);
     if (found < 0) return fail_frames(error, w->motion);
     w->pole_count = exponentials_choose(w->poles, found, TIME_SERIES_MAX, least, gram, basis);
-    drift_create(&w->drift, basis, gram);
-    if (first > 0) drift_extend(&w->drift, first, w->gram);
-    if (w->plan->method == ANALYSIS_CPCA) {
-        if (w->drift.share < least_drift)
-            drift_keep_all(&w->drift);
-        else
-            drift_keep_means(&w->drift);
+    if (w->plan->method == ANALYSIS_POLES) {
+        w->middle = middle_create(basis, first);
+        middle_remove(w->middle, w->motion->frames, w->gram);
     }
-    drift_remove(&w->drift, w->gram);
     w->power = trace(w->gram, w->motion->frames);
     return true;
 }
@@ -241,23 +229,19 @@ static void share_motion(struct analysis *a, const struct work *w)
     free(along);
 }
 
-/// Ñ of every component and the drift, in a second pass over the motion.
+/// Ñ of every component, in a second pass over the motion.
 static bool form_shapes(struct analysis *a, struct work *w, struct error *error)
 {
     size_t frames = (size_t)w->motion->frames, columns = 3 * (size_t)w->motion->vertices, count = (size_t)a->count;
-    double *slopes = w->weights + 2 * count * frames, *combined = need((2 * count + 1) * columns, sizeof *combined);
+    double *combined = need(2 * count * columns, sizeof *combined);
     for (size_t k = 0; k < count; k++) fill_metric(&a->components[k], w, w->weights + 2 * k * frames);
     share_motion(a, w);
-    drift_adapt(&w->drift, w->weights, 2 * a->count);
-    for (size_t t = 0; t < frames; t++) slopes[t] = w->drift.weights[frames + t];
-    bool done = slabs_combine(w->lapack, w->motion, w->plan->base, w->weights, 2 * a->count + 1, combined, error);
+    if (w->middle) middle_adapt(w->middle, w->motion->frames, w->weights, 2 * a->count);
+    bool done = slabs_combine(w->lapack, w->motion, w->plan->base, w->weights, 2 * a->count, combined, error);
     for (size_t k = 0; done && k < count; k++) {
         const double *re = combined + 2 * k * columns, *im = re + columns;
         for (size_t n = 0; n < columns; n++) a->components[k].shape[n / 3][n % 3] = re[n] + I * im[n];
     }
-    a->drift_share = w->drift.share < least_drift ? 0 : w->drift.share;
-    for (size_t n = 0; done && a->drift_share > 0 && n < columns; n++)
-        a->drift[n % 3] += combined[2 * count * columns + n] * w->plan->fps / w->motion->vertices;
     free(combined);
     return done;
 }
@@ -278,7 +262,8 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
     int frames = w->motion->frames;
     double shares[ANALYSIS_MODES_MAX];
     struct basis basis;
-    bool done = find_drift(w, &basis, error);
+    basis_create(&basis, frames - w->plan->first, 1 + 2 * TIME_SERIES_MAX);
+    bool done = find_poles(w, &basis, error);
     basis_free(&basis);
     if (!done) return false;
     if (w->plan->method == ANALYSIS_POLES && w->pole_count == 0)
@@ -313,13 +298,13 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
     if (!need_has_room(numbers * n * n * sizeof *work.gram)) return fail_frames(error, motion);
     a->mean = need((size_t)motion->vertices, sizeof *a->mean);
     work.gram = need(n * n, sizeof *work.gram);
-    work.weights = need((2 * (size_t)plan->modes + 1) * n, sizeof *work.weights);
+    work.weights = need(2 * (size_t)plan->modes * n, sizeof *work.weights);
     bool done =
         slabs_gram(lapack, motion, plan->base, work.gram, a->mean[0], error) && find_components(a, &work, error);
     free(work.gram);
     free(work.free);
     free(work.weights);
-    drift_free(&work.drift);
+    free(work.middle);
     if (!done) analysis_free(a);
     return done;
 }

@@ -31,12 +31,10 @@ struct analysis {
     double (*mean)[3]; ///< each vertex's mean position, metres
     struct component *components;
     int count;
-    int cancelled;      ///< poles left out because others nearly cancel them
-    double left;        ///< relative error of the motion with all components, 0 … 1
-    double real_left;   ///< the same with as many real principal components
-    double drift[3];    ///< m/s: the mean velocity of the vertices if a steady drift was removed, else 0
-    double drift_share; ///< of the motion's variance, 0 … 1; 0 if too small to report
-    double fast_share;  ///< of the motion's power above four fifths of half the frame rate, 0 … 1
+    int cancelled;     ///< poles left out because others nearly cancel them
+    double left;       ///< relative error of the motion with all components, 0 … 1
+    double real_left;  ///< the same with as many real principal components
+    double fast_share; ///< of the motion's power above four fifths of half the frame rate, 0 … 1
 };
 
 /// Finds the components, most important first; fewer than asked for if the motion has fewer poles. Reads the motion twice; needs

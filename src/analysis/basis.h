@@ -1,4 +1,4 @@
-/// Sequences over the frames, least squares on them, and the drift that is found so.
+/// Sequences over the frames, least squares on them, and the position that vertices swing about.
 #ifndef ANALYSIS_BASIS_H
 #define ANALYSIS_BASIS_H
 
@@ -26,36 +26,15 @@ double basis_gain(const struct basis *basis, int last, const double *gram);
 /// W = (B Bᵀ)⁻¹ B, count × frames: S ≈ Bᵀ (W S) with the least sum of squares.
 void basis_weights(const struct basis *basis, double *weights);
 
-// The steady drift of a motion: each vertex moves along a line at its own speed, and swings about it.
+// The position that each column swings about: w S, with weights w of the frames that add up to 1. Without it S′ = (1 − 1 wᵀ) S.
 
-/// Removing it is a matrix on the frames: S′ = (1 − D) S, D = p₀ w₀ᵀ + p₁ w₁ᵀ, with p₀ = 1 and p₁ the frame number counted from
-/// the middle.
-struct drift {
-    int frames;
-    double *weights; ///< w₀ and w₁: w₁ S is each column's drift per frame
-    double share;    ///< of the motion's power, 0 … 1
-};
+/// From a basis that begins with ones: w, of `first` frames that do not count and then the basis's. The caller frees it.
+double *middle_create(const struct basis *basis, int first);
 
-/// Appends p₀ and p₁ to a basis.
-void drift_append(struct basis *basis);
-
-/// From a basis that begins with p₀ and p₁; `gram` is G = S Sᵀ.
-void drift_create(struct drift *drift, const struct basis *basis, const double *gram);
-void drift_free(struct drift *drift);
-
-/// Extends a drift of the frames from `first` on to all frames, whose G is `gram`.
-void drift_extend(struct drift *drift, int first, const double *gram);
-
-/// From now on the drift keeps each column's mean: D = p₁ w₁ᵀ.
-void drift_keep_means(struct drift *drift);
-
-/// No drift: D = 0.
-void drift_keep_all(struct drift *drift);
-
-/// G becomes (1 − D) G (1 − D)ᵀ.
-void drift_remove(const struct drift *drift, double *gram);
+/// G becomes that of S′.
+void middle_remove(const double *middle, int frames, double *gram);
 
 /// Turns weights of S′ into the same weights of S: `rows` rows of `frames` numbers.
-void drift_adapt(const struct drift *drift, double *weights, int rows);
+void middle_adapt(const double *middle, int frames, double *weights, int rows);
 
 #endif

@@ -4,7 +4,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-enum { DRIFT = 2 }; ///< sequences of the drift at the start of the basis
+enum { MIDDLE = 1 }; ///< sequences at the start of the basis that no pole has
 
 static const double steady = 0.05;        ///< how far a steady pole may wander
 static const double wanderer_gain = 0.01; ///< share of the motion's power that a wandering pole must explain
@@ -29,13 +29,13 @@ static void append(struct basis *basis, double complex z, double *room)
 }
 
 /// The largest power of one pole's part on its own, Σ (Bᵀ W S)² over its two sequences: tr(B Bᵀ W G Wᵀ) with
-/// B Bᵀ = L Lᵀ. The first two sequences are the drift's. `weights` has room for all of W.
+/// B Bᵀ = L Lᵀ. The first sequence is no pole's. `weights` has room for all of W.
 static double largest_part(const struct basis *basis, const double *gram, double *weights)
 {
     size_t n = (size_t)basis->frames;
     double largest = 0;
     basis_weights(basis, weights);
-    for (int k = DRIFT; k < basis->count; k += 2) {
+    for (int k = MIDDLE; k < basis->count; k += 2) {
         double part = 0;
         for (int i = 0; i < 4; i++) {
             const double *a = weights + (size_t)(k + i / 2) * n, *b = weights + (size_t)(k + i % 2) * n;
@@ -95,7 +95,7 @@ static int choose(struct pole *poles, int count, int most, double least, const d
                   double *room)
 {
     size_t n = (size_t)basis->frames;
-    double power = -basis_gain(basis, DRIFT, gram);
+    double power = -basis_gain(basis, MIDDLE, gram);
     int steady_count = 0;
     for (size_t t = 0; t < n; t++) power += gram[t * n + t];
     while (steady_count < count && poles[steady_count].wander < steady) steady_count++;

@@ -27,7 +27,7 @@ int subspace_poles(const struct lapack *lapack, const double *gram, int frames, 
 void exponentials_fill(double complex z, int frames, double *rows);
 
 /// Moves the poles that explain the motion best to the front, each judged beside those before it, and appends them to `basis`, which
-/// has drift_append()'s two sequences and room for two per pole. Steady poles come before wandering ones. Chooses at most `most`,
+/// has a sequence of ones and room for two per pole. Steady poles come before wandering ones. Chooses at most `most`,
 /// and at least one if there is any; leaves out poles that explain less than `least` of the motion's power or only cancel each other.
 /// Returns their number.
 int exponentials_choose(struct pole *poles, int count, int most, double least, const double *gram,
@@ -46,7 +46,7 @@ struct time_series {
     double part[TIME_SERIES_MAX];         ///< Σ_t |Re(R_k Ñ_k)|²: larger than the motion's if others cancel it
 };
 
-/// Fits time series to `count` poles. `gram` is G = S Sᵀ of a motion without drift. A time series oscillates at its pole and deviates
+/// Fits time series to `count` poles. `gram` is G = S Sᵀ of a motion about its middle. A time series oscillates at its pole and deviates
 /// only as the motion requires, for example under a force. The first shapes come from the undriven frames, those from `first` on.
 void time_series_create(struct time_series *series, const struct lapack *lapack, const double *gram, int frames,
                         int first, const double complex *poles, int count);

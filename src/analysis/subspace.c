@@ -23,6 +23,8 @@
 static const double least_share = 1e-6;
 /// Noise gives eigenvalues of about equal size; those this many times above their median are motion.
 static const double above_noise = 1.6;
+/// Of all power: what is left of a constant and a linear motion is the rounding of float data.
+static const double least_swing = 1e-9;
 static const double growth_most = 0.02; ///< negative damping ratio that noise or a growing force may cause
 
 enum { ORDER_STEP = 2, ORDER_STEPS = 3, ORDER_LARGEST = SUBSPACE_ORDER_MAX + ORDER_STEP * ORDER_STEPS };
@@ -176,11 +178,16 @@ int subspace_poles(const struct lapack *lapack, const double *gram, int frames, 
     size_t n = (size_t)frames, size = n / 2 * (n / 2);
     double *c = need(size + n * n + n, sizeof *c);
     double *room = c + size, *values = room + n * n;
+    double whole = 0;
     sum_windows(gram, n, n / 2, c);
+    for (int i = 0; i < length; i++) whole += c[i * length + i];
     project(lapack, gram, frames, length, false, room, c);
     project(lapack, gram, frames, length, true, room, c);
     memcpy(room, c, size * sizeof *c);
-    if (lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', length, room, length, values) == 0) {
+    bool good = lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', length, room, length, values) == 0;
+    if (good && values[length - 1] <= least_swing * whole) {
+        count = 0;
+    } else if (good) {
         whiten(fmax(values[length / 2], 0), frames - length + 1, length, c);
         if (lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'V', 'L', length, c, length, values) == 0)
             count = find_poles(lapack, c, values, length, poles);
