@@ -17,7 +17,6 @@ shake() { # <direction> <amplitude>
 shake up 0.05
 shake side 0.09 # a larger swing would change the volume by more than 5 % at amplitude 1: a linear shape lengthens what turns
 mkdir -p "$(dirname "$out")"
-# As the paper does it: by complex principal components. `--from 1.091` would give coordinates of one pole each.
+# As the paper does it: by complex principal components. Without, coordinates would have one pole each.
 # The stage finds for itself how normals turn, so the file does without.
-"$build/wiggly" analyze "$work/up.npy" "$work/side.npy" --rest "$work/creature.obj" --fps 48 --shake up:side --method cpca --modes 3 \
-    --no-normals -o "$out"
+"$build/wiggly" analyze "$work/up.npy" "$work/side.npy" --method cpca --modes 3 --no-normals -o "$out"
