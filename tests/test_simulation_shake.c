@@ -98,7 +98,7 @@ BOX_TEST(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator, 0.3f, 1, 300)
     integrator->mass_damping = soft->alpha;
     integrator->stiffness_damping = soft->beta;
     integrator->loads.drive = &drive;
-    const double omega = 2 * M_PI * 2, gamma = project(soft, soft->shaken, side, NULL);
+    const double omega = 2 * M_PI * 2, gamma = project(soft, soft->seen, side, NULL);
     double q = 0, v = 0, difference = 0, size = 0;
     for (int step = 0; step < quick_or_all(800, 2000); step++) {
         for (int k = 0; k < 20; k++) { // symplectic Euler in steps of a twentieth
@@ -108,7 +108,7 @@ BOX_TEST(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator, 0.3f, 1, 300)
             q += h / 20 * v;
         }
         assert_true(integrator_step(integrator));
-        double found = project(soft, soft->shaken, side, (const double(*)[3])integrator->x);
+        double found = project(soft, soft->seen, side, (const double(*)[3])integrator->x);
         difference += (found - q) * (found - q);
         size += q * q;
     }

@@ -16,6 +16,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const double slow_warning = 1 / 8.0; ///< of the frequency asked for: a lowest mode below it causes a warning
+
 struct job {
     const char *mesh, *output;
     struct mesh_options opening;
@@ -29,7 +31,7 @@ struct job {
     bool modal;
 };
 
-/// Moves the base along the shake, by default at the shaken mode's frequency.
+/// Moves the base along the shake, by default at the frequency of the mode that is seen most.
 static bool start_drive(struct job *job, const struct soft *soft, struct error *error)
 {
     struct drive *drive = &job->drive;
@@ -111,11 +113,19 @@ static void report_body(const struct job *job, const struct soft *soft)
                job->mesh, soft->lattice.tet_count, soft->body.node_count, soft->pinned, soft->young,
                soft->modes.count ? soft->modes.frequency[0] : 0);
     if (!job->modal) {
-        printf("  shaken most: mode %d, %.4g Hz, with %.0f %% of the shake\n", soft->shaken + 1, soft_frequency(soft),
+        printf("  seen most: mode %d, %.4g Hz, with %.0f %% of the motion\n", soft->seen + 1, soft_frequency(soft),
                100 * soft->share);
     }
     if (soft->lattice.repair[0]) print_line(stdout, "%s: %s", job->mesh, soft->lattice.repair);
     fflush(stdout);
+    const double lowest = soft->modes.count ? soft->modes.frequency[0] : 0;
+    if (!job->modal && lowest < slow_warning * soft_frequency(soft)) {
+        print_line(
+            stderr,
+            "%s: warning: the lowest mode, of %.2g Hz, is far below the %.2g Hz of the one that is seen most; if it "
+            "sways slowly, --pin more of it",
+            job->mesh, lowest, soft_frequency(soft));
+    }
     if (soft->loose_parts > 0 && soft->pinned > 0) {
         print_line(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift", job->mesh,
                    soft->loose_parts, soft->lattice.part_count);
@@ -194,7 +204,7 @@ static const char *check(struct job *job)
     return wrong ? wrong : set_material(&job->soft);
 }
 
-/// Modes among which the most shaken one is found.
+/// Modes among which the one that is seen most is found.
 enum { MODES_SEARCHED = 24 };
 
 int command_simulate(int argc, char **argv)
@@ -210,8 +220,8 @@ int command_simulate(int argc, char **argv)
     job.soft.frequency = job.soft.density = 0;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE",
-         "required: NAME.npy or NAME.pc2 (--modal: .npy); writes NAME.rest.obj and NAME.simulation.json, too",
-         OPTION_TEXT, &job.output, 0, 0},
+         "required: NAME.npy or NAME.pc2 (--modal: .npy); beside it NAME.rest.obj, NAME.simulation.json", OPTION_TEXT,
+         &job.output, 0, 0},
         MESH_OPTIONS(&job.opening),
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (default: up)", OPTION_TEXT, &job.shake_text, 0,
          0},
@@ -223,7 +233,7 @@ int command_simulate(int argc, char **argv)
         {"--drive", NULL, "WHAT",
          "shake the pinned base instead: sine, burst, sweep, or a track of seconds,metres in FILE.csv", OPTION_TEXT,
          &job.drive_text, 0, 0},
-        {"--drive-frequency", NULL, "HZ", "frequency of sine, burst or mid-sweep (the shaken mode's)", OPTION_REAL,
+        {"--drive-frequency", NULL, "HZ", "frequency of sine, burst or mid-sweep (that of the body)", OPTION_REAL,
          &job.drive.frequency, 1e-3, 1e3},
         {"--world", NULL, NULL, "write the motion as seen from outside, not from the base", OPTION_FLAG,
          &shake->world, 0, 0},
@@ -239,7 +249,7 @@ int command_simulate(int argc, char **argv)
         {"--pin", NULL, "WHERE",
          "pin below a height (1/20 of the mesh), none, plane:x,y,z,nx,ny,nz, sphere:x,y,z,r, color:RRGGBB",
          OPTION_TEXT, &job.pin_text, 0, 0},
-        {"--frequency", NULL, "HZ", "frequency of the most shaken mode (--modal: the lowest); sets the stiffness (2)",
+        {"--frequency", NULL, "HZ", "frequency of the mode seen most (--modal: the lowest); sets the stiffness (2)",
          OPTION_REAL, &job.soft.frequency, 1e-3, 1e3},
         {"--young", NULL, "E", "Young's modulus in Pa, instead of --frequency", OPTION_REAL, &job.soft.young, 1e-6,
          1e15},
@@ -251,7 +261,7 @@ int command_simulate(int argc, char **argv)
         {"--poisson", NULL, "NU", "Poisson's ratio (0.35)", OPTION_REAL, &job.soft.poisson, 0, 0.49},
         {"--density", NULL, "RHO", "density in kg/m^3, only with --young (1000)", OPTION_REAL, &job.soft.density,
          1e-6, 1e9},
-        {"--damping", NULL, "Z", "damping ratio at the shaken mode (0.03)", OPTION_REAL, &job.soft.damping, 0, 1},
+        {"--damping", NULL, "Z", "damping ratio of that mode (0.03)", OPTION_REAL, &job.soft.damping, 0, 1},
         {"--gravity", NULL, "G", "gravity in m/s^2 (0); a pinned body starts at rest under it", OPTION_REAL,
          &shake->loads.gravity, 0, 1e4},
         {"--floor", NULL, "H", "a smooth floor at H above the lowest point", OPTION_REAL, &job.floor, 0, 1e6},

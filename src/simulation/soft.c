@@ -84,29 +84,46 @@ static double shaken_part(const struct soft *soft, const struct shake *shake, co
     return away / farthest * (away / farthest);
 }
 
-/// Finds the mode with the largest share of the shake's motion, Σ m |u|².
-static void find_shaken(struct soft *soft, const struct shake *shake)
+/// Σ |φ|² over the surface's vertices.
+static double surface_power(const struct lattice *lattice, const double (*shape)[3])
+{
+    float(*vertex)[3] = need_zeroed((size_t)lattice->vertex_count + 1, sizeof *vertex);
+    double power = 0;
+    lattice_embed(lattice, shape, vertex);
+    for (int n = 0; n < 3 * lattice->vertex_count; n++) power += pow((double)vertex[n / 3][n % 3], 2);
+    free(vertex);
+    return power;
+}
+
+/// How far a shake moves a mode: their overlap Σ m φ·u; a push, 1 / ω as far.
+static double mode_amplitude(const struct soft *soft, const struct shake *shake, const double (*shape)[3],
+                             double omega)
 {
     const struct body *body = &soft->body;
-    double pinned[2], whole = 0;
+    double pinned[2], overlap = 0;
     pinned_heights(soft, pinned);
     for (int i = 0; i < body->node_count; i++) {
-        double part = shaken_part(soft, shake, pinned, i);
-        whole += body->mass[i] * part * part;
+        double along = 0;
+        for (int c = 0; c < 3; c++) along += shape[i][c] * shake->direction[c];
+        overlap += body->mass[i] * shaken_part(soft, shake, pinned, i) * along;
     }
+    return shake->impulse ? overlap / omega : overlap;
+}
+
+/// Finds the mode that is seen most: by the power with which it moves the surface, times how long it lasts, 1 / ω.
+static void find_seen(struct soft *soft, const struct shake *shake)
+{
+    double most = 0, all = 0;
     for (int k = 0; k < soft->modes.count; k++) {
-        const double(*shape)[3] = (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)body->node_count);
-        double overlap = 0;
-        for (int i = 0; i < body->node_count; i++) {
-            double along = 0;
-            for (int c = 0; c < 3; c++) along += shape[i][c] * shake->direction[c];
-            overlap += body->mass[i] * shaken_part(soft, shake, pinned, i) * along;
-        }
-        double share = whole > 0 ? overlap * overlap / whole : 0;
-        if (share <= soft->share) continue;
-        soft->share = share;
-        soft->shaken = k;
+        const double(*shape)[3] = (const double(*)[3])(soft->modes.shape + (size_t)k * (size_t)soft->body.node_count);
+        const double omega = soft->modes.frequency[k], amplitude = mode_amplitude(soft, shake, shape, omega);
+        const double seen = amplitude * amplitude * surface_power(&soft->lattice, shape) / omega;
+        all += seen;
+        if (seen <= most) continue;
+        most = seen;
+        soft->seen = k;
     }
+    soft->share = all > 0 ? most / all : 0;
 }
 
 /// Finds the modes for Young's modulus 1 and scales it: frequencies grow with its square root.
@@ -115,9 +132,9 @@ static void tune(struct soft *soft, const struct soft_options *options)
     soft->body.material = material_from(1, options->poisson);
     modes_create(&soft->modes, &soft->body, options->modes);
     if (soft->modes.count == 0) return;
-    if (options->shake) find_shaken(soft, options->shake);
+    if (options->shake) find_seen(soft, options->shake);
     soft->young =
-        options->young > 0 ? options->young : pow(options->frequency / soft->modes.frequency[soft->shaken], 2);
+        options->young > 0 ? options->young : pow(options->frequency / soft->modes.frequency[soft->seen], 2);
     for (int k = 0; k < soft->modes.count; k++) soft->modes.frequency[k] *= sqrt(soft->young);
     soft->body.material = material_from(soft->young, options->poisson);
     double omega = 2 * M_PI * soft_frequency(soft);
@@ -127,7 +144,7 @@ static void tune(struct soft *soft, const struct soft_options *options)
 
 double soft_frequency(const struct soft *soft)
 {
-    return soft->modes.count > 0 ? soft->modes.frequency[soft->shaken] : 0;
+    return soft->modes.count > 0 ? soft->modes.frequency[soft->seen] : 0;
 }
 
 static bool make(struct soft *soft, const struct surface *surface, const char *name,

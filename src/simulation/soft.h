@@ -24,7 +24,7 @@ struct soft_options {
     struct softness softness;
     const struct shake *shake; ///< what the frequency refers to; NULL: the lowest mode
     double young;              ///< Young's modulus, Pa; 0: the one that gives `frequency`
-    double frequency;          ///< of the mode that the shake moves most, Hz, where young is 0
+    double frequency;          ///< of the mode that is seen most, Hz, if young is 0
     double poisson;            ///< 0 … 0.49
     double density;            ///< kg/m³
     double damping;            ///< ratio at that mode: half of it by mass, half by stiffness (Rayleigh)
@@ -36,8 +36,8 @@ struct soft {
     struct lattice lattice;
     struct body body;
     struct modes modes;    ///< with the body's final stiffness
-    int shaken;            ///< the mode that the shake moves most
-    double share;          ///< share of the shake's motion in that mode, 0 … 1
+    int seen;              ///< the mode in which the shake moves the surface most and longest
+    double share;          ///< of what is seen of all modes, in that one, 0 … 1
     double bottom, height; ///< of the surface along y, m
     double young;          ///< Pa
     double alpha, beta;    ///< Rayleigh's coefficients, 1/s and s
@@ -50,7 +50,7 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
                  const struct soft_options *options, struct error *error);
 void soft_free(struct soft *soft);
 
-/// The shaken mode's frequency, Hz; 0 if nothing oscillates.
+/// The frequency of the mode that is seen most, Hz; 0 if nothing oscillates.
 double soft_frequency(const struct soft *soft);
 
 /// Sets the initial state: the displacement, or the velocity, grows with the square of the height above the pinned nodes, or of the
