@@ -1,20 +1,20 @@
 #version 330 core
-// Background and ground, mixed before they become bytes; then, blended over them, shadows: discs that fade out smoothly.
+// Background, ground and shadows. Shadows are discs blended over the rest; they fade out smoothly.
 in vec2 disc;
 in vec4 tint;
-uniform vec3 top, bottom; // of the background, sRGB
-uniform vec2 rows;        // its lowest row of pixels, and 1 / how many it has
+uniform vec3 top, bottom; // background, sRGB
+uniform vec2 rows;        // lowest row of pixels, and 1 / number of rows
 uniform bool shadow;
 out vec4 pixel;
 
 void main()
 {
     float inside = max(1.0 - dot(disc, disc), 0.0);
-    // Interleaved gradient noise hides the steps of 8-bit gradients this dark.
+    // Interleaved gradient noise hides the steps of dark 8-bit gradients.
     float noise = fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715)))) - 0.5;
     if (shadow) {
         float opacity = tint.a * inside * inside;
-        // Some drivers blend bytes, so that only noise in the opacity gets through; the sign keeps it apart from the ground's.
+        // Some drivers blend bytes, where only noise in the opacity has an effect; its sign decorrelates it from the ground's.
         pixel = vec4(tint.rgb, opacity * (1.0 - 0.12 * noise));
     } else {
         vec3 background = mix(bottom, top, (gl_FragCoord.y - rows.x) * rows.y);

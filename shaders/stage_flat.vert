@@ -1,5 +1,5 @@
 #version 330 core
-// Background, ground and contact shadows: quads that come in clip space, each with a disc's own coordinates.
+// Background, ground and contact shadows: quads in clip space with coordinates across a disc.
 layout(location = 0) in vec4 clip;
 layout(location = 1) in vec2 local;
 layout(location = 2) in vec4 color;

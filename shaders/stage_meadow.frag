@@ -1,5 +1,5 @@
 #version 330 core
-// A reed, as much of the pixel as it covers.
+// A reed, blended by its coverage of the pixel.
 in vec3 color;
 in vec2 edge;
 in float thin;

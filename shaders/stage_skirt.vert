@@ -1,6 +1,5 @@
 #version 330 core
-// Characters, imported and soft, and their skirts: they come as they stand (draw/skirt.h). No program defines anything here, so that Mesa
-// compiles this once for several.
+// Characters and their skirts, already posed (draw/posed.h). All programs use it without macros, so that Mesa compiles it once for several.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;
 layout(location = 2) in vec4 color;
@@ -8,7 +7,7 @@ layout(location = 3) in vec2 uv;
 layout(location = 4) in vec2 movement;
 layout(location = 5) in float cover;
 uniform mat4 clip_from_world;
-uniform vec2 shade; // heights: of the ground, and how far above it its shade reaches
+uniform vec2 shade; // heights: the ground's, and how far above it its shade reaches
 out vec3 world;
 out vec3 world_normal;
 out vec4 tint;

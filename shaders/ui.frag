@@ -1,6 +1,6 @@
 #version 330 core
-// One shader for all: coverage is that of a line (across and along) times the glyph's. Solids point at a white texel, and
-// shapes that are no lines have an edge that covers everything.
+// One shader for everything: coverage is the line's (across and along) times the glyph's. Solids use a white texel; filled shapes have edge
+// values of full coverage.
 
 uniform sampler2D glyphs;
 

@@ -1,10 +1,10 @@
 #version 330 core
-// Two-dimensional things: everything arrives in device pixels from the top left.
+// The interface, in device pixels from the top left.
 
 layout(location = 0) in vec2 position;
 layout(location = 1) in vec2 texel; // in the glyph atlas
 layout(location = 2) in vec4 color;
-layout(location = 3) in vec3 edge; // distance from a line's middle, its half width + 1/2, distance from its ends + 1/2
+layout(location = 3) in vec3 edge; // distance from a line's middle, half width + 1/2, distance from its ends + 1/2
 
 uniform vec2 framebuffer; // device pixels
 uniform vec2 atlas_size;  // texels

@@ -1,4 +1,4 @@
-/// Rectangles of whole device pixels, from the top left. Private to draw/.
+/// Rectangles of whole device pixels from the top left. Private to draw/.
 #ifndef DRAW_AREA_H
 #define DRAW_AREA_H
 
@@ -34,17 +34,17 @@ static inline bool area_contains(struct area a, struct area b)
     return b.x0 >= a.x0 && b.y0 >= a.y0 && b.x1 <= a.x1 && b.y1 <= a.y1;
 }
 
-/// A device coordinate as a whole number, safe for any finite one.
+/// Converts a finite device coordinate without overflow.
 static inline int area_whole(float device) { return (int)fminf(fmaxf(device, -1.0e6f), 1.0e6f); }
 
-/// All pixels that a logical rectangle touches.
+/// All pixels that touch a logical rectangle.
 static inline struct area area_outer(struct rect r, float scale)
 {
     return (struct area){area_whole(floorf(r.x * scale)), area_whole(floorf(r.y * scale)),
                          area_whole(ceilf((r.x + r.w) * scale)), area_whole(ceilf((r.y + r.h) * scale))};
 }
 
-/// The pixels of a logical rectangle, its edges rounded to pixel edges: for clips and viewports.
+/// A logical rectangle rounded to pixel edges, for clips and viewports.
 static inline struct area area_rounded(struct rect r, float scale)
 {
     return (struct area){area_whole(roundf(r.x * scale)), area_whole(roundf(r.y * scale)),

@@ -1,10 +1,10 @@
-/// Fills the area between an upper and a lower edge that have a point in each pixel column.
+/// Fills the area between an upper and a lower edge with one point per pixel column.
 //
-// Columns are taken in stretches. What all of a stretch cover is one rectangle: software rasterisers pay for triangles a pixel
-// wide and a panel high as if they were four pixels wide. Above and below it a strip goes along the edge:
+// Columns are grouped into stretches. The rows that a whole stretch covers are one rectangle: software rasterisers draw triangles one pixel
+// wide and a panel high as slowly as ones four pixels wide. Strips follow the edges above and below:
 //
 //     out   o---o---o---o      half a pixel beyond the edge: no coverage
-//     in    o---o---o---o      half a pixel inside: all
+// half a pixel inside: full coverage
 //           |           |
 //     core  o-----------o      the rectangle's side
 #include "draw/paint.h"
@@ -13,12 +13,12 @@
 enum { STRETCH = 16 }; ///< columns
 
 struct stretch {
-    float x[STRETCH], top[STRETCH], bottom[STRETCH]; ///< of the line's edges in each column
+    float x[STRETCH], top[STRETCH], bottom[STRETCH]; ///< edges of the line per column
     int count;
-    float core_top, core_bottom; ///< the part that all columns cover
+    float core_top, core_bottom; ///< the rows that all columns cover
 };
 
-/// As many columns from point `first` on as cover a row together: any two that are neighbours do, as they share a point.
+/// The most columns from point `first` on that have a row in common. Neighbours always do, because they share a point.
 static struct stretch take_stretch(const float *xy, int first, int count, float reach, float scale)
 {
     struct stretch s = {.core_top = -INFINITY, .core_bottom = INFINITY};
@@ -64,6 +64,6 @@ void band_add(struct batch *batch, const float *xy, int count, float width, floa
         shape_fill(batch, s.x[0], s.core_top, s.x[s.count - 1], s.core_bottom, color);
         add_edge(batch, &s, s.top, -1.0f, s.core_top, color);
         add_edge(batch, &s, s.bottom, 1.0f, s.core_bottom, color);
-        first += s.count - 1; // the next begins with this one's last column
+        first += s.count - 1; // the next stretch starts with this one's last column
     }
 }

@@ -72,7 +72,7 @@ static bool same_area(struct area a, struct area b)
     return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1;
 }
 
-/// Closes the open part, so that the indices so far belong to it.
+/// Ends the current part after the indices so far.
 static void close_part(struct batch *batch)
 {
     if (batch->part_count == 0) return;
@@ -80,7 +80,7 @@ static void close_part(struct batch *batch)
     if (!last->is_fill) last->count = batch->index_count - last->first;
 }
 
-/// A new part after the last one; there must be room.
+/// Starts a new part; there must be room.
 static struct batch_part *open_part(struct batch *batch)
 {
     close_part(batch);
@@ -119,7 +119,7 @@ static void upload(struct batch *batch)
     double start = clock_now();
     size_t vertex_bytes = (size_t)batch->vertex_count * sizeof *batch->vertices;
     size_t index_bytes = (size_t)batch->index_count * sizeof *batch->indices;
-    // New storage each time: the driver need not wait until the old one is no longer read.
+    // New storage each time, so that the driver need not wait until the GPU has read the old one.
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)vertex_bytes, batch->vertices, GL_STREAM_DRAW);
     glBufferData(GL_ELEMENT_ARRAY_BUFFER, (GLsizeiptr)index_bytes, batch->indices, GL_STREAM_DRAW);
     batch->uploaded_bytes += (long)(vertex_bytes + index_bytes);

@@ -1,4 +1,4 @@
-/// Triangles collected on the CPU and drawn in painter's order with as few calls as possible. Private to draw/.
+/// Collects triangles on the CPU and draws them in painter's order with few calls. Private to draw/.
 #ifndef DRAW_BATCH_H
 #define DRAW_BATCH_H
 
@@ -7,8 +7,8 @@
 #include "draw/gl.h"
 #include <stdint.h>
 
-/// Position in device pixels from the top left; texel in the glyph atlas; colour as bytes R, G, B, A. Coverage is
-/// clamp(reach − |across|) · clamp(along) · texel.
+/// Position in device pixels from the top left; texel in the glyph atlas; colour bytes R, G, B, A. Coverage is clamp(reach − |across|) ·
+/// clamp(along) · texel.
 struct batch_vertex {
     float x, y;
     float u, v;
@@ -35,7 +35,7 @@ struct batch {
     int vertex_count, index_count, part_count;
     unsigned generation; ///< changes with every flush, which invalidates earlier indices
     int width, height;   ///< framebuffer
-    struct area scissor; ///< of shapes added from now on: the caller sets it
+    struct area scissor; ///< of shapes added next; set by the caller
     GLuint texture;
     int texture_width, texture_height;
     double upload_us;
@@ -48,10 +48,10 @@ void batch_destroy(struct batch *batch);
 /// Starts a frame of width × height device pixels with an atlas texture.
 void batch_begin(struct batch *batch, int width, int height, GLuint texture, int texture_width, int texture_height);
 
-/// Fills an area with an opaque colour 0xRRGGBBAA, cheaper than triangles where it is large.
+/// Fills an area with an opaque colour 0xRRGGBBAA. For large areas this is cheaper than triangles.
 void batch_fill(struct batch *batch, struct area area, uint32_t color);
 
-/// Makes room for that many more, flushing if need be, and returns the index of the next vertex.
+/// Makes room, flushing if necessary, and returns the index of the next vertex.
 uint32_t batch_reserve(struct batch *batch, int vertices, int indices);
 
 static inline void batch_add(struct batch *batch, struct batch_vertex vertex)
@@ -68,10 +68,10 @@ static inline void batch_triangle(struct batch *batch, uint32_t a, uint32_t b, u
     batch->index_count += 3;
 }
 
-/// Uploads and draws everything, and empties the batch.
+/// Uploads and draws everything, then empties the batch.
 void batch_flush(struct batch *batch);
 
-/// glScissor for an area counted from the top of a framebuffer of `height` pixels.
+/// Calls glScissor for an area counted from the top of a framebuffer of `height` pixels.
 void batch_apply_scissor(struct area area, int height);
 
 #endif

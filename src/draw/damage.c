@@ -2,10 +2,10 @@
 #include "draw/damage.h"
 #include "base/hash.h"
 
-/// Narrow cells make a moving playhead cheap; more of them cost more hashing.
+/// Narrow cells make a moving playhead cheap; more cells cost more hashing.
 enum { CELL_MIN = 16, CANDIDATES = 48 };
 
-/// Rectangles still being gathered, in device pixels.
+/// Rectangles being merged, in device pixels.
 struct pile {
     struct area areas[CANDIDATES];
     int count;
@@ -17,7 +17,7 @@ void damage_forget(struct damage *damage) { damage->known = false; }
 static bool set_axis(struct damage_axis *axis, int size, int from, int to)
 {
     if (size == axis->size && from == axis->cuts[0] && to == axis->cuts[1]) return false;
-    // The two cuts may each add a cell.
+    // Each cut may add a cell.
     *axis = (struct damage_axis){.size = size, .cuts = {from, to}};
     axis->cell = area_max(CELL_MIN, (size + DAMAGE_SIDE - 3) / (DAMAGE_SIDE - 2));
     for (int edge = 0; edge < size;) {
@@ -32,7 +32,7 @@ static bool set_axis(struct damage_axis *axis, int size, int from, int to)
     return true;
 }
 
-/// The cell that a device pixel inside the framebuffer lies in.
+/// The cell of a device pixel inside the framebuffer.
 static int cell_of(const struct damage_axis *axis, int pixel)
 {
     int index = pixel / axis->cell;
@@ -44,7 +44,7 @@ static int cell_of(const struct damage_axis *axis, int pixel)
     return index;
 }
 
-/// Folds `hash` into all cells that `area` touches.
+/// Mixes `hash` into all cells that `area` touches.
 static void mark(struct damage *damage, uint64_t *cells, struct area area, uint64_t hash)
 {
     struct area inside = area_intersect(area, (struct area){0, 0, damage->columns.size, damage->rows.size});
@@ -69,7 +69,7 @@ static void hash_cells(struct damage *damage, float scale, const struct drawlist
     }
 }
 
-/// Pixels that a union would draw for nothing.
+/// Pixels that a union would redraw without need.
 static long waste(struct area a, struct area b)
 {
     return area_pixels(area_union(a, b)) - area_pixels(a) - area_pixels(b);
@@ -81,7 +81,7 @@ static void merge(struct pile *pile, int i, int j)
     pile->areas[j] = pile->areas[--pile->count];
 }
 
-/// Merges the two rectangles whose union wastes the least, if that is at most `limit` pixels.
+/// Merges the pair whose union wastes the fewest pixels, if at most `limit`.
 static bool merge_cheapest(struct pile *pile, long limit)
 {
     int best_i = -1, best_j = -1;
@@ -114,7 +114,7 @@ static bool next_run(const struct damage *damage, int row, int column, int *from
     return *to > *from;
 }
 
-/// Adds a run, extending the one above it if that is equally wide.
+/// Adds a run, or extends an equally wide one above it.
 static void add_run(struct pile *pile, struct area run)
 {
     for (int i = pile->count - 1; i >= 0; i--) {
@@ -127,7 +127,7 @@ static void add_run(struct pile *pile, struct area run)
     pile->areas[pile->count++] = run;
 }
 
-/// All changed cells, as rectangles that may still be many.
+/// All changed cells as rectangles.
 static void gather(const struct damage *damage, struct pile *pile)
 {
     const int *x = damage->columns.edges, *y = damage->rows.edges;
@@ -152,7 +152,7 @@ static void make_disjoint(struct pile *pile)
     }
 }
 
-/// All rectangles that touch the stage become one.
+/// Merges all rectangles that touch the stage into one.
 static void join_on_stage(struct pile *pile, struct area viewport)
 {
     int first = -1;
@@ -167,7 +167,7 @@ static void join_on_stage(struct pile *pile, struct area viewport)
     }
 }
 
-/// One more rectangle costs about as much as this many pixels: each walks the list and changes the scissor.
+/// An extra rectangle costs about as much as this many pixels: each traverses the list and changes the scissor.
 static const long WORTH_A_RECTANGLE = 4096;
 
 static void reduce(struct pile *pile, struct area viewport)

@@ -1,8 +1,6 @@
-/// The parts of the frame that changed since the last one, as a few rectangles. Private to draw/.
-///
-/// The framebuffer is divided into cells, with the stage's viewport on their borders. A cell's hash combines, in painter's
-/// order, the hashes of what is on the stage there and of the commands that touch it. Cells whose hash is not the last
-/// frame's are gathered into rectangles.
+/// Finds the parts of the frame that changed, as a few rectangles. Private to draw/. A grid divides the framebuffer, with the stage's
+/// viewport on cell borders. A cell's hash combines the hashes of the stage there and of the commands that touch the cell, in painter's
+/// order. Cells with a changed hash are merged into rectangles.
 #ifndef DRAW_DAMAGE_H
 #define DRAW_DAMAGE_H
 
@@ -11,7 +9,7 @@
 
 enum { DAMAGE_SIDE = 128, DAMAGE_RECTANGLES = 8 };
 
-/// One direction of the grid: equal cells, two of them cut where the viewport begins and ends.
+/// One direction of the grid: cells of equal size, cut at the viewport's edges.
 struct damage_axis {
     int size, cell; ///< device pixels
     int cuts[2];
@@ -20,7 +18,7 @@ struct damage_axis {
 };
 
 struct damage {
-    uint64_t hashes[2][DAMAGE_SIDE * DAMAGE_SIDE]; ///< this frame's and the last one's, taking turns
+    uint64_t hashes[2][DAMAGE_SIDE * DAMAGE_SIDE]; ///< this frame's and the last one's, alternating
     int current;
     struct damage_axis columns, rows;
     bool known;                                ///< the last frame's hashes match the screen
@@ -28,18 +26,17 @@ struct damage {
     int count;
 };
 
-/// The stage below the list: its viewport, and the extent of its motion.
+/// The stage below the list: its viewport, and the part that moves.
 struct damage_stage {
     struct area viewport, moving;
-    uint64_t hash, moving_hash; ///< of everything outside `moving`; of all
+    uint64_t hash, moving_hash; ///< of everything outside `moving`; of everything
 };
 
-/// Call when the framebuffer no longer holds the last frame: the next update redraws everything.
+/// Call when the framebuffer no longer holds the last frame. The next update redraws everything.
 void damage_forget(struct damage *damage);
 
-/// Compares a frame of width × height device pixels with the last one and fills `rectangles`: the whole frame where the
-/// last one is unknown. At most one rectangle touches the stage's viewport, because drawing it costs the same
-/// however little of it shows.
+/// Compares a frame of width × height device pixels with the last one and fills `rectangles`, with the whole frame if the last one is
+/// unknown. At most one rectangle touches the stage's viewport, because drawing the stage costs the same for any part of it.
 void damage_update(struct damage *damage, int width, int height, float scale, const struct drawlist *list,
                    const struct damage_stage *stage);
 

@@ -32,7 +32,7 @@ static bool is_software(const char *renderer)
 
 static bool is_reduced(float stage_scale) { return stage_scale > 0.0f && stage_scale < 1.0f; }
 
-/// Rasterises the fonts for `scale` and puts them into the texture; on failure the old ones stay.
+/// Rasterises the fonts for `scale` and uploads them; on failure keeps the old ones.
 static bool load_atlas(struct draw *draw, float scale, struct error *error)
 {
     struct atlas atlas;
@@ -84,7 +84,7 @@ void draw_destroy(struct draw *draw)
     free(draw);
 }
 
-/// The part of the stage that shows in `visible`.
+/// Draws the part of the stage in `visible`.
 static void draw_stage(struct draw *draw, const struct draw_input *input, struct area viewport, struct area visible)
 {
     const struct stage_place place = {viewport, visible, input->height};
@@ -95,7 +95,7 @@ static void draw_stage(struct draw *draw, const struct draw_input *input, struct
     stage_draw(draw->stage, input->stage, viewport.x0, input->height - viewport.y1, width, height);
 }
 
-/// The bottom layer of one rectangle: panel colour, and the stage where its viewport is touched.
+/// The bottom layer of a rectangle: panel colour, and the stage in its viewport.
 static void draw_below(struct draw *draw, const struct draw_input *input, struct area area, struct area viewport)
 {
     struct area on_stage = area_intersect(area, viewport);
@@ -111,10 +111,10 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
     draw_stage(draw, input, viewport, on_stage);
 }
 
-/// At another resolution every pixel of the stage changes, and enlarging spreads motion by as much.
+/// A new resolution changes every pixel of the stage, and enlarging spreads motion to neighbours.
 static struct damage_stage describe_stage(const struct draw_input *input)
 {
-    static const float seam = 3.0f; ///< how far the soft silhouette reaches out, pixels, with some slack
+    static const float seam = 3.0f; ///< device pixels that soft outlines may reach outwards, rounded up
     if (!input->stage) return (struct damage_stage){0};
     struct damage_stage stage = {.viewport = area_rounded(input->stage->viewport, input->scale),
                                  .hash = stage_backdrop_hash(input->stage),
@@ -165,7 +165,7 @@ void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_c
     *cost = (struct draw_cost){0};
     cost->gpu_us = gpu_timer_take(&draw->timer, &cost->gpu_frame);
     double start = clock_now();
-    // Where the driver takes no larger texture the old glyphs serve, if less sharply.
+    // If the driver takes no larger texture, the old glyphs remain, less sharp.
     if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
     if (!input->keeps) damage_forget(&draw->damage);
     const struct damage_stage stage = describe_stage(input);

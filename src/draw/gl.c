@@ -1,4 +1,4 @@
-/// Compiles and links the shaders built into the program, fills buffers and textures, and times drawing by the GPU's clock, where there is one.
+/// Compiles and links the embedded shaders, fills buffers and textures, and times the GPU.
 #include "draw/gl.h"
 #include "base/embedded.h"
 #include "base/png.h"
@@ -13,7 +13,7 @@ static GLuint compile(GLenum kind, const char *name, const char *define)
     GLuint shader = glCreateShader(kind);
     if (define) snprintf(line, sizeof line, "#define %s\n", define);
     const GLchar *text = (const GLchar *)source->data;
-    const GLint first = (GLint)strcspn(text, "\n") + 1; // "#version …" comes before all else
+    const GLint first = (GLint)strcspn(text, "\n") + 1; // "#version …" must come first
     const GLchar *texts[] = {text, line, text + first};
     const GLint lengths[] = {first, (GLint)strlen(line), (GLint)source->size - first};
     glShaderSource(shader, 3, texts, lengths);
@@ -21,7 +21,7 @@ static GLuint compile(GLenum kind, const char *name, const char *define)
     return shader;
 }
 
-/// false with the first line of the driver's log.
+/// Reports the first line of the driver's log; returns false.
 static bool refuse(const char *name, const char *what, char *log, struct error *error)
 {
     log[strcspn(log, "\r\n")] = '\0';

@@ -1,4 +1,4 @@
-/// OpenGL, and helpers that all files of draw/ need.
+/// OpenGL, and helpers for all of draw/.
 #ifndef DRAW_GL_H
 #define DRAW_GL_H
 
@@ -7,46 +7,46 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>", the latter with `define` defined
-/// (NULL: nothing). On failure 0, with the driver's first complaint as a sentence.
+/// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>", the latter with the macro `define` (or
+/// NULL). Returns 0 with the driver's first error message on failure.
 GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error);
 
 /// A buffer with `bytes` of data (NULL: none yet), bound to the target.
 GLuint gl_buffer(GLenum target, size_t bytes, const void *data, GLenum usage);
 
-/// An attribute of the vertex array and the buffer that are bound: `size` floats, or bytes that stand for 0 … 1.
+/// An attribute of the bound vertex array and buffer: `size` floats, or bytes normalised to 0 … 1.
 void gl_attribute(GLuint index, GLint size, GLenum type, size_t stride, size_t offset);
 
-/// Side of the largest texture, texels.
+/// Side of the largest texture, in texels.
 int gl_largest_texture(void);
 
-/// A texture of sRGB pixels with opacity, which repeats.
+/// A repeating sRGB texture with opacity.
 GLuint gl_picture(const unsigned char *pixels, int width, int height);
 
-/// Sets a vec3 of the program in use to a colour 0xRRGGBBAA (sRGB), made linear.
+/// Sets a vec3 of the current program to a colour 0xRRGGBBAA (sRGB), converted to linear.
 void gl_uniform_linear(GLint location, uint32_t color);
 
-// How long the GPU draws.
+// GPU timing.
 
 enum { TIMER_QUERIES = 4 };
 
-/// GL_TIME_ELAPSED of the last frames: results are read some frames late, once they are there, and never waited for.
+/// GL_TIME_ELAPSED of the last frames. Results are read when available, some frames late.
 struct gpu_timer {
     GLuint queries[TIMER_QUERIES];
-    long frames[TIMER_QUERIES]; ///< that the queries belong to
+    long frames[TIMER_QUERIES]; ///< frames of the queries
     int oldest, pending;
     bool usable, running;
 };
 
-/// Software renderers draw at the flush, not between the queries: their numbers would mislead, so they have no timer.
+/// Software renderers get no timer: they draw at the flush, outside the queries.
 void gpu_timer_create(struct gpu_timer *timer, bool is_software);
 void gpu_timer_destroy(struct gpu_timer *timer);
 
-/// Starts timing a frame, unless the results of four earlier ones are still pending.
+/// Starts timing a frame, unless four results are still pending.
 void gpu_timer_begin(struct gpu_timer *timer, long frame);
 void gpu_timer_end(struct gpu_timer *timer);
 
-/// Microseconds of the oldest frame that has come back since the last call, and its number; negative where there is none.
+/// Microseconds and number of the oldest frame finished since the last call; negative if none.
 double gpu_timer_take(struct gpu_timer *timer, long *frame);
 
 #endif

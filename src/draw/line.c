@@ -1,12 +1,12 @@
-/// Turns polylines into anti-aliased strips of triangles, without the points whose absence nobody would see.
+/// Turns polylines into anti-aliased triangle strips and drops points that make no visible difference.
 #include "draw/paint.h"
 #include "model/vector.h"
 
-/// A line with more dashes runs far beyond any screen and is drawn solid.
+/// A line with more dashes extends far beyond any screen; it is drawn solid.
 enum { DASHES_MAX = 10000 };
 
-/// Fills in `along` for an open line and adds a point at its middle, so that each quad's `along` is linear. `points` has
-/// room for one more; returns the new count.
+/// Sets `along` of an open line and adds a point at its middle, so that each quad's `along` is linear. `points` has room for one more.
+/// Returns the new count.
 static int measure_ends(struct line_point *points, int count)
 {
     float total = 0.0f;
@@ -37,12 +37,12 @@ static struct line_point between(struct line_point a, struct line_point b, float
     return (struct line_point){a.x + (b.x - a.x) * t, a.y + (b.y - a.y) * t, 0.0f};
 }
 
-/// Cuts a line into dashes of `on` and gaps of `off` device pixels and draws each as an open line.
+/// Cuts a line into dashes of `on` and gaps of `off` device pixels, each drawn as an open line.
 static void draw_dashes(struct stroke *stroke, struct line_scratch *scratch, int count, float on, float off)
 {
     struct line_point *dash = scratch->dash;
     const struct line_point *p = scratch->points;
-    float left = on; // of the dash or gap we are in
+    float left = on; // remaining length of the current dash or gap
     bool inked = true;
     int length = 0;
     dash[length++] = p[0];
@@ -91,21 +91,21 @@ static void draw_piece(struct stroke *stroke, struct line_scratch *scratch, int 
     }
 }
 
-/// Device pixels. Software rasterisers pay by the triangle, but from a fifteenth of a pixel up, steps show in slow curves.
+/// Device pixels. Software rasterisers pay per triangle, but from 1/15 pixel on, slow curves show steps.
 static const float TOLERANCE = 0.05f;
 static const float COINCIDENT = 0.01f;
 
-/// The directions from the anchor that pass every point since within TOLERANCE: a cone that only narrows.
+/// The directions from the anchor that pass within TOLERANCE of every point so far; the cone only narrows.
 struct cone {
     vec2s anchor, low, high;
-    vec2s last;  ///< newest point inside
+    vec2s last;  ///< newest accepted point
     float reach; ///< its distance from the anchor
     bool has_last;
 };
 
 static void restart(struct cone *cone, vec2s anchor) { *cone = (struct cone){.anchor = anchor}; }
 
-/// Narrows the cone to pass `p`; false if the line must bend at the point before it.
+/// Narrows the cone to include `p`; false if the line must bend at the point before.
 static bool extend(struct cone *cone, vec2s p)
 {
     vec2s d = {{p.x - cone->anchor.x, p.y - cone->anchor.y}};
@@ -117,7 +117,7 @@ static bool extend(struct cone *cone, vec2s p)
         cone->high = high;
     } else {
         bool inside = glms_vec2_cross(cone->low, d) >= 0.0f && glms_vec2_cross(d, cone->high) >= 0.0f;
-        // Past a turning point the direction may still fit, but the tip must stay.
+        // After a turning point the direction may still fit, but the tip must remain.
         if (!inside || distance < cone->reach) return false;
         if (glms_vec2_cross(cone->low, low) > 0.0f) cone->low = low;
         if (glms_vec2_cross(high, cone->high) > 0.0f) cone->high = high;
@@ -128,9 +128,9 @@ static bool extend(struct cone *cone, vec2s p)
     return true;
 }
 
-/// Scales points to device pixels and leaves out those that lie within a twentieth of a pixel of the line without them.
-/// Reads until `out` (`capacity` points, at least 3) is full; returns how many were written, and in `read` how many
-/// input points were looked at: where that is less than `count`, the rest begins at point read − 1. Ends are kept.
+/// Scales points to device pixels and drops those within TOLERANCE of the simplified line. Stops when `out` (`capacity` points, at least 3)
+/// is full; returns the number written. `read` is the number of input points used; if it is less than `count`, continue at point read − 1.
+/// Keeps both ends.
 static int simplify_line(const float *xy, int count, float scale, struct line_point *out, int capacity, int *read)
 {
     struct cone cone;
@@ -156,7 +156,7 @@ void line_add(struct batch *batch, struct line_scratch *scratch, const float *xy
               struct area visible)
 {
     float width = style.width * style.scale;
-    float alpha = (float)(style.color & 0xFFu) * fminf(width, 1.0f); // thinner than a pixel: fainter, not thinner
+    float alpha = (float)(style.color & 0xFFu) * fminf(width, 1.0f); // a line thinner than a pixel gets fainter
     struct stroke stroke = {
         .batch = batch,
         .visible = visible,

@@ -1,7 +1,7 @@
-/// Turns the commands of a draw list, and the glyphs of their texts, into triangles.
+/// Turns draw commands and glyphs into triangles.
 #include "draw/paint.h"
 
-/// Clips an interval to [low, high], its texels in proportion; false if nothing is left.
+/// Clips an interval to [low, high] and its texels in proportion; false if it is empty.
 static bool clip_axis(float *from, float *to, float *texel_from, float *texel_to, int low, int high)
 {
     float slope = (*texel_to - *texel_from) / (*to - *from);
@@ -16,7 +16,7 @@ static bool clip_axis(float *from, float *to, float *texel_from, float *texel_to
     return *to > *from;
 }
 
-/// A line of text with its pen at (x, y) logical pixels, cut off at `clip`.
+/// A line of text with its pen at (x, y) in logical pixels, clipped to `clip`.
 static void paint_text(const struct painter *painter, const struct draw_command *command, const char *text,
                        struct area clip)
 {
@@ -37,15 +37,15 @@ static void paint_text(const struct painter *painter, const struct draw_command 
     }
 }
 
-/// Whether nothing of the command was clipped when it was recorded: it then needs no scissor.
+/// Whether the command was recorded unclipped, so that it needs no scissor.
 static bool is_whole(const struct draw_command *command)
 {
     struct rect b = command->bounds, c = command->clip;
     return b.x > c.x && b.y > c.y && b.x + b.w < c.x + c.w && b.y + b.h < c.y + c.h;
 }
 
-/// Lines and polygons that reach beyond their clip need it as scissor. Everything else keeps the current scissor if
-/// possible: every change costs a draw call.
+/// Lines and polygons that extend beyond their clip need it as scissor. Other commands keep the current scissor if possible, because every
+/// change costs a draw call.
 static void choose_scissor(struct batch *batch, const struct draw_command *command, struct area reach,
                            struct area clip, struct area area)
 {

@@ -5,7 +5,7 @@
 #include "draw/batch.h"
 #include "ui/font.h"
 
-// Filled shapes as anti-aliased triangles.
+// Filled shapes.
 
 /// A vertex of a filled shape: full coverage, white texel.
 struct batch_vertex shape_vertex(float x, float y, uint32_t color);
@@ -16,49 +16,49 @@ struct quad {
 };
 
 void shape_quad(struct batch *batch, const struct quad *quad, uint32_t color);
-/// One that is filled, from (x0, y0) to (x1, y1).
+/// Fills from (x0, y0) to (x1, y1).
 void shape_fill(struct batch *batch, float x0, float y0, float x1, float y1, uint32_t color);
 
-/// The rectangle from (x0, y0) to (x1, y1), device pixels, clipped to `clip`. A partly covered pixel gets exactly
-/// that share of the colour.
+/// The rectangle from (x0, y0) to (x1, y1) in device pixels, clipped to `clip`. A partly covered pixel gets exactly that share of the
+/// colour.
 void shape_rect(struct batch *batch, const float corners[4], struct area clip, uint32_t color);
 
-/// A convex polygon of `count` points, given in logical pixels.
+/// A convex polygon of `count` points in logical pixels.
 void shape_convex(struct batch *batch, const float *xy, int count, float scale, uint32_t color);
 
-// The area of a line that goes up and down from point to point, in few triangles.
+// The area of a line that goes up and down between points.
 
-/// Everything between each of `count` points and the next, `width` wide; points and width in logical pixels, x never decreasing.
+/// Everything between each of `count` points and the next, `width` wide. Points and width are logical pixels; x never decreases.
 void band_add(struct batch *batch, const float *xy, int count, float width, float scale, uint32_t color);
 
-// Polylines as anti-aliased strips of triangles.
+// Polylines.
 
 enum { LINE_POINTS = 8192 };
 
 struct line_point {
     float x, y;
-    float along; ///< distance from the nearer end + 1/2, or 1 where the line is closed
+    float along; ///< distance from the nearer end + 1/2, or 1 if the line is closed
 };
 
-/// Working memory: a line in device pixels, and one dash of it.
+/// Working memory: a line in device pixels, and one of its dashes.
 struct line_scratch {
     struct line_point points[LINE_POINTS], dash[LINE_POINTS];
 };
 
 struct line_style {
     float width;   ///< logical pixels
-    float on, off; ///< dashes, logical pixels; 0 where there are none
-    float scale;   ///< device pixels a logical pixel
+    float on, off; ///< dashes, logical pixels; both 0: solid
+    float scale;   ///< device pixels per logical pixel
     uint32_t color;
 };
 
-/// Adds a polyline given in logical pixels; parts that cannot touch `visible` are left out.
+/// Adds a polyline in logical pixels; omits parts that cannot touch `visible`.
 void line_add(struct batch *batch, struct line_scratch *scratch, const float *xy, int count, struct line_style style,
               struct area visible);
 
-// The strip of triangles of one line, in device pixels.
+// The triangle strip of one line, in device pixels.
 
-/// A line being drawn: its look, and the last pair of vertices, for the next quad to share.
+/// A line being drawn: its style, and the last pair of vertices, which the next quad shares.
 struct stroke {
     struct batch *batch;
     struct area visible;
@@ -69,17 +69,17 @@ struct stroke {
     bool linked;
 };
 
-/// Distinct points; where closed the last one is the first one again.
+/// Distinct points; if closed, the last equals the first.
 struct polyline {
     const struct line_point *points;
     int count;
     bool closed;
 };
 
-/// Adds the triangles of a line of at least two points; leaves out segments outside the clip.
+/// Adds the triangles of a line of at least two points; omits segments outside the clip.
 void stroke_draw(struct stroke *stroke, struct polyline line);
 
-// Turns a draw list into triangles.
+// Draw lists.
 
 struct painter {
     struct batch *batch;
@@ -88,7 +88,7 @@ struct painter {
     float scale;
 };
 
-/// Adds every command that touches `area`, in order, clipped to it.
+/// Adds every command that touches `area`, in order and clipped to it.
 void paint_list(const struct painter *painter, const struct drawlist *list, struct area area);
 
 #endif

@@ -1,19 +1,18 @@
-/// Draws pictures of the stage at twice their size and averages four pixels into one.
+/// Draws pictures of the stage at twice their size and averages 2 × 2 pixels into one.
 #include "base/need.h"
 #include "draw/draw.h"
 #include "draw/stage.h"
 #include <stdlib.h>
 
-enum { FINE = 2 }; ///< pixels drawn a side for one of the picture
+enum { FINE = 2 }; ///< drawn pixels per side of a picture's pixel
 
 struct picture {
     int width, height;
     struct stage_renderer *stage;
     struct stage_target target;
-    unsigned char *drawn, *pixels; ///< as drawn, bottom row first; and the picture
+    unsigned char *drawn, *pixels; ///< as drawn, bottom row first; the picture
 };
 
-/// A framebuffer to draw into.
 static bool create_target(struct picture *picture, struct error *error)
 {
     GLint largest = 0, before = 0;
@@ -54,7 +53,7 @@ void picture_destroy(struct picture *picture)
     free(picture);
 }
 
-/// Draws and reads everything back.
+/// Draws and reads back.
 static void draw(struct picture *picture, const struct stage_view *view, bool transparent)
 {
     const int width = FINE * picture->width, height = FINE * picture->height;
@@ -85,7 +84,7 @@ static void average_row(const unsigned char *below, const unsigned char *above, 
     }
 }
 
-/// Weighs colours by their coverage, so that edges do not darken towards the empty background.
+/// Weights colours by coverage, so that edges do not darken towards the transparent background.
 static void weigh_row(const unsigned char *below, const unsigned char *above, int width, unsigned char *row)
 {
     for (int x = 0; x < width; x++, below += 8, above += 8, row += 4) {

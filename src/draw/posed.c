@@ -1,4 +1,4 @@
-/// Joins the triangles of characters, and poses them.
+/// Collects and poses the triangles of characters.
 #include "draw/posed.h"
 #include "base/need.h"
 #include "model/adjacency.h"
@@ -28,7 +28,7 @@ void posed_free(struct posed *mesh)
     *mesh = (struct posed){0};
 }
 
-/// Finds the neighbours across edges, from a part on. Earlier parts share no edges with those.
+/// Finds neighbours across edges, starting at a part. Earlier parts share no edges with later ones.
 static void find_neighbours(struct posed *mesh, int from)
 {
     if (from == mesh->part_count) return;
@@ -49,7 +49,7 @@ static void find_neighbours(struct posed *mesh, int from)
     free(look);
 }
 
-// --- of files
+// --- imported characters and foxes
 
 static bool allocate_gltf(struct posed *mesh, const struct gltf *gltf)
 {
@@ -146,9 +146,9 @@ void posed_pose_gltf(struct posed *mesh, const struct stage_model *shown, const 
     posed_face(mesh, eye);
 }
 
-// --- of soft characters
+// --- soft characters
 
-/// Its own colour, or that of its phase. The face stays: without eyes nobody sees which way the animal looks.
+/// The vertex's own colour or that of its phase. The face keeps its colour: without eyes nobody sees which way the animal looks.
 static void map_color(const struct figure *figure, const float phase[2], float color[3])
 {
     float mapped[3];
@@ -185,7 +185,7 @@ static void dress(struct posed *mesh, const struct looks *looks)
     }
 }
 
-/// The triangles of a material, −1: of those that have none of the first `materials`.
+/// The triangles of a material; −1: those with none of the first `materials`.
 static void add_material(struct posed *mesh, const struct figure *figure, bool coarse, int material, int materials)
 {
     const struct character *c = &figure->character;

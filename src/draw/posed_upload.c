@@ -85,7 +85,7 @@ long posed_upload_gltf_pictures(struct posed *mesh, const struct gltf *gltf)
     return bytes;
 }
 
-/// The first material that has the same picture.
+/// The first material with the same picture.
 static int same_picture(const struct looks *looks, int m)
 {
     const struct looks_material *own = &looks->materials[m], *other = looks->materials;

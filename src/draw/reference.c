@@ -1,5 +1,5 @@
-/// The fixed frame that every timing log carries as its yardstick: lines, text and a bent tail that come from constants alone, so that logs of
-/// different builds and documents can be compared.
+/// The fixed reference frame of every timing log: lines, text and a bent tail from constants alone, so that logs of different builds and
+/// documents can be compared.
 #include "base/need.h"
 #include "base/progress.h"
 #include "draw/draw.h"
@@ -36,7 +36,7 @@ static void arrange_text(struct drawlist *list, struct rect panel)
     }
 }
 
-/// A tail that rises and bends over by 4° a joint, seen from the side.
+/// A rising tail that bends by 4° per joint, seen from the side.
 static void arrange_stage(struct stage_view *stage, const struct gltf *fox, struct gltf_pose *pose, struct rect panel)
 {
     *stage = (struct stage_view){.viewport = panel, .eye = {3.0f, 1.2f, 3.0f}, .colors = theme()->stage, .hash = 1};

@@ -1,7 +1,7 @@
 /// Filled shapes as triangles with anti-aliased edges.
 #include "draw/paint.h"
 
-/// From here on a fill costs less through glClear than as two triangles (measured with llvmpipe).
+/// Above this size glClear is cheaper than two triangles (measured with llvmpipe).
 enum { FILL_PIXELS = 4096, CONVEX_MAX = 128 };
 
 struct batch_vertex shape_vertex(float x, float y, uint32_t color)
@@ -44,7 +44,7 @@ struct span {
     float coverage;
 };
 
-/// Splits [from, to] into runs of partly and of fully covered pixels; returns how many (at most 3).
+/// Splits [from, to] into runs of partly and fully covered pixels; returns their number (at most 3).
 static int cut_spans(float from, float to, int clip_from, int clip_to, struct span spans[3])
 {
     from = fmaxf(from, (float)clip_from);
@@ -91,7 +91,7 @@ struct point {
     float x, y;
 };
 
-/// Device points without neighbours that coincide.
+/// Device points without coinciding neighbours.
 static int device_points(const float *xy, int count, float scale, struct point *points)
 {
     int kept = 0;
@@ -115,7 +115,7 @@ static float twice_area(const struct point *points, int count)
     return sum;
 }
 
-/// From point i, how far out both its edges move for one pixel: the mitre of the outward normals.
+/// How far point i moves if both its edges move out by one pixel: the mitre of the normals.
 static struct point outward(const struct point *points, int count, int i, float side)
 {
     struct point before = points[(i + count - 1) % count], p = points[i], after = points[(i + 1) % count];

@@ -1,14 +1,14 @@
-/// Finds outlines, and hangs skirts there.
+/// Finds outlines and builds their skirts.
 #include "draw/posed.h"
 #include "model/adjacency.h"
 
-/// Pixels by which the skirt is nearer to the eye where the surface continues, which may lean towards the eye.
+/// Pixels towards the eye for skirts on a continuing surface, which may itself lean towards the eye.
 static const float LIFT = 2.0f;
 
-/// Whether a triangle faces the eye, or nearly: the rasteriser, which rounds, has the last word.
+/// Whether a triangle faces the eye, or nearly. Near the limit the rasteriser decides, because it rounds.
 static bool is_front(const float a[3], const float b[3], const float c[3], const float eye[3], float sign)
 {
-    static const float slack = 1e-6f; // the square of a cosine
+    static const float slack = 1e-6f; // squared cosine
     const vec3s normal = triangle_normal(a, b, c);
     const vec3s to_eye = glms_vec3_sub(vec3_from(eye), vec3_from(a));
     const float facing = sign * glms_vec3_dot(normal, to_eye);
@@ -38,7 +38,7 @@ int skirt_next(const struct posed *mesh, const struct posed_part *part, int from
     return part->end;
 }
 
-/// Along the vertex's normal, so that the skirts of edges that follow each other meet; but off the edge, where the normal does not point away from it.
+/// Along the vertex normal, so that skirts of consecutive edges meet. If the normal does not point away from the edge, across the edge.
 static vec3s outwards(vec3s ray, const float normal[3], vec3s off_edge)
 {
     const float depth = glms_vec3_dot(vec3_from(normal), ray) / glms_vec3_norm2(ray);
@@ -46,7 +46,7 @@ static vec3s outwards(vec3s ray, const float normal[3], vec3s off_edge)
     return glms_vec3_dot(out, off_edge) < 0.3f ? off_edge : out;
 }
 
-/// How far the skirt sticks out at one end of its edge: a pixel, across the line of sight. `side` is where the triangle lies not.
+/// The skirt's offset at one end of an edge: one pixel, across the line of sight. `side` points away from the triangle.
 static vec3s step_out(const struct skirt_vertex *end, vec3s edge, float side, bool open, const float eye[3],
                       float seam)
 {
@@ -55,7 +55,7 @@ static vec3s step_out(const struct skirt_vertex *end, vec3s edge, float side, bo
     return glms_vec3_scale(open ? off_edge : outwards(ray, end->normal, off_edge), seam * glms_vec3_norm(ray));
 }
 
-/// The surface at one end of an edge; on its back turned to the eye.
+/// The surface at one end of an edge, with the normal towards the eye if `back`.
 static void look_at(const struct posed *mesh, int corner, bool back, struct skirt_vertex *out)
 {
     const uint32_t vertex = mesh->indices[corner];
@@ -66,7 +66,7 @@ static void look_at(const struct posed *mesh, int corner, bool back, struct skir
     }
 }
 
-/// Moves the place in the picture half a pixel into the triangle: at its edge a lookup may hit the picture's other side.
+/// Moves the texture coordinate half a pixel into the triangle: a lookup at its edge may hit the opposite side of the picture.
 static void pull_in(const struct posed *mesh, int corner, const float eye[3], float seam, struct skirt_vertex ends[2])
 {
     const uint32_t third = mesh->indices[next_corner(next_corner(corner))];
@@ -83,7 +83,7 @@ void skirt_hang(const struct posed *mesh, const struct posed_part *part, int cor
                 struct skirt_vertex out[SKIRT_CORNERS])
 {
     const bool front = mesh->front[corner / 3], open = mesh->neighbours[corner] < 0;
-    const float side = front == part->mirrored ? -1.0f : 1.0f; // the triangle lies to the left of its edge
+    const float side = front == part->mirrored ? -1.0f : 1.0f; // the triangle is to the left of its edge
     look_at(mesh, corner, !front, &out[0]);
     look_at(mesh, next_corner(corner), !front, &out[1]);
     pull_in(mesh, corner, eye, seam, out);

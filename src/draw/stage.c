@@ -1,4 +1,4 @@
-/// Draws the stage: ground, shadows and rigs, with the camera and light that they share.
+/// Draws the stage: ground, shadows and rigs with a common camera and light.
 #include "draw/stage.h"
 #include "base/need.h"
 #include <stdlib.h>
@@ -80,7 +80,7 @@ void stage_upload(struct stage_renderer *renderer, const struct stage_view *view
               stage_flat_upload(renderer->flat, view);
 }
 
-/// With a `seam`, reeds blend into what is behind.
+/// With a `seam`, reeds blend into the background.
 static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float scale, float seam)
 {
     glDepthFunc(GL_LESS);
@@ -103,8 +103,7 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     stage_flat_draw(renderer->flat, &renderer->programs[PROGRAM_FLAT], y, height);
     draw_rigs(renderer, view, scale, seam);
-    // Edges without multisampling: a skirt a pixel wide (draw/posed.h) fades out from the outlines over whatever is behind: the
-    // background or the animal itself.
+    // Anti-aliased edges without multisampling: skirts (draw/posed.h) fade out over the background or the animal itself.
     glEnable(GL_BLEND);
     stage_meshes_draw(renderer->meshes, view, scale, seam);
     glDisable(GL_BLEND);

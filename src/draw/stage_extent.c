@@ -1,13 +1,13 @@
-/// Finds the moving rigs, and their extent on the screen.
+/// Finds the screen area of moving rigs.
 #include "base/hash.h"
 #include "draw/stage.h"
 #include <math.h>
 
-/// A growing box on the screen: −1 … 1 over the viewport.
+/// A growing box in normalised device coordinates.
 struct extent {
     mat4s clip_from_world;
     float lo[2], hi[2];
-    bool is_everywhere; ///< something is too near the camera to project
+    bool is_everywhere; ///< something is too close to the camera to project
 };
 
 float stage_lowest_ground(const struct stage_view *view)

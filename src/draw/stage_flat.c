@@ -7,18 +7,18 @@
 
 #define GROUND_RADIUS 3.5f
 
-// Figures between these sizes, metres, all get the same ground; smaller and larger ones get it in proportion.
+// Figures between these sizes, in metres, get the same ground; it scales with smaller and larger ones.
 static const float SMALL = 0.2f, LARGE = 5.0f;
 
 enum {
     CORNERS = 6,
-    SCENERY = 2, ///< quads of background and ground, which come first
+    SCENERY = 2, ///< background and ground, which come first
     MAX_QUADS = SCENERY + STAGE_MAX_BLOBS,
 };
 
 struct corner {
     float clip[4];
-    float local[2]; ///< −1 … 1 over the disc's square
+    float local[2]; ///< −1 … 1 across the disc's square
     float color[4]; ///< sRGB and opacity
 };
 
@@ -29,7 +29,7 @@ struct stage_flat {
     struct corner corners[MAX_QUADS * CORNERS];
 };
 
-/// Two triangles' corners, as signs.
+/// Corners of two triangles.
 static const float square[CORNERS][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}};
 
 struct stage_flat *stage_flat_create(void)
@@ -81,7 +81,6 @@ static void add_background(struct stage_flat *flat)
     flat->quads++;
 }
 
-/// A disc around (x, z) on the ground.
 static void add_disc(struct stage_flat *flat, mat4s clip_from_world, float x, float ground, float z, float radius,
                      uint32_t color, float opacity)
 {
@@ -132,7 +131,7 @@ void stage_flat_draw(const struct stage_flat *flat, const struct program *progra
     glBindVertexArray(flat->vertex_array);
     glEnable(GL_BLEND);
     glDepthFunc(GL_ALWAYS);
-    glDepthRange(1, 1); // clears depth as well
+    glDepthRange(1, 1); // makes the quad write the largest depth, which clears it
     glDrawArrays(GL_TRIANGLES, 0, SCENERY * CORNERS);
     glUniform1i(program->at[AT_SHADOW], true);
     glDrawArrays(GL_TRIANGLES, SCENERY * CORNERS, (flat->quads - SCENERY) * CORNERS);

@@ -1,12 +1,12 @@
-/// Draws a meadow: one strip of triangles, instanced for every reed. Reeds are about as thin as pixels, so each is blended over its
-/// background by coverage, from the farthest to the nearest.
+/// Draws a meadow: one triangle strip, instanced per reed. Reeds are about one pixel wide, so they are sorted far to near and blended by
+/// coverage.
 #include "draw/stage.h"
 #include <string.h>
 
 enum { RINGS = 5, CORNERS = 2 * RINGS, INDICES = 6 * (RINGS - 1) };
-enum { DEPTHS = 2048 }; ///< that are told apart when they are sorted
+enum { DEPTHS = 2048 }; ///< depth classes for sorting
 
-/// Joints from the ground at which a reed has corners; one at its tip.
+/// Ring positions along a reed, in joints from the ground.
 static const float rings[RINGS] = {0, 2, 3.7f, 5, 6};
 
 static void make_strip(struct stage_meadows *meadows)
@@ -55,7 +55,7 @@ void stage_meadows_destroy(struct stage_meadows *meadows)
     glDeleteBuffers(3, (const GLuint[]){meadows->corners, meadows->indices, meadows->instances});
 }
 
-/// How far the foot of a reed is from the eye's plane, as a share of all depths, the farthest 0.
+/// Depth class of a reed's foot; the farthest is 0.
 static int depth_of(const struct stage_view *view, const struct stage_reed *reed, float nearest, float farthest)
 {
     const float *m = view->view, *p = reed->place, depth = -(m[2] * p[0] + m[6] * p[1] + m[10] * p[2] + m[14]);
@@ -63,7 +63,7 @@ static int depth_of(const struct stage_view *view, const struct stage_reed *reed
     return (int)(fminf(fmaxf(share, 0), 1) * (DEPTHS - 1));
 }
 
-/// Counts how many reeds each depth has, and puts them in their places.
+/// Counting sort by depth.
 static void sort(struct stage_reed *sorted, const struct stage_view *view)
 {
     const struct stage_meadow *meadow = &view->meadow;

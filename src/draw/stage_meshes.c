@@ -1,4 +1,4 @@
-/// Draws imported characters, foxes and soft characters, with their materials and skirts.
+/// Draws imported characters, foxes and soft characters with materials and skirts.
 #include "base/need.h"
 #include "draw/posed.h"
 #include "model/fox.h"
@@ -6,8 +6,8 @@
 #include <string.h>
 
 enum { PICTURE_UNIT = 1 };
-enum { EDGES = 768, CORNERS = SKIRT_CORNERS * EDGES }; ///< whose skirts are drawn at once
-/// Number of meshes on the GPU, more than a picture shows; and after how many pictures an unused one is freed.
+enum { EDGES = 768, CORNERS = SKIRT_CORNERS * EDGES }; ///< edges whose skirts are drawn in one call
+/// The cache holds more meshes than a picture shows; a mesh unused for FORGOTTEN pictures is freed.
 enum {
     MAX_SHOWN = STAGE_MAX_CHARACTERS + STAGE_MAX_MODELS,
     MAX_KEPT = MAX_SHOWN + STAGE_MAX_CHARACTERS,
@@ -20,20 +20,20 @@ enum mesh_kind { MESH_NONE, MESH_MODEL, MESH_FINE, MESH_COARSE };
 
 struct kept {
     enum mesh_kind kind;
-    uint64_t id; ///< of the file or the figure
-    long used;   ///< the picture that showed it last
+    uint64_t id; ///< of the file or figure
+    long used;   ///< number of the last picture that showed it
     struct posed mesh;
 };
 
-/// One that is in the picture.
+/// A mesh in this picture.
 struct shown {
     const struct posed *mesh;
-    float shade[2]; ///< heights: of the ground, and how far above it its shade reaches
+    float shade[2]; ///< heights: the ground's, and how far above it the ground's shade reaches
     float blink;
 };
 
-/// Arranged as meshes are, and at places that never change: llvmpipe compiles a shader anew for each arrangement, and Mesa rearranges a
-/// vertex array that changes often.
+/// Laid out like meshes, at fixed addresses: llvmpipe recompiles a shader for each layout, and Mesa is slow if a vertex array changes
+/// often.
 struct skirts {
     float place[CORNERS][3], normal[CORNERS][3];
     struct posed_look look[CORNERS];
@@ -44,7 +44,7 @@ struct stage_meshes {
     struct kept kept[MAX_KEPT];
     struct shown shown[MAX_SHOWN];
     int shown_count;
-    long clock; ///< pictures
+    long clock; ///< counts pictures
     GLuint white;
     GLuint skirt_array, skirt_buffer, skirt_indices;
     struct skirts *skirts;
@@ -100,8 +100,8 @@ static void drop(struct kept *kept)
     *kept = (struct kept){0};
 }
 
-/// The one of a file or a figure that this picture has not shown yet: several rigs may have the same. An empty one where there is none:
-/// it frees meshes not shown for long, and at least the least recent one.
+/// A cached mesh of this file or figure that this picture does not use yet, as several rigs may share a file. Otherwise an empty entry,
+/// after freeing the least recently used mesh and all unused for long.
 static struct kept *find(struct stage_meshes *meshes, enum mesh_kind kind, uint64_t id)
 {
     struct kept *oldest = &meshes->kept[0];
@@ -173,7 +173,7 @@ long stage_meshes_upload(struct stage_meshes *meshes, const struct stage_view *v
 
 // --- the picture
 
-/// The program of a part: its surface, or its skirts.
+/// The program for a part's surface or its skirts.
 static enum stage_program program_of(const struct posed_part *part, bool skirts)
 {
     return skirts && part->program == PROGRAM_PLAIN ? PROGRAM_PICTURED : part->program;
@@ -215,7 +215,7 @@ static void draw_parts(const struct stage_meshes *meshes, const struct posed *me
     glFrontFace(GL_CCW);
 }
 
-/// The second pass draws masked surfaces again, because their edges fade out over the background.
+/// The second pass draws masked surfaces again, because their edges fade over the background.
 static void draw_surface(const struct stage_meshes *meshes, const struct posed *mesh, enum stage_program program,
                          bool second)
 {

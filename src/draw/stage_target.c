@@ -1,4 +1,4 @@
-/// Framebuffers beside the screen; draws the stage into one at a lower resolution, and enlarges it.
+/// Offscreen framebuffers; draws the stage at a lower resolution and enlarges it.
 #include "draw/batch.h"
 #include "draw/stage.h"
 
@@ -34,7 +34,7 @@ bool stage_target_bind(struct stage_target *target, int width, int height)
     return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
-/// The small picture's pixels that the enlarged `visible` part is filtered from.
+/// The pixels of the small picture from which `visible` is interpolated.
 static struct area needed(struct stage_place place, float scale, int width, int height)
 {
     struct area v = place.visible;

@@ -1,9 +1,9 @@
 /// Emits an anti-aliased polyline, segment by segment.
 //
-// A line is a strip of quads, one a segment, that reach half a pixel beyond the line's edge. Each vertex knows its signed
-// distance `across` from the middle; the shader turns it into coverage. Where segments meet gently, both share the mitre's
-// two corners, which are equally far from either line: coverage has no seam, nothing is drawn twice, and translucent
-// lines look right. At hairpins the outer side is a fan about the joint (a round join).
+// A line is a strip of quads, one per segment, half a pixel wider on each side than the line. Each vertex has its signed distance `across`
+// from the middle, which the shader turns into coverage. At gentle joints both quads share the mitre's two corners, equally far from both
+// lines: no seam, and nothing is drawn twice, so translucent lines look right. At hairpins the outer side is a fan around the joint (a
+// round join).
 //
 //        in[0] ----- mitre ----- out[0]        left:  across = +reach
 //          p0 --------- p --------- p1
@@ -27,9 +27,9 @@ struct side_pair {
 };
 
 struct joint {
-    struct side_pair in, out; ///< ends of the quad before and start of the quad after
-    bool smooth;              ///< in and out are one
-    int outer;                ///< the side of the hairpin's back
+    struct side_pair in, out; ///< end of the quad before, start of the quad after
+    bool smooth;              ///< in and out are the same
+    int outer;                ///< the outer side of the hairpin
 };
 
 static struct segment segment_between(struct line_point a, struct line_point b)
@@ -44,7 +44,7 @@ static vec2s offset(struct line_point p, vec2s direction, float by)
     return (vec2s){{p.x + direction.x * by, p.y + direction.y * by}};
 }
 
-/// The two points beside `p` across a direction. Left of it on the screen is (y, −x), y being down.
+/// The two points beside `p`. Left of a direction on the screen is (y, −x), because y points down.
 static struct side_pair beside(struct line_point p, vec2s direction, float reach)
 {
     vec2s normal = {{direction.y, -direction.x}};
@@ -55,7 +55,7 @@ static struct joint joint_at(struct line_point p, struct segment before, struct 
 {
     vec2s a = before.direction, b = after.direction;
     float cosine = a.x * b.x + a.y * b.y, sine = a.x * b.y - a.y * b.x;
-    // The mitre's corner lies reach · tan(angle / 2) along either segment and must not pass its other end.
+    // The mitre's corner lies reach · tan(angle / 2) along both segments and must not pass their other ends.
     float back = cosine > -0.999f ? reach * fabsf(sine) / (1.0f + cosine) : INFINITY;
     bool fits = back <= fminf(before.length, after.length);
     struct joint joint = {
@@ -106,14 +106,14 @@ static void add_quad(struct stroke *stroke, struct side_pair from, float from_al
     stroke->generation = stroke->batch->generation;
 }
 
-/// Fills the wedge between two quads: from the inner corner about the joint's middle to the outer side's arc.
+/// Fills the wedge between two quads, from the inner corner around the joint to the outer arc.
 static void add_fan(const struct stroke *stroke, struct line_point p, const struct joint *joint)
 {
     int outer = joint->outer, inner = 1 - outer;
     float side = outer == 0 ? 1.0f : -1.0f;
     vec2s from = joint->in.at[outer], to = joint->out.at[outer];
     float start = atan2f(from.y - p.y, from.x - p.x), end = atan2f(to.y - p.y, to.x - p.x);
-    // The arc runs the way the line turns: clockwise on the screen (y down) where the outer side is the left one.
+    // The arc turns as the line does: clockwise on the screen (y down) if the outer side is the left one.
     float turn = remainderf(end - start, 2.0f * (float)M_PI);
     if (turn * side < 0.0f) turn += side * 2.0f * (float)M_PI;
     uint32_t base = batch_reserve(stroke->batch, FAN_STEPS + 4, 3 * (FAN_STEPS + 2));
@@ -133,7 +133,7 @@ static void add_fan(const struct stroke *stroke, struct line_point p, const stru
     batch_triangle(stroke->batch, base, arc + FAN_STEPS, arc + FAN_STEPS + 1);
 }
 
-/// Whether a segment, with its mitres, can touch the clip.
+/// Whether a segment with its mitres can touch the clip.
 static bool is_visible(const struct stroke *stroke, struct line_point a, struct line_point b)
 {
     float margin = 2.0f * stroke->reach + 1.0f;
@@ -143,7 +143,7 @@ static bool is_visible(const struct stroke *stroke, struct line_point a, struct 
            fminf(a.y, b.y) - margin < (float)stroke->visible.y1;
 }
 
-/// An end of the line, as a joint with nothing after it: half a pixel beyond the last point, where `along` is 0.
+/// An end of the line: half a pixel beyond the last point, where `along` is 0.
 static struct joint cap_at(struct line_point p, vec2s direction, float beyond, float reach)
 {
     struct line_point end = {p.x + direction.x * beyond, p.y + direction.y * beyond, 0.0f};
@@ -151,7 +151,7 @@ static struct joint cap_at(struct line_point p, vec2s direction, float beyond, f
     return (struct joint){.in = pair, .out = pair, .smooth = true};
 }
 
-/// The point after point i, past the closing one too.
+/// The point after point i, cyclically if closed.
 static struct line_point point_after(struct polyline line, int i)
 {
     return line.points[i + 1 < line.count ? i + 1 : 1];
