@@ -95,7 +95,7 @@ float ui_text_width(const char *text) { return font_width(FONT_LABEL, THEME_TEXT
 
 static void paint_centred(struct ui *ui, struct rect r, const char *text, uint32_t color)
 {
-    float w = fminf(r.w - 8, ui_text_width(text));
+    float w = fminf(r.w - 4, ui_text_width(text));
     paint_label(ui, (struct rect){roundf(r.x + (r.w - w) / 2), r.y, w, r.h}, FONT_LABEL, text, color);
 }
 
