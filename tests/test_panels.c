@@ -314,8 +314,13 @@ TEST(test_open_completes_paths)
     session_key(&f, 'O', MOD_CTRL);
     panel_type(&f, "figures/t");
     assert_int_equal(dialog->match_count, 1);
+    assert_false(session_shows(&f, "Nothing matches."));
     session_key(&f, KEY_ENTER, 0); // the only file that can be meant
     expect_request(&f, REQUEST_OPEN, "figures/two.json");
+    panel_answer(&f, REQUEST_OPEN, true, "");
+    session_key(&f, 'O', MOD_CTRL);
+    panel_type(&f, "nobody");
+    assert_true(session_shows(&f, "Nothing matches."));
     session_close(&f);
 }
 

@@ -313,6 +313,8 @@ static void build_list(struct dialogs *dialogs, struct core *core)
     for (int row = 0; row < rows; row++) {
         struct rect r = ui_row(ui, UI_ROW);
         if (first + row < dialog->match_count && dialog_row(dialog, r, first + row)) taken = first + row;
+        if (row == 0 && dialog->match_count == 0)
+            ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 12, r.h}, "Nothing matches.", theme()->text_dim);
     }
     if (taken >= 0) dialog->error[0] = '\0';
     bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // one click opens a recent file
