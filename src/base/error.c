@@ -9,7 +9,7 @@
 bool fail(struct error *error, enum error_kind kind, const char *format, ...)
 {
     if (!error) return false;
-    char text[4 * sizeof error->text]; // arguments may lie in error->text itself
+    char text[4 * sizeof error->text]; // arguments may lie in error->text
     va_list arguments;
     va_start(arguments, format);
     vsnprintf(text, sizeof text, format, arguments);
@@ -26,7 +26,7 @@ bool fail_no_memory(struct error *error, const char *what)
 
 enum { REPLACEMENT = 0xFFFD };
 
-/// Number of bytes after a first byte, and its own bits; -1 if it cannot be a first byte.
+/// Number of bytes after a first byte, and its own bits; -1 if it is no first byte.
 static int continuation_bytes(unsigned char first, uint32_t *bits)
 {
     if (first < 0x80) return *bits = first, 0;
@@ -66,7 +66,7 @@ static int plain_length(const char *s)
 void printable(const char *text, char *shown, size_t size)
 {
     static const char more[] = "…";
-    size_t used = 0, cut = 0; // `cut`: where the sign for more would still fit
+    size_t used = 0, cut = 0; // `cut`: last position at which "…" still fits
     for (const char *s = text; *s;) {
         char piece[8];
         int taken = plain_length(s), length = taken;
@@ -103,7 +103,7 @@ void print_line(FILE *stream, const char *format, ...)
 void print_field(FILE *stream, const char *name, const char *suffix)
 {
     char shown[8192] = "";
-    const int cause = errno; // of an earlier failure to write
+    const int cause = errno; // from an earlier failed write
     if (isatty(fileno(stream))) {
         printable(name, shown, sizeof shown);
         name = shown;

@@ -1,4 +1,4 @@
-/// Reads whole files, writes them by a temporary file and a rename, and tells what is in one by a number.
+/// Reads files, writes them through a temporary file and a rename, and hashes their content.
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/need.h"
@@ -34,7 +34,7 @@ static bool fail_no_file(struct error *error, enum error_kind kind, const char *
                 S_ISDIR(mode) ? "a directory" : "something else (a device or a pipe)");
 }
 
-/// Opens a regular file without waiting for anyone (a FIFO would block for a writer).
+/// Opens a regular file without blocking (a FIFO would wait for a writer).
 static int open_regular(const char *path, struct stat *about, struct error *error)
 {
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
@@ -53,7 +53,7 @@ static bool fail_too_large(const char *path, size_t limit, struct error *error)
     return fail(error, ERROR_INPUT, "%s: expected at most %zu MiB, got a larger file", path, limit >> 20);
 }
 
-/// Reads to the end, or to one byte past the limit. `*data` is the caller's in any case.
+/// Reads to the end, or one byte past the limit. The caller owns `*data` in any case.
 static bool read_all(int file, const char *path, size_t limit, char **data, size_t capacity, size_t *size,
                      struct error *error)
 {
@@ -98,7 +98,7 @@ bool file_read(const char *path, size_t limit, char **data, size_t *size, struct
     return done;
 }
 
-/// `name` seen from the folder of `path`.
+/// `name` relative to the folder of `path`.
 static char *beside(const char *path, const char *name)
 {
     const char *slash = strrchr(path, '/');
@@ -109,7 +109,7 @@ static char *beside(const char *path, const char *name)
     return joined;
 }
 
-/// Where a path's symbolic links end, whether or not there is a file yet. NULL with errno set.
+/// The end of a path's symbolic links, whether or not the file exists. NULL with errno set.
 static char *resolve_links(const char *path)
 {
     char *target = need_text(path);
@@ -140,14 +140,14 @@ static void empty(int folder)
     closedir(directory);
 }
 
-/// Removes a file or a folder that a program which is gone was writing; another machine's is locked while it lives.
+/// Removes a file or folder left by a program that has ended. One of another machine is locked while its program runs.
 static void remove_stale(int folder, const char *name)
 {
     long owner;
     int number, end = 0;
     if (sscanf(name, ".wiggly-%ld-%d.tmp%n", &owner, &number, &end) != 2 || end == 0 || name[end]) return;
     if (owner <= 0 || owner == (long)getpid() || kill((pid_t)owner, 0) == 0 || errno != ESRCH) return;
-    // To be written to, though nothing is: over NFS nothing else can be locked.
+    // Open for writing, though nothing is written: otherwise NFS cannot lock it.
     int file = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0 && errno == EISDIR) file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_DIRECTORY | O_CLOEXEC);
     struct stat about;
@@ -160,7 +160,7 @@ static void remove_stale(int folder, const char *name)
     close(file);
 }
 
-/// Looks for such files beside the target, once for each folder that is written to in turn.
+/// Removes such files beside the target, once for each folder that is written to in turn.
 static void sweep(const char *target)
 {
     static _Thread_local uint64_t swept;
@@ -175,7 +175,7 @@ static void sweep(const char *target)
     closedir(directory);
 }
 
-/// Temporary files that are being written, for a program that is told to end; where there are more, the next output sweeps them up.
+/// Temporary files being written, so that a program told to end can remove them. If there are more, the next output removes the rest.
 static char *_Atomic unfinished[8];
 
 static void replace_unfinished(char *before, char *now)
@@ -194,19 +194,19 @@ void file_remove_unfinished(void)
     }
 }
 
-/// Makes a new file beside the target, or a folder; the kernel applies the umask. Returns the descriptor or -1 with errno set.
+/// Creates a file or folder beside the target; the kernel applies the umask. Returns the descriptor or -1 with errno set.
 static int create_beside(const char *target, bool is_folder, mode_t mode, char **temporary)
 {
     for (int i = 0; i < MAX_NAMES; i++) {
         char name[64];
         snprintf(name, sizeof name, ".wiggly-%ld-%d.tmp", (long)getpid(), i);
         *temporary = beside(target, name);
-        if (!is_folder) replace_unfinished(NULL, *temporary); // a signal may come as soon as the file is there
+        if (!is_folder) replace_unfinished(NULL, *temporary); // a signal may come as soon as the file exists
         int file = !is_folder                     ? open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode)
                    : mkdir(*temporary, mode) == 0 ? open(*temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
                                                   : -1;
         if (file >= 0) {
-            flock(file, LOCK_EX | LOCK_NB); // a sign of life for remove_stale()
+            flock(file, LOCK_EX | LOCK_NB); // shows remove_stale() that it is in use
             return file;
         }
         int cause = errno;
@@ -225,7 +225,7 @@ int file_folder_beside(const char *path, char **folder)
     return create_beside(path, true, 0700, folder);
 }
 
-/// The rights that everyone but the owner had: the group, others, and each entry of the ACL (8 bytes: tag, rights, id).
+/// The common rights of everyone but the owner: the group, others, and each ACL entry (8 bytes: tag, rights, id).
 static mode_t common_rights(mode_t mode, const unsigned char *acl, ssize_t size)
 {
     enum { VERSION = 4, ENTRY = 8, OWNER = 1 };
@@ -236,22 +236,22 @@ static mode_t common_rights(mode_t mode, const unsigned char *acl, ssize_t size)
     return common;
 }
 
-/// Gives a new file the owner, group, mode and ACL of an old one. If the group or the ACL cannot be set, the group and others get only
-/// the rights that both had before: a member of the old group is one of the others now.
+/// Gives a new file the owner, group, mode and ACL of an old one. If group or ACL cannot be set, group and others get only the rights that
+/// both had: members of the old group are others now.
 static bool keep_rights(int file, const char *path, const struct stat *old)
 {
     unsigned char acl[XATTR_SIZE_MAX];
     const ssize_t size = getxattr(path, acl_name, acl, sizeof acl);
     const bool has_owner = fchown(file, old->st_uid, old->st_gid) == 0;
     const bool has_group = has_owner || fchown(file, (uid_t)-1, old->st_gid) == 0;
-    fremovexattr(file, acl_name); // what the folder gives to new files
+    fremovexattr(file, acl_name); // inherited from the folder
     const bool kept = has_group && (size < 0 || fsetxattr(file, acl_name, acl, (size_t)size, 0) == 0);
     const mode_t common = common_rights(old->st_mode, acl, size);
     const mode_t rest = kept ? old->st_mode & 0077 : common << 3 | common;
     return fchmod(file, (old->st_mode & 0700) | rest) == 0;
 }
 
-/// Opens a file, device or pipe to be written in its place. A FIFO that nobody reads is refused: opening it would wait for a reader.
+/// Opens a file, device or pipe to be overwritten in place. A FIFO without a reader is refused, because opening it would block.
 static int open_in_place(const char *path, int flags)
 {
     const int file = open(path, O_WRONLY | O_NONBLOCK | O_CLOEXEC | flags, 0666);
@@ -276,7 +276,7 @@ bool file_check_place(const char *path, struct error *error)
            fail_no_file(error, ERROR_ENVIRONMENT, path, about.st_mode);
 }
 
-/// Opens what is to be written: a file beside the target, or the target itself where it is a device or a pipe.
+/// Opens the output: a temporary file beside the target, or the target itself if it is a device or pipe.
 static int open_output(const char *path, struct file_output *output)
 {
     struct stat old;
@@ -310,7 +310,7 @@ bool file_output_open(struct file_output *output, const char *path, struct error
     return fail_to(error, ERROR_ENVIRONMENT, "be written", path, cause);
 }
 
-/// The folder's entry must reach the disk too. Where a file system cannot do that, the content is safe all the same.
+/// The folder's entry must be on the disk, too. If the file system cannot do that, the content is still safe.
 static void sync_folder(const char *target)
 {
     char *folder = beside(target, ".");
@@ -321,7 +321,7 @@ static void sync_folder(const char *target)
     close(file);
 }
 
-/// The temporary file is gone.
+/// Forgets the temporary file.
 static void forget(struct file_output *output)
 {
     if (output->temporary) replace_unfinished(output->temporary, NULL);

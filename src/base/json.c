@@ -6,11 +6,11 @@
 
 static void *take(size_t size) { return need(size, 1); }
 
-/// Before main(): all that we build or print with the library has its memory from need().
+/// Runs before main(), so that the library allocates everything with need().
 __attribute__((constructor)) static void give_memory(void) { json_set_alloc_funcs(take, free); }
 
-/// At least as much as the library takes for a text: its buffer for a token grows to twice that, and each value, member, list and
-/// object begins with one of these characters.
+/// At least the memory that the library needs for a text: its token buffer grows to twice the text, and each value, member, list and object
+/// begins with one of these characters.
 static size_t room_for(const char *text, size_t size)
 {
     enum { VALUE = 256, TOKEN = 4, BASIS = 4096 };

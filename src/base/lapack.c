@@ -12,8 +12,8 @@ static void find(void *library, const char *name, void *function)
     memcpy(function, &symbol, sizeof symbol);
 }
 
-/// At its first call OpenBLAS takes a buffer of 128 MiB, which it keeps, and where there is none it asks again for ever. So that call is made
-/// here, once as much memory is known to be there.
+/// At its first call OpenBLAS allocates a buffer of 128 MiB and keeps it; without memory it retries for ever. So the call is made here, after
+/// checking that there is enough.
 static bool take_buffer(const struct lapack *lapack)
 {
     if (!need_has_room((size_t)160 << 20)) return false;

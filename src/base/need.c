@@ -1,4 +1,4 @@
-/// Ends the program where memory runs out, with the work saved.
+/// Ends the program if memory runs out, after saving the work.
 #include "base/need.h"
 #include "base/file.h"
 #include <stdatomic.h>
@@ -14,17 +14,17 @@ static void *kept;
 static need_rescue *rescue;
 static void *rescue_user;
 static atomic_bool ends;
-static _Thread_local bool rescues; ///< this thread is in the rescue
+static _Thread_local bool rescues; ///< this thread is saving the work
 
 _Noreturn static void end(const char *sentence)
 {
     file_remove_unfinished();
     fprintf(stderr, "wiggly: %s\n", sentence);
     fflush(stderr);
-    _exit(ERROR_ENVIRONMENT); // other threads go on meanwhile: nothing of theirs is taken down
+    _exit(ERROR_ENVIRONMENT); // without cleaning up, as other threads are still running
 }
 
-/// Ends the process. Returns only where another thread is saving the work: with what the reserve has freed, the caller tries again.
+/// Ends the process. Returns only if another thread is saving the work: the freed reserve lets the caller try again.
 static void ran_short(void)
 {
     if (rescues) end("out of memory; work since the last autosave is lost");
@@ -46,7 +46,7 @@ _Noreturn void need_failed(void)
     end("out of memory");
 }
 
-/// `count` · `size`, at least 1: NULL has to mean that there was no memory.
+/// `count` · `size`, at least 1, because NULL must mean that memory ran out.
 static size_t bytes_of(size_t count, size_t size)
 {
     size_t bytes;
@@ -90,7 +90,7 @@ char *need_text(const char *text)
 
 bool need_has_room(size_t bytes)
 {
-    void *volatile trial = malloc(bytes); // volatile: else the compiler takes it for granted
+    void *volatile trial = malloc(bytes); // volatile: else the compiler optimises it away
     free(trial);
     return trial != NULL;
 }

@@ -1,4 +1,4 @@
-/// Reads numbers, and reads and writes the header of .npy files.
+/// Reads numbers of .npy files, and reads and writes their headers.
 #include "base/npy.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -94,7 +94,7 @@ bool npy_read_header(struct npy *npy, const char *path, const char *data, size_t
     const unsigned char *start = (const unsigned char *)data;
     *npy = (struct npy){0};
     if (size < NPY_START) return fail(error, ERROR_INPUT, "%s: expected a .npy file, got %zu bytes", path, size);
-    const bool is_short = start[6] == 1; // version 1 has a length of 2 bytes, later ones of 4
+    const bool is_short = start[6] == 1; // version 1 has a length of 2 bytes, later versions of 4
     uint32_t length = (uint32_t)start[8] | (uint32_t)start[9] << 8;
     if (!is_short) length |= (uint32_t)start[10] << 16 | (uint32_t)start[11] << 24;
     const bool good = memcmp(start, npy_magic, sizeof npy_magic) == 0 && start[6] >= 1 && start[6] <= 3;
@@ -127,7 +127,7 @@ void npy_print_header(const int *lengths, int count, char header[NPY_HEADER])
     int length = snprintf(text, sizeof text, "{'descr': '<f4', 'fortran_order': False, 'shape': (%.40s), }", shape);
     memcpy(header, npy_magic, sizeof npy_magic);
     memcpy(header + sizeof npy_magic, (const char[]){1, 0, NPY_HEADER - PRELUDE, 0}, 4);
-    memset(header + PRELUDE, ' ', NPY_HEADER - PRELUDE); // padded so that the numbers start at a multiple of 64 bytes
+    memset(header + PRELUDE, ' ', NPY_HEADER - PRELUDE); // so that the numbers start at a multiple of 64 bytes
     memcpy(header + PRELUDE, text, (size_t)length);
     header[NPY_HEADER - 1] = '\n';
 }

@@ -43,7 +43,7 @@ static void normalise(char *path)
     *out = '\0';
 }
 
-/// The absolute path of a folder; one that does not exist keeps its links and dots.
+/// The absolute path of a folder; if it does not exist, links and dots stay.
 static bool absolute_folder(const char *folder, char absolute[PATH_LIMIT])
 {
     char working[PATH_LIMIT];
@@ -70,10 +70,10 @@ bool path_resolve(const char *folder, const char *path, char absolute[PATH_LIMIT
     return true;
 }
 
-/// An absolute path as seen from an absolute folder.
+/// An absolute path relative to an absolute folder.
 static bool relative(const char *path, const char *folder, char out[PATH_LIMIT])
 {
-    size_t common = 0; // bytes of the leading names that both share
+    size_t common = 0; // bytes of the leading names that are the same
     for (size_t i = 0;; i++) {
         bool path_ends = path[i] == '/' || path[i] == '\0', folder_ends = folder[i] == '/' || folder[i] == '\0';
         if (path_ends && folder_ends) common = i;

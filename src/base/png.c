@@ -4,7 +4,7 @@
 #include "base/need.h"
 #include <stdlib.h>
 
-// The implementation lives here and nowhere else; the library is not written for our warnings.
+// The implementation is included here only; it does not compile under our warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
@@ -26,7 +26,7 @@ void png_encode(void (*store)(void *user, const void *bytes, size_t size), void 
     free(png);
 }
 
-/// Where the encoder's output goes, and whether all of it arrived.
+/// The destination of the encoder's output, and whether all of it was written.
 struct sink {
     const char *path;
     struct error *error;

@@ -1,4 +1,4 @@
-/// The monotonic clock, and who hears how far long work is.
+/// The monotonic clock, and progress reports of long work.
 #include "base/progress.h"
 #include <stddef.h>
 #include <time.h>

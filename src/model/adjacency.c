@@ -22,7 +22,7 @@ bool spots_meet(const struct spot *a, const struct spot *b)
 void spots_sort(const float (*position)[3], int count, struct spot *spots)
 {
     for (int i = 0; i < count; i++) {
-        for (int k = 0; k < 3; k++) spots[i].position[k] = position[i][k] + 0.0f; // −0 is 0
+        for (int k = 0; k < 3; k++) spots[i].position[k] = position[i][k] + 0.0f; // −0 becomes 0
         spots[i].vertex = (uint32_t)i;
     }
     qsort(spots, (size_t)count, sizeof *spots, compare_spots);
@@ -36,8 +36,8 @@ void spots_first(const struct spot *spots, int count, uint32_t *first)
     }
 }
 
-/// Both directions of an edge: only counted while there is no list yet, else entered at `fill`. Twins may be the ends of one, so a vertex may
-/// be its own other end.
+/// Counts both directions of an edge if there is no list yet, else enters them at `fill`. Both ends may be twins of one vertex, which is then
+/// its own neighbour.
 static void add_edge(struct adjacency *adjacency, int *fill, uint32_t i, uint32_t j)
 {
     if (i == j) return;
@@ -53,11 +53,11 @@ struct edges {
     const uint32_t *indices;
     int index_count;
     const struct spot *spots;
-    uint32_t *twin; ///< of each vertex: the next one that is the same but for its texture coordinates, in a ring
+    uint32_t *twin; ///< per vertex: the next one that differs only in its texture coordinates, in a ring
     int vertex_count;
 };
 
-/// Vertices as many as these at one place are no seam, but a mesh that has collapsed.
+/// As many vertices at one place are not a seam but a collapsed mesh.
 enum { TWINS_MAX = 16 };
 
 static void find_twins(const struct edges *edges, const float (*normal)[3])
@@ -75,7 +75,7 @@ static void find_twins(const struct edges *edges, const float (*normal)[3])
     }
 }
 
-/// An edge, which the twins of both its ends share.
+/// Adds an edge to all twins of both its ends.
 static void add_shared(struct adjacency *adjacency, const struct edges *edges, int *fill, uint32_t i, uint32_t j)
 {
     add_edge(adjacency, fill, i, j);
@@ -100,7 +100,7 @@ static int compare_vertices(const void *a, const void *b)
     return *p < *q ? -1 : *p > *q;
 }
 
-/// Sorts each vertex's neighbours and removes duplicates: most edges belong to two triangles.
+/// Sorts each vertex's neighbours and removes duplicates (most edges are in two triangles).
 static void tidy(struct adjacency *adjacency, int vertex_count)
 {
     int kept = 0;
@@ -148,16 +148,16 @@ void adjacency_free(struct adjacency *adjacency)
 
 // --- triangles across edges: an edge a → b is b → a there
 
-/// Corners that are looked at for one edge: more at one place are a mesh that has collapsed.
+/// Corners tried for one edge: more at one place are a collapsed mesh.
 enum { CORNERS_MAX = 64 };
 
 struct corners {
-    uint32_t *spot;   ///< of each vertex: the first one at its place
-    int *last, *many; ///< of each such vertex: a corner there, and how many
-    int *before;      ///< of each corner: the one before it at the same place, −1: none
+    uint32_t *spot;   ///< per vertex: the first one at its place
+    int *last, *many; ///< per such vertex: a corner there, and how many
+    int *before;      ///< per corner: the one before it at the same place, −1: none
 };
 
-/// Places on a grid so fine that it joins only what was meant to be one: a ring whose last vertex is its first but for rounding.
+/// Rounds places to a grid so fine that it joins only vertices meant to be one, such as the ends of a ring that differ by rounding.
 static float (*snap(const float (*position)[3], int count))[3]
 {
     static const float CELLS = 1 << 20;
@@ -184,7 +184,7 @@ static void list_corners(struct corners *corners, int vertex_count, const uint32
 
 static int corner_before(int i) { return i % 3 == 0 ? i + 2 : i - 1; }
 
-/// Of the edge from a corner: the triangle across. Of its ends, the one with fewer corners is looked at, so that the middle of a large fan costs nothing.
+/// Finds the triangle across the edge from a corner. Tries the end with fewer corners, so that the centre of a large fan costs nothing.
 static int find_one(const struct corners *corners, const uint32_t *indices, int corner)
 {
     const uint32_t from = corners->spot[indices[corner]], to = corners->spot[indices[next_corner(corner)]];

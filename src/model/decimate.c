@@ -1,5 +1,5 @@
-/// Half-edge collapses in rounds. In each round every removable vertex picks the neighbour onto which it collapses at least
-/// cost; the cheapest collapse, unless one touches what another has changed.
+/// Half-edge collapses in rounds. In each round every removable vertex picks its cheapest neighbour to collapse onto; the collapses are done
+/// from the cheapest on, except those that touch changed triangles.
 #include "base/need.h"
 #include "model/figure.h"
 #include "model/vector.h"
@@ -9,7 +9,7 @@
 
 enum { MAX_RING = 24, MAX_ROUNDS = 24 };
 
-#define COLOR_WEIGHT 0.02f /* metres that a full change of colour counts as */
+#define COLOR_WEIGHT 0.02f /* metres equivalent to a full change of colour */
 #define FLATTEST 0.35f     /* cosine of the largest turn of a triangle */
 
 /// A vertex and the neighbour onto which it would collapse.
@@ -38,7 +38,7 @@ static void index_triangles(struct work *work)
     for (int i = 0; i < work->index_count; i++) work->around[work->first[work->indices[i] + 1]++] = i / 3;
 }
 
-/// The vertices around v, each once; 0 where there are too many or v is not inside the surface (each neighbour must be in two of its
+/// The vertices around v, each once; 0 if there are too many or v is at an edge of the surface (each neighbour must be in two of its
 /// triangles).
 static int ring_of(const struct work *work, uint32_t v, uint32_t ring[MAX_RING])
 {
@@ -60,8 +60,7 @@ static int ring_of(const struct work *work, uint32_t v, uint32_t ring[MAX_RING])
     return count;
 }
 
-/// What moving corner v to `to` does to a triangle: false if it folds over; else by how much the surface
-/// departs from v, metres.
+/// The effect on a triangle of moving corner v to `to`: false if it folds over; else the surface's distance from v, metres.
 static bool moved_triangle(const struct work *work, const uint32_t corner[3], uint32_t v, uint32_t to,
                            float *distance)
 {
@@ -76,7 +75,7 @@ static bool moved_triangle(const struct work *work, const uint32_t corner[3], ui
     return true;
 }
 
-/// Number of vertices two rings share.
+/// Number of vertices common to two rings.
 static int shared(const uint32_t *a, int a_count, const uint32_t *b, int b_count)
 {
     int count = 0;
@@ -86,8 +85,8 @@ static int shared(const uint32_t *a, int a_count, const uint32_t *b, int b_count
     return count;
 }
 
-/// INFINITY if v cannot go to `to`: the surface would fold, or two of its sheets would meet (the vertices around both
-/// must be just the two of the triangles on the edge).
+/// INFINITY if v cannot collapse onto `to`: the surface would fold, or two sheets would meet (the two must share exactly the vertices of the
+/// triangles on their edge).
 static float cost_of(const struct work *work, uint32_t v, uint32_t to, const uint32_t *ring, int count)
 {
     uint32_t other[MAX_RING];
@@ -131,7 +130,7 @@ static int find_collapses(const struct work *work)
     return found;
 }
 
-/// Moves v's triangles over and locks everything around, so that the round's costs stay true for what follows.
+/// Moves v's triangles over and locks everything around, so that the round's other costs stay valid.
 static bool carry_out(struct work *work, const struct collapse *collapse)
 {
     uint32_t ring[MAX_RING], other[MAX_RING];
@@ -162,7 +161,7 @@ static void drop_flat(struct work *work)
     work->index_count = kept;
 }
 
-/// One round of at most `most` collapses, each of which takes two triangles away; returns how many there were.
+/// One round of at most `most` collapses, each removing two triangles; returns how many there were.
 static int collapse_round(struct work *work, int most)
 {
     index_triangles(work);

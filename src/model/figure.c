@@ -1,4 +1,4 @@
-/// Prepares a character for the stage: normals, a coarser mesh, its bounds; moves it; and applies painted phases and amplitudes.
+/// Prepares a character for drawing: normals, a coarser mesh, bounds; poses it; and applies painted phases and amplitudes.
 #include "model/figure.h"
 #include "base/need.h"
 #include "model/vector.h"
@@ -12,7 +12,7 @@ struct fit {
     float uu, uv, vv;
 };
 
-/// A unit vector orthogonal to n: from the axis along which n is shortest.
+/// A unit vector orthogonal to n, from the axis of n's smallest component.
 static void tangent_of(const float n[3], float t[3])
 {
     int least = 0;
@@ -26,7 +26,7 @@ static void tangent_of(const float n[3], float t[3])
     glm_vec3_copy(across.raw, t);
 }
 
-/// An edge from vertex i, seen in its tangent plane and weighted so that short ones count no less than long ones.
+/// An edge from vertex i in its tangent plane, weighted so that short edges count as much as long ones.
 static bool edge_in_plane(const struct figure *figure, uint32_t i, uint32_t j, float uv[2], float *weight)
 {
     const struct character *c = &figure->character;
@@ -216,7 +216,7 @@ void figure_target_free(struct figure_target *target)
 
 bool figure_has_room(const struct character *character)
 {
-    enum { OTHERS = 4 }; // working memory, and what else is of each vertex or corner
+    enum { OTHERS = 4 }; // working memory, and other arrays per vertex or corner
     const size_t vertices = (size_t)character->vertex_count, corners = (size_t)character->index_count;
     const size_t slopes = (size_t)character->coordinate_count * sizeof(struct slope);
     return need_has_room(vertices * (slopes + OTHERS * sizeof(struct spot)) + corners * OTHERS * sizeof(uint32_t));
@@ -267,7 +267,7 @@ static void morph_normal(const struct figure *figure, const struct morph *morph,
         add_real_part(morph->weight[k], s->re_v, s->im_v, v.raw);
     }
     vec3s n = glms_vec3_cross(u, v);
-    n = glms_vec3_divs(n, fmaxf(glms_vec3_norm(n), 1e-9f)); // squeezed flat: no direction, and not NaN
+    n = glms_vec3_divs(n, fmaxf(glms_vec3_norm(n), 1e-9f)); // no direction if squeezed flat, but not NaN
     glm_vec3_copy(n.raw, normal);
 }
 
@@ -318,7 +318,7 @@ static void reserve_painted(struct painted *painted)
     painted->stale = need_zeroed(vertices + 1, sizeof *painted->stale);
     for (size_t k = 0; k < coordinates; k++) {
         struct coordinate *c = &figure->character.coordinates[k];
-        *c = plain->coordinates[k]; // the name is shared
+        *c = plain->coordinates[k]; // shares the name
         c->re = need(vertices + 1, sizeof *c->re);
         c->im = need(vertices + 1, sizeof *c->im);
     }
@@ -368,7 +368,7 @@ void painted_destroy(struct painted *painted)
     free(painted);
 }
 
-/// Ñ' = Ñ e^{a + jψ} at one vertex; its slopes and its neighbours' become stale.
+/// Ñ' = Ñ e^{a + jψ} at one vertex; marks its slopes and its neighbours' as out of date.
 static void turn(struct painted *painted, int coordinate, int vertex, const float value[2])
 {
     const struct coordinate *from = &painted->plain->character.coordinates[coordinate];

@@ -1,7 +1,7 @@
-/// Gives the fox a tail of any number of joints, moves its body, and measures both.
+/// Builds foxes with tails of any number of joints, moves their bodies, and measures both.
 ///
-/// Its skin is the file's but for the tail, whose weights are the uniform cubic B-spline along it, four joints at a time; where they reach back
-/// over the base, the body takes them. Vertices say in the file how far they follow the tail (`bend`).
+/// The skin is the file's, except for the tail: its weights are the uniform cubic B-spline along it, four joints at a time. Weights that
+/// reach back over the base go to the body. The file's attribute `bend` says how much a vertex follows the tail.
 #include "model/fox.h"
 #include "base/embedded.h"
 #include "base/need.h"
@@ -44,10 +44,10 @@ static void read_asset(void)
     char *data = need(file->size + 1, 1);
     memcpy(data, file->data, file->size + 1);
     if (!gltf_read_bytes(file->name, data, file->size, &asset, &error))
-        need_failed(); // it is ours, so memory was short
+        need_failed(); // our own file is good, so memory ran out
 }
 
-/// Adds a weight, and how it changes along the tail, to a vertex's joint.
+/// Adds a weight, and its slope along the tail, for a vertex's joint.
 static void add_influence(struct gltf_part *part, int vertex, int joint, float weight, float slope)
 {
     uint16_t *joints = part->joints[vertex];
@@ -60,7 +60,7 @@ static void add_influence(struct gltf_part *part, int vertex, int joint, float w
     part->along[vertex][i] += slope;
 }
 
-/// Hangs a vertex `z` from the tail's base on it, as much as it follows the tail.
+/// Weights a vertex at `z` from the tail's base, by how much it follows the tail.
 static void hang_on_tail(struct gltf_part *part, int vertex, int joints)
 {
     const float segment = FOX_TAIL_LENGTH / (float)joints, bend = part->fur[vertex][0], by_metre = 0.5f / segment;
@@ -118,7 +118,7 @@ static void copy_mesh(const struct gltf_mesh *from, int joints, struct gltf_mesh
     for (int p = 0; p < from->part_count; p++) copy_part(&from->parts[p], joints, &mesh->parts[p]);
 }
 
-/// A node of the tail continues the one before, or the whole fox.
+/// A node of the tail is a child of the node before, or of the fox.
 static struct gltf_node make_joint(int n, int joints)
 {
     char name[32];
@@ -131,7 +131,7 @@ static struct gltf_node make_joint(int n, int joints)
     return node;
 }
 
-/// The file's nodes but for the tail's, the last one showing the mesh; and the skin.
+/// The file's nodes without the tail's, the last one with the mesh; and the skin.
 static void make_skeleton(struct gltf *fox, int joints)
 {
     const int bones = FOX_FIRST_JOINT + joints;
@@ -176,12 +176,12 @@ void fox_create(int level, int joints, struct gltf *fox)
     make_skeleton(fox, joints);
 }
 
-// --- the parts of its body, and where it is
+// --- parts of the body, and their places
 
-static const double FEET = -0.30;                      ///< z that the body stretches above, bind space
-static const float neck[3] = {0.005f, 0.66f, -0.385f}; ///< what the head turns about, standing
-static const float HEAD_RADIUS = 0.50f;                ///< around the neck's joint, bind size: holds head and ears
-static const float SPLAY = 0.4f;                       ///< of an ear that is laid back
+static const double FEET = -0.30;                      ///< the body stretches above this z, bind space
+static const float neck[3] = {0.005f, 0.66f, -0.385f}; ///< pivot of the head, standing
+static const float HEAD_RADIUS = 0.50f;                ///< around the neck's joint, bind size: contains head and ears
+static const float SPLAY = 0.4f;                       ///< of an ear laid back
 
 const float limbs_chest[3] = {0, 0.44f, -0.44f};
 const float limbs_ear_root[3] = {0.088f, 0.10f, 0.015f}, limbs_ear_tip[3] = {0.152f, 0.292f, 0.02f};
@@ -192,7 +192,7 @@ const float fox_body_hi[3] = {0.36f, 1.16f - FOX_BASE_HEIGHT, 0.38f};
 
 const int limb_parents[LIMBS] = {-1, LIMB_BODY, LIMB_BODY, LIMB_HEAD, LIMB_HEAD, LIMB_EAR, LIMB_EAR + 1};
 
-/// Standing place → bind space.
+/// World place of the standing fox → bind space.
 static void into_bind(const float standing[3], float bind[3])
 {
     for (int k = 0; k < 3; k++) bind[k] = standing[k] - (k == 1 ? FOX_BASE_HEIGHT : 0.0f);
@@ -218,7 +218,7 @@ void limbs_base_slope(double stretch, double scale, double slope[3])
     slope[2] = 0.5 * scale * FEET * pow(1.0 + stretch, -1.5);
 }
 
-/// Middle of the head, how far it is turned to look back over its shoulder, and how far it is tilted (radians).
+/// Centre of the head, its turn to look over the shoulder, and its tilt (radians).
 static const float head_middle[3] = {0.01f, 0.80f, -0.385f};
 static const float HEAD_TURN = 1.35f; ///< about +y, towards the camera's first place
 static const float HEAD_TILT = 0.12f;
@@ -260,7 +260,7 @@ void limbs_pivots(float pivot[LIMBS][3])
     }
 }
 
-/// How each part moves against what it is attached to: turned (a unit quaternion x y z w), and before that scaled along bind space's axes.
+/// Each part's motion relative to its parent: a turn (unit quaternion x y z w) after scaling along bind space's axes.
 static void find_motions(const struct limbs *limbs, float turn[LIMBS][4], float size[LIMBS][3])
 {
     const mat4s into_head = head_from_bind();
@@ -324,18 +324,18 @@ void pose_bounds(const struct pose *pose, float lo[3], float hi[3])
     }
 }
 
-// --- where it keeps the lamp from the ground
+// --- shadows
 
-/// Below this a blob changes no pixel.
+/// A weaker blob changes no pixel.
 #define STRENGTH_SEEN 0.02f
 
 /// Samples along the tail, and the height at which its shadow has faded to 1/e (bind size, metres).
 enum { TAIL_BLOBS = 11 };
 #define FADE_HEIGHT 0.45f
-#define BODY_FADE_HEIGHT 0.35f /* the same of a body that hops */
+#define BODY_FADE_HEIGHT 0.35f /* likewise for the body of a hopping fox */
 
-/// What the animal keeps the light from, bind space, and at which height: rump, chest, and where each hind foot and fore paw touches the
-/// ground; then chest, neck and head.
+/// The parts that cast shadow, in bind space, with heights: rump, chest, and the ground contact of each hind foot and fore paw; then chest,
+/// neck and head.
 static const struct {
     struct shadow_blob blob;
     float height;
@@ -347,10 +347,10 @@ static const struct {
     {{0.01f, -0.40f, 0.29f, 0.30f}, 0.80f},
 };
 
-/// How far the lamp's light goes sideways for each metre down.
+/// How far the lamp's light moves sideways per metre down.
 static vec2s slope_of(const float from[3])
 {
-    const float down = fmaxf(from[1], 0.3f); // a low lamp throws no endless shadow
+    const float down = fmaxf(from[1], 0.3f); // so that a low lamp's shadow is not endless
     return (vec2s){{-from[0] / down, -from[2] / down}};
 }
 

@@ -1,4 +1,4 @@
-/// Opens .glb and .gltf files, and what they keep in files beside them and in data URIs; and reads the numbers that accessors find.
+/// Opens .glb and .gltf files with their external files and data URIs; and reads accessors.
 #include "model/glb.h"
 #include "base/base64.h"
 #include "base/file.h"
@@ -28,8 +28,8 @@ static bool expected(const struct glb *glb, const char *what, struct error *erro
 static bool read_json(struct glb *glb, const char *text, size_t length, struct error *error)
 {
     json_error_t wrong;
-    while (length > 0 && text[length - 1] == '\0') length--; // how some writers fill a chunk up
-    // The JSON library reads over a NUL, where all else sees the end of the text.
+    while (length > 0 && text[length - 1] == '\0') length--; // padding by some writers
+    // The JSON library reads past a NUL, while all other code ends the text there.
     if (memchr(text, '\0', length))
         return fail(error, ERROR_INPUT, "%s: JSON: expected text, got a NUL byte", glb->path);
     glb->json = json_read(text, length, 0, &wrong);
@@ -101,7 +101,7 @@ int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise)
     return value >= 0 && value <= INT32_MAX ? (int64_t)value : -1;
 }
 
-// --- bytes outside of the chunk
+// --- bytes outside the chunk
 
 static bool read_data(const char *uri, struct glb_buffer *buffer, struct error *error)
 {
@@ -117,7 +117,7 @@ static bool read_data(const char *uri, struct glb_buffer *buffer, struct error *
     return fail(error, ERROR_INPUT, "expected base64, got something else");
 }
 
-/// "a%20b" → "a b"; false for an address, an absolute path, and what is no name of a file.
+/// "a%20b" → "a b"; false for an address, an absolute path, or no file name.
 static bool decode_name(const char *uri, char name[PATH_LIMIT])
 {
     size_t length = 0;
@@ -153,7 +153,7 @@ bool glb_read_uri(struct glb *glb, const char *uri, struct glb_buffer *buffer, s
     return true;
 }
 
-/// The buffer before number `index` that has the same file; NULL where none has.
+/// The buffer before number `index` that is the same file; NULL if there is none.
 static const struct glb_buffer *same_file(const struct glb *glb, const json_t *buffers, size_t index, const char *uri)
 {
     for (size_t i = 0; i < index && strncmp(uri, "data:", 5) != 0; i++) {
@@ -213,7 +213,7 @@ struct elements {
     bool normalised;
 };
 
-/// 0 for what is no type of glTF's.
+/// 0 if glTF has no such type.
 static int size_of_type(int64_t type)
 {
     const bool known = type >= NUMBER_INT8 && type <= NUMBER_FLOAT32 && type != NUMBER_INT32;
@@ -250,7 +250,7 @@ bool glb_bytes(const struct glb *glb, const json_t *view, struct glb_bytes *byte
     return true;
 }
 
-/// Finds `count` elements in the buffer view named by `place`, and checks that they lie within it.
+/// Finds `count` elements in the buffer view named by `place`, and checks that they lie inside.
 static bool find_elements(const struct glb *glb, const json_t *place, int64_t count, struct elements *e)
 {
     struct glb_bytes view;

@@ -7,17 +7,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- the vertices of the file: one for each pair of a vertex and its texture coordinates
+// --- the file's vertices: one for each pair of a vertex and its texture coordinates
 
-/// The character's vertices come first, in their order; copies of those with several texture coordinates follow.
+/// The character's vertices come first, in order; then copies of those with several texture coordinates.
 struct split {
     int count;
     uint32_t *source;  ///< per vertex of the file: the character's
-    uint32_t *indices; ///< as many as the character's, in their order
+    uint32_t *indices; ///< as many as the character's, in order
     float (*uv)[2];    ///< NULL: none
 };
 
-/// Vertices of the file by the character's: the first is its own number, `next` the next copy, 0 the end.
+/// The file's vertices by the character's: the first has its number, `next` is the next copy, 0 the end.
 struct chains {
     uint32_t *uv, *next;
 };

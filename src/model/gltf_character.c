@@ -1,5 +1,5 @@
-/// Makes and frees characters, and makes characters and surfaces of what glTF files hold: a character of the first mesh with morph targets,
-/// else of the first with triangles.
+/// Makes and frees characters; makes characters and surfaces from glTF files. A character is the first mesh with morph targets, else the
+/// first with triangles.
 #include "model/character.h"
 #include "model/gltf.h"
 #include "model/surface_readers.h"
@@ -9,7 +9,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/// Normals from the triangles, weighted by their area; (0, 1, 0) where there are none.
+/// Normals from triangles, weighted by area; (0, 1, 0) for a vertex without.
 static void compute_normals(struct character *c)
 {
     memset(c->normal, 0, (size_t)c->vertex_count * sizeof *c->normal);
@@ -99,7 +99,7 @@ static const struct gltf_mesh *choose_mesh(const struct gltf *gltf)
     return first;
 }
 
-/// The vertex of the character that a part's first one is; the next part's is in `next`.
+/// The character's vertex number of a part's first vertex; `next` receives the next part's.
 static int first_vertex(const struct gltf_part *part, int *next)
 {
     const int first = part->shared ? 0 : *next;
@@ -141,7 +141,7 @@ static void add_vertices(struct surface *s, int base, const struct gltf_part *pa
     }
 }
 
-/// The base colour and, where that takes no more than `room`, the bytes of its picture.
+/// The base colour and, if it takes at most `room`, the bytes of its picture.
 static bool copy_look(const struct gltf *gltf, int number, size_t room, struct looks_material *look)
 {
     const struct gltf_material *material = &gltf->materials[number];
@@ -155,7 +155,7 @@ static bool copy_look(const struct gltf *gltf, int number, size_t room, struct l
     return true;
 }
 
-/// Copies the materials into empty looks, with their pictures where these are PNG or JPEG. False where memory is short.
+/// Copies the materials into empty looks, with their PNG or JPEG pictures. False if memory is short.
 static bool copy_looks(const struct gltf *gltf, struct looks *looks)
 {
     size_t room = LOOKS_IMAGES_LIMIT;
@@ -231,7 +231,7 @@ static double real_of(const json_t *object, const char *key)
     return json_number_value(json_object_get(object, key));
 }
 
-/// What our extras say about a coordinate; NULL: nothing.
+/// The coordinate's entry in our extras, or NULL.
 static const json_t *known_of(const struct gltf_mesh *mesh, const char *name)
 {
     size_t i;
@@ -244,7 +244,7 @@ static const json_t *known_of(const struct gltf_mesh *mesh, const char *name)
     return NULL;
 }
 
-/// Takes a target's vectors. An export scales targets so that weights stay within 0 … 1.
+/// Reads a target's vectors. An export scales targets so that weights stay within 0 … 1.
 static void take_target(const struct gltf_mesh *mesh, int target, double sign, double scale, float (*vectors)[3])
 {
     int next = 0;
@@ -284,7 +284,7 @@ static bool take_coordinates(const struct gltf_mesh *mesh, struct character *c)
 
 // --- its place
 
-/// Puts a character where its node stands. A mirror turns the triangles round, and the normals with them.
+/// Moves a character to its node's place. A mirroring node reverses the triangles and their normals.
 static void place(struct character *c, mat4s m)
 {
     for (int i = 0; i < c->vertex_count; i++) {
@@ -296,14 +296,14 @@ static void place(struct character *c, mat4s m)
         }
     }
     for (int i = 0; glms_mat4_det(m) < 0 && i + 2 < c->index_count; i += 3) {
-        if (c->looks.joined) c->looks.joined[i / 3] = 0; // a fan that is turned round begins elsewhere
+        if (c->looks.joined) c->looks.joined[i / 3] = 0; // a reversed fan begins elsewhere
         uint32_t corner = c->indices[i + 1];
         c->indices[i + 1] = c->indices[i + 2];
         c->indices[i + 2] = corner;
     }
 }
 
-/// Where the first node has it that shows it. What no node moves stays as it is, to the last bit. False where memory is short.
+/// Moves it where the first node that shows it is. Without a node it stays exactly as it is. False if memory is short.
 static bool place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh, struct character *c)
 {
     struct gltf_pose rest;
@@ -318,7 +318,7 @@ static bool place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh,
     return true;
 }
 
-// --- all of it
+// --- the whole character
 
 static bool make_character(const struct gltf *gltf, const struct gltf_mesh *mesh, int coordinates,
                            struct character *c)
@@ -365,7 +365,7 @@ bool character_read(const char *path, struct character *character, struct error 
     return done;
 }
 
-// --- one surface of all that a file shows at rest
+// --- everything a file shows at rest, as one surface
 
 static uint32_t add_material(struct surface_builder *b, const struct gltf *gltf, int number)
 {

@@ -1,4 +1,4 @@
-/// Puts glTF files together.
+/// Assembles glTF files.
 #include "model/gltf_file.h"
 #include "base/base64.h"
 #include "base/json.h"
@@ -88,7 +88,7 @@ void gltf_file_bound(struct gltf_file *file, json_t *accessor, const float *numb
     gltf_set(file, accessor, "max", high);
 }
 
-/// Adds bytes up to a multiple of four, so that what follows is aligned.
+/// Pads the bytes to a multiple of four.
 static json_int_t add_view(struct gltf_file *file, const void *data, size_t size, int target)
 {
     if (!file->views) file->views = json_array();
@@ -145,7 +145,7 @@ static char *address_of(const struct gltf_file *file)
     return text;
 }
 
-/// Describes the buffer that the bytes are in, which other members of it outlive.
+/// Describes the buffer of the bytes; it must outlive other members.
 static void complete(struct gltf_file *file, json_t *root, bool binary)
 {
     json_t *buffers = json_object_get(root, "buffers");

@@ -1,11 +1,10 @@
-/// Reads materials: base colour, its texture, and what is transparent; and decodes pictures: PNG and JPEG from buffer views, data URIs and
-/// files.
+/// Reads materials: base colour, texture and transparency; and decodes PNG and JPEG pictures from buffer views, data URIs and files.
 #include "model/gltf_read.h"
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
-static _Thread_local bool starved; ///< the library, which says only what it was about
+static _Thread_local bool starved; ///< the picture library ran out of memory; it does not say so
 
 static void *noted(void *memory)
 {
@@ -13,11 +12,11 @@ static void *noted(void *memory)
     return memory;
 }
 
-// The implementation lives here and nowhere else; the library is not written for our warnings.
+// The implementation is included here only; it does not compile under our warnings.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wconversion"
 #pragma GCC diagnostic ignored "-Wshadow"
-#ifdef __clang__ // which fuzzes: of a broken JPEG the library's numbers wrap; what it does to memory is checked all the same
+#ifdef __clang__ // for fuzzing: in a broken JPEG the library's numbers wrap; memory errors are still found
 #pragma clang attribute push(__attribute__((no_sanitize("shift", "signed-integer-overflow"))), apply_to = function)
 #endif
 #define STB_IMAGE_IMPLEMENTATION
@@ -25,7 +24,7 @@ static void *noted(void *memory)
 #define STBI_ONLY_PNG
 #define STBI_ONLY_JPEG
 #define STBI_MAX_DIMENSIONS 16384
-// A scan may name a table that the file does not have: it is then of zeros, not of what lay there before.
+// A scan may name a table that the file lacks. Then it is zeros, and not old memory.
 #define STBI_MALLOC(size) noted(calloc(1, size))
 #define STBI_REALLOC(old, size) noted(realloc(old, size))
 #define STBI_FREE free
@@ -35,13 +34,13 @@ static void *noted(void *memory)
 #endif
 #pragma GCC diagnostic pop
 
-// --- what a picture must hold to before it is decoded: the chunks of a PNG (ISO 15948) and the segments of a JPEG (ITU T.81, annex B)
+// --- checks before decoding: the chunks of a PNG (ISO 15948) and the segments of a JPEG (ITU T.81, annex B)
 
 enum { MARKER = 0xFF, START = 0xD8, END = 0xD9, FIRST_RESTART = 0xD0, HUFFMAN_TABLES = 0xC4 };
 enum { LENGTHS = 16, MOST_CODES = 256 };
 enum { SIGNATURE = 8, CHUNK_HEAD = 8, CHUNK_TAIL = 4 };
 
-/// A segment's tables: a byte that names it, how many codes there are of each length, the codes.
+/// A segment's tables: an identifying byte, the number of codes of each length, the codes.
 static bool tables_fit(const unsigned char *at, const unsigned char *end)
 {
     while (at < end) {
@@ -54,7 +53,7 @@ static bool tables_fit(const unsigned char *at, const unsigned char *end)
     return true;
 }
 
-/// Behind the next marker, or NULL. What is no marker lies between, as coded samples do.
+/// The position after the next marker, or NULL. Coded samples may lie between.
 static const unsigned char *next_marker(const unsigned char *at, const unsigned char *end, int *marker)
 {
     at = memchr(at, MARKER, (size_t)(end - at));
@@ -93,21 +92,21 @@ static bool png_is_sound(const unsigned char *at, const unsigned char *end)
     return true;
 }
 
-/// Whether a PNG's chunks end within the file and its data does not begin with an empty one, and a JPEG's Huffman tables within their
-/// segments and have 256 codes at most: stb_image takes memory for what a chunk claims, copies an empty one to nowhere, and up to 2.28
-/// writes past its tables. True of what is neither.
+/// Guards against stb_image. A PNG's chunks must end within the file and its data must not begin with an empty one; a JPEG's Huffman tables
+/// must lie within their segments and have at most 256 codes. Otherwise it allocates what a chunk claims, copies an empty one to nowhere,
+/// and up to 2.28 writes past its tables. True for other formats.
 static bool is_sound(const unsigned char *bytes, size_t size)
 {
     if (size >= SIGNATURE && memcmp(bytes, "\x89PNG", 4) == 0) return png_is_sound(bytes, bytes + size);
-    if (size > 0 && bytes[0] == MARKER) return jpeg_is_sound(bytes, bytes + size); // its start may be filled up
+    if (size > 0 && bytes[0] == MARKER) return jpeg_is_sound(bytes, bytes + size); // may begin with padding
     return true;
 }
 
 // --- pictures
 
-enum { PIXELS_A_BYTE = 8256 }; // what deflate packs into a byte at most, at a bit a pixel
+enum { PIXELS_A_BYTE = 8256 }; // the most that deflate packs into a byte, at one bit per pixel
 
-/// The encoded bytes. `why` says what is wrong with them.
+/// The encoded bytes. `why` receives the error.
 static bool find_bytes(struct gltf_reader *r, const json_t *image, struct glb_buffer *bytes, struct error *why)
 {
     const char *uri = json_string_value(json_object_get(image, "uri"));
@@ -141,7 +140,7 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
     return starved ? fail_starved(error) : fail(error, ERROR_INPUT, "%s", stbi_failure_reason());
 }
 
-/// The name for people: the image's own, or its file's.
+/// The name to show: the image's own, or its file's.
 static const char *name_of(const json_t *image)
 {
     const char *name = json_string_value(json_object_get(image, "name"));
@@ -150,7 +149,7 @@ static const char *name_of(const json_t *image)
     return uri && strncmp(uri, "data:", 5) != 0 ? uri : "of no name";
 }
 
-/// Keeps the encoded bytes, and unless they are only stored, decodes them. `why` says why it cannot.
+/// Keeps the encoded bytes and, unless they are only stored, decodes them. `why` receives the error.
 static bool read_picture(struct gltf_reader *r, const json_t *json, struct gltf_image *image, struct error *why)
 {
     const char *name = json_string_value(json_object_get(json, "name"));
@@ -178,7 +177,7 @@ static bool read_picture(struct gltf_reader *r, const json_t *json, struct gltf_
     return fail_starved(why);
 }
 
-/// Puts an image of the file into gltf.images, once; −1 and named as not shown where it cannot be.
+/// Adds an image of the file to gltf.images once; −1, and it is listed as not shown, if that fails.
 static bool read_image(struct gltf_reader *r, int number, int *index)
 {
     const json_t *json = json_array_get(gltf_array(r, "images"), (size_t)number);
@@ -197,7 +196,7 @@ static bool read_image(struct gltf_reader *r, int number, int *index)
 
 // --- materials
 
-/// What a material may have that is not shown, where it lies and how it is called.
+/// Properties of a material that are not shown: their place and name.
 static const struct {
     const char *key, *name;
 } ignored[] = {
@@ -206,7 +205,7 @@ static const struct {
 static const struct gltf_sampler usual = {
     .wrap = {GLTF_REPEATED, GLTF_REPEATED}, .far = GLTF_READ_BETWEEN, .near = GLTF_READ_LINEAR};
 
-/// Sets a number of a sampler that glTF knows. What another program writes there besides does not keep a character from being shown.
+/// Sets a sampler's number that glTF knows. Unknown numbers by other programs are ignored.
 static void take(const json_t *json, const char *key, const int *known, int *number)
 {
     const int64_t value = glb_integer(json, key, *number);
@@ -257,7 +256,7 @@ static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_
     return source < 0 || read_image(r, source, &material->image);
 }
 
-/// The base colour, which the older of two ways of describing materials calls diffuse.
+/// The base colour; the older of two material descriptions calls it diffuse.
 static bool read_color(struct gltf_reader *r, const json_t *json, struct gltf_material *material, struct gltf_uv *uv)
 {
     const json_t *metal = json_object_get(json, "pbrMetallicRoughness"),
@@ -272,7 +271,7 @@ static bool read_color(struct gltf_reader *r, const json_t *json, struct gltf_ma
            read_texture(r, json_object_get(gloss, "diffuseTexture"), uv, material);
 }
 
-/// A factor, which is 1 where it is missing.
+/// A factor, 1 if it is missing.
 static double number_of(const json_t *object, const char *key)
 {
     const json_t *number = json_object_get(object, key);

@@ -11,7 +11,7 @@ enum { LINES = 1, TRIANGLES = 4, STRIP = 5, FAN = 6 };
 
 // --- vertices
 
-/// The numbers of an attribute, as many as the part has vertices in the file.
+/// The numbers of an attribute, one element per vertex of the part in the file.
 static bool read_numbers(struct gltf_reader *r, const json_t *attributes, const char *name, int least, int most,
                          int count, struct glb_numbers *numbers)
 {
@@ -23,7 +23,7 @@ static bool read_numbers(struct gltf_reader *r, const json_t *attributes, const 
     return false;
 }
 
-/// An attribute as rows of `width` floats, in an array that stays NULL where it is missing. Of four, a missing fourth is 1.
+/// An attribute as rows of `width` floats; NULL if it is missing. A missing fourth component is 1.
 static bool read_rows(struct gltf_reader *r, const json_t *attributes, const char *name, int width, int count,
                       void *array)
 {
@@ -65,7 +65,7 @@ static bool read_four(struct gltf_reader *r, const json_t *attributes, int set, 
            gltf_bad(r, ".attributes.%s: expected numbers of joints, and weights from 0 to 1, got others", name[0]);
 }
 
-/// Weights whose sum is 1; a vertex without any follows its first joint.
+/// Makes weights sum to 1; a vertex without weights follows its first joint.
 static void share_out(uint16_t joints[GLTF_INFLUENCES], float weights[GLTF_INFLUENCES])
 {
     double sum = 0;
@@ -77,7 +77,7 @@ static void share_out(uint16_t joints[GLTF_INFLUENCES], float weights[GLTF_INFLU
     }
 }
 
-/// Joints and weights, up to eight a vertex.
+/// Joints and weights, up to eight per vertex.
 static bool read_influences(struct gltf_reader *r, const json_t *attributes, struct gltf_part *part)
 {
     if (!json_object_get(attributes, "JOINTS_0")) return true;
@@ -93,7 +93,7 @@ static void normalise(float (*normal)[3], int count)
 {
     for (int i = 0; normal && i < count; i++) {
         float length = glm_vec3_norm(normal[i]);
-        if (fabsf(length - 1) < 1e-6f) continue; // ours stay as they are, to the bit
+        if (fabsf(length - 1) < 1e-6f) continue; // already exact: keep the bits
         if (length > 0 && isfinite(length)) {
             glm_vec3_divs(normal[i], length, normal[i]);
         } else {
@@ -118,7 +118,7 @@ static bool read_targets(struct gltf_reader *r, const json_t *targets, int count
     return part->targets;
 }
 
-/// What the fox has and no standard names; in other files what is called so may be anything, and is left out unless it suits.
+/// The fox's own attributes, which glTF does not define. In other files these names may mean anything, so unsuitable ones are ignored.
 static bool read_coat(struct gltf_reader *r, const json_t *attributes, struct gltf_part *part)
 {
     static const char *const names[] = {"_MARK", "_FUR"};
@@ -134,7 +134,7 @@ static bool read_coat(struct gltf_reader *r, const json_t *attributes, struct gl
            read_rows(r, attributes, names[1], 2, part->vertex_count, &part->fur);
 }
 
-/// Reads the attributes and targets of a part's vertices, but for texture coordinates; what the file has not is NULL.
+/// Reads the attributes and targets of a part's vertices, except texture coordinates; missing ones are NULL.
 static bool read_vertices(struct gltf_reader *r, const json_t *primitive, int targets, struct gltf_part *part)
 {
     const json_t *attributes = json_object_get(primitive, "attributes");
@@ -148,7 +148,7 @@ static bool read_vertices(struct gltf_reader *r, const json_t *primitive, int ta
            read_targets(r, json_object_get(primitive, "targets"), targets, part);
 }
 
-/// Puts texture coordinates where the material has them on its texture (KHR_texture_transform).
+/// Moves texture coordinates to where the material has them on its texture (KHR_texture_transform).
 static void place_uv(const struct gltf_uv *uv, float (*at)[2], int count)
 {
     float c = cosf(uv->rotation), s = sinf(uv->rotation);
@@ -172,7 +172,7 @@ static bool read_uv(struct gltf_reader *r, const json_t *attributes, struct gltf
 
 // --- triangles
 
-/// The corners as the file has them; in order where it has no indices.
+/// The corners in the file's order; without indices, in order of vertices.
 static bool read_corners(struct gltf_reader *r, const json_t *primitive, int vertices, uint32_t **corners, int *count)
 {
     struct glb_numbers numbers = {.count = vertices, .components = 1};
@@ -193,7 +193,7 @@ static bool read_corners(struct gltf_reader *r, const json_t *primitive, int ver
     return good;
 }
 
-/// The triangles of strips and fans, turned as glTF says; `corners` is used up.
+/// The triangles of strips and fans, oriented as glTF requires; `corners` is freed.
 static bool make_triangles(struct gltf_reader *r, int mode, uint32_t *corners, int count, struct gltf_part *part)
 {
     part->indices = corners;
@@ -213,7 +213,7 @@ static bool make_triangles(struct gltf_reader *r, int mode, uint32_t *corners, i
     return indices;
 }
 
-/// Leaves out triangles that name a vertex twice, by which strips jump.
+/// Leaves out triangles that name a vertex twice, with which strips jump.
 static void drop_repeats(struct gltf_part *part)
 {
     int kept = 0;
@@ -225,14 +225,14 @@ static void drop_repeats(struct gltf_part *part)
     part->index_count = kept;
 }
 
-/// Whether a primitive has the vertices of another, as ours with several materials do: then they are read once.
+/// Whether a primitive shares another's vertices, like ours with several materials: they are then read once.
 static bool shares(const json_t *primitive, const json_t *other)
 {
     return other && json_equal(json_object_get(primitive, "attributes"), json_object_get(other, "attributes")) &&
            json_equal(json_object_get(primitive, "targets"), json_object_get(other, "targets"));
 }
 
-/// The vertices of another part; its texture coordinates too, where both materials have them at the same place.
+/// Copies another part's vertices; its texture coordinates too, if both materials place them equally.
 static void share(const struct gltf_reader *r, struct gltf_part *part, const struct gltf_part *other)
 {
     const struct gltf_uv *uvs = r->uvs;
@@ -248,7 +248,7 @@ static void share(const struct gltf_reader *r, struct gltf_part *part, const str
     *part = shared;
 }
 
-/// How many vertices a primitive has in the file; false where they cannot be read.
+/// Number of a primitive's vertices in the file; false if unreadable.
 static bool count_in_file(struct gltf_reader *r, const json_t *attributes, int *count)
 {
     const int64_t accessor = glb_integer(attributes, "POSITION", -1);
@@ -265,7 +265,7 @@ static bool count_in_file(struct gltf_reader *r, const json_t *attributes, int *
     return true;
 }
 
-/// Gives each corner of a part a copy of its vertex's row, in an array that may be NULL.
+/// Expands an array to one row per corner; it may be NULL.
 static bool spread(struct gltf_reader *r, const struct gltf_part *part, void *array, size_t size)
 {
     char *old, *rows;
@@ -280,7 +280,7 @@ static bool spread(struct gltf_reader *r, const struct gltf_part *part, void *ar
     return true;
 }
 
-/// What glTF wants where there are no normals: each triangle with vertices of its own, and flat.
+/// Without normals glTF requires flat triangles, each with its own vertices.
 static bool flatten(struct gltf_reader *r, int targets, struct gltf_part *part)
 {
     bool done = spread(r, part, &part->position, sizeof *part->position) &&
@@ -303,7 +303,7 @@ static bool flatten(struct gltf_reader *r, int targets, struct gltf_part *part)
     return true;
 }
 
-/// Reads a primitive; `like` has the vertices of the mesh's first part, if there is one.
+/// Reads a primitive; `like` is the mesh's first part or NULL, whose vertices it may share.
 static bool read_part(struct gltf_reader *r, const json_t *primitive, const json_t *like, struct gltf_mesh *mesh,
                       struct gltf_part *part)
 {
@@ -334,7 +334,7 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, const json
     return (part->uv || read_uv(r, attributes, part)) && (!is_flat || flatten(r, mesh->target_count, part));
 }
 
-/// Whether a primitive has triangles; what else it has is named.
+/// Whether a primitive has triangles; lists it as not shown otherwise.
 static bool has_triangles(struct gltf_reader *r, const json_t *primitive, bool *shown)
 {
     const int64_t mode = glb_integer(primitive, "mode", TRIANGLES);

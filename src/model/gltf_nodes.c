@@ -1,4 +1,4 @@
-/// Reads nodes, their order and what the scene shows of them, skins, and animations.
+/// Reads nodes, their order and visibility, skins, and animations.
 #include "model/gltf_read.h"
 #include "model/vector.h"
 #include <math.h>
@@ -30,7 +30,7 @@ static bool read_node(struct gltf_reader *r, const json_t *json, size_t number)
            gltf_index(r, json, "skin", skins, &node->skin);
 }
 
-/// An element of an array that numbers a node.
+/// An element of an array of node indices.
 static bool read_member(struct gltf_reader *r, const json_t *element, const char *key, size_t i, int *node)
 {
     json_int_t value = json_is_integer(element) ? json_integer_value(element) : -1;
@@ -63,7 +63,7 @@ static bool read_parents(struct gltf_reader *r, const json_t *nodes)
     return true;
 }
 
-/// Roots, then the children of each that is in the list already. Nodes that are never reached go round in a circle.
+/// Roots first, then the children of nodes already listed. Nodes never reached form a cycle.
 static bool put_in_order(struct gltf_reader *r, const json_t *nodes)
 {
     struct gltf *gltf = r->gltf;
@@ -80,7 +80,7 @@ static bool put_in_order(struct gltf_reader *r, const json_t *nodes)
     return count == gltf->node_count || gltf_bad(r, ": expected a tree, got a node that is below itself");
 }
 
-/// Takes the meshes from nodes that the scene does not show. Without scenes all are shown.
+/// Removes the meshes of nodes that the scene does not show. Without scenes all are shown.
 static bool choose_scene(struct gltf_reader *r)
 {
     struct gltf *gltf = r->gltf;
@@ -120,7 +120,7 @@ static bool read_weights(struct gltf_reader *r, const json_t *nodes)
         struct gltf_node *node = &gltf->nodes[n];
         node->first_weight = (int)total;
         if (node->mesh >= 0) total += (size_t)gltf->meshes[node->mesh].target_count;
-        if (total > r->file.room / sizeof *gltf->weights) break; // gltf_make() says so
+        if (total > r->file.room / sizeof *gltf->weights) break; // gltf_make() reports it
     }
     gltf_at(r, "nodes");
     gltf->weights = gltf_make(r, total, sizeof *gltf->weights);
@@ -273,7 +273,7 @@ static bool read_sampler(struct gltf_reader *r, const json_t *sampler, struct gl
                     count, components);
 }
 
-/// Where the channel goes; false for a place that is not there or that clips leave alone.
+/// The channel's target; false if it does not exist or is not animated here.
 static bool find_target(const struct gltf *gltf, const char *path, struct gltf_channel *channel)
 {
     static const char *const names[] = {"translation", "rotation", "scale", "weights"};

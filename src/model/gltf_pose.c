@@ -1,5 +1,5 @@
-/// Poses of glTF characters: clips, the matrices of nodes and joints, their vertices, v′ = Σ wⱼ Jⱼ (v + Σ wₜ Δₜ v), with normals by the
-/// cofactors of the same matrix, and the boxes around them.
+/// Poses of glTF characters: clips, matrices of nodes and joints, the vertices v′ = Σ wⱼ Jⱼ (v + Σ wₜ Δₜ v), normals by the cofactors of the
+/// same matrix, and bounding boxes.
 #include "model/gltf.h"
 #include "model/vector.h"
 #include <math.h>
@@ -68,7 +68,7 @@ void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, in
 
 // --- vertices
 
-/// v + Σ w Δ; `targets` are those of positions or, from the same array, of normals.
+/// v + Σ w Δ; `targets` are those of positions or normals, from the same array.
 static void morph(const struct gltf_part *part, int target_count, const float *weights, bool normals, float (*out)[3])
 {
     memcpy(out, normals ? part->normal : part->position, (size_t)part->vertex_count * sizeof *out);
@@ -97,7 +97,7 @@ static void move(const float m[16], float v[3])
     for (int k = 0; k < 3; k++) v[k] = m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k];
 }
 
-/// Makes of a vertex's matrix the deformation's gradient: as weights change along z, so does where the vertex goes.
+/// Turns a vertex's matrix into the deformation gradient: weights that change along z move the vertex, too.
 static void stretch(const float (*joints)[16], const uint16_t *joint, const float *along, const float at[3],
                     float m[16])
 {
@@ -154,7 +154,7 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
 // rotation goes along the great circle, the short way) or, with the tangents b_k out of and a_k into a key,
 //     (2s³ − 3s² + 1) v_k + T (s³ − 2s² + s) b_k + (3s² − 2s³) v_{k+1} + T (s³ − s²) a_{k+1}.
 
-/// The last key at or before a time; the first where there is none.
+/// The last key at or before a time, else the first.
 static int key_at(const struct gltf_channel *channel, double time)
 {
     int low = 0, high = channel->key_count;
@@ -175,7 +175,7 @@ static void normalise(float q[4])
     for (int k = 0; k < 4; k++) q[k] = length > 0 ? q[k] / length : (float)(k == 3);
 }
 
-/// From a to b, or to −b where that is nearer: both are the same rotation. cglm's own goes through zero where b is nearly −a.
+/// From a to b, or to −b if that is nearer: both are the same rotation. cglm's version passes zero if b is almost −a.
 static void slerp(const float a[4], const float b[4], float s, float out[4])
 {
     float cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
@@ -198,7 +198,7 @@ static void cubic(const float *key, int components, float s, float T, float *out
                  T * (s3 - s2) * arriving[k];
 }
 
-/// What a channel says at a time, as long as `components`.
+/// A channel's value at a time: `components` numbers.
 static void channel_at(const struct gltf_channel *channel, double time, float *out)
 {
     int key = key_at(channel, time), n = channel->components;
@@ -234,9 +234,9 @@ void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_
     }
 }
 
-// --- boxes around what each joint carries
+// --- a bounding box for each joint
 
-/// Adds a vertex, with the room that its morph targets may take it through.
+/// Adds a vertex with the range of its morph targets.
 static void add_vertex(struct gltf_box *box, const struct gltf_mesh *mesh, const struct gltf_part *part, int v)
 {
     for (int k = 0; k < 3; k++) {

@@ -1,4 +1,4 @@
-/// Reads a glTF character: what its parts have in common, and their order.
+/// Reads a glTF character: its parts in order, and what they share.
 #include "model/gltf_read.h"
 #include "model/vector.h"
 #include <math.h>
@@ -84,7 +84,7 @@ char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, s
 
 const json_t *gltf_array(const struct gltf_reader *r, const char *key) { return json_object_get(r->file.json, key); }
 
-/// Whether the list, whose names are separated by ", ", has this one.
+/// Whether a list of names separated by ", " contains this one.
 static bool listed(const char *list, const char *name)
 {
     size_t length = strlen(name);
@@ -137,7 +137,7 @@ static bool check_arrays(struct gltf_reader *r)
     return true;
 }
 
-/// Extensions whose content is shown, and those without which no mesh can be read.
+/// Extensions that are shown, and those without which a mesh is unreadable.
 static bool is_shown(const char *extension)
 {
     return !strcmp(extension, "KHR_mesh_quantization") || !strcmp(extension, "KHR_texture_transform") ||
@@ -174,7 +174,7 @@ static bool check_used(struct gltf_reader *r)
     return json_array_size(gltf_array(r, "cameras")) == 0 || gltf_not_shown(r, "cameras");
 }
 
-/// Nodes may show a mesh again and again.
+/// Nodes may show a mesh several times.
 static bool check_vertices(struct gltf_reader *r)
 {
     const size_t limit = r->file.room < VERTEX_LIMIT ? r->file.room : VERTEX_LIMIT;
@@ -193,7 +193,7 @@ static void widen(struct gltf *gltf, const float at[3])
     }
 }
 
-/// The box of all vertices at rest, or of the nodes where there are none.
+/// The box of all vertices at rest or, without vertices, of the nodes.
 static bool measure(struct gltf_reader *r)
 {
     struct gltf *gltf = r->gltf;
@@ -244,7 +244,7 @@ static bool read_all(struct gltf_reader *r)
            gltf_read_skins(r) && gltf_read_clips(r) && measure(r);
 }
 
-/// Reads what is open, if it is, and closes it.
+/// Reads the opened file, if it is open, and closes it.
 static bool read_open(struct gltf_reader *r, bool is_open)
 {
     *r->gltf = (struct gltf){0};

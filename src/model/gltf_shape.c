@@ -12,7 +12,7 @@ struct gltf_picture {
 
 // --- materials
 
-/// The texture of a picture, made where it is new.
+/// The texture of a picture, made if it is new.
 static json_int_t find_texture(struct gltf_looks *l, const struct looks_material *material, const char *kind)
 {
     const size_t count = json_array_size(l->textures);
@@ -56,11 +56,11 @@ static json_int_t plain_material(struct gltf_looks *l)
 
 // --- triangles
 
-/// The triangles of a fan from its corner number `turn` on, one corner of which each triangle begins with.
+/// The triangles of a fan starting at corner `turn`; every triangle begins with that corner.
 static size_t add_fan(const uint32_t *fan, size_t triangles, size_t turn, uint32_t *out)
 {
     const size_t count = triangles + 2;
-    // Corners of the fan: the first triangle's, and the last of each that follows.
+    // Corners of the fan: the first triangle's, then the last of each other.
     for (size_t t = 0; t < triangles; t++) {
         const size_t places[3] = {turn, turn + t + 1, turn + t + 2};
         for (int k = 0; k < 3; k++) {
@@ -71,7 +71,7 @@ static size_t add_fan(const uint32_t *fan, size_t triangles, size_t turn, uint32
     return 3 * triangles;
 }
 
-/// How many triangles from number `first` on are a polygon of one material.
+/// The number of triangles from `first` on that form a polygon of one material.
 static size_t polygon_at(const struct gltf_shape *shape, size_t first)
 {
     const struct looks *looks = shape->looks;
@@ -89,7 +89,7 @@ static uint32_t material_of(const struct looks *looks, size_t triangle)
     return looks->material[triangle];
 }
 
-/// The corners of one material; returns how many. Of two polygons in a row each begins elsewhere, so that they are told apart.
+/// The corners of one material; returns how many. Successive polygons begin at different corners, so that readers can tell them apart.
 static size_t collect(const struct gltf_shape *shape, uint32_t material, uint32_t *corners)
 {
     const bool polygons = shape->looks && shape->looks->joined;
@@ -118,7 +118,7 @@ static void add_primitive(struct gltf_looks *l, json_t *primitives, const struct
     gltf_append(l->file, primitives, primitive);
 }
 
-/// A primitive for each material that triangles have, and one for those without.
+/// A primitive per material of the triangles, and one for triangles without.
 static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *shape, json_t *attributes,
                                json_t *targets)
 {
@@ -144,7 +144,7 @@ static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *sh
 
 // --- vertices
 
-/// A copy of vectors for the vertices of the file, times `scale`, within [lowest, highest].
+/// A copy of vectors for the file's vertices, times `scale`, within [lowest, highest].
 static json_int_t add_vectors(struct gltf_looks *l, const struct gltf_shape *shape, const float (*vectors)[3],
                               float scale, const float range[2], bool bounds)
 {
@@ -205,7 +205,7 @@ static json_t *make_targets(struct gltf_looks *l, const struct gltf_shape *shape
     return targets;
 }
 
-/// What model/character.h reads: the names of the targets, and what is known of each coordinate.
+/// The extras that model/character.h reads: names of targets and properties of each coordinate.
 static json_t *make_extras(struct gltf_looks *l, const struct gltf_shape *shape)
 {
     json_t *names = json_array(), *coordinates = json_array();

@@ -1,4 +1,4 @@
-/// Reads and writes motions: each format has a reader of its header and a writer of its start.
+/// Reads and writes motions: for each format a reader of its header and a writer of its start.
 #include "model/motion.h"
 #include "base/npy.h"
 #include <errno.h>
@@ -13,9 +13,9 @@ _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "the files' numbers ar
 
 enum { PC2_HEADER = 32, MDD_HEADER = 8 };
 
-static const char pc2_magic[12] = "POINTCACHE2"; ///< begins a PC2 file
+static const char pc2_magic[12] = "POINTCACHE2"; ///< first bytes of a PC2 file
 
-/// Reads exactly `count` bytes at `offset`; a file that ends before is an error.
+/// Reads exactly `count` bytes at `offset`; a shorter file is an error.
 static bool read_at(const struct motion *m, int64_t offset, void *bytes, size_t count, struct error *error)
 {
     for (size_t done = 0; done < count;) {
@@ -30,7 +30,7 @@ static bool read_at(const struct motion *m, int64_t offset, void *bytes, size_t 
     return true;
 }
 
-/// Counts of a header: such that 3 · vertices is one too.
+/// Checks a header's counts: 3 · vertices must fit, too.
 static bool set_counts(struct motion *m, int64_t frames, int64_t vertices, struct error *error)
 {
     if (frames < 1 || frames > INT32_MAX || vertices < 1 || vertices > INT32_MAX / 3)
@@ -41,13 +41,13 @@ static bool set_counts(struct motion *m, int64_t frames, int64_t vertices, struc
     return true;
 }
 
-/// Sets the strides of numbers in C order and checks that the file has them all.
+/// Sets the strides of numbers in C order and checks that the file is long enough.
 static bool set_layout(struct motion *m, int64_t size, struct error *error)
 {
     m->strides[2] = m->number_size;
     m->strides[1] = 3 * m->strides[2];
     m->strides[0] = m->vertices * m->strides[1];
-    int64_t room = (size - m->data) / m->strides[0]; // whole frames; the product might overflow
+    int64_t room = (size - m->data) / m->strides[0]; // in frames, because the product might overflow
     if (size >= m->data && room >= m->frames) return true;
     return fail(error, ERROR_INPUT, "%s: expected %d frames of %d vertices, got a file that ends in frame %lld",
                 m->path, m->frames, m->vertices, (long long)(room > 0 ? room : 0));
@@ -64,8 +64,8 @@ static bool set_shape(struct motion *m, const struct npy *npy, struct error *err
     return set_counts(m, npy->lengths[0], flat ? npy->lengths[1] / 3 : npy->lengths[1], error);
 }
 
-/// Fortran order: the first index runs fastest. Of (frames, 3 vertices) vertex and coordinate are one index in which the
-/// coordinate runs faster.
+/// Fortran order: the first index runs fastest. In (frames, 3 vertices), vertex and coordinate are one index in which the coordinate runs
+/// faster.
 static void set_order(struct motion *m, const struct npy *npy)
 {
     int64_t column = (int64_t)m->number_size * m->frames;
@@ -125,7 +125,7 @@ static double time_at(const unsigned char *times, int frame)
     return (double)time;
 }
 
-/// Frames per second where the times are evenly apart, within a hundredth of a step (they are floats); else 0.
+/// Frames per second if the times are equally spaced to a hundredth of a step (they are floats); else 0.
 static double fps_of_times(const unsigned char *times, int frames)
 {
     double first = time_at(times, 0), step = (time_at(times, frames - 1) - first) / (frames - 1);
@@ -166,7 +166,7 @@ static bool read_header(struct motion *m, int64_t size, struct error *error)
     if (!read_at(m, 0, start, sizeof start, error)) return false;
     if (memcmp(start, npy_magic, sizeof npy_magic) == 0) return read_npy_header(m, size, error);
     if (memcmp(start, pc2_magic, sizeof pc2_magic) == 0) return read_pc2_header(m, size, error);
-    if (path_has_end(m->path, ".mdd")) return read_mdd_header(m, size, error); // it has no magic
+    if (path_has_end(m->path, ".mdd")) return read_mdd_header(m, size, error); // has no magic number
     return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got something else", m->path);
 }
 
@@ -210,10 +210,10 @@ static double real_at(const struct motion *m, const char *bytes)
     return number;
 }
 
-/// Turns a run of `count` numbers into doubles `stride` apart; returns the first that is not finite, or `count`.
+/// Converts `count` numbers to doubles `stride` apart; returns the index of the first that is not finite, or `count`.
 static int convert(const struct motion *m, const char *bytes, int count, double *out, size_t stride)
 {
-    double sum = 0; // stays 0 unless a number is not finite
+    double sum = 0; // stays 0 if all numbers are finite
     for (int i = 0; i < count; i++) {
         double number = real_at(m, bytes + (size_t)i * (size_t)m->number_size);
         out[(size_t)i * stride] = number;
@@ -232,7 +232,7 @@ static bool not_finite(const struct motion *m, int frame, int column, struct err
                 frame, column / 3);
 }
 
-/// A run of columns in each frame, as C order has them.
+/// A range of columns, frame by frame, for C order.
 static bool read_rows(const struct motion *m, int first, int count, char *bytes, double *slab, struct error *error)
 {
     size_t size = (size_t)count * (size_t)m->number_size;
@@ -245,7 +245,7 @@ static bool read_rows(const struct motion *m, int first, int count, char *bytes,
     return true;
 }
 
-/// All frames of one column after the other, as Fortran order has them.
+/// All frames of one column after the other, for Fortran order.
 static bool read_columns(const struct motion *m, int first, int count, char *bytes, double *slab, struct error *error)
 {
     size_t size = (size_t)m->frames * (size_t)m->number_size;

@@ -10,18 +10,18 @@
 #include <string.h>
 
 enum { TEXT_LIMIT = 16 << 20, SHOWN_MAX = 24, LIBRARY_NAME = 256 };
-enum { TELLING = 1 << 16 }; ///< lines between two words about how far it is
+enum { TELLING = 1 << 16 }; ///< lines between two progress reports
 
 /// A text being read, line by line.
 struct lines {
-    char *next, *line; ///< `line` is cut off the text with a NUL, without comments, continuations resolved
+    char *next, *line; ///< `line` ends with a NUL, without comments and with continuations joined
     int number;        ///< from 1
-    bool joins;        ///< a line that ends in a backslash goes on in the next one
+    bool joins;        ///< a line that ends in a backslash continues on the next
 };
 
 static char *skip_space(char *at) { return at + strspn(at, " \t\r"); }
 
-/// Cuts the next line off; false at the end of the text.
+/// Reads the next line; false at the end of the text.
 static bool next_line(struct lines *l)
 {
     if (!*l->next) return false;
@@ -43,7 +43,7 @@ static bool next_line(struct lines *l)
     return true;
 }
 
-/// What follows the line's first word if that is `word`; else NULL.
+/// The text after the line's first word if that is `word`; else NULL.
 static char *behind(const struct lines *l, const char *word)
 {
     char *at = skip_space(l->line);
@@ -51,7 +51,7 @@ static char *behind(const struct lines *l, const char *word)
     return strncmp(at, word, length) == 0 && strchr(" \t\r", at[length]) ? skip_space(at + length) : NULL;
 }
 
-/// The rest of a line: a name, which may have spaces.
+/// The rest of a line: a name, possibly with spaces.
 static char *name_at(char *at)
 {
     size_t length = strlen(at);
@@ -66,7 +66,7 @@ static void note(struct looks *looks, const char *name)
     if (!looks->left_out) looks->left_out = strdup(name);
 }
 
-/// A file named from the folder of another one; '\\' separates folders too.
+/// The path of a file named in another one's folder; '\\' separates folders, too.
 static bool read_beside(const char *path, const char *name, size_t limit, char **data, size_t *size)
 {
     char folder[PATH_LIMIT], plain[PATH_LIMIT], place[PATH_LIMIT];
@@ -77,7 +77,7 @@ static bool read_beside(const char *path, const char *name, size_t limit, char *
     return path_resolve(folder, plain, place) && file_read(place, limit, data, size, NULL);
 }
 
-/// What is left of a map's line behind its options, each of which has numbers or on/off behind it.
+/// The rest of a map's line after its options, each followed by numbers or on/off.
 static const char *map_name(const char *at)
 {
     while (*at == '-' && strchr(at, ' ')) {
@@ -119,7 +119,7 @@ static bool in_range(const char *text, float *value)
     return true;
 }
 
-/// Reads a line of a material, which are in a builder that has its name.
+/// Reads a line of a material; its builder has the name already.
 static void read_member(const char *path, const struct lines *l, struct looks *looks, struct looks_material *material)
 {
     char *at;
@@ -134,8 +134,8 @@ static void read_member(const char *path, const struct lines *l, struct looks *l
     }
 }
 
-/// Adds the materials of a file named from the folder of an OBJ file. What cannot be read, or is neither PNG nor JPEG, is left out and noted in
-/// the looks.
+/// Adds the materials of a file in an OBJ file's folder. Unreadable pictures, and those neither PNG nor JPEG, are left out and noted in the
+/// looks.
 static void read_materials(const char *obj_path, const char *name, struct surface_builder *builder)
 {
     struct looks *looks = &builder->surface->looks;
@@ -172,7 +172,7 @@ static bool expected(const struct reader *r, const char *what, const char *got)
     return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", r->path, r->lines.number, what, shown, got);
 }
 
-/// Up to `count` numbers; returns how many there are before the end of the line, -1 if a word is not a number.
+/// Up to `count` numbers; returns how many the line has, -1 if a word is not a number.
 static int read_numbers(const struct reader *r, char *at, double *numbers, int count)
 {
     for (int i = 0; i < count; i++) {
@@ -215,7 +215,7 @@ static bool read_uv(struct reader *r, char *at)
     return true;
 }
 
-/// The number of texture coordinates that follows a "/"; LOOKS_NONE where there are none such.
+/// The number of texture coordinates after a "/"; LOOKS_NONE if there is none.
 static uint32_t uv_of(const struct reader *r, const char *at)
 {
     const int count = r->builder->surface->looks.uv_count;
@@ -318,7 +318,7 @@ static bool write_materials(FILE *out, const char *obj_path, const struct looks 
     return true;
 }
 
-/// Writes the materials, and their pictures, beside an OBJ file; `name` is what the OBJ file calls them.
+/// Writes materials and pictures beside an OBJ file; `name` is the material file's name in it.
 static bool write_library(const char *obj_path, const struct looks *looks, char name[LIBRARY_NAME],
                           struct error *error)
 {
@@ -350,7 +350,7 @@ static void write_corner(FILE *out, const struct surface *s, int index)
     if (s->looks.corner && s->looks.corner[index] != LOOKS_NONE) fprintf(out, "/%u", s->looks.corner[index] + 1);
 }
 
-/// A polygon is a fan: each triangle that goes on with it adds its last corner.
+/// A polygon is a fan: each further triangle adds its last corner.
 static void write_faces(FILE *out, const struct surface *s)
 {
     const struct looks *looks = &s->looks;

@@ -1,4 +1,4 @@
-/// Reads OFF surfaces: OFF, and with colours (C), normals (N) and texture coordinates (ST) at vertices, as text.
+/// Reads OFF surfaces as text, with optional colours (C), normals (N) and texture coordinates (ST) at vertices.
 #include "model/surface_readers.h"
 #include <limits.h>
 #include <string.h>
@@ -12,7 +12,7 @@ struct off {
     long vertices, faces;
 };
 
-/// The word [ST][C][N]OFF, which may be missing.
+/// The word [ST][C][N]OFF, which is optional.
 static bool read_head(struct off *o)
 {
     long edges;
@@ -57,7 +57,7 @@ static bool read_vertex(struct off *o)
     return true;
 }
 
-/// n i j k … and perhaps a colour up to the end of the line
+/// n i j k … and possibly a colour up to the line's end
 static bool read_face(struct off *o)
 {
     long corners, vertex;

@@ -1,8 +1,7 @@
 /// Reads PLY surfaces, as text or binary in either byte order.
 ///
-/// A header lists elements, and the properties of each: one number, or a list with its length before it. Everything is read in the file's
-/// order, number by number; of vertices x y z, colours and texture coordinates are kept, of faces the list of their vertices, and of
-/// triangle strips the triangles.
+/// A header lists elements, and for each its properties: a number, or a list preceded by its length. Everything is read in the file's order,
+/// number by number. Kept are x y z, colours and texture coordinates of vertices, the vertex lists of faces, and the triangles of strips.
 #include "base/npy.h"
 #include "model/surface_readers.h"
 #include <limits.h>
@@ -14,7 +13,7 @@ enum format { TEXT, LITTLE, BIG };
 enum role { OTHER, X, Y, Z, RED, GREEN, BLUE, U, V, ROLES, CORNERS, STRIPS };
 
 struct property {
-    enum number_type count_type; ///< of a list's length; 0: one number
+    enum number_type count_type; ///< type of a list's length; 0: not a list
     enum number_type type;
     enum role role;
 };
@@ -28,7 +27,7 @@ struct element {
 };
 
 struct ply {
-    struct words *words; ///< of the header, then of the text
+    struct words *words; ///< in the header, then in the text
     enum format format;
     struct element elements[ELEMENTS_MAX];
     int element_count;
@@ -74,7 +73,7 @@ static bool read_type(struct words *w, enum number_type *type)
     return words_expected(w, "a type of numbers");
 }
 
-/// What a property is for, by its name.
+/// A property's role, by its name.
 static enum role read_role(struct words *w, bool of_vertices, bool list)
 {
     if (!of_vertices)
@@ -153,7 +152,7 @@ static bool read_header(struct ply *ply)
         } else if (words_take(w, "element")) {
             good = read_element(ply);
         } else if (words_more(w)) {
-            words_skip_line(w); // a comment, or what some program writes without that word
+            words_skip_line(w); // a comment, or another program's line without that word
         } else {
             good = words_expected(w, "a header that ends in end_header");
         }
@@ -167,7 +166,7 @@ static bool read_header(struct ply *ply)
 
 // --- numbers
 
-/// Infinity and NaN are refused where they are `used`; properties that are left out may have them.
+/// Infinity and NaN are refused if `used`; unused properties may have them.
 static bool next_number(struct ply *ply, enum number_type type, bool used, double *number)
 {
     struct words *w = ply->words;
@@ -190,7 +189,7 @@ struct strip {
     int length;
 };
 
-/// Adds the triangle that ends in this corner; −1 begins a new strip.
+/// Adds the triangle that ends at this corner; −1 begins a new strip.
 static void add_to_strip(struct surface_builder *b, struct strip *strip, long vertex)
 {
     if (vertex < 0) {

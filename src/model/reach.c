@@ -1,4 +1,4 @@
-/// Distances along a surface, by Dijkstra from a few starting points; and where a ray meets triangles.
+/// Distances along a surface, by Dijkstra from a few starting points; and where a ray hits triangles.
 #include "model/reach.h"
 #include "base/need.h"
 #include "model/vector.h"
@@ -81,7 +81,6 @@ static void offer(struct reach *reach, uint32_t vertex, float along)
     sift_up(reach, (int)vertex);
 }
 
-/// Where a spot is.
 static void spot_position(const struct surface_spot *spot, const float (*positions)[3], float out[3])
 {
     vec3s sum = glms_vec3_zero();
@@ -89,7 +88,7 @@ static void spot_position(const struct surface_spot *spot, const float (*positio
     glm_vec3_copy(sum.raw, out);
 }
 
-/// Forgets what was found before.
+/// Forgets earlier results.
 static void clear(struct reach *reach)
 {
     for (int i = 0; i < reach->count; i++)
@@ -136,7 +135,7 @@ void reach_find(struct reach *reach, const struct figure *figure, const struct s
 
 // --- rays
 
-static const float SLACK = 1e-4f; ///< of a triangle: rounding must not leave gaps between neighbours
+static const float SLACK = 1e-4f; ///< share of a triangle, so that rounding leaves no gaps between neighbours
 
 /// Möller and Trumbore 1997.
 float pick_triangle(const float *const corner[3], const float eye[3], const float direction[3], float uv[2])
@@ -145,7 +144,7 @@ float pick_triangle(const float *const corner[3], const float eye[3], const floa
     const vec3s side = glms_vec3_sub(vec3_from(corner[1]), first), other = glms_vec3_sub(vec3_from(corner[2]), first);
     const vec3s p = glms_vec3_cross(along, other);
     const float determinant = glms_vec3_dot(side, p);
-    if (!(determinant > 0.0f)) return -1; // edge on, or its back
+    if (!(determinant > 0.0f)) return -1; // edge on, or from behind
     const vec3s from = glms_vec3_sub(vec3_from(eye), first);
     uv[0] = glms_vec3_dot(from, p);
     const float slack = SLACK * determinant;

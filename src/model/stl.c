@@ -1,4 +1,4 @@
-/// Reads STL surfaces, text or binary. Triangles stand alone in the file: corners at the same place become one vertex.
+/// Reads STL surfaces, text or binary. The file's triangles are separate; corners at the same place become one vertex.
 #include "base/npy.h"
 #include "model/surface_readers.h"
 #include <math.h>
@@ -12,7 +12,7 @@ static void add_corner(struct surface_builder *b, const double position[3])
     builder_vertex(b, position);
 }
 
-/// facet normal … outer loop vertex x y z ×3 endloop endfacet: only the vertices and the ends of facets matter.
+/// facet normal … outer loop vertex x y z ×3 endloop endfacet: only vertices and ends of facets matter.
 static bool read_text(struct words *w, struct surface_builder *b)
 {
     double p[3];
@@ -28,7 +28,7 @@ static bool read_text(struct words *w, struct surface_builder *b)
                 return fail(w->error, ERROR_INPUT, "%s:%d: expected a facet of three vertices, got %d", w->path,
                             w->line, corners);
         } else if (words_take(w, "solid") || words_take(w, "endsolid")) {
-            words_skip_line(w); // behind it comes a name
+            words_skip_line(w); // skip the name
         } else if (!words_take(w, "facet") && !words_take(w, "outer") && !words_take(w, "endloop")) {
             if (!words_take(w, "normal") && !words_take(w, "loop")) return words_expected(w, "a facet");
             words_skip_line(w);
@@ -57,7 +57,7 @@ static bool read_binary(struct words *w, uint32_t count, struct surface_builder 
     return true;
 }
 
-/// Text begins with "solid"; but so do some binary files, whose size tells them.
+/// Text begins with "solid", but so do some binary files; their size identifies them.
 static bool read_either(struct words *w, struct surface_builder *b)
 {
     const size_t size = (size_t)(w->end - w->at);

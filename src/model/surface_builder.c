@@ -1,4 +1,4 @@
-/// What readers of surfaces share: grows surfaces vertex by vertex and polygon by polygon, and takes words and numbers from a text.
+/// Shared by the readers of surfaces: builds surfaces vertex by vertex and polygon by polygon, and splits text into words and numbers.
 #include "base/png.h"
 #include "model/adjacency.h"
 #include "model/surface_readers.h"
@@ -8,7 +8,7 @@
 
 enum { COUNT_LIMIT = 1 << 28, COLOR_LIMIT = 1000 };
 
-/// array[count] = *value, in an array that grows. The caller counts. Once there was no room, nothing is added any more.
+/// array[count] = *value, in an array that grows. The caller counts. After running out of memory nothing is added.
 static bool put(struct surface_builder *b, void *array, int count, int *capacity, const void *value, size_t size)
 {
     char *block;
@@ -141,12 +141,12 @@ void builder_merge(struct surface_builder *b)
     free(name);
 }
 
-/// Leaves out triangles that name a vertex twice. What is left of a polygon is one where it is a fan still.
+/// Leaves out triangles that name a vertex twice. The rest of a polygon stays a polygon if it is still a fan.
 static void drop_repeats(struct surface *s)
 {
     struct looks *looks = &s->looks;
     int kept = 0;
-    bool begun = false; // the polygon, by one that is kept
+    bool begun = false; // whether a triangle of the polygon was kept
     for (int t = 0; t < s->index_count / 3; t++) {
         const uint32_t *corner = s->indices + 3 * t;
         begun = begun && looks->joined[t];

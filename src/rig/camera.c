@@ -9,7 +9,7 @@
 #define MIN_DISTANCE 1e-4f
 #define MAX_DISTANCE 1e5f
 #define FIT_MARGIN 1.15f
-#define LEAST_HEIGHT 0.02f /* of the eye above the floor, as a share of its distance */
+#define LEAST_HEIGHT 0.02f /* least height of the eye above the floor, as a share of its distance */
 
 enum { EDGES = 12 }; ///< of a box
 
@@ -45,7 +45,7 @@ void camera_lamp(const struct camera *camera, float from[3])
     glm_vec3_copy(lamp.raw, from);
 }
 
-/// near and far scale with the distance, so that depth is equally precise at any size of scene.
+/// near and far scale with the distance, so that depth is equally precise for scenes of any size.
 void camera_matrices(const struct camera *camera, float aspect, float view[16], float projection[16], float eye[3])
 {
     const struct axes axes = camera_axes(camera);
@@ -71,7 +71,7 @@ void camera_matrices(const struct camera *camera, float aspect, float view[16], 
     projection[14] = 2.0f * far * near / (near - far);
 }
 
-/// Middle of one of the box's edges, relative to the middle of the box.
+/// The centre of an edge of the box, relative to the box's centre.
 static vec3s edge_middle(int edge, vec3s size)
 {
     vec3s middle;
@@ -85,8 +85,8 @@ static vec3s edge_middle(int edge, vec3s size)
     return middle;
 }
 
-/// Along one axis of the picture, with points at (across, depth towards the eye) from the target: how far away the
-/// eye must be to see all of them within `slope`, and where the target must move to see them in the middle.
+/// For one axis of the picture, with points at (across, depth towards the eye) from the target: how far the eye must be to see all of them
+/// within `slope`, and how to shift the target to centre them.
 static float fit_axis(const float across[EDGES], const float depth[EDGES], float slope, float *shift)
 {
     float high = -INFINITY, low = INFINITY;
@@ -98,9 +98,8 @@ static float fit_axis(const float across[EDGES], const float depth[EDGES], float
     return 0.5f * (high - low) / slope;
 }
 
-/// A point (u, w) is in view where |u − shift| ≤ slope·(distance − w), so distance ≥ (the largest u + slope·w less
-/// the smallest u − slope·w) / 2·slope, and shift is halfway. What swings fills the middle of its box, not the
-/// corners.
+/// A point (u, w) is in view if |u − shift| ≤ slope·(distance − w). So distance ≥ (max(u + slope·w) − min(u − slope·w)) / 2·slope, and shift
+/// is halfway. Swinging things fill the centre of their box, not its corners.
 void camera_fit(struct camera *camera, const float lo[3], const float hi[3], float aspect, float top)
 {
     const vec3s size = glms_vec3_sub(vec3_from(hi), vec3_from(lo));
@@ -119,15 +118,14 @@ void camera_fit(struct camera *camera, const float lo[3], const float hi[3], flo
     top = glm_clamp(top, 0.0f, 0.5f);
     const float high = fit_axis(up, depth, HALF_FIELD * (1.0f - top) / FIT_MARGIN, &shift_up);
     camera->distance = glm_clamp(fmaxf(wide, high), MIN_DISTANCE, MAX_DISTANCE);
-    shift_up += top * HALF_FIELD * camera->distance; // the middle of what is left free
+    shift_up += top * HALF_FIELD * camera->distance; // centre of the free part
     camera->floor = lo[1];
     vec3s target = glms_vec3_center(vec3_from(lo), vec3_from(hi));
     target = glms_vec3_muladds(axes.up, shift_up, glms_vec3_muladds(axes.right, shift_right, target));
     glm_vec3_copy(target.raw, camera->target);
 }
 
-/// Vectors, not matrices: drags on the screen end in documents, and cglm's matrix products round differently from one
-/// machine to the next.
+/// Vectors, not matrices: drags on the screen change documents, and cglm's matrix products round differently on different machines.
 bool camera_project(const float view[16], const float projection[16], const float viewport[4], const float world[3],
                     float screen[2])
 {
@@ -157,7 +155,7 @@ void camera_ray(const float view[16], const float projection[16], const float vi
     for (int k = 0; k < 3; k++) direction[k] = glms_vec3_dot(vec3_from(view + 4 * k), eye) / length;
 }
 
-/// Seen from below, the ground would hide nothing and lie over everything.
+/// From below, the ground would hide nothing and cover everything.
 static void stay_above_floor(struct camera *camera)
 {
     const float least = (camera->floor - camera->target[1]) / camera->distance + LEAST_HEIGHT;

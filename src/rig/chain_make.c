@@ -1,4 +1,4 @@
-/// Chains with splines of their own.
+/// Makes chains with their own splines.
 #include "rig/chain_make.h"
 #include "rig/strand.h"
 #include "scene/edit.h"
@@ -9,10 +9,10 @@
 
 enum { NAME_SIZE = 512 };
 
-static const double USUAL_LENGTH = 0.5, USUAL_FREQUENCY = 1.5; ///< longer ones swing slower, as a pendulum does
+static const double USUAL_LENGTH = 0.5, USUAL_FREQUENCY = 1.5; ///< longer chains swing slower, like a pendulum
 static const double SLOWEST = 0.8, FASTEST = 3.5, USUAL_DAMPING = 0.12;
 static const double WHOLE_LAG = 110;  ///< degrees from the first bone to the tip
-static const double WHOLE_BEND = 110; ///< degrees for 1 of a spline that knots direct
+static const double WHOLE_BEND = 110; ///< degrees for 1 of a spline whose knots set it
 static const double DEGREES = 57.29577951308232;
 
 static bool is_taken(const struct document *document, const char *name)
@@ -23,12 +23,12 @@ static bool is_taken(const struct document *document, const char *name)
     return false;
 }
 
-/// What a chain is called: its first bone's name without the number at its end, and a name of its own.
+/// A chain's name: its first bone's without the number at the end, made unique.
 static void name_chain(const struct document *document, const char *bone, char name[NAME_SIZE])
 {
     char other[BONE_NAME_SIZE];
     int length = (int)strnlen(bone, BONE_NAME_SIZE);
-    if (!bone_other_side(bone, other)) { // ear_1_L keeps all of it
+    if (!bone_other_side(bone, other)) { // ear_1_L keeps its whole name
         while (length > 1 && isdigit((unsigned char)bone[length - 1])) length--;
         while (length > 1 && strchr("_-. ", bone[length - 1])) length--;
     }
@@ -36,7 +36,7 @@ static void name_chain(const struct document *document, const char *bone, char n
     for (int n = 2; is_taken(document, name); n++) snprintf(name, NAME_SIZE, "%.*s %d", length, bone, n);
 }
 
-/// Metres along the bones at rest.
+/// Length along the bones at rest, metres.
 static double length_of(const struct imported *imported, const struct chain_bones *bones, double scale)
 {
     float point[ANGLES_MAX_JOINTS + 1][3];
@@ -51,11 +51,11 @@ static double length_of(const struct imported *imported, const struct chain_bone
 
 double chain_bend_a_metre(const struct imported *imported, const struct chain_bones *bones, double scale)
 {
-    // A bend of g at each of n bones takes the tip by g · length · (n + 1) / 2.
+    // A bend of g at each of n bones moves the tip by g · length · (n + 1) / 2.
     return DEGREES * 2 / (length_of(imported, bones, scale) * (bones->count + 1));
 }
 
-/// Whether the scene's range is the model's clip, once or several times.
+/// Whether the scene's range is one or several times the model's clip.
 static bool is_loop(const struct document *document, const struct model_rig *model, const struct gltf *gltf)
 {
     const int clip = model->clip ? gltf_find_clip(gltf, model->clip) : -1;
@@ -64,13 +64,13 @@ static bool is_loop(const struct document *document, const struct model_rig *mod
     return times > 0.5 && fabs(times - round(times)) < 1e-3;
 }
 
-/// What all splines of a new chain have in common.
+/// Properties shared by all splines of a new chain.
 struct plan {
     struct document *document;
     const struct chain_wish *wish;
-    char *model; ///< its name, or where it has none its file
+    char *model; ///< its name, else its file
     bool by_file;
-    char *chain, *from, *to; ///< the chain's name, its first bone and its last
+    char *chain, *from, *to; ///< the names of the chain, its first bone and its last
     double frequency, damping;
     bool loops;
 };
@@ -81,7 +81,7 @@ static bool set(const struct plan *plan, int spline, enum parameter parameter, s
     return edit_parameter(plan->document, spline, parameter, &param, error);
 }
 
-/// A spline for one axis, the last of the list.
+/// Appends a spline for one axis.
 static bool add_spline(const struct plan *plan, const char *axis, struct error *error)
 {
     char name[NAME_SIZE];
@@ -93,7 +93,7 @@ static bool add_spline(const struct plan *plan, const char *axis, struct error *
            set(plan, spline, PARAMETER_START, param_number(plan->loops ? WIGGLY_LOOP : WIGGLY_REST), error);
 }
 
-/// Lets a spline's equilibrium follow the tip of the stiff chain through the clip.
+/// Makes a spline's equilibrium follow the stiff chain's tip through the clip.
 static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, struct error *error)
 {
     struct joint_motion motion = {
@@ -122,7 +122,7 @@ static bool add_chain(const struct plan *plan, const struct chain *chain, int *r
     return edit_rig_add(plan->document, &contents, error);
 }
 
-/// Adds two splines, and the chain of so many bones that they bend, each by `bend` degrees.
+/// Adds two splines, and a chain of `bones` bones that each bend by `bend` degrees.
 static bool add_whole(const struct plan *plan, struct chain *chain, int bones, double bend, int *rig,
                       struct error *error)
 {

@@ -1,13 +1,13 @@
-/// The lowest vertices of a soft character, for its floor: a few samples at a time, so that most vertices are seen to stay above all of
-/// them at once.
+/// The lowest vertices of a soft character, for its floor: several samples at a time, so that most vertices can be excluded for all of them
+/// at once.
 #include "rig/posing_kind.h"
 #include "spline/wide.h"
 #include <math.h>
 
-/// Samples, and blocks of them, that are looked at together.
+/// Samples, and blocks of samples, that are processed together.
 enum { BLOCK = 16, ROW = LOW_POINT_ROW / BLOCK };
 
-/// A coordinate that is driven: its weights at every sample, the least and the largest of each block, and of all.
+/// A driven coordinate: its weights at every sample, and their range in each block and in all.
 struct driven {
     const struct coordinate *coordinate;
     double *re, *im;
@@ -15,10 +15,10 @@ struct driven {
     double re_all[2], im_all[2];
 };
 
-/// The lowest vertices found so far: of each sample how high it is and which, and of each block how high the highest of them is.
+/// The lowest vertices so far: per sample the height and index, per block the largest of these heights.
 struct lowest {
     double *height, *vertex, *highest;
-    int blocks; ///< whole rows of them
+    int blocks; ///< whole rows of blocks
 };
 
 static double *take(double **room, int count)
@@ -28,7 +28,7 @@ static double *take(double **room, int count)
     return taken;
 }
 
-/// z of a drive at every sample, as pose_character() has it; behind the last it stays.
+/// z of a drive at every sample, as in pose_character(); after the last sample it stays.
 static void find_weights(const struct drive *drive, const wiggly_curve *curve, int samples, struct driven *driven,
                          int room)
 {
@@ -69,12 +69,12 @@ static void drive(const struct coordinate *coordinate, const struct drive *drive
     find_ranges(driven->im, blocks, driven->im_range, driven->im_all);
 }
 
-/// How a vertex moves up with each coordinate: by a Re z − b Im z.
+/// A vertex's height by coordinate: a Re z − b Im z.
 struct moves {
     double at_rest, a[CHARACTER_MAX_DRIVES], b[CHARACTER_MAX_DRIVES];
 };
 
-/// How high a vertex is at least.
+/// A lower bound of a vertex's height.
 static double least_height(const struct driven *driven, int count, const struct moves *moves)
 {
     double least = moves->at_rest;
@@ -85,7 +85,7 @@ static double least_height(const struct driven *driven, int count, const struct 
     return least;
 }
 
-/// Marks blocks of a row in which a vertex may be lower than what has been found; whether there are any.
+/// Marks the blocks of a row in which a vertex may be lower than those found; returns whether there are any.
 WIDEST static bool may_be_low(const struct driven *driven, int count, const struct moves *moves, int from,
                               const double *restrict highest, bool *restrict may)
 {
@@ -101,7 +101,7 @@ WIDEST static bool may_be_low(const struct driven *driven, int count, const stru
     return any > 0;
 }
 
-/// Looks whether a vertex is the lowest at any sample of a block.
+/// Checks whether a vertex is the lowest at each sample of a block.
 WIDEST static bool look_at(const struct driven *driven, int count, const struct moves *moves, int vertex, int from,
                            double *restrict low, double *restrict lowest)
 {

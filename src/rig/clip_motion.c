@@ -9,7 +9,6 @@ enum { MEAN_STEPS = 120 }; ///< over a clip
 
 static const double DEGREES = 57.29577951308232;
 
-/// A joint that is followed.
 struct followed {
     const struct imported *imported;
     struct gltf_pose *pose;
@@ -17,11 +16,11 @@ struct followed {
     double duration;
     enum motion_of of;
     struct chain_axes axes;
-    double scale; ///< metres of the world in one of the file's
-    double seen;  ///< degrees at the last look, so that turns go on past half a turn
+    double scale; ///< metres in the world per unit of the file
+    double seen;  ///< last angle in degrees, so that turns continue past half a turn
 };
 
-/// The axes of the chain that is named, else those of a chain that points to the front.
+/// The axes of the named chain, else those of a chain that points to the front.
 static struct chain_axes axes_of(const struct document *document, const struct imported *imported, const char *name)
 {
     for (int r = 0; name && r < document->rig_count; r++) {
@@ -84,18 +83,18 @@ static double mean_of(struct followed *followed)
     return sum / MEAN_STEPS;
 }
 
-/// After how many samples the clip begins again exactly, or 0.
+/// Number of samples after which the clip repeats exactly, or 0.
 static int period_of(const struct document *document, double duration)
 {
     const double samples = duration / document_step(document);
     return samples >= 1 && samples < 1e6 && fabs(samples - round(samples)) < 1e-4 ? (int)round(samples) : 0;
 }
 
-/// Looks at a joint sample by sample, averaged over a frame to either side: clips are keyed on frames and straight between them, and
-/// each of their corners would kick the spline. What is left is the cubic B-spline of the keys.
+/// Samples a joint, averaged over a frame on either side: clips have keys on frames with straight lines between, and each corner would kick
+/// the spline. The result is the cubic B-spline of the keys.
 struct smoothing {
     int substeps;
-    double ring[2 * SCENE_MAX_SUBSTEPS]; ///< the samples around the one that is next
+    double ring[2 * SCENE_MAX_SUBSTEPS]; ///< samples around the next one
 };
 
 static double *raw(struct smoothing *smoothing, int sample)

@@ -13,9 +13,9 @@
 
 enum { STANDARD_FRAMES = 120, LEAST_FRAMES = 2, MOST_FRAMES = 100000 };
 
-static const double SMALLEST = 0.3, LARGEST = 4, USUAL = 1.6; ///< metres: characters in between keep their size
+static const double SMALLEST = 0.3, LARGEST = 4, USUAL = 1.6; ///< metres: characters between these keep their size
 
-/// Whether a file begins as a .glb does, whatever it is called.
+/// Whether a file begins like a .glb, whatever its name.
 static bool is_glb(const char *path)
 {
     char start[4] = "";
@@ -31,7 +31,7 @@ bool import_suits(const char *path)
     return path_has_end(path, ".glb") || path_has_end(path, ".gltf") || path_has_end(path, ".fbx") || is_glb(path);
 }
 
-/// How many keys of a clip lie on whole frames.
+/// Number of a clip's keys on whole frames.
 static int keys_on_frames(const struct gltf_clip *clip, double fps)
 {
     int count = 0;
@@ -58,7 +58,7 @@ static double frame_rate(const struct gltf_clip *clip)
     return best;
 }
 
-/// The scale, to one digit, that makes a tiny or huge character as tall as others; else 1.
+/// The scale, to one digit, that gives a tiny or huge character the usual size; else 1.
 static double scale_of(const struct gltf *gltf)
 {
     double size = 0;
@@ -74,7 +74,7 @@ static int last_frame(const struct gltf_clip *clip, double fps)
     return (int)fmin(fmax(round(clip->duration * fps), LEAST_FRAMES), MOST_FRAMES);
 }
 
-/// A coordinate's spline: the one that is handed in, or a new one that swings as the coordinate does, with a knot at frame 0.
+/// A coordinate's spline: the given one, or a new one with the coordinate's frequency and damping and a knot at frame 0.
 static int spline_for(struct document *document, int spline, const struct coordinate *coordinate, struct error *error)
 {
     const struct {
@@ -84,7 +84,7 @@ static int spline_for(struct document *document, int spline, const struct coordi
                  {PARAMETER_DAMPING, round(coordinate->damping * 1000) / 1000}};
     if (spline >= 0) return spline;
     const int added = document->spline_count;
-    const struct knot first = {.frame = document->first_frame, .value = 0.5}; // it swings at once
+    const struct knot first = {.frame = document->first_frame, .value = 0.5}; // so that it swings at once
     if (!edit_spline_add(document, -1, NULL, &first, error)) return -1;
     for (size_t i = 0; i < sizeof swing / sizeof swing[0]; i++) {
         const struct param value = param_number(swing[i].value);
@@ -105,7 +105,7 @@ static bool add_soft(struct document *document, char *file, int spline, const st
     return driver >= 0 && edit_rig_add(document, &rig, error);
 }
 
-/// A stiff one, or one with bones; frame rate and range of a document that is empty become its clip's.
+/// A stiff character, or one with bones. An empty document takes the clip's frame rate and range.
 static bool add_imported(struct document *document, char *file, const struct gltf *gltf, struct error *error)
 {
     const struct gltf_clip *clip = gltf->clip_count > 0 ? &gltf->clips[0] : NULL;

@@ -7,9 +7,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float SHORT_TIP = 0.1f; ///< of the character's height: a lone joint's
-static const float BESIDE = 0.1f; ///< of its length: a tail that ends nearer to its middle says nothing of its back
-static const float SHORT_SIBLING = 0.4f; ///< of the way from its parent: one of several, as an eye of a head
+static const float SHORT_TIP = 0.1f;     ///< share of the character's height: length of a lone joint's bone
+static const float BESIDE = 0.1f;        ///< share of its length: a tail that ends nearer to the middle shows no back
+static const float SHORT_SIBLING = 0.4f; ///< share of the way from its parent, for one of several bones, like an eye
 
 static void mark_joints(const struct gltf *gltf, bool *is_bone)
 {
@@ -21,7 +21,7 @@ static void mark_joints(const struct gltf *gltf, bool *is_bone)
 
 static vec3s place_of(const struct gltf_pose *pose, int node) { return vec3_from(pose->world[node] + 12); }
 
-/// Where a bone without a child ends: as far on as the one before is long, if that is one of a row.
+/// The end of a bone without a child: as far on as the bone before is long, if it has one.
 static struct bone tip_bone(const struct gltf *gltf, const struct gltf_pose *rest, int node, int parent_children)
 {
     const vec3s at = place_of(rest, node);
@@ -34,7 +34,7 @@ static struct bone tip_bone(const struct gltf *gltf, const struct gltf_pose *res
     return bone;
 }
 
-/// In the order of the file, so that a chain's are in a row.
+/// In the file's order, so that a chain's bones follow each other.
 static void list_bones(const struct gltf *gltf, const struct gltf_pose *rest, const bool *is_bone, int *children,
                        struct skeleton *skeleton)
 {
@@ -55,7 +55,7 @@ static void skeleton_create(const struct gltf *gltf, const struct gltf_pose *res
 {
     const size_t count = (size_t)gltf->node_count + 1;
     bool *is_bone = need_zeroed(count, sizeof *is_bone);
-    int *children = need_zeroed(count, sizeof *children); // that are bones
+    int *children = need_zeroed(count, sizeof *children); // child bones
     *skeleton = (struct skeleton){.bones = need_zeroed(2 * count, sizeof *skeleton->bones)};
     mark_joints(gltf, is_bone);
     list_bones(gltf, rest, is_bone, children, skeleton);
@@ -174,7 +174,7 @@ int chain_end(const struct gltf *gltf, int from, struct error *error)
 
 // --- pairs
 
-/// Whether a letter is a word of its own, as in ear.l, or as in earL.
+/// Whether a letter is a separate word, as in ear.l, or earL.
 static bool stands_alone(const char *name, size_t at)
 {
     const unsigned char before = at > 0 ? (unsigned char)name[at - 1] : ' ', letter = (unsigned char)name[at];

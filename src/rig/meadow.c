@@ -1,4 +1,4 @@
-/// Solves a meadow's reeds in one batch, and plants them.
+/// Solves a meadow's reeds in one batch, and places them.
 #include "rig/meadow.h"
 #include "base/hash.h"
 #include "base/need.h"
@@ -20,8 +20,8 @@ struct meadow {
     size_t number_capacity;
     wiggly_knot *knots;
     int knot_capacity;
-    uint64_t key;    ///< of what is solved; 0: nothing
-    uint64_t ground; ///< of where they are planted
+    uint64_t key;    ///< hash of what is solved; 0: nothing
+    uint64_t ground; ///< hash of the reeds' places
 };
 
 struct meadow *meadow_create(void) { return need_zeroed(1, sizeof(struct meadow)); }
@@ -65,15 +65,15 @@ static void make_room(struct meadow *m, int count, int samples, int knots)
     }
 }
 
-/// A number from 0 to 1 that the seed, the reed and `what` alone decide.
+/// A number from 0 to 1 that depends only on the seed, the reed and `what`.
 static float chance(int seed, int reed, int what)
 {
     const int key[] = {seed, reed, what};
     return (float)(hash_bytes(HASH_START, key, sizeof key) >> 40) * 0x1p-24f;
 }
 
-/// On a grid, each somewhere in its cell, so that they stand neither in rows nor in clumps. The grid's square is bent to the ellipse in
-/// it, which thins out towards its edge, and reeds are shorter there.
+/// On a grid, each at a random place in its cell, so that there are neither rows nor clumps. The grid's square is mapped to the ellipse inside
+/// it, thinner and with shorter reeds towards its edge.
 static struct reed plant(const struct meadow_rig *rig, int reed)
 {
     const double wide = rig->area[0], deep = rig->area[1];
@@ -82,7 +82,7 @@ static struct reed plant(const struct meadow_rig *rig, int reed)
     const float u = 2 * ((float)(reed % columns) + chance(rig->seed, reed, 0)) / (float)columns - 1;
     const float v = 2 * ((float)(reed / columns) + chance(rig->seed, reed, 1)) / (float)rows - 1;
     const float x = u * sqrtf(1 - v * v / 2), z = v * sqrtf(1 - u * u / 2), r2 = fminf(x * x + z * z, 1);
-    const float out = 0.65f + (0.35f - 0.15f * chance(rig->seed, reed, 5)) * r2 * r2; // its edge is ragged
+    const float out = 0.65f + (0.35f - 0.15f * chance(rig->seed, reed, 5)) * r2 * r2; // a ragged edge
     const float tall = (0.7f + 0.6f * chance(rig->seed, reed, 2)) * (1 - 0.5f * r2 * r2 * r2);
     return (struct reed){.place = {out * x * (float)wide / 2, 0, out * z * (float)deep / 2},
                          .height = tall * (float)rig->height,
@@ -107,7 +107,7 @@ static void describe(struct meadow *m, const struct meadow_rig *rig, const wiggl
     }
 }
 
-/// What their curves depend on: their spline, which changes with all that it follows, and how they vary.
+/// What the curves depend on: the spline, with all that it follows, and the variation.
 static uint64_t key_of(const struct meadow_rig *rig, const struct evaluation *evaluation)
 {
     const uint64_t *solved = &evaluation->revisions[rig->spline];

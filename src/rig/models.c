@@ -1,4 +1,4 @@
-/// Reads the models of a document's characters, and keeps them by path.
+/// Reads the models of a document's characters, and caches them by path.
 #include "rig/models.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -22,7 +22,7 @@ struct model_file {
     };
 };
 
-/// The models that were read, kept by path and read again only when the file has changed.
+/// A cache of models by path; a model is read again only if its file has changed.
 struct model_files {
     struct model_file **files;
     int count;
@@ -84,7 +84,7 @@ static struct model_file *read_file(const char *path, enum model_kind kind, stru
     return NULL;
 }
 
-/// Puts a file that was read in the place of an older one, or (`at` −1) adds it.
+/// Replaces an older file or, if `at` is −1, adds one.
 static void keep(struct model_files *files, int at, struct model_file *file)
 {
     if (at >= 0) {
@@ -96,7 +96,7 @@ static void keep(struct model_files *files, int at, struct model_file *file)
     files->files[files->count++] = file;
 }
 
-/// The model in a file, read again only if the file has changed; NULL with a sentence.
+/// The model in a file, read again only if the file has changed; NULL and an error if it cannot be read.
 static const struct model_file *obtain(struct model_files *files, const char *path, enum model_kind kind,
                                        struct error *error)
 {
@@ -116,15 +116,15 @@ static const struct model_file *obtain(struct model_files *files, const char *pa
 
 /// The model of one character.
 struct character_model {
-    const struct figure *plain; ///< one of the files'; NULL: it could not be read
-    struct painted *painted;    ///< NULL until somebody paints on it
-    uint64_t version;           ///< of the paint on it, 0: none
+    const struct figure *plain; ///< owned by one of the files; NULL: it could not be read
+    struct painted *painted;    ///< NULL until it is first painted
+    uint64_t version;           ///< of its paint, 0: none
 };
 
-/// An imported character of one rig, or the fox of a tail, and memory for its poses.
+/// An imported character of a rig, or the fox of a tail, and its poses.
 struct placed_model {
-    char *path;        ///< as the rig names it; NULL: it is a tail
-    int level, joints; ///< of a fox, as what follows
+    char *path;        ///< as in the rig; NULL: a tail
+    int level, joints; ///< of a fox
     struct imported *fox;
     const struct imported *imported; ///< NULL: it could not be read
     struct gltf_pose pose[2];        ///< [1] is shown
@@ -221,7 +221,7 @@ static bool resolve(const struct document *document, const char *model, char pat
     return path_resolve(document->folder, model, path) || fail(error, ERROR_INPUT, "%s: the path is too long", model);
 }
 
-/// Whether a rig's model has all points that are pinned, of `points`.
+/// Whether a rig's model, with `points` points, has all points that are pinned.
 static bool check_pins(const struct rig *rig, int points, struct error *error)
 {
     for (int i = 0; i < rig->pin_count; i++) {
@@ -233,7 +233,7 @@ static bool check_pins(const struct rig *rig, int points, struct error *error)
     return true;
 }
 
-/// The model of one rig, or NULL with a sentence; `error` is also set if the model does not suit the rig.
+/// The model of a rig; NULL and an error if it cannot be read. `error` is also set if it does not suit the rig.
 static const struct figure *find_figure(struct models *models, const struct document *document, const struct rig *of,
                                         struct error *error)
 {
@@ -247,7 +247,7 @@ static const struct figure *find_figure(struct models *models, const struct docu
     return figure;
 }
 
-/// Keeps the first of several sentences.
+/// Keeps the first of several errors.
 static void keep_first(struct error *first, const struct error *trouble)
 {
     if (first->kind == ERROR_NONE) *first = *trouble;
@@ -282,7 +282,7 @@ static bool make_poses(struct placed_model *placed, const struct imported *impor
     return gltf_pose_create(&imported->gltf, &placed->pose[0]) && gltf_pose_create(&imported->gltf, &placed->pose[1]);
 }
 
-/// Makes a fox anew where its tail's joints, or the number of tails, are others.
+/// Rebuilds a fox if its tail's joints or the number of tails have changed.
 static void update_tails(struct models *models, const struct document *document)
 {
     const int count = document_count_rigs(document, RIG_TAIL), level = fox_level(count);
@@ -303,7 +303,7 @@ static void update_tails(struct models *models, const struct document *document)
     }
 }
 
-/// Reads the model of one rig and makes room for its poses.
+/// Reads the model of a rig and allocates its poses.
 static bool place_model(struct models *models, const struct document *document, const struct model_rig *rig,
                         struct placed_model *placed, struct error *error)
 {
@@ -330,7 +330,7 @@ static void update_placed(struct models *models, const struct document *document
     }
 }
 
-/// Whether all chains find their bones, and pins theirs.
+/// Whether all chains find their bones, and pins their points.
 static bool check_chains(const struct models *models, const struct document *document, struct error *error)
 {
     for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
@@ -395,7 +395,6 @@ const struct figure *models_figure(const struct models *models, int character)
 
 uint64_t models_version(const struct models *models) { return models ? models->version : 0; }
 
-/// What is placed for a rig, or NULL.
 static struct placed_model *find_placed(const struct models *models, const struct document *document, int rig)
 {
     const bool is_tail = rig >= 0 && document->rigs[rig]->kind == RIG_TAIL;

@@ -1,7 +1,7 @@
 /// Points of tails and chains: where their joints end.
 ///
-/// With L the matrix that takes the frame of a joint, bent, into the world, a turn about an axis a of it moves a point that is r away from
-/// the joint, in that frame, by L (a × r). The axes are those that the turns behind each leave.
+/// Let L be the matrix from the frame of a bent joint to the world. A turn of the joint about an axis a moves a point at r from the joint, in
+/// that frame, by L (a × r). Each axis is the one left by the turns after it.
 #include "model/fox.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
@@ -33,7 +33,7 @@ static void add_bends(const struct path *path, int joint, const struct strand *s
     }
 }
 
-/// What a tail's base follows, and how it moves with the body's stretch; pinning_add_channel() takes percent for degrees.
+/// The motion of a tail's base, and how the body's stretch moves it; pinning_add_channel() takes percent for degrees.
 static void add_base(const struct posing *posing, int rig, const wiggly_value *values, const int *splines, int count,
                      pin_pull *c)
 {

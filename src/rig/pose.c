@@ -1,4 +1,4 @@
-/// Poses tails and chains, and the body that a tail is of.
+/// Poses tails and chains, and a tail's body.
 #include "model/fox.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
@@ -28,7 +28,7 @@ static const struct {
     [AXIS_BREATH] = {-15, 25}, [AXIS_STRETCH] = {-40, 40}, [AXIS_BLINK] = {0, 100},
 };
 
-/// Sum of the channels of an axis for a part's n-th joint, within the limits.
+/// Sum of an axis' channels for a part's n-th joint, within the limits.
 static double moved(const struct tail *tail, const wiggly_value *values, enum look look, enum axis axis, int n)
 {
     double sum = 0;
@@ -38,7 +38,7 @@ static double moved(const struct tail *tail, const wiggly_value *values, enum lo
     return fmin(fmax(sum, limits[axis].lowest), limits[axis].highest);
 }
 
-/// How the body's parts are moved, and how far that moves the tail's base, metres.
+/// The body parts' motion, and how far it moves the tail's base, metres.
 static struct limbs tail_limbs(const struct tail *tail, const wiggly_value *values, enum look look, double shift[3])
 {
     const double stretch = moved(tail, values, look, AXIS_STRETCH, 1) / 100;

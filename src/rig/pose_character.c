@@ -1,4 +1,4 @@
-/// Soft characters: the weights of their coordinates by the values of splines, and the vertices of their models as points that are pinned.
+/// Soft characters: coordinates' weights from splines' values, and the models' vertices as points for pins.
 #include "rig/posing_kind.h"
 #include <math.h>
 
@@ -47,7 +47,7 @@ static void add_product(const struct coordinate *coordinate, int vertex, const d
     }
 }
 
-/// How a spline moves a vertex: the sum over the coordinates that it drives of A e^{−j·lag} Ñ.
+/// How a spline moves a vertex: Σ A e^{−j·lag} Ñ over the coordinates that it drives.
 static void find_pull(const struct character_rig *rig, const struct figure *figure, int vertex, int spline,
                       pin_pull c)
 {
@@ -108,7 +108,7 @@ static double area_of(const struct figure *figure, const uint32_t corner[3])
     return hypot(hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]), u[0] * v[1] - u[1] * v[0]) / 2;
 }
 
-/// The coarse mesh has the shape, and a mean needs no more.
+/// The coarse mesh is enough for a mean.
 static void weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
     const struct character_rig *character = &posing->document->rigs[rig]->character;

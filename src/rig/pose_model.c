@@ -1,4 +1,4 @@
-/// Poses an imported character, or the fox of a tail: its clip, and what bends it on top.
+/// Poses an imported character, or a tail's fox: its clip, and the bends on top.
 #include "model/fox.h"
 #include "model/vector.h"
 #include "rig/posing_kind.h"
@@ -25,7 +25,7 @@ struct gltf_pose *posing_clip(const struct posing *posing, int rig, double posit
     return pose;
 }
 
-/// Its lowest point at rest stands on the rig's position.
+/// The lowest point at rest is at the rig's position.
 void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12])
 {
     const struct document *document = posing->document;
@@ -40,7 +40,7 @@ void posing_root(const struct posing *posing, int rig, const struct by_hand *by_
     root[10] -= model->scale * (double)imported->gltf.lo[1];
 }
 
-/// Moves the fox's body, and finds where it stands, as posing_root() does.
+/// Moves the fox's body, and finds its place, as posing_root() does.
 static float place_fox(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                        struct gltf_pose *pose, double root[12])
 {

@@ -1,4 +1,4 @@
-/// Poses any rig at any time, by its kind; and hands the scene what it solves from.
+/// Poses any rig at any time, by its kind; and provides what the scene needs for solving.
 #include "rig/posing.h"
 #include "rig/posing_kind.h"
 #include <string.h>
@@ -7,7 +7,7 @@
 const struct posing_functions *const posing_kinds[RIG_KINDS] = {RIG_KIND_LIST(POSING_ROW)};
 #undef POSING_ROW
 
-/// All that moves a rig by hand.
+/// Motion of a rig by hand.
 static void add_hands(const struct posing *posing, int rig, const struct by_hand *by_hand, struct by_hand *sum)
 {
     *sum = by_hand ? *by_hand : (struct by_hand){0};
@@ -48,9 +48,9 @@ void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3])
     posing_kinds[pose->kind]->bounds(pose, lo, hi);
 }
 
-// --- where a meadow is: its reeds are too many for a pose, and the stage asks for each by itself (meadow.h)
+// --- places of meadows: they have too many reeds for a pose, so the stage queries each reed (meadow.h)
 
-/// What reeds that lean over reach beyond their area, of their height.
+/// How far leaning reeds reach beyond their area, as a share of their height.
 static const double LEAN = 0.6, TALLEST = 1.3;
 
 static bool pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
@@ -77,7 +77,7 @@ static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
 
 const struct posing_functions meadow_posing = {pose, bounds, NULL};
 
-// --- what the scene solves from
+// --- for the scene
 
 void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c)
 {

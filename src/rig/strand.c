@@ -5,7 +5,7 @@
 #include "rig/posing_kind.h"
 #include <math.h>
 
-static const float UPRIGHT = 0.98f; ///< cosine against world up from which on a chain stands or hangs
+static const float UPRIGHT = 0.98f; ///< cosine against world up above which a chain stands or hangs
 
 static vec3s place_of(const float matrix[16]) { return vec3_from(matrix + 12); }
 
@@ -15,7 +15,7 @@ static mat3s into_bone(const struct imported *imported, int node)
     return mat3_inverse(glms_mat4_pick3(mat4_from(imported->rest.world[node])));
 }
 
-/// From the last bone to the tip at rest: where its first child is, else as far on as the bone before was long.
+/// From the last bone to the tip at rest: its first child's place, else as far on as the bone before was long.
 static vec3s last_way(const struct imported *imported, const struct chain_bones *bones)
 {
     const int last = bones->node[bones->count - 1], child = imported->gltf.nodes[last].child;
@@ -33,7 +33,7 @@ void chain_points_at_rest(const struct imported *imported, const struct chain_bo
     memcpy(point[bones->count], tip.raw, sizeof tip.raw);
 }
 
-/// Unit, from the first bone to the tip at rest.
+/// The unit vector from the first bone to the tip at rest.
 static vec3s direction(const struct imported *imported, const struct chain_bones *bones)
 {
     float point[ANGLES_MAX_JOINTS + 1][3];
@@ -42,7 +42,7 @@ static vec3s direction(const struct imported *imported, const struct chain_bones
     return glms_vec3_norm(along) > 0.0f ? glms_vec3_normalize(along) : (vec3s){.raw = {0, 0, 1}};
 }
 
-/// The part of a vector that is perpendicular to a unit one, as long as 1.
+/// The part of a vector perpendicular to a unit vector, normalised.
 static vec3s perpendicular(vec3s vector, vec3s along)
 {
     return glms_vec3_normalize(glms_vec3_muladds(along, -glms_vec3_dot(vector, along), vector));
@@ -55,8 +55,8 @@ static vec3s side_of(const struct imported *imported, const struct chain_bones *
     return perpendicular(fabsf(glms_vec3_dot(along, up)) > UPRIGHT ? front : up, along);
 }
 
-/// The mirror image of the twin's side axis: both must take the same one of up and front, and the mirror image of front is back
-/// where a pair stands apart along z.
+/// The mirror image of the twin's side axis. Both must use the same one of up and front, and the mirror image of front is back if the pair is
+/// apart along z.
 static vec3s mirrored_side(const struct imported *imported, const struct chain_bones *bones,
                            const struct chain_bones *twin)
 {
@@ -132,7 +132,7 @@ void strand_axes(const struct strand *strand, int joint, double axis[3][3])
     if (!strand->imported) return;
     const float *const about[] = {strand->axes.side, strand->axes.up, strand->axes.along};
     const mat3s inward = into_bone(strand->imported, strand->bones.node[joint]);
-    const float sign = glms_mat3_det(inward) < 0.0f ? -1.0f : 1.0f; // a mirrored frame turns the other way round
+    const float sign = glms_mat3_det(inward) < 0.0f ? -1.0f : 1.0f; // a mirrored frame turns the other way
     for (int a = 0; a < 3; a++) {
         const vec3s own = glms_vec3_scale(glms_mat3_mulv(inward, vec3_from(about[a])), sign);
         double length = 0;
@@ -258,7 +258,7 @@ static void place_nodes(struct path *path, const double root[12])
     for (int k = 0; k < 3; k++) path->end[k] += at[k];
 }
 
-/// The nodes from the root to a bone, as its clip has them. False where they are too many.
+/// The nodes from the root to a bone, posed by the clip. False if there are too many.
 static bool list_nodes(const struct imported *imported, const struct gltf_pose *pose, int last, struct path *path)
 {
     const struct gltf *gltf = &imported->gltf;
@@ -281,7 +281,7 @@ static bool list_nodes(const struct imported *imported, const struct gltf_pose *
     return true;
 }
 
-/// Bends the nodes that are a strand's.
+/// Bends the nodes of a strand.
 static void bend_nodes(const struct strand *strand, const wiggly_value *values, enum look look, struct path *path)
 {
     for (int i = 0, n = 0; i < path->count && n < strand->joints; i++) {
@@ -300,7 +300,7 @@ static void find_tip(const struct strand *strand, double tip[3])
     for (int k = 0; k < 3; k++) tip[k] = (double)own.raw[k];
 }
 
-/// Straight, along +z.
+/// A straight strand along +z.
 static void list_joints(const struct tail *tail, struct path *path)
 {
     const double segment = tail->length / tail->joints;

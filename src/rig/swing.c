@@ -1,18 +1,18 @@
-/// Steps a spline's response while its base is moved by hand.
+/// Steps a spline's response while you move its base by hand.
 #include "rig/swing.h"
 #include "rig/strand.h"
 #include "spline/poles.h"
 #include <math.h>
 
-static const double LEAST_DAMPING = 0.05; ///< a ratio, as in the cost of the start
-static const double STILL = 1e-4;         ///< metres of swing that nobody sees
+static const double LEAST_DAMPING = 0.05; ///< as in the cost of the start
+static const double STILL = 1e-4;         ///< metres of swing that are invisible
 static const double RADIANS = 0.017453292519943295;
 
 static cplx divide(cplx a, cplx b) { return cplx_scale(1 / cplx_norm(b), cplx_mul(a, cplx_conj(b))); }
 
 static cplx pole(const struct swing_filter *filter, int k) { return (cplx){filter->s[k][0], filter->s[k][1]}; }
 
-/// φ(t); where the poles are one, its limit t·e^{st}.
+/// φ(t); for equal poles the limit t·e^{st}.
 static cplx response(const struct swing_filter *filter, double t)
 {
     const cplx apart = cplx_sub(pole(filter, 0), pole(filter, 1));
@@ -47,7 +47,7 @@ bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_
     return true;
 }
 
-/// As the solver answers; the imaginary part at the end of the step, before the next kick.
+/// The solver's response, with the imaginary part at the end of the step, before the next kick.
 static void step_oscillator(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
 {
     const step_matrix m = oscillator_step(filter->of, dt);
@@ -96,7 +96,7 @@ bool swing_hangs(const struct channel *channels, int count, const struct channel
     return true;
 }
 
-/// Metres that the tip of a straight tail moves for a unit of the channel's spline: each joint turns what is behind it.
+/// Metres that a straight tail's tip moves per unit of the channel's spline: each joint turns everything after it.
 static double lever(const struct swing_arm *arm, const struct channel *channel)
 {
     double sum = 0;

@@ -1,5 +1,5 @@
-/// Many splines over threads: each thread has a solver of its own and takes the next few splines until none is left. Which thread
-/// solves which spline does not matter to the bits, because what a solver keeps does not.
+/// Solves many splines on several threads. Each thread has its own solver and takes the next few splines until none is left. Results do
+/// not depend on the thread, because a solver's caches change no bit of them.
 #include "spline/many.h"
 #include "spline/thread.h"
 #include <stdatomic.h>
@@ -9,7 +9,7 @@
 
 enum { MAX_THREADS = 256, AT_A_TIME = 16 };
 
-/// One call of wiggly_batch_solve(), or of wiggly_batch_solve_many().
+/// One call of wiggly_batch_solve() or wiggly_batch_solve_many().
 typedef struct job {
     const wiggly_many *many; ///< or NULL
     const wiggly_desc *desc; ///< of the many, one that was read
@@ -32,11 +32,11 @@ struct wiggly_batch {
     thread_lock lock;
     thread_signal given, done;
     job job;
-    atomic_int next; ///< spline to take
-    long round;      ///< number of the job; changes wake the workers
+    atomic_int next; ///< the next spline to solve
+    long round;      ///< number of the job; a change wakes the workers
     int busy;
     bool stop;
-    worker workers[]; ///< the first is the caller's
+    worker workers[]; ///< the first belongs to the caller's thread
 };
 
 static wiggly_status solve_one(const job *now, wiggly_solver *solver, int i)
@@ -90,7 +90,7 @@ static bool add_worker(wiggly_batch *batch, wiggly_solver *own)
     return true;
 }
 
-/// Bytes of everything but the solvers.
+/// Bytes of everything except the solvers.
 static size_t head_size(int threads) { return sizeof(wiggly_batch) + sizeof(worker) * (size_t)threads; }
 
 size_t wiggly_batch_memsize(int samples, int knots, int threads)
@@ -102,7 +102,7 @@ size_t wiggly_batch_memsize(int samples, int knots, int threads)
     return fits ? size : 0;
 }
 
-/// Lays a batch into zeroes and starts its threads.
+/// Sets up a batch in zeroed memory and starts its threads.
 static wiggly_status start(void *memory, int samples, int knots, int threads, bool owned, wiggly_batch **out)
 {
     wiggly_batch *batch = memory;

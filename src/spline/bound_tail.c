@@ -1,8 +1,8 @@
-/// Behind the last knot w moves by itself, w = e^{p…} w_L, until bounds press it: w = e^{p…} w_L + e. Re e is the real oscillator's spline
-/// from rest at L, Im e what turns with it.
+/// After the last knot w is free, w = e^{p…} w_L, until bounds push it: w = e^{p…} w_L + e. Re e is the real oscillator's spline from rest
+/// at L; Im e turns with it.
 //
-// e = G r: the filter run forward over the jets r, each of which costs weight |r|²/(h³|g|²). So what a push makes of e is
-// G W⁻¹ Gᵀ of it: the filter run backwards over what is pushed, and forward over what that makes of the jets.
+// e = G r is the filter run forward over the jets r, each of which costs weight |r|²/(h³|g|²). So a push f causes e = G W⁻¹ Gᵀ f: run the
+// filter backwards over f, scale, and run it forward.
 #include "spline/bound_tail.h"
 #include "spline/oscillator.h"
 #include <math.h>
@@ -66,7 +66,7 @@ void bound_tail_press(const bound_tail *tail, const tail_row *row, double push, 
 {
     const bool constant = poles_are_constant(&tail->desc);
     const step first = step_at(tail, tail->begin);
-    double after = 0, last = 0; // of the pressure at the samples two and one behind
+    double after = 0, last = 0; // pressure at the samples two and one ahead
     const int end = row->sample + 2 < tail->end ? row->sample + 2 : tail->end;
     step ahead = first, at = constant ? first : step_at(tail, end - 1);
     for (int i = end - 1; i > tail->begin; i--) {

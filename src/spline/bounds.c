@@ -1,11 +1,11 @@
-/// Bounds of a group: which of them press, on the pins' small dense system.
+/// Finds which bounds of a group push, on the small dense system of its pins.
 #include "spline/pin_group.h"
 #include "spline/symmetric.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/// Of what a bound's row answers to itself: what pins leave of less holds no digit.
+/// Smallest share of a bound's own response that the pins may leave; below, no digit is right.
 static const double lost = 64 * DBL_EPSILON;
 
 static double *reduced_row(const wiggly_group *g, int i)
@@ -13,7 +13,7 @@ static double *reduced_row(const wiggly_group *g, int i)
     return g->reduced + g->rows.count * (g->rows.fixed + i) + g->rows.fixed;
 }
 
-/// The search's conditions are the bounds, as λ moves them where it holds the pins: S' λ ≥ want'.
+/// The conditions of the search are the bounds; where λ holds the pins, they are S' λ ≥ want'.
 static bool begin(void *user)
 {
     wiggly_group *g = user;
@@ -25,7 +25,7 @@ static bool begin(void *user)
     return true;
 }
 
-/// With D the stiffness and E its root, (S'⁻¹ + D)⁻¹ = S' − S' E (1 + E S' E)⁻¹ E S'.
+/// With stiffness D and its root E, (S'⁻¹ + D)⁻¹ = S' − S' E (1 + E S' E)⁻¹ E S'.
 static bool factor(void *user, const double *stiffness)
 {
     wiggly_group *g = user;
@@ -54,7 +54,7 @@ static void solve(void *user, double *force)
     }
 }
 
-/// λ of the bounds that press, as equalities. It is right where none of them pulls, and no other is missed.
+/// λ with the pushing bounds as equalities. It is right if none of them pulls and no other bound is violated.
 static bool finish(void *user)
 {
     wiggly_group *g = user;
@@ -95,7 +95,7 @@ bool bounds_find_pushes(wiggly_group *g, double near_enough)
         for (int j = 0; j < i && j < fixed; j++) g->want[i] -= a[n * i + j] * g->want[j];
         if (i < fixed) g->want[i] /= a[n * i + i];
     }
-    for (int i = fixed; i < n; i++) { // in units of what each answers to itself; 0 where the pins say it already
+    for (int i = fixed; i < n; i++) { // in units of each bound's own response; 0 if the pins determine it
         const double own = a[n * i + i];
         g->scale[i - fixed] = own > lost * g->system[n * i + i] ? 1 / sqrt(own) : 0;
         g->want[i] *= g->scale[i - fixed];

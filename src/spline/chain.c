@@ -1,4 +1,4 @@
-/// The chain: solves a spline of constant parameters at its knots alone.
+/// The chain: solves a spline of constant parameters using only the states at its knots.
 //
 // With λ = a/2, the mean of the two poles, and the state s_k = (x_k, d_k), d_k = x_{k+1} − λ x_k (the envelope's step), a jet
 // row is one step of a linear system driven by the jet, whose eigenvalues λ ± δ are the poles:
@@ -7,33 +7,33 @@
 //                                          | δ²  λ |        | 1 |
 //
 // The least Σ|r|² that brings s_p to s_q in L steps is (s_q − F^L s_p)* W_L⁻¹ (s_q − F^L s_p), with the Gramian
-// W_L = Σ_{i<L} F^i B B* F^i*: a knot-free stretch is a 2×2 Hermitian form in its end states, exact at any length, because
-// W is a sum of positive terms. What is left are the states at the knots, where Re x is known: a block-tridiagonal system of
-// (Im x, Re d, Im d) a knot, in cubic and real mode of d alone (there it is the classical spline's tridiagonal system).
+// W_L = Σ_{i<L} F^i B B* F^i*. So a knot-free stretch is a 2×2 Hermitian form in its end states, exact at any length, because W is a sum
+// of positive terms. Unknown are only the states at the knots, where Re x is given: a block-tridiagonal system with (Im x, Re d, Im d) per
+// knot, in cubic and real mode d alone (there it is the classical spline's tridiagonal system).
 // Inside a stretch
 //
 //     x_{p+i} = [F^i s_p]_x + [W_i F*^{−i} μ]_x,     μ = F*^L ν,     ν = W_L⁻¹ (s_q − F^L s_p),
 //
-// a sum of four tabled columns a sample, the same for all stretches. F*^{−i} grows, and where the poles decay unlike each other it
-// costs digits: state and costate are taken anew every `run` samples, s_{p+k} = F^k s_p + W_k F*^{L−k} ν. After the last knot x runs free, or, where it
-// settles, d_L is a multiple of x_L and the last jet counts twice: as the last input's share of W is then a half, W_L − ½ B B*. The same holds
-// where a stretch ends in a still knot, in s = (0, 0); the next one begins there in (0, d), d costing 2 |d|².
+// a sum of four tabulated columns per sample, the same for all stretches. F*^{−i} grows, which costs digits if the poles decay differently.
+// So state and costate are computed anew every `run` samples, s_{p+k} = F^k s_p + W_k F*^{L−k} ν. After the last knot x is free, r = 0. If it
+// settles there, d_L is a multiple of x_L and the last jet counts twice: the last input's share of W is then a half, W_L − ½ B B*. The same
+// holds if a stretch ends in a still knot, with s = (0, 0); the next one begins there with (0, d), and d costs 2 |d|².
 //
-// A slope at s_q sees h times a speed, φ = Re(on_x x_q + on_d d_q − on_r r_q), where r_q is the last jet of the stretch before. Given
-// both ends that jet is ν_d = B* ν ± √(1 − V₁₁), so that with s = weight / (1 + weight |on_r|² (1 − V₁₁)) what the slope costs is
-// s (Re(on_x x_q + on_d d_q − on_r ν_d) − target)², a row of the two nodes alone. In the stretch it pulls r_q away from B* ν by
-// η = s (φ − target) on_r*, and the samples follow the costate ν − V B η, which is μ − C* B η where the stretch begins.
+// A slope at s_q acts on h times a speed, φ = Re(on_x x_q + on_d d_q − on_r r_q), where r_q is the last jet of the stretch before. Given both
+// ends, that jet is ν_d = B* ν ± √(1 − V₁₁). So with s = weight / (1 + weight |on_r|² (1 − V₁₁)) the slope costs
+// s (Re(on_x x_q + on_d d_q − on_r ν_d) − target)², a row of the two nodes alone. In the stretch it moves r_q from B* ν by
+// η = s (φ − target) on_r*, and the samples follow the costate ν − V B η, which is μ − C* B η at the stretch's start.
 #include "spline/chain.h"
 #include "spline/wide.h"
 #include <float.h>
 #include <math.h>
 
 enum { MAX_SWEEPS = 30 };
-enum { LONGEST_FOR_BAND = 1000 };    ///< samples up to which a weak system is left to the band, which knows its error
-static const double refined = 1e-13; ///< of the largest unknown
-static const double acceptable = 1e-6; ///< of the same: still a curve to show, though one that is said to be inexact
+enum { LONGEST_FOR_BAND = 1000 };      ///< samples up to which the band, which knows its error, solves weak systems
+static const double refined = 1e-13;   ///< of the largest unknown
+static const double acceptable = 1e-6; ///< likewise: still a curve to show, but reported as inexact
 
-/// Whether sums of tabled columns, none of them above 1e25, weighted with z stay finite; NaN is not tame.
+/// Whether sums of tabulated columns (each below 1e25) weighted with z stay finite; false for NaN.
 static bool is_tame(cplx z) { return fabs(z.re) < 1e250 && fabs(z.im) < 1e250; }
 
 double chain_slope_pull(const chain *c, const chain_node *node, cplx jet, double v11)
@@ -46,13 +46,13 @@ double chain_slope_pull(const chain *c, const chain_node *node, cplx jet, double
     return weight * (seen.re - node->slope);
 }
 
-/// What a slope at a stretch's last node adds to the jet there beside the costate ν_d: η of the top of this file.
+/// What a slope at a stretch's last node adds to the jet ν_d there: η at the top of this file.
 static cplx jet_of_slope(const chain *c, const chain_stretch *s, const chain_node *q, cplx nu_d)
 {
     return cplx_scale(chain_slope_pull(c, q, nu_d, s->form[FORM_V11]), cplx_conj(c->speed[q->view].on_r));
 }
 
-/// The costate ν of where a stretch ends.
+/// The costate ν at a stretch's end.
 static void costate_at_end(const chain *c, const chain_node *p, const chain_node *q, cplx nu[2])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
@@ -69,7 +69,7 @@ static void costate_at_end(const chain *c, const chain_node *p, const chain_node
     }
 }
 
-/// State and costate that a stretch begins with, where the costate is F*^L ν = C* s_q − P s_p.
+/// State and costate at a stretch's start; the costate is F*^L ν = C* s_q − P s_p.
 static void begin_real(const chain *c, const chain_node *p, const chain_node *q, cplx weight[4])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
@@ -108,7 +108,7 @@ static void begin_complex(const chain *c, const chain_node *p, const chain_node 
     }
 }
 
-/// The same at sample k of a stretch: F*^{L−k} ν, and F^k s_p + W_k of it.
+/// The same at sample k of a stretch: the costate F*^{L−k} ν, and the state F^k s_p + W_k F*^{L−k} ν.
 static void go_on(const chain *c, const chain_node *p, int left, int k, const cplx nu[2], cplx weight[4])
 {
     const chain_powers *t = &c->powers;
@@ -125,8 +125,8 @@ static void go_on(const chain *c, const chain_node *p, int left, int k, const cp
     weight[3] = n;
 }
 
-/// x of `count` samples inside a run from its sample `from` on: four columns of the tables, weighted with the state (x, d) and the
-/// costate that it starts from.
+/// x of `count` samples of a run, from its sample `from` on: four tabulated columns, weighted with the state (x, d) and the costate at the
+/// run's start.
 WIDEST static void fill_complex(const chain *c, const cplx weight[4], int from, int count, double *restrict re,
                                 double *restrict im)
 {
@@ -151,7 +151,7 @@ WIDEST static void fill_real(const chain *c, const cplx weight[4], int from, int
     for (int i = 0; i < count; i++) re[i] = (f0[i] * a + f1[i] * b) + (g0[i] * d + g1[i] * e);
 }
 
-/// Fills samples of a run, whole blocks where there is room up to `end`: what is behind them is filled later.
+/// Fills samples of a run, in whole blocks if they end by `end`; samples past the run are overwritten later.
 static void fill_samples(const chain *c, const cplx weight[4], int from, int count, int at, int end, double *re,
                          double *im)
 {
@@ -164,8 +164,7 @@ static void fill_samples(const chain *c, const cplx weight[4], int from, int cou
     }
 }
 
-/// A run that begins at sample `at`. Samples of a loop are counted from its first node on: what reaches beyond the end goes on at
-/// sample 0.
+/// A run that begins at sample `at`. A loop's samples are counted from its first node; those past the end continue at sample 0.
 static void fill_run(const chain *c, const cplx weight[4], int at, int count, double *re, double *im)
 {
     int end = c->cyclic && at < c->turned ? c->turned : c->count;
@@ -189,8 +188,8 @@ void chain_begin_run(const chain *c, const chain_node *p, const chain_node *q, i
     }
 }
 
-/// x from node p to before node q, into arrays (im NULL outside complex mode) that begin at the system's first sample. false where sums
-/// might overflow.
+/// x from node p up to node q, into arrays that begin at the system's first sample (im is NULL outside complex mode). False if sums might
+/// overflow.
 static bool fill_stretch(const chain *c, const chain_node *p, const chain_node *q, double *re, double *im)
 {
     const int n = c->stretches[p->stretch].length;
@@ -206,7 +205,7 @@ static bool fill_stretch(const chain *c, const chain_node *p, const chain_node *
     return tame;
 }
 
-/// x from the last node on, where nothing pulls: r = 0.
+/// x after the last node, where r = 0.
 static bool run_free(const chain *c, double *re, double *im)
 {
     const chain_node *last = &c->nodes[c->node_count - 1];
@@ -233,7 +232,7 @@ static double add_to_node(const chain *c, chain_node *node, const double *solved
     return fabs(x_im) + fabs(d_re) + fabs(d_im);
 }
 
-/// Adds the solved unknowns to the nodes; returns the largest of them.
+/// Adds the solution to the nodes; returns the largest unknown.
 static double take_solution(chain *c)
 {
     double largest = 0;
@@ -252,8 +251,8 @@ static double take_solution(chain *c)
     return largest;
 }
 
-/// Refines until the correction is in the last digits, or no longer shrinks: what is left then is the rounding of the poles
-/// themselves, on a system that amplifies it, and is the error. false where it does not get there.
+/// Refines until the correction is in the last digits or stops shrinking. What then remains is the rounding of the poles, amplified by the
+/// system; it is the error. False if the refinement does not converge.
 static bool refine(chain *c, double size)
 {
     double before = size;
@@ -277,7 +276,7 @@ static void change_filter(chain *c, cplx lambda, cplx delta2)
     chain_make_tables(c);
 }
 
-/// How far the nodes would be elsewhere if the poles, and with them the powers, were rounded otherwise, in size and in phase.
+/// How far the nodes would move if the poles, and so the powers, were rounded differently in magnitude and in phase.
 static double sensitivity(chain *c)
 {
     const cplx lambda = c->lambda, delta2 = c->delta2;
@@ -302,7 +301,7 @@ static double sensitivity(chain *c)
     return (c->is_complex ? 24 : 48) * change;
 }
 
-/// Everything unknown 0 at the nodes.
+/// Sets all unknowns of the nodes to 0.
 static void reset_nodes(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) {
@@ -316,14 +315,14 @@ static void reset_nodes(chain *c)
     }
 }
 
-/// What |x| of a cubic stays below from one node to the next: there, L samples apart, x is a cubic polynomial, its ends' line and
-/// r with r(0) = r(L) = 0, and |r| ≤ L (|u| + |v|) where u, v are the differences at the ends less the line's.
+/// A bound for |x| of a cubic between two nodes L samples apart. x is a cubic polynomial: the line between its ends plus r with
+/// r(0) = r(L) = 0, and |r| ≤ L (|u| + |v|), where u and v are the differences at the ends minus the line's.
 static double bound_of_piece(const chain_node *from, const chain_node *to, int length)
 {
     return 5 * (fabs(from->value) + fabs(to->value)) + length * (fabs(from->d_re) + fabs(to->d_re));
 }
 
-/// x from the solved nodes, everywhere. false where sums might overflow.
+/// x everywhere, from the solved nodes. False if sums might overflow.
 static bool fill(chain *c, double *x_re, double *x_im)
 {
     const chain_node *last = &c->nodes[c->node_count - 1];
@@ -348,15 +347,15 @@ static double largest_value(const chain *c)
 
 static bool must_refine(const chain *c)
 {
-    const double unrefined = 3e4; // beyond it an answer may miss the tolerance
+    const double unrefined = 3e4; // with more, an answer may miss the tolerance
     return c->rank == CHAIN_WEAK || c->loose || c->lost > unrefined;
 }
 
-/// What the factor's lost digits make of an x of that size; 0 where that is nothing worth telling.
+/// The error that the factor's lost digits cause in an x of that size; 0 if it is negligible.
 static double error_of(const chain *c, double size)
 {
     if (c->rank == CHAIN_WEAK || (c->im_weight > 0 && c->lost > TELLING_LOSS))
-        return 16 * DBL_EPSILON * sqrt(c->lost) * size; // refined: what is left is the coefficients' rounding
+        return 16 * DBL_EPSILON * sqrt(c->lost) * size; // after refinement only the coefficients' rounding remains
     if (c->loose) return 100 * DBL_EPSILON * c->lost * size;
     return c->lost > TELLING_LOSS ? 16 * DBL_EPSILON * c->lost * size : 0;
 }

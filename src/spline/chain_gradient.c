@@ -1,8 +1,8 @@
 /// The gradient at the chain's nodes, without squaring.
 //
-// −½ of the energy's gradient at the nodes, without squaring: a stretch that ends in s_q and would run freely to F s_p has the
-// mismatch ε = s_q − F s_p, which cancels to a small part of both and is summed in double-double. Its costate ν = V ε then pulls
-// with −ν at q and with +F* ν at p. (At the state where everything unknown is 0 nothing cancels: chain_pull_known().)
+// This is −½ of the energy's gradient. A stretch from s_p that ends in s_q has the mismatch ε = s_q − F s_p. It is a small difference of
+// both, so it is summed in double-double. Its costate ν = V ε then pulls with −ν at q and with +F* ν at p. (With all unknowns 0 nothing
+// cancels: chain_pull_known().)
 #include "spline/chain.h"
 #include "spline/dd.h"
 
@@ -26,14 +26,14 @@ void chain_pull(const chain *c, int j, cplx on_x, cplx on_d)
     right[0] += on_x.im, right[1] += on_d.re, right[2] += on_d.im;
 }
 
-/// A slope's pull on the state that it sees.
+/// A slope's pull on the state at its node.
 static void pull_speed(const chain *c, int j, double pulled)
 {
     const chain_speed *speed = &c->speed[c->nodes[j].view];
     chain_pull(c, j, cplx_scale(-pulled, cplx_conj(speed->on_x)), cplx_scale(-pulled, cplx_conj(speed->on_d)));
 }
 
-/// What the stretch from node j pulls, and the slope at its end, whose jet is the costate's second part.
+/// The pull of the stretch from node j and of the slope at its end, whose jet is the costate's second part.
 static void pull_stretch(const chain *c, int j)
 {
     const int next = chain_next(c, j);

@@ -1,13 +1,13 @@
-/// The imaginary rows of a short spline: ω Σ (Im x_k)², which the chain leaves out, as a load on its nodes.
+/// The imaginary rows of a short spline, ω Σ (Im x_k)², which the chain leaves out, as a load on its nodes.
 //
-// Below two periods they hold Im x enough to matter, but so little that the first order suffices: at the x that was
-// found without them each sample pulls with −ω j Im x_k, and what that comes to at the nodes,
+// Below two periods they affect x noticeably, but so little that first order is enough: at the x found without them each sample pulls
+// with −ω j Im x_k. Their effect at the nodes,
 //
 //     Σ (∂x_k / ∂s)* (−ω j Im x_k),
 //
-// is solved for with the factor that is there. A sample is a sum of four tabled columns (chain.c), so its pull goes to the state
-// and the costate of its run, s_{p+k} = F^k s_p + W_k m and m = F*^{L−k} ν, and by ν = V s_q − C s_p to the ends. That a stretch also
-// bends between its ends is left out: it is stiffer than the whole by the fourth power of their lengths.
+// is solved with the existing factor. A sample is a sum of four tabulated columns (chain.c), so its pull acts on the state and costate of
+// its run, s_{p+k} = F^k s_p + W_k m and m = F*^{L−k} ν, and through ν = V s_q − C s_p on the stretch's ends. The bending between the ends is
+// left out: a stretch is stiffer than the whole by the fourth power of their lengths.
 #include "spline/chain_nodes.h"
 #include "spline/wide.h"
 #include <stdint.h>
@@ -15,8 +15,8 @@
 typedef double four __attribute__((vector_size(32), may_alias));
 typedef int64_t four_counts __attribute__((vector_size(32), may_alias));
 
-/// What the samples of a run pull on its state and costate: −jω Σ f_k* Im x_k for each column f of x. What is behind the run in its last
-/// four counts for nothing.
+/// The pull of a run's samples on its state and costate: −jω Σ f_k* Im x_k for each column f of x. Samples of its last four that lie past
+/// the run do not count.
 WIDEST static void pull_of_run(const chain *c, const cplx weight[4], int count, cplx pulled[4])
 {
     const double *const columns[8] = {c->powers.p.re,  c->powers.p.im,  c->powers.q.re,  c->powers.q.im,
@@ -37,7 +37,6 @@ WIDEST static void pull_of_run(const chain *c, const cplx weight[4], int count, 
     }
 }
 
-/// Two complex numbers: on x and d.
 typedef struct pair {
     cplx x, d;
 } pair;
@@ -68,7 +67,7 @@ static pair gramian(const chain *c, int k, pair v)
                   cplx_add(cplx_mul(cplx_conj(w01), v.x), cplx_scale(t->w11[k], v.d))};
 }
 
-/// What pulls on ν at a stretch's end, by way of the slope there (top of chain.c): `jet` is its pull on the last jet.
+/// How a pull on ν at a stretch's end acts through the slope there (top of chain.c): `jet` is its pull on the last jet.
 static void pull_slope(const chain *c, const chain_stretch *s, const chain_node *q, cplx jet, pair *on_p, pair *on_q)
 {
     const chain_speed *speed = &c->speed[q->view];
@@ -110,7 +109,7 @@ static void pull_stretch(chain *c, int j)
     chain_pull(c, next, on_q.x, on_q.d);
 }
 
-/// The last node's own sample and those that run free behind it.
+/// The last node's own sample and the free samples after it.
 static void pull_tail(chain *c)
 {
     const int last = c->node_count - 1, count = c->count - c->nodes[last].sample;
@@ -131,7 +130,7 @@ static void pull_tail(chain *c)
 void chain_pull_imaginary(chain *c)
 {
     for (int j = 0; j < c->node_count; j++) c->rows[j].right[0] = c->rows[j].right[1] = c->rows[j].right[2] = 0;
-    if (c->lost > TELLING_LOSS) chain_gradient(c); // what the first solve left is found with it
+    if (c->lost > TELLING_LOSS) chain_gradient(c); // includes the first solve's error
     for (int j = 0; j < chain_stretches(c); j++) pull_stretch(c, j);
     if (!c->cyclic) pull_tail(c);
     for (int j = 0; j < c->node_count; j++) {

@@ -2,16 +2,16 @@
 #include "spline/chain_nodes.h"
 #include "spline/wide.h"
 
-/// Rows 1 … of a loop are factored as a chain's; beside, each couples to row 0 by F, which fills down from the row after it:
+/// Rows 1 … of a loop are factored like an open chain's. Each also couples to row 0 by F, which fills in from the row after it:
 ///     F_1 = A_10,   F_{k+1} = −L_k F_k,   in the last row also A_0k*,     A_00 −= Σ F_k* P_k F_k.
-/// What is kept of it is P_k F_k. One row couples to itself; two rows to each other twice.
+/// Only P_k F_k is stored. A single row couples to itself; two rows couple to each other twice.
 WIDEST static kernel_rank close_blocks(chain *c)
 {
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     double f[9], n[9] = {0}, l[9] = {0};
     kernel_rank all = {true, true, 1};
-    if (last == 0) { // to itself: A + Aᵀ
+    if (last == 0) { // couples to itself: A + Aᵀ
         const double *a = first->below;
         const double twice[6] = {2 * a[0], a[1] + a[3], a[2] + a[6], 2 * a[4], a[5] + a[7], 2 * a[8]};
         for (int i = 0; i < 6; i++) first->diagonal[i] += twice[i];

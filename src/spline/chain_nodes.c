@@ -1,5 +1,5 @@
-/// The nodes' block-tridiagonal system of one spline: assembled from stretches, start and slopes, factored, solved (see chain.c for
-/// the mathematics, chain_nodes.h for the rows).
+/// The block-tridiagonal system of a spline's nodes: assembled from stretches, start and slopes, factored and solved (chain.c has the
+/// mathematics, chain_nodes.h the rows).
 #include "spline/chain_nodes.h"
 
 /// Each row's |on_x x + on_e e|² with e = x_1 − x_0 = d + (λ−1) x.
@@ -17,7 +17,7 @@ state_form chain_start_form(const chain *c)
     return form;
 }
 
-/// r_L = x_{L+1} − a x_L − b x_{L−1} of a pair (x_{L−1}, x_L) = (x, λ x + d) whose x_{L+1} is (λ + tail) x_L, twice.
+/// r_L = x_{L+1} − a x_L − b x_{L−1} for (x_{L−1}, x_L) = (x, λ x + d) and x_{L+1} = (λ + tail) x_L, counted twice.
 state_form chain_end_form(const chain *c)
 {
     const chain_node *last = &c->nodes[c->node_count - 1];
@@ -52,7 +52,7 @@ static kernel_slope kernel_slope_of(const chain *c, const chain_node *node)
 
 static const double *form_after(const chain *c, int j) { return c->stretches[c->nodes[j].stretch].form; }
 
-/// A stretch and the slope at its end: into the block of its first node, the coupling, and the block of its last.
+/// Adds a stretch and the slope at its end to the block of its first node, the coupling and the block of its last.
 ALWAYS_INLINE void assemble_stretch(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d,
                                     double *n, double *entering)
 {
@@ -75,7 +75,7 @@ ALWAYS_INLINE void assemble_stretch(const chain *c, int j, const kernel_node *p,
     kernel_hold_rows(n, q);
 }
 
-/// What comes into the first node's block: the start and its slope, in a loop the last stretch.
+/// The first node's block: the start and its slope, in a loop also the last stretch.
 ALWAYS_INLINE void assemble_first(const chain *c, const kernel_node *node, double *d)
 {
     if (c->cyclic) {
@@ -93,7 +93,7 @@ ALWAYS_INLINE void assemble_first(const chain *c, const kernel_node *node, doubl
     }
 }
 
-/// Row by row in local arrays, which the compiler keeps in registers.
+/// Row by row in local arrays, so that the compiler keeps them in registers.
 ALWAYS_INLINE void assemble(chain *c, const bool is_complex)
 {
     kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
@@ -186,7 +186,7 @@ void chain_solve_nodes(chain *c)
     }
 }
 
-/// What a stretch and the slope at its end pull where everything unknown is 0.
+/// The pull of a stretch and the slope at its end when all unknowns are 0.
 ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, bool is_complex,
                               bool posed, double *right, double *entering)
 {

@@ -1,8 +1,8 @@
-/// Powers of the filter and the condensed stretches (see chain.c for the mathematics).
+/// Powers of the filter, and the forms of stretches (chain.c has the mathematics).
 #include "spline/chain.h"
 #include "spline/wide.h"
 
-/// The powers of k and what W gains after it: p' = λ p + δ² q, q' = p + λ q, W' = W + (q p)* (q p).
+/// The powers of step k, and W's increment: p' = λ p + δ² q, q' = p + λ q, W' = W + (q p)* (q p).
 typedef struct power {
     cplx p, q, w01;
     double w00, w11;
@@ -24,7 +24,7 @@ static power power_after(const chain *c, power at)
                    .w11 = at.w11 + cplx_norm(at.p)};
 }
 
-/// The first block, one by one.
+/// The first block, one sample at a time.
 static void begin_powers(chain *c)
 {
     const chain_powers *t = &c->powers;
@@ -36,7 +36,7 @@ static void begin_powers(chain *c)
     c->powers_count = CHAIN_BLOCK;
 }
 
-/// The blocks up to `longest`, from where they end now: F^{k+i} = F^k F^i with F^i of the first block, and W's sums.
+/// Extends the blocks to `longest`: F^{k+i} = F^k F^i with F^i of the first block, and W's sums.
 WIDEST static void extend_complex(chain *c, int longest)
 {
     const chain_powers *t = &c->powers;
@@ -88,7 +88,7 @@ static void extend_real(chain *c, int longest)
 }
 
 /// The columns of a costate, first row of W_i F*^{−i}: (w00 p* − w01 q*, w01 p* − w00 (δ² q)*) / (det F)*^i.
-/// Where they go are parameters because the compiler believes these alone to be apart.
+/// The destinations are parameters so that the compiler can assume that they do not overlap.
 WIDEST static void set_pulled_complex(const chain *c, int from, int end, double *restrict g0r, double *restrict g0i,
                                       double *restrict g1r, double *restrict g1i)
 {
@@ -154,7 +154,7 @@ static void extend_powers(chain *c, int longest)
 
 static void put_entry(chain_stretch *s, int at, cplx value) { s->form[at] = value.re, s->form[at + 1] = value.im; }
 
-/// V = W⁻¹, C = V F, P = F* V F at the stretch's length; the last input counts half where it settles.
+/// V = W⁻¹, C = V F, P = F* V F for the stretch's length; if it settles, the last input counts half.
 static void set_form(const chain *c, chain_stretch *s)
 {
     const chain_powers *t = &c->powers;
@@ -188,7 +188,7 @@ void chain_forget(chain *c)
     c->kept = false;
 }
 
-/// The stretch of a length, made where it is not there yet; -1 where there is no room for it.
+/// The stretch of a length, created if need be; -1 if there is no room.
 static int find_stretch(chain *c, int length, bool settles)
 {
     int *at = &c->stretch_of[settles][length];
@@ -217,7 +217,7 @@ void chain_make_tables(chain *c)
     for (int j = 0; j < chain_stretches(c); j++) {
         bool settles = c->nodes[chain_next(c, j)].fixed & (NODE_SETTLED | NODE_STILL);
         int stretch = find_stretch(c, length_after(c, j), settles);
-        if (stretch < 0) { // full of lengths of earlier solves; those of this one fit, they are no more than nodes
+        if (stretch < 0) { // full of earlier solves' lengths; this solve's fit, as there are no more than nodes
             forget_stretches(c);
             j = -1;
         } else {

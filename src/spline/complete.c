@@ -1,4 +1,4 @@
-/// The steps after x is found: whether it is plausible, the samples outside the system, the total and the rest of the curve.
+/// The steps after x is found: a plausibility check, the samples outside the system, the total and the rest of the curve.
 #include "spline/problem.h"
 #include "spline/wide.h"
 #include <math.h>
@@ -16,7 +16,7 @@ extent extent_of(const double *values, int count)
     return e;
 }
 
-/// Largest of |w| over knots, T·|slope| over slopes, and y's range: what max |x| is measured against.
+/// The scale to compare max |x| with: the largest of |w| over knots, T·|slope| over slopes, and y's range.
 static double problem_scale(const problem *p)
 {
     const extent y = p->y ? extent_of(p->y, p->desc->samples) : (extent){0, 0};
@@ -33,7 +33,7 @@ static double problem_scale(const problem *p)
     return scale;
 }
 
-/// Largest |x|, eight at once.
+/// Largest |x|, in lanes of eight.
 WIDEST static double largest_magnitude(const double *x, int count)
 {
     double largest[8] = {0}, all = 0;
@@ -93,7 +93,7 @@ WIDEST static void add(double *restrict im, const double *restrict u, int count)
     for (int i = 0; i < count; i++) im[i] += u[i];
 }
 
-/// The total, about + w; x, w + u, where that is something else; y, where it is asked for.
+/// Fills the total, about + w; x, w + u, if it differs; and y, if the caller wants it.
 static void add_equilibrium(const problem *p, wiggly_curve *curve)
 {
     int n = p->desc->samples;
@@ -131,7 +131,7 @@ static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
     }
 }
 
-/// Before the first knot w is constant; of a cubic that is solved for its total, x is.
+/// Before the first knot w is constant; for a cubic solved for its total, x is.
 static void hold_before_first(const problem *p, wiggly_curve *curve)
 {
     int first = p->first;

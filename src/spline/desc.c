@@ -1,4 +1,4 @@
-/// A caller's description as this version reads it, and the table of its members.
+/// Converts a caller's description to this version's, with a table of its members.
 #include "spline/desc.h"
 #include <math.h>
 #include <string.h>
@@ -29,17 +29,17 @@
 
 const desc_member desc_members[] = {SETTINGS(ROW){0}};
 
-/// By position: a member of wiggly_desc that the list lacks is a warning here (-Wmissing-field-initializers).
+/// By position: a member of wiggly_desc missing from the list causes a warning (-Wmissing-field-initializers).
 wiggly_desc desc_settings(const wiggly_desc *desc)
 {
     return (wiggly_desc){sizeof(wiggly_desc), NULL, 0, SETTINGS(VALUE)};
 }
 
-/// A member that a later version adds must not lie in what is padding today.
+/// A later version must not add a member where today's padding is.
 _Static_assert(offsetof(wiggly_desc, variation_seed) + sizeof(int) == sizeof(wiggly_desc), "padding at the end");
 _Static_assert(offsetof(wiggly_curve, knot) + sizeof(int) == sizeof(wiggly_curve), "padding at the end");
 
-/// The size that a structure had in version 1.0: what is added later has an offset from there on.
+/// The structures' sizes in version 1.0. Later members lie beyond.
 enum { FIRST_DESC = sizeof(wiggly_desc), FIRST_CURVE = sizeof(wiggly_curve), WIDEST_SIZE = 4096 };
 
 bool size_fits(const void *of, size_t first, size_t own)
@@ -63,7 +63,7 @@ wiggly_status desc_read(const wiggly_desc *from, wiggly_desc *to)
     if (!from) return WIGGLY_ERROR_ARGUMENT;
     if (!desc_fits(from)) return WIGGLY_ERROR_SIZE;
     if (from->size >= sizeof *to) {
-        *to = *from; // of a known size, that is quick
+        *to = *from; // fast, because the size is known
     } else {
         memset(to, 0, sizeof *to);
         memcpy(to, from, from->size);

@@ -1,11 +1,11 @@
-/// Values between samples (docs/mathematics.md, Phase): Catmull-Rom in the frame that turns with the band's centre,
+/// Values between samples (docs/mathematics.md, Phase): Catmull-Rom in a frame that turns with the band's centre,
 ///     x(t) = e^{jω_c t} · CatmullRom(e^{−jω_c t_i} x_i),
-/// so that a free oscillation is followed and not cut across; of x itself in cubic and real mode, and of y.
+/// so that it follows a free oscillation. In cubic and real mode, and for y, it is plain Catmull-Rom.
 #include "spline/poles.h"
 #include <float.h>
 #include <math.h>
 
-/// Index of a neighbour sample, at most two from one of the curve's: wrapped in a loop; -1 where there is none.
+/// Index of a neighbour sample, at most two beyond the curve: wrapped in a loop, else -1.
 static int neighbour_of(const wiggly_curve *curve, int i)
 {
     if (curve->start == WIGGLY_LOOP) {
@@ -15,7 +15,7 @@ static int neighbour_of(const wiggly_curve *curve, int i)
     return i < 0 || i >= curve->samples ? -1 : i;
 }
 
-/// A position taken into the domain: sample i (the result) and u beyond it, 0 ≤ u < 1.
+/// Maps a position into the domain: returns sample i, and u beyond it with 0 ≤ u < 1.
 static int locate(const wiggly_curve *curve, double position, double *u)
 {
     double last = curve->samples - 1;
@@ -33,7 +33,7 @@ static int locate(const wiggly_curve *curve, double position, double *u)
     return i;
 }
 
-/// A value and how it changes in a sample.
+/// A value and its change per sample.
 typedef struct bend {
     double at, rate;
 } bend;
@@ -45,14 +45,14 @@ static bend catmull_rom(double before, double from, double to, double after, dou
     return (bend){from + u * (c0 + u * (square + u * cube)), c0 + u * (2 * square + 3 * u * cube)};
 }
 
-/// The sample after the next; -1 where there is none, or where it is beyond a first knot that the interval is before: there x is
-/// what the equilibrium's motion adds to a constant, behind it is not.
+/// The sample after the next. -1 if there is none, or if a first knot lies between: x is a constant plus the response before it, but not
+/// after it.
 static int beyond(const wiggly_curve *curve, int i)
 {
     return i < curve->first && i + 2 > curve->first ? -1 : neighbour_of(curve, i + 2);
 }
 
-/// Interpolates array[i … i+1] at u with neighbours, extrapolated linearly where missing.
+/// Interpolates array[i … i+1] at u; a missing neighbour is extrapolated linearly.
 static bend interpolate(const wiggly_curve *curve, const double *array, int i, int a, double u)
 {
     int b = neighbour_of(curve, i - 1);
@@ -60,7 +60,7 @@ static bend interpolate(const wiggly_curve *curve, const double *array, int i, i
     return catmull_rom(b < 0 ? 2 * from - to : array[b], from, to, a < 0 ? 2 * to - from : array[a], u);
 }
 
-/// x of a sample less `base`, turned.
+/// x of a sample minus `base`, turned.
 static cplx turned(const wiggly_curve *curve, int i, cplx base, double angle)
 {
     return cplx_mul((cplx){cos(angle), sin(angle)}, (cplx){curve->re[i] - base.re, curve->im[i] - base.im});
@@ -82,7 +82,7 @@ static cplx interpolate_complex(const wiggly_curve *curve, int i, double u, cplx
     return cplx_add(base, cplx_mul(frame, (cplx){re.at, im.at}));
 }
 
-/// In the interval from sample i on; `rate` receives the change in a sample, or is NULL.
+/// The value in the interval after sample i; `rate` receives its change per sample, unless it is NULL.
 static inline wiggly_value between(const wiggly_curve *curve, int i, double u, wiggly_value *rate)
 {
     const bend y = interpolate(curve, curve->y, i, neighbour_of(curve, i + 2), u);
@@ -106,7 +106,7 @@ wiggly_value wiggly_evaluate(const wiggly_curve *curve, double position)
     return between(curve, i, u, NULL);
 }
 
-/// wiggly_evaluate() with what changes in a second: on a sample as from there on, on the last as up to there, beyond the ends nothing.
+/// wiggly_evaluate() with the change per second. On a sample it is that of the interval after, on the last that before; beyond the ends 0.
 static wiggly_value evaluate_moving(const wiggly_curve *curve, double position, wiggly_value *rate)
 {
     const int last = curve->samples - 1;
@@ -119,7 +119,6 @@ static wiggly_value evaluate_moving(const wiggly_curve *curve, double position, 
     return u == 0 ? (wiggly_value){curve->y[i], curve->re[i], curve->im[i]} : value;
 }
 
-/// Whether a curve has the arrays that values between samples come from.
 static bool has_arrays(const wiggly_curve *curve)
 {
     return curve->y && curve->re && curve->im && (curve->mode != WIGGLY_COMPLEX || curve->omega);

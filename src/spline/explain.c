@@ -8,20 +8,20 @@ enum { MOST = 48, PITCHES = 96, DAMPINGS = 10, REFINEMENTS = 24 };
 
 static const double dampings[DAMPINGS] = {0.01, 0.02, 0.035, 0.05, 0.08, 0.12, 0.18, 0.27, 0.4, 0.6};
 
-static const double pluck = 30;      ///< variance of what the body was set off with, to that of the noise it lives in
-static const double blur = 0.03;     ///< of the mean gap: how far a knot may be from the moment that is meant
-static const double headroom = 1.25; ///< above one extremum a gap, where the smallest gap is a little long
+static const double pluck = 30;      ///< variance of the initial displacement, relative to the noise
+static const double blur = 0.03;     ///< share of the mean gap by which a knot may be off its intended time
+static const double headroom = 1.25; ///< above one extremum per gap: the smallest gap may be too long
 static const double tau = 6.283185307179586;
 
-/// The knots that are looked at, by time.
+/// The knots that are used, in order of time.
 typedef struct sight {
-    double time[MOST], value[MOST]; ///< from the first one, seconds; over the equilibrium
+    double time[MOST], value[MOST]; ///< from the first knot on, seconds; above the equilibrium
     int count;
     double smallest, mean; ///< gap
     bool is_real;
 } sight;
 
-/// The earliest MOST of them.
+/// Keeps the earliest MOST knots.
 static void sight_add(sight *s, double time, double value)
 {
     int at = s->count;
@@ -50,7 +50,7 @@ static sight sight_of(const wiggly_desc *desc)
     return s;
 }
 
-/// What values so far apart in time have to do with each other, of variance 1: noise through the filter without bandwidth.
+/// Correlation of values this far apart in time: noise through the filter without bandwidth.
 static double kinship(const sight *s, double decay, double turn, double apart)
 {
     double t = fabs(apart), fading = exp(-decay * t);
@@ -58,7 +58,7 @@ static double kinship(const sight *s, double decay, double turn, double apart)
     return fading * (1 + decay * t) * cos(turn * t);
 }
 
-/// m/2 log vᵀK⁻¹v + ½ log|K|; infinite where K is singular to rounding, or v is 0.
+/// m/2 log vᵀK⁻¹v + ½ log|K|; infinite if K is numerically singular, or v is 0.
 static double cost_of(const sight *s, double frequency, double damping)
 {
     const double natural = tau * frequency, decay = damping * natural;
@@ -89,7 +89,7 @@ static wiggly_explanation explain_at(const sight *s, double frequency)
     return best;
 }
 
-/// Goes downhill from the best of the grid, in steps that halve.
+/// Descends from the grid's best point in steps that halve.
 static wiggly_explanation refine(const sight *s, wiggly_explanation at, double ratio)
 {
     double pitch = sqrt(ratio), more = 1.25;

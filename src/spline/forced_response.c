@@ -22,7 +22,7 @@ static oscillator oscillator_at(const wiggly_desc *desc, int sample, double floo
     return (oscillator){at.decay, at.natural * at.natural};
 }
 
-/// y at a sample, and beyond the ends: y₀ before, as the start is at rest, straight on behind; a loop wraps.
+/// y at a sample. Before the start it is y₀, as if at rest; after the end it continues linearly; a loop wraps.
 static double y_beyond(const wiggly_desc *desc, const double *y, int i)
 {
     int n = desc->samples;
@@ -31,7 +31,7 @@ static double y_beyond(const wiggly_desc *desc, const double *y, int i)
     return i < n ? y[i] : 2 * y[n - 1] - y[n > 1 ? n - 2 : 0];
 }
 
-/// What q' jumps by at each sample, less the sign.
+/// Minus the jump of q' at each sample.
 WIDEST static void bends(const double *restrict y, int from, int to, double step, double *restrict out)
 {
     for (int i = from; i < to; i++) out[i] = ((y[i] - y[i - 1]) - (y[i + 1] - y[i])) / step;
@@ -49,12 +49,12 @@ static void set_kicks(const wiggly_desc *desc, const double *y, double *out)
     }
 }
 
-/// Where the state goes sample by sample: constant parameters have one step.
+/// The steps of the state from sample to sample; constant parameters have a single one.
 typedef struct path {
     const wiggly_desc *desc;
     double floor;
     bool constant;
-    oscillator here; ///< of the sample that is left, where they vary
+    oscillator here; ///< of the sample before, if they vary
     step_matrix step;
 } path;
 
@@ -77,8 +77,8 @@ static step_matrix next_step(path *p, int i)
     return oscillator_step(mean, p->desc->step);
 }
 
-/// q into `total` and q' in the middle of its jumps into `speed`, from a state before sample 0, with the jumps in `im`; returns the
-/// state after the last step.
+/// Writes q to `total`, and q' in the middle of its jumps to `speed`, from a state before sample 0, with the jumps in `im`. Returns the state
+/// after the last step.
 static void run(const wiggly_desc *desc, double floor, double q, double v, const forced_response *u, double end[2])
 {
     path p = begin(desc, floor);
@@ -123,7 +123,7 @@ static void wide_step(oscillator o, double h, wide_matrix s)
     s[1][0] = -k * sine, s[1][1] = c - d * sine;
 }
 
-/// The step over the interval after sample i, in extended precision where `wide`: constant ones are made once, at i = 0.
+/// The step over the interval after sample i, in extended precision if `wide`; a constant one is computed once, at i = 0.
 static void step_of_loop(path *p, int i, bool wide, wide_matrix s)
 {
     if (p->constant && i > 0) return;
@@ -136,7 +136,7 @@ static void step_of_loop(path *p, int i, bool wide, wide_matrix s)
     }
 }
 
-/// I − the product of a loop's steps, in extended precision: its entries are what slow poles leave of 1. Equal steps by squaring.
+/// I − the product of a loop's steps, in extended precision, because for slow poles it is a small difference. Equal steps by squaring.
 static void around(const wiggly_desc *desc, double floor, bool wide, wide_matrix a)
 {
     path p = begin(desc, floor);
@@ -159,7 +159,7 @@ static void around(const wiggly_desc *desc, double floor, bool wide, wide_matrix
     }
 }
 
-/// run() in extended precision, with jumps that are not rounded to doubles; u's `im` is not read.
+/// run() in extended precision, with jumps that are not rounded to double; does not read u's `im`.
 static void run_wide(const wiggly_desc *desc, const double *y, double floor, const long double from[2],
                      const forced_response *u, long double end[2])
 {
@@ -181,13 +181,13 @@ static void run_wide(const wiggly_desc *desc, const double *y, double floor, con
     end[0] = q, end[1] = v;
 }
 
-/// A pull that brings q back by less than this on one round is none: a circle could not be closed by it.
+/// A pull that brings q back by less than this per round cannot close a circle.
 static const double faint = 1e-12;
 
-/// What a loop's parameters do all the way around: pull q back, and brake it.
+/// The effect of a loop's parameters over a whole round: pulling q back, and braking it.
 typedef struct forces {
     bool pull, brake;
-    double k, d; ///< at most
+    double k, d; ///< maxima
 } forces;
 
 static forces forces_of(const wiggly_desc *desc, double floor)
@@ -204,8 +204,8 @@ static forces forces_of(const wiggly_desc *desc, double floor)
     return f;
 }
 
-/// From where q and q' come back to themselves, given where they come from rest. Where nothing pulls back, q' alone. false where there is
-/// no such state.
+/// The state that returns to itself, given the state reached from rest. If nothing pulls back, only q' returns. False if there is no such
+/// state.
 static bool close_circle(double seconds, forces f, const wide_matrix a, const long double end[2],
                          long double state[2])
 {
@@ -220,7 +220,7 @@ static bool close_circle(double seconds, forces f, const wide_matrix a, const lo
     return true;
 }
 
-/// What the rounding of every step, of every jump and of the parameters, which a resonance shows, may make of the periodic q.
+/// How far the rounding of steps, jumps and parameters (which a resonance amplifies) may change the periodic q.
 static double error_of_circle(const forced_response *u, int period, double step, forces f, const wide_matrix a,
                               long double epsilon)
 {
@@ -235,10 +235,10 @@ static double error_of_circle(const forced_response *u, int period, double step,
                     fabsl(det));
 }
 
-/// Of y's range: a loop whose error may be more is run in extended precision.
+/// As a share of y's range: a loop whose error may be larger is solved in extended precision.
 static const double narrow = 1e-11;
 
-/// The periodic q, by the state that comes back to itself. false where there is none or one that is far too large.
+/// The periodic q. False if there is none, or only one far too large.
 static bool run_loop(const wiggly_desc *desc, const double *y, double floor, forced_response *u)
 {
     const forces f = forces_of(desc, floor);
@@ -263,7 +263,7 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, for
         run_wide(desc, y, floor, state, u, wide_end);
         u->error = error_of_circle(u, period, desc->step, f, a, LDBL_EPSILON);
     }
-    if (!f.pull) { // of a family that differs by constants the one of mean 0
+    if (!f.pull) { // it is determined up to a constant: take mean 0
         long double mean = 0;
         for (int i = 0; i < period; i++) mean += u->total[i];
         for (int i = 0; i <= period; i++) u->total[i] -= (double)(mean / period);
@@ -316,7 +316,7 @@ wiggly_status forced_response_find(const wiggly_desc *desc, const double *y, dou
         for (int i = 0; i < desc->samples; i++) u->im[i] = 0;
     }
     add(u->total, y, desc->samples);
-    if (desc->start == WIGGLY_LOOP) { // not even the rounding of a turn apart
+    if (desc->start == WIGGLY_LOOP) { // rounding must not make a difference between turns
         u->total[desc->samples - 1] = u->total[0];
         u->im[desc->samples - 1] = u->im[0];
     }

@@ -1,17 +1,17 @@
-/// Which samples of a limited spline are held at a limit, and the curve that they hold.
+/// Finds which samples of a limited spline are held at a limit, and the curve with them held.
 //
-// An interior-point method says which they are (one_sided.c), on the band's matrix with what is behind the last knot (limits_system.c). They
-// are solved as what they are, more knots (limits_solve.c); the multipliers are the gradient at the held samples. Each solve starts from
-// nothing but the description: the same samples are held, and the curve has the same bits, however one came to it.
+// An interior-point method finds them (one_sided.c), on the band's matrix with the motion after the last knot (limits_system.c). They are
+// then solved as additional knots (limits_solve.c); the multipliers are the gradient at the held samples. Each solve starts from the
+// description alone, so the same samples are held and the curve has the same bits, whatever was solved before.
 #include "spline/limits.h"
 #include <math.h>
 #include <string.h>
 
 enum { EXCHANGES = 6 };
 
-static const double beyond = 1e-10; ///< of the size of the total: what a sample may miss a limit by
-static const double faint = 1e-3;   ///< part of the hardest pull: less is left as it is
-static const double reach = 10;     ///< how much farther than by what it misses the curve may be off
+static const double beyond = 1e-10; ///< share of the total's size by which a sample may miss a limit
+static const double faint = 1e-3;   ///< share of the strongest pull; weaker ones are ignored
+static const double reach = 10;     ///< how many times its excess the curve may be off
 
 void limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
                   wiggly_curve *all)
@@ -26,7 +26,7 @@ void limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const
     if (!curve->im) all->im = m->im;
 }
 
-/// Up to the last knot, or to the end where nothing moves by itself behind it.
+/// The part up to the last knot, or to the end if nothing moves freely after it.
 static limits_part body_of(const problem *p)
 {
     const bool oscillates = problem_oscillates(p);
@@ -37,7 +37,7 @@ static limits_part body_of(const problem *p)
     return body;
 }
 
-/// What moves by itself and swings.
+/// The part that moves freely, if it swings.
 static limits_part tail_of(const problem *p)
 {
     const wiggly_desc *desc = p->desc;
@@ -60,7 +60,7 @@ static limits_part tail_of(const problem *p)
     return tail;
 }
 
-/// How far a sample is beyond a limit, above the high one (positive) or below the low one; 0: within.
+/// How far a sample is above the high limit (positive) or below the low one (negative); 0: within.
 static double excess(const limits_work *w, int sample, double slack)
 {
     const wiggly_desc *desc = w->p->desc;
@@ -77,7 +77,7 @@ static void hold_nothing(limits_work *w)
     w->body.held = w->tail.held = 0;
 }
 
-/// What a sample may miss a limit by.
+/// How far a sample may miss a limit.
 static double find_slack(const limits_work *w)
 {
     const limits_part *parts[] = {&w->body, &w->tail};
@@ -88,7 +88,7 @@ static double find_slack(const limits_work *w)
     return beyond * most;
 }
 
-/// The farthest that a free sample is beyond a limit.
+/// The largest excess of a free sample.
 static double find_excess(const limits_work *w)
 {
     const limits_part *parts[] = {&w->body, &w->tail};
@@ -110,13 +110,13 @@ static bool begin(void *user)
     return true;
 }
 
-/// How hard a limit would have to pull, and not push, a held sample.
+/// How strongly a held sample is pulled to the limit instead of pushed.
 static double pull_of(const limits_work *w, int sample)
 {
     return limits_hold(w, sample) ? fmax(0, -w->solver->limits.held[sample] * w->solver->limits.pull[sample]) : 0;
 }
 
-/// Lets go what is pulled, and holds the farthest sample of each stretch that is beyond a limit.
+/// Frees samples that are pulled, and holds the farthest sample of each stretch beyond a limit.
 static void exchange(limits_work *w, double slack)
 {
     const limits_part *parts[] = {&w->body, &w->tail};
@@ -138,7 +138,7 @@ static void exchange(limits_work *w, double slack)
     }
 }
 
-/// Of a loop that nothing else holds one sample may be all: the farthest.
+/// In a loop held by nothing else, one sample, the farthest, may be enough.
 static bool rests_on_one(limits_work *w)
 {
     double slack = find_slack(w), most = slack;
@@ -149,12 +149,12 @@ static bool rests_on_one(limits_work *w)
     }
     if (at < 0 || problem_is_asked(w->p)) return false;
     limits_take(w, at, excess(w, at, 0) > 0);
-    w->attempts++; // what is held has to be let go
+    w->attempts++; // held samples have to be freed
     return limits_solve(w) && find_excess(w) <= slack && limits_release(w) <= slack;
 }
 
-/// Solves with what the search holds. That is right where no sample is beyond a limit and no limit pulls; where it is not quite, a few
-/// exchanges may do.
+/// Solves with the samples that the search holds. This is right if no sample exceeds a limit and no limit pulls. If it is nearly right, a few
+/// exchanges correct it.
 static bool finish(void *user)
 {
     limits_work *w = user;

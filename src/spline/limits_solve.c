@@ -1,15 +1,15 @@
-/// Solves a spline whose held samples are known: as knots of one like it, and of a real spline that pushes what is behind the last.
+/// Solves a spline whose held samples are known: as knots up to the last one, and of a real spline that pushes the part after it.
 //
-// Behind the last knot w moves by itself, w = e^{p…} w_L, until a limit pushes it: w = e^{p…} w_L + e, where Re e is the spline of
-// the real oscillator, from rest at L, through what the held samples lack. Its energy is a quadratic of v = Im w_L, because
-// what they lack is linear in it: E(v) = E₀ + D₀ v + ½ D₁ v², D = dE/dv from the pulls at the held samples. Up to the last knot that
-// is a slope there, whose speed Re(p w_L) is linear in v as well: of stiffness ½ D₁ / (Im p)² and reached at v = −D₀ / D₁.
+// After the last knot w is free, w = e^{p…} w_L, until a limit pushes it: w = e^{p…} w_L + e, where Re e is the real oscillator's spline from
+// rest at L, through the held samples' remaining distances. These are linear in v = Im w_L, so its energy is quadratic:
+// E(v) = E₀ + D₀ v + ½ D₁ v², and D = dE/dv follows from the pulls at the held samples. For the part up to the last knot this is a slope there
+// (its speed Re(p w_L) is linear in v, too), with stiffness ½ D₁ / (Im p)² and target v = −D₀ / D₁.
 #include "spline/bound_tail.h"
 #include "spline/limits.h"
 #include <math.h>
 #include <string.h>
 
-/// The knot that a tail starts from, at rest: of a stiffness by which the force there, e₁ of its row, counts as any other.
+/// The knot at rest from which a tail starts; its stiffness makes the force there, e₁ of its row, count like any other.
 static wiggly_knot at_rest(const wiggly_desc *desc)
 {
     const poles at = poles_at(desc, 0, 0);
@@ -18,7 +18,7 @@ static wiggly_knot at_rest(const wiggly_desc *desc)
     return (wiggly_knot){.has_slope = true, .stiffness = weight / (1 - 0.5 * weight) / desc->step};
 }
 
-/// What a held sample is to reach, in the body and of both parts of the tail.
+/// What a held sample must reach, in the body and in both parts of the tail.
 enum what { REACH_BOUND, PUSH_FREE, PUSH_TURN };
 
 static double target(const limits_work *w, int sample, enum what what)
@@ -29,7 +29,7 @@ static double target(const limits_work *w, int sample, enum what what)
     return limits_bound(w, sample) - problem_about(w->p, sample) - m->free[0][sample];
 }
 
-/// Adds the part's held samples to `count` knots that are in `all` already, in order; how many there are then, -1: no room.
+/// Inserts the part's held samples among the `count` knots in `all`, in order. Returns the new count; -1: no room.
 static int add_held(const limits_work *w, const limits_part *part, enum what what, const wiggly_knot *own,
                     int own_count)
 {
@@ -53,7 +53,7 @@ static void take_knots(wiggly_solver *solver, limits_part *part, int count)
     for (int k = 0; k < count; k++) solver->order[k] = k;
 }
 
-/// The speed that a tail's cost asks for at the last knot, beside the one that a slope there may ask for.
+/// Adds the slope at the last knot that stands for the tail's cost, merged with the knot's own slope.
 static void add_slope(const limits_work *w, wiggly_knot *last, const double on_turn[2])
 {
     const problem *p = w->p;
@@ -69,8 +69,8 @@ static void add_slope(const limits_work *w, wiggly_knot *last, const double on_t
     last->has_slope = true;
 }
 
-/// What the rows pull at each sample of a curve that begins with the system, into the real parts of their gradient; `im` may be NULL in
-/// a real one.
+/// The rows' pull at each sample of a curve that begins with the system, into the real parts of their gradient; `im` may be NULL in a real
+/// one.
 static void find_forces(const system_rows *rows, const double *re, const double *im)
 {
     for (int k = 0; k < rows->count; k++)
@@ -78,7 +78,7 @@ static void find_forces(const system_rows *rows, const double *re, const double 
     system_forces(rows);
 }
 
-/// Re e of a part of the tail; returns Σ pull · free[1] over the held samples in units of E. -1 where there is no room.
+/// Re e of a part of the tail; returns Σ pull · free[1] over the held samples in units of E, -1 if there is no room.
 static bool push(limits_work *w, enum what what, double *along_turn)
 {
     wiggly_solver *solver = w->solver;
@@ -104,7 +104,7 @@ static bool push(limits_work *w, enum what what, double *along_turn)
     return true;
 }
 
-/// w behind the last knot as it moves by itself, from Re w there and from 1 of Im w.
+/// The free w after the last knot, for Re w there and for an Im w of 1.
 static void set_free(const limits_work *w)
 {
     wiggly_solver *solver = w->solver;
@@ -133,14 +133,14 @@ void limits_set_tail_rows(limits_work *w)
     problem_set_rows(solver, &w->tail.p);
 }
 
-/// Whether there is a last knot, and it leaves Im w there free.
+/// Whether there is a last knot with a free Im w.
 static bool turn_is_free(const limits_work *w)
 {
     const int knots = w->p->desc->knot_count;
     return knots > 0 && !problem_is_whole(w->p, &w->solver->limits.own[knots - 1]);
 }
 
-/// Adds the tail's push to w, and what the held samples' pull is.
+/// Adds the tail's push to w, and records the held samples' pulls.
 static void add_push(limits_work *w)
 {
     wiggly_solver *solver = w->solver;
@@ -151,7 +151,7 @@ static void add_push(limits_work *w)
     double turn = turns ? w->curve->im[L] : 0, *e = m->pushed[0] + L;
     const double unit = w->p->unit / tail->p.unit;
     for (int i = 0; turns && i < n; i++) e[i] += turn * m->pushed[1][L + i];
-    m->all[0] = at_rest(&tail->desc); // the body's knots were there meanwhile
+    m->all[0] = at_rest(&tail->desc); // it held the body's knots until now
     take_knots(solver, tail, 1);
     problem_set_rows(solver, &tail->p);
     find_forces(&solver->rows, e, NULL);
@@ -174,7 +174,7 @@ static bool solve_body(limits_work *w, const double on_turn[2])
     body->p.level_slope = problem_implies_slope(w->p);
     body->desc = *w->p->desc;
     take_knots(solver, body, count);
-    if (!problem_is_asked(&body->p) && count > 0) { // what is held asks
+    if (!problem_is_asked(&body->p) && count > 0) { // the held samples do
         body->p.earliest = m->all[0].sample;
         body->p.latest = m->all[count - 1].sample;
     }

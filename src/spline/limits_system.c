@@ -1,24 +1,23 @@
-/// What the search for held samples works on: the matrix of a limited spline with what is behind its last knot, one band.
+/// The matrix that the search for held samples uses: a limited spline and the motion after its last knot, as one band.
 //
-// Let d be what limits change. Up to the last knot L its energy is that of the spline's rows. Behind it e changes by d less what
-// the motion by itself changes, φ v, where Im w_L changes by v:
+// Let d be the change that limits cause. Up to the last knot L its energy is that of the spline's rows. After it, the change of e is d minus
+// the change of the free motion, φ v, where Im w_L changes by v:
 //
 //     row i of the tail: d_{i+1} − a_i d_i − b_i d_{i−1} − c_i v, c_i = φ_{i+1} − a_i φ_i − b_i φ_{i−1}        (d₀ = φ₀ = 0)
 //
-// With constant poles no c_i but c₀ is more than rounding. v is handed on from block to block, as their second number, by a stiff spring.
+// With constant poles all c_i but c₀ are rounding. A stiff spring passes v from block to block, as each block's second number.
 #include "spline/limits.h"
 #include <string.h>
 
 enum { SWEEPS = 2 };
 
-static const double lossy = 1e8; ///< digits lost by a complex factor from which on what it solves is refined
-static const double stiff = 1e6; ///< of the first row, that spring
+static const double lossy = 1e8; ///< from this loss of digits in a complex factor on, its solutions are refined
+static const double stiff = 1e6; ///< that spring's weight, relative to the first row
 
-/// −a and −b of a row.
 static double on_own(const coefficients *at) { return -2 - at->m.re; }
 static double on_before(const coefficients *at) { return 1 + at->m.re + at->p.re; }
 
-/// The tail's rows, to where they stand behind `body` blocks, c_i among the drives.
+/// The tail's rows, at their place after `body` blocks, with c_i among the drives.
 static void set_tail(limits_work *w, int body)
 {
     system_rows *rows = &w->solver->rows;
@@ -35,7 +34,7 @@ static void set_tail(limits_work *w, int body)
     }
 }
 
-/// In place of the rows up to the last knot where there is none: one sample at rest.
+/// Without a knot, a single sample at rest replaces the rows up to the last knot.
 static void set_rest(system_rows *rows)
 {
     rows->count = 1;
@@ -46,7 +45,7 @@ static void set_rest(system_rows *rows)
     rows->fixed[0] = FIXED_RE | FIXED_IM;
 }
 
-/// What set_matrix() needs, into the solver's rows.
+/// Prepares the solver's rows for set_matrix().
 static void set_system(limits_work *w)
 {
     const bool alone = w->p->latest < 0 && limits_has_tail(w);
@@ -93,7 +92,7 @@ static void add_tail(const limits_work *w)
     }
 }
 
-/// Of the spline with nothing held, on what limits change of the total; Re of a sample is the first of its block.
+/// The matrix with nothing held, for the change of the total; a block's first number is Re of its sample.
 static void set_matrix(const limits_work *w)
 {
     system_matrix(&w->solver->rows, &w->solver->matrix);
@@ -114,7 +113,7 @@ static bool factor(void *user, const double *stiffness)
     return pentadiagonal_factor(m) != RANK_BROKEN;
 }
 
-/// Takes what the tail's rows and the spring make of x off the gradient.
+/// Subtracts the contribution of the tail's rows and the spring at x from the gradient.
 static void pull_tail(const limits_work *w)
 {
     const system_rows *rows = &w->solver->rows;
@@ -139,7 +138,7 @@ static void pull_tail(const limits_work *w)
     }
 }
 
-/// What (H + stiffness) x lacks of the force, through the rows as they are before they are squared.
+/// The force minus (H + stiffness) x, by the unsquared rows.
 static void find_residual(limits_work *w, const double *force)
 {
     const system_rows *rows = &w->solver->rows;

@@ -1,5 +1,5 @@
-/// Splines of one kind whose knots and curves lie in strided arrays. The knots of the one in hand are written into the solver's own
-/// memory, and a curve whose samples are apart is scattered from there.
+/// Solves splines whose knots and curves are in strided arrays. The knots of the current spline are copied to the solver's memory; a curve
+/// with a stride is scattered from there.
 #include "spline/many.h"
 #include <limits.h>
 #include <math.h>
@@ -9,14 +9,14 @@ static double number(const wiggly_numbers *of, int spline, int k)
     return of->at ? of->at[spline * of->by_spline + k * of->by_number] : NAN;
 }
 
-/// The nearest sample; outside of all where an int has no room for it.
+/// The nearest sample; outside the range if an int cannot hold it.
 static int nearest(double sample)
 {
     const double whole = floor(sample + 0.5);
     return fabs(whole) < INT_MAX ? (int)whole : -1;
 }
 
-/// Returns how many there are; one more than there is room for ends them.
+/// Returns the number of knots, at most one more than there is room for.
 static int fill_knots(const wiggly_many *many, int spline, wiggly_knot *knots, int room)
 {
     int count = 0;
@@ -36,7 +36,7 @@ static int fill_knots(const wiggly_many *many, int spline, wiggly_knot *knots, i
     return count;
 }
 
-/// Where a knot is among all of its spline's, those left out too.
+/// A knot's index among all of its spline's, counting those left out.
 static int place_of(const wiggly_many *many, int spline, int knot)
 {
     int k = 0;
@@ -46,7 +46,7 @@ static int place_of(const wiggly_many *many, int spline, int knot)
     return knot < 0 ? -1 : k;
 }
 
-/// The caller's row, the solver's where its numbers are apart, NULL where it is not asked for.
+/// The caller's row; the solver's if the caller's is strided; NULL if it is not wanted.
 static double *row_of(const wiggly_rows *rows, int spline, double *own)
 {
     if (!rows->at) return NULL;
@@ -65,7 +65,7 @@ wiggly_status many_solve(wiggly_solver *solver, const wiggly_desc *desc, const w
     wiggly_desc own = *desc;
     own.knots = solver->filled;
     own.knot_count = fill_knots(many, spline, solver->filled, solver->knots);
-    // Where a solve itself keeps them when the caller does not ask.
+    // Where a solve itself keeps them if the caller does not want them.
     double *const total = solver->rows.jet, *const y = solver->y, *const re = solver->limits.re,
                   *const im = solver->limits.im;
     wiggly_curve curve = {.size = sizeof curve,

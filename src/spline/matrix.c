@@ -5,7 +5,7 @@
 //
 //     D_k = |A_k|² + |B_{k+1}|² + 1        E_k = −A_k − A_{k+1}* B_{k+1}        F_k = B_{k+1}
 //
-// less what rows outside the domain would have added. A complex number u + jv is the block (u −v; v u), in the other modes v is 0.
+// minus what rows outside the domain would add. A complex number u + jv is the block (u −v; v u); in the other modes v is 0.
 #include "spline/system.h"
 
 static void add_complex(double *at, cplx z) { at[0] += z.re, at[1] -= z.im, at[2] += z.im, at[3] += z.re; }
@@ -16,7 +16,7 @@ static inline void put_complex(bool is_complex, double *at, cplx z)
     if (is_complex) at[1] = -z.im, at[2] = z.im, at[3] = z.re;
 }
 
-/// A jet row's weight, and its coefficients −a and b on its sample and the one before; the last sample's holds what is behind, too.
+/// A jet row's weight, and its coefficients −a and b on its sample and the one before; the last sample's includes the tail.
 static double jet_row(const system_rows *rows, int i, cplx *a, cplx *b)
 {
     const coefficients *at = &rows->at[i];
@@ -26,7 +26,7 @@ static double jet_row(const system_rows *rows, int i, cplx *a, cplx *b)
     return i >= rows->jet_from && i <= rows->jet_to ? rows->jet_weight[i] : 0;
 }
 
-/// The jets' blocks, each written once, when the row after it is known; a loop's last row is the first again.
+/// The jets' blocks, each written once when the next row is known; in a loop the row after the last is the first.
 static inline void jet_rows(const system_rows *rows, pentadiagonal *m, const bool is_complex)
 {
     const int n = rows->count, end = rows->loop ? n : n - 1;

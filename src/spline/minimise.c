@@ -1,14 +1,13 @@
-/// Minimises E in the band: by one plain solve where that is exact enough, else by iterative refinement.
+/// Minimises E with the band: by one plain solve if that is accurate enough, else by iterative refinement.
 //
-// The squared matrix is factored once in double. How far a pivot is below its diagonal entry says what a knot-free stretch costs
-// in digits: G samples of it leave G⁻³, and G⁴ of the condition. Where that leaves enough, one solve is the answer. Else the
-// gradient is evaluated through the un-squared rows in double-double, and A δ = gradient is solved until δ says that x is right to its
-// last digits. With contraction ρ = |δ_n| / |δ_{n−1}| (about condition × ε) the error left is at most |δ_n| ρ / (1 − ρ). Where the
-// squared matrix has lost too much for that, the un-squared rows are factored, at four times the cost and with the square root of the
-// condition.
+// The squared matrix is factored once in double. The ratio of a pivot to its diagonal entry shows how many digits a knot-free stretch
+// costs: G samples leave G⁻³, and G⁴ of the condition. If enough digits remain, one solve is the answer. Otherwise the gradient is
+// evaluated through the unsquared rows in double-double, and A δ = gradient is solved until δ is in the last digits of x. With contraction
+// ρ = |δ_n| / |δ_{n−1}| (about condition × ε) the error left is at most |δ_n| ρ / (1 − ρ). If the squared matrix has lost too much for that,
+// the unsquared rows are factored, at four times the cost and with the square root of the condition.
 //
-// What no refinement can know is the rounding of the coefficients themselves. Where the system amplifies, they are changed by that much
-// once and the change of x is asked for, with the factor that is there: it is part of the error.
+// Refinement cannot see the rounding of the coefficients themselves. If the system amplifies it, the coefficients are changed by that much
+// once; the change of x, solved with the existing factor, becomes part of the error.
 #include "spline/solver.h"
 #include "spline/wide.h"
 #include <float.h>
@@ -17,16 +16,16 @@
 #include <string.h>
 
 enum { MAX_SWEEPS = 16 };
-/// Estimated error, relative to the largest |x|, up to which one plain solve needs no refinement, and refinement not the rows
-/// themselves: below the tolerance.
+/// Estimated error, relative to the largest |x|, below which a plain solve needs no refinement, and refinement no factored rows. Below
+/// the tolerance.
 static const double enough_complex = 8e-9, enough_real = 2e-10;
 static const double rounding = 2 * DBL_EPSILON; ///< of a coefficient
-static const double unsettled = 1e-3;           ///< an error that is as good as none found, of the largest |x|
-/// Amplifications: the most that the squared matrix can be trusted to show, and from where on rounding alone is an error.
+static const double unsettled = 1e-3;           ///< share of the largest |x|: an error this large counts as unknown
+/// Amplifications: the most that the squared matrix shows reliably, and where rounding alone makes a result useless.
 static const double largest_squared = 1e6, hopeless = 1e10;
-static const double too_much = 1e-1; ///< beyond, the squared matrix is no help to refinement
+static const double too_much = 1e-1; ///< beyond, the squared matrix does not help refinement
 
-/// Bits of a magnitude: ordered as it is, NaN above all.
+/// Bits of a magnitude; their order is that of the numbers, with NaN above all.
 static inline int64_t bits_of(double x)
 {
     int64_t bits;
@@ -34,7 +33,7 @@ static inline int64_t bits_of(double x)
     return bits & INT64_MAX;
 }
 
-/// The largest magnitude; NaN where there is one.
+/// The largest magnitude; NaN if there is one.
 WIDEST static double largest_modulus(const double *x, int count, bool is_complex)
 {
     int64_t most = 0;
@@ -48,8 +47,8 @@ WIDEST static double largest_modulus(const double *x, int count, bool is_complex
     return is_complex ? sqrt(largest) : largest;
 }
 
-/// What rounding does to x, as a part of it: by the digits that the pivots have lost, and by the knot-free stretch of G samples, whose
-/// condition is G⁴ / 31 where nothing swings back.
+/// The relative effect of rounding on x: from the digits that the pivots have lost, and from the knot-free stretch of G samples, whose
+/// condition is G⁴ / 31 if nothing swings back.
 static double estimated_error(const system_rows *rows, const pentadiagonal *m)
 {
     double g2 = rows->stretch * rows->stretch;
@@ -71,23 +70,22 @@ factorisation solver_factor(wiggly_solver *solver)
         system_matrix(rows, &solver->matrix);
         f.rank = pentadiagonal_factor(&solver->matrix);
         if (f.rank != RANK_BROKEN) f.error = estimated_error(rows, &solver->matrix);
-        // Where jets weigh much more than others, those are lost in it, and no correction shows it.
+        // If some jets weigh much more than others, the light ones are lost in it, and no correction shows that.
         if (f.error <= (rows->fast ? enough(rows) : too_much) || rows->count < 3) return f;
     }
     return factor_rows(solver);
 }
 
-/// gradient ← what it means for x.
 static void solve(wiggly_solver *solver) { pentadiagonal_solve(&solver->matrix, solver->rows.gradient); }
 
-/// z and a part of it; rounding turns nothing that is real.
+/// z plus a share of it; rounding never makes a real number complex.
 static cplx changed(cplx z, cplx part)
 {
     if (z.im == 0) part.im = 0;
     return cplx_add(z, cplx_mul(part, z));
 }
 
-/// How far x is elsewhere if the coefficients are changed by these parts of them.
+/// The change of x when the coefficients change by these shares.
 static double change_of(wiggly_solver *solver, cplx of_m, cplx of_p, double of_others)
 {
     system_rows *rows = &solver->rows;
@@ -111,7 +109,8 @@ static double change_of(wiggly_solver *solver, cplx of_m, cplx of_p, double of_o
     return largest_modulus(rows->gradient, rows->count, rows->is_complex);
 }
 
-/// Known values, targets and drives as an equilibrium that is rounded otherwise would have them, by turns or alike; drives of equal poles alike.
+/// Changes known values, targets and drives as if the equilibrium were rounded differently, with alternating or equal signs; drives of equal
+/// poles alike.
 static void change_known(system_rows *rows, double sign)
 {
     double now = 1, of_drive = rounding;
@@ -124,19 +123,19 @@ static void change_known(system_rows *rows, double sign)
     for (int s = 0; s < rows->slope_count; s++) rows->slopes[s].target += rows->noise;
 }
 
-/// 1 or −1 for each unknown, in an order that no spline has.
+/// A fixed pseudorandom sign for each unknown.
 static double some_sign(const system_rows *rows, int unknown)
 {
     return (rows->is_complex ? unknown : unknown / 2) * 7 % 5 < 2 ? -1 : 1;
 }
 
-/// Whether an unknown is none.
+/// Whether an unknown is fixed.
 static bool is_known(const system_rows *rows, int unknown)
 {
     return rows->fixed[unknown / 2] & (unknown % 2 ? FIXED_IM : FIXED_RE);
 }
 
-/// How far x is elsewhere by the rounding of what jets pull, where they weigh so much that they drown all else.
+/// The change of x by the rounding of the jets' pulls, if these are much larger than everything else.
 static double change_by_jets(wiggly_solver *solver)
 {
     const system_rows *rows = &solver->rows;
@@ -148,7 +147,7 @@ static double change_by_jets(wiggly_solver *solver)
     return largest_modulus(rows->gradient, rows->count, rows->is_complex);
 }
 
-/// Round a loop without knots the drives' sum is balanced by p x, and of poles that vary each drive is rounded by itself.
+/// In a loop without knots p x balances the drives' sum; if poles vary, each drive is rounded on its own.
 static double change_by_drives(const system_rows *rows)
 {
     double drives = 0, first = rows->at[0].p.re;
@@ -163,15 +162,14 @@ static double change_by_drives(const system_rows *rows)
     return vary && !held ? DBL_EPSILON * drives / sqrt(cplx_norm(p)) : 0;
 }
 
-/// How far x would be elsewhere if the coefficients were rounded otherwise, as poles that fade and as poles that turn otherwise, and what
-/// the equilibrium takes off the knots.
+/// How far x would move if the coefficients were rounded differently, in the poles' decay and in their turn, and by what the equilibrium
+/// takes off the knots.
 static double sensitivity(wiggly_solver *solver)
 {
     const cplx none = {0, 0}, parts[2] = {{rounding, 0}, {0, rounding}};
     const double heavy = solver->rows.fast ? change_by_jets(solver) : 0;
     double change = 0;
-    for (int i = 0; i < (solver->rows.is_complex ? 2 : 1);
-         i++) { // of m and p, each by itself: together they may make up for each other
+    for (int i = 0; i < (solver->rows.is_complex ? 2 : 1); i++) { // m and p separately: together they may cancel
         change_known(&solver->rows, i ? 1 : -1);
         change += change_of(solver, parts[i], none, i ? 0 : rounding);
         change += change_of(solver, none, parts[i], 0);
@@ -180,7 +178,7 @@ static double sensitivity(wiggly_solver *solver)
     return 48 * change + 4 * heavy;
 }
 
-/// What jets and the imaginary row have in the squared matrix's diagonal, where the domain has ends.
+/// The jets' and the imaginary row's part of the squared matrix's diagonal, if the domain has ends.
 static double size_of(const system_rows *rows, int k, bool imaginary)
 {
     double size = imaginary ? rows->im_weight[k] : 0;
@@ -192,8 +190,8 @@ static double size_of(const system_rows *rows, int k, bool imaginary)
     return size;
 }
 
-/// Of a system that nothing but knots and jets holds: how much larger than the rows' errors x's may be. No pivot need be small for that,
-/// where poles fade: each row then knows only its neighbour.
+/// For a system held only by knots and jets: how many times the rows' error x's may be. If poles fade, no pivot need be small for that,
+/// because each row then knows only its neighbour.
 static double amplification(wiggly_solver *solver)
 {
     const system_rows *rows = &solver->rows;
@@ -207,7 +205,7 @@ static double amplification(wiggly_solver *solver)
     return sqrt(largest);
 }
 
-/// Refines x, at first from what is known alone. false where a number overflowed.
+/// Refines x, starting from the known values alone. False if a number overflowed.
 static bool refine(wiggly_solver *solver, const factorisation *f, minimum *result)
 {
     system_rows *rows = &solver->rows;
@@ -222,7 +220,7 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
         bool first = result->sweeps == 0;
         double change = first ? 0 : largest_modulus(rows->gradient, rows->count, rows->is_complex);
         if (!(change < INFINITY)) return false;
-        if (change > 0.5 * before) { // at the last digit, or not converging: x stays as it was
+        if (change > 0.5 * before) { // at the last digit or not converging: keep x
             result->error = 4 * fmax(change, before);
             break;
         }
@@ -233,7 +231,7 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
         if (first) change = result->largest;
         double contraction = before < INFINITY ? change / before : 0.5;
         result->error = change * contraction / (1 - contraction);
-        // The first solve, through the rows' factor but from a right-hand side in double, can be all wrong, and the next one right.
+        // The first solve uses the rows' factor but a right-hand side in double. It may be all wrong, and the next one right.
         before = f->squared || result->sweeps > 1 ? change : INFINITY;
         if (result->sweeps == 1 && rows->is_held && f->error <= enough(rows)) {
             result->error = f->error * result->largest;
@@ -245,7 +243,7 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
     return true;
 }
 
-/// How far the rows' own factor would move x. It loses other digits than the squared matrix does, whose factor is made again.
+/// How far the rows' own factor would move x. It loses other digits than the squared matrix, whose factor is restored afterwards.
 static double error_by_rows(wiggly_solver *solver, factorisation *f)
 {
     const system_rows *rows = &solver->rows;
@@ -260,7 +258,7 @@ static double error_by_rows(wiggly_solver *solver, factorisation *f)
     return change;
 }
 
-/// Everything that is not known 0 again.
+/// Sets all unknowns to 0.
 static void reset(const system_rows *rows)
 {
     for (int i = 0; i < 2 * rows->count; i++) {
@@ -285,10 +283,10 @@ minimum solver_refine(wiggly_solver *solver, factorisation *f)
     if (!result.solved) return result;
     if (f->squared && rows->unlike && rows->count >= 3) {
         result.error += fmin(4 * error_by_rows(solver, f), result.largest);
-        result.unrefined = false; // more sweeps would only make it worse
+        result.unrefined = false; // more sweeps would make it worse
     }
     const bool settles = result.error <= unsettled * result.largest;
-    result.weak = !rows->fast && (f->rank == RANK_WEAK || !settles); // jets of unlike weights cost digits, too
+    result.weak = !rows->fast && (f->rank == RANK_WEAK || !settles); // jets of different weights cost digits, too
     if (rows->cut) result.error += result.largest;
     const double amplified = open && !f->squared ? amplification(solver) : 0;
     if (amplified > hopeless) {
@@ -309,7 +307,7 @@ minimum solver_minimise(wiggly_solver *solver)
 void solver_run_forward(wiggly_solver *solver, int from)
 {
     system_rows *rows = &solver->rows;
-    // x is a double sum of small steps: extended precision keeps the rounding of N² additions below the last digit of x.
+    // x is a double sum of small steps; extended precision keeps the rounding of N² additions below its last digit.
     const double *x = rows->x + 2 * from, *before = x - 2;
     long double x_re = x[0], x_im = x[1], step_re = x_re - before[0], step_im = x_im - before[1];
     for (int i = from; i < rows->count - 1; i++) {

@@ -1,16 +1,16 @@
 /// A primal-dual interior-point method (Mehrotra's predictor and corrector).
 //
-// Values x move by d under what pushes them, S⁻¹ d = Σ ± q. Of each value and limit let g be its gap, how far x is inside, and q how hard
-// the limit pushes. Then
+// Values x move by d under pushes, S⁻¹ d = Σ ± q. For each value and limit let g be the gap, the distance of x inside the limit, and q the
+// limit's push. Then
 //
 //     S⁻¹ d = Σ ± q,      g = ± (x + d − limit),      g q = μ,      g, q > 0,
 //
-// for a μ that goes from large to next to nothing. Each step is Newton's: S⁻¹ + Σ q/g on the diagonal is factored once and solved with
-// twice, for what μ = 0 would ask for, and for the step itself, with what the first one tells of the second order. Six or so, however
-// many values are held, tell which: in the last one their gaps vanish, and the pushes on all others.
+// for a μ that goes from large to almost 0. Each step is Newton's: S⁻¹ + Σ q/g on the diagonal is factored once and solved twice, first with
+// μ = 0 and then for the step itself, with the second-order term that the first solve gives. About six steps, however many values are held,
+// show which are: in the last step their gaps vanish, and the pushes on all others.
 //
-// These are solved as equalities. Where a push then turns out to be a pull, or a free value beyond a limit, the steps have stopped too
-// early, and all is done again to a smaller μ. So it ends, with the answer or knowing that it has none.
+// These are then solved as equalities. If a push turns out to be a pull, or a free value exceeds a limit, the steps stopped too early, and
+// everything is repeated to a smaller μ. So it ends with the answer, or with the certainty that it has none.
 #include "spline/one_sided.h"
 #include "spline/wide.h"
 #include <math.h>
@@ -18,20 +18,19 @@
 
 enum { STEPS = 100, LANES = 8, ATTEMPTS = 4 };
 
-static const double short_of = 0.995; ///< of the way to where a gap or a push is 0
-static const double at_first = 10;    ///< products, of what moves by the farthest that a value is beyond a limit
-static const double tiny_step =
-    0.1; ///< the step after such a one brings products together again, and knows no second order
-static const double together = 0.3;  ///< for that, μ falls no lower
-static const double good = 0.2;      ///< a step that leaves so little of μ shows which of the two stays
-static const double apart = 0.5;     ///< part of itself that the other one falls by more
-static const double sure = 1e-4;     ///< of the first μ, of limits that are not narrow: from here on it is believed
-static const double surer = 1e-4;    ///< times that at the next attempt
-static const double least = 1e-10;   ///< what does not show it by then has neither gap nor push
-static const double balanced = 1e-3; ///< part of what S⁻¹ d lacked at first
+static const double short_of = 0.995; ///< share of the way to a zero gap or push
+static const double at_first = 10; ///< first products, relative to the farthest excess and the push that moves as far
+static const double tiny_step = 0.1; ///< the next step only evens out the products, without second order
+static const double together = 0.3;  ///< then μ falls no lower
+static const double good = 0.2;    ///< a step that leaves this share of μ or less shows which of gap and push stays
+static const double apart = 0.5;   ///< difference in relative fall of gap and push that decides
+static const double sure = 1e-4;   ///< share of the first μ at which this is trusted, if limits are not narrow
+static const double surer = 1e-4;  ///< factor of that at the next attempt
+static const double least = 1e-10; ///< undecided at this share: neither gap nor push
+static const double balanced = 1e-3; ///< share of the initial error in S⁻¹ d
 
-/// How gap and push of a value change, as parts of them, where their product is to be `aim`. Lengths are parts of the farthest that a
-/// value is beyond a limit, pushes of what moves that one as far.
+/// The relative change of a value's gap and push when their product is to become `aim`. Lengths are relative to the farthest excess over a
+/// limit, pushes to the push that moves that value as far.
 typedef struct change {
     double gap, push;
 } change;
@@ -43,13 +42,13 @@ static inline change change_of(const one_sided_limit *s, double gap, double push
     return (change){part, aim / (gap * push) - 1 - part};
 }
 
-/// What the product of gap and push is to be: μ less the second order; 1 where there is no limit.
+/// The target of gap times push: μ minus the second order; 1 if there is no limit.
 static inline double aim_of(double mean, double second, double is_open)
 {
     return is_open * (mean - second) + (1 - is_open);
 }
 
-/// Adds a limit's part of Newton's right-hand side, with or without the second order.
+/// Adds a limit's part to Newton's right-hand side, with or without the second order.
 WIDEST static void add_force(const one_sided *o, const one_sided_limit *s, double mean, double part,
                              double *restrict force)
 {
@@ -72,7 +71,7 @@ WIDEST static void scale(double *restrict x, int count, double by)
     for (int i = 0; i < count; i++) x[i] *= by;
 }
 
-/// The second order of a step to where μ = 0 would be, into `by_push`; its sum. `fall`: the largest part by which a gap or a push falls.
+/// Writes the second order of a step towards μ = 0 to `by_push` and returns its sum. `fall`: the largest relative fall of a gap or push.
 WIDEST static double look_ahead(const one_sided *o, const one_sided_limit *s, double *fall)
 {
     const double *restrict gap = s->gap, *restrict push = s->push, *restrict value = o->value,
@@ -94,7 +93,7 @@ WIDEST static double look_ahead(const one_sided *o, const one_sided_limit *s, do
     return all;
 }
 
-/// The step itself; the largest part by which a gap or a push falls.
+/// Computes the step; returns the largest relative fall of a gap or push.
 WIDEST static double find_changes(const one_sided *o, const one_sided_limit *s, double mean, double part)
 {
     const double *restrict gap = s->gap, *restrict push = s->push, *restrict value = o->value,
@@ -116,7 +115,7 @@ WIDEST static double find_changes(const one_sided *o, const one_sided_limit *s, 
     return all;
 }
 
-/// Goes that part of a step; the sum of gap times push. `unclear`: adds how many fall so alike that neither is there to stay.
+/// Takes that share of a step; returns Σ gap · push. `unclear`: adds the pairs whose gap and push fall too similarly to decide.
 WIDEST static double advance(const one_sided *o, const one_sided_limit *s, double way, double *unclear)
 {
     const double *restrict by_gap = s->by_gap, *restrict by_push = s->by_push, *restrict is_open = o->is_open;
@@ -135,7 +134,7 @@ WIDEST static double advance(const one_sided *o, const one_sided_limit *s, doubl
     return all;
 }
 
-/// Newton's move for products of `mean`, with or without the second order.
+/// Newton's step for products of `mean`, with or without the second order.
 static void find_move(one_sided *o, double mean, double part)
 {
     for (int i = 0; i < o->count; i++) o->move[i] = o->lack_left * o->lack[i];
@@ -152,7 +151,7 @@ static bool factor(one_sided *o)
     return o->factor(o->user, o->move);
 }
 
-/// One step; how many values and limits it leaves unclear. false where numbers fail.
+/// One step. `unclear` receives the number of undecided values and limits. False if numbers overflow.
 static bool go_on(one_sided *o, double *unclear)
 {
     const bool bold = o->way > tiny_step || !o->bold;
@@ -175,7 +174,7 @@ static bool go_on(one_sided *o, double *unclear)
     return o->mean > 0 && o->mean < INFINITY;
 }
 
-/// Steps until one shows what stays. false where numbers fail.
+/// Takes steps until it is clear which gaps and pushes stay. False if numbers overflow.
 static bool find_what_stays(one_sided *o, double until)
 {
     for (int step = 0; step < STEPS; step++) {
@@ -189,7 +188,7 @@ static bool find_what_stays(one_sided *o, double until)
     return true;
 }
 
-/// The value that is farthest beyond a limit, by more than `slack`; -1: none.
+/// The value farthest beyond a limit, by more than `slack`; -1: none.
 static int find_farthest(const one_sided *o, double slack, double *by)
 {
     int at = -1;
@@ -203,7 +202,7 @@ static int find_farthest(const one_sided *o, double slack, double *by)
     return at;
 }
 
-/// What a force of 1 does to a value; held a little where there is no factor otherwise. 0 where there is none then.
+/// How far a force of 1 moves a value; it is held slightly if there is no factor otherwise. 0 if there is none then, either.
 static double find_soft(one_sided *o, int at)
 {
     memset(o->move, 0, sizeof *o->move * (size_t)o->count);
@@ -217,7 +216,7 @@ static double find_soft(one_sided *o, int at)
     return o->move[at];
 }
 
-/// Lengths in parts of `size`; every gap at least 1.
+/// Starts with lengths in units of `size` and every gap at least 1.
 static void start(one_sided *o, double size)
 {
     o->pairs = 0;

@@ -1,4 +1,4 @@
-/// Solves long domains by Givens rotations on the rows themselves.
+/// Solves ill-conditioned systems by Givens rotations of the rows themselves.
 //
 // A row touches at most three neighbouring samples, so U of Q U = R is as narrow as the band:
 //
@@ -7,23 +7,23 @@
 //     |         U22 U23 U24     |   x_{k+2}. Once all rows that begin at x_k are in, U_k* is done.
 //     |             U33 U34 U35 |
 //
-// In a loop the last two samples, the seam, are columns of their own at the right, in hand to the end. A rotation sees
-// two rows alone, so that a stiff slope row does not drown the soft ones. As Uᵀ U = L S Lᵀ, what is written is U_kk⁻¹, the
-// root of S_k⁻¹, and L_ik = (U_kk⁻¹ U_ki)ᵀ.
+// In a loop the last two samples, the seam, have their own columns at the right and stay to the end. A rotation involves only two rows, so a
+// stiff slope row does not drown the soft ones. As Uᵀ U = L S Lᵀ, the results are U_kk⁻¹, the root of S_k⁻¹, and
+// L_ik = (U_kk⁻¹ U_ki)ᵀ.
 #include "spline/system.h"
 #include <math.h>
 #include <string.h>
 
 enum { COLUMNS = 10, SEAM = 6 };
 
-/// A pivot below this is rounding, every column having had a 1 of a jet in it; what holds Im x of a slow spline of N samples is N⁻² of it.
+/// A smaller pivot is rounding, because each column had a 1 from a jet. What holds Im x of a slow spline of N samples is N⁻² of it.
 static const double lost = 1e-13;
 
 typedef struct walk {
     const system_rows *rows;
     int interior; ///< samples before the seam
-    int k;        ///< sample that is being eliminated
-    int slope;    ///< next slope row
+    int k;        ///< the sample being eliminated
+    int slope;    ///< the next slope row
     double u[COLUMNS]
             [COLUMNS]; ///< of x_k, x_{k+1}, x_{k+2} and from SEAM on the seam's two samples, re and im of each
 } walk;
@@ -33,7 +33,7 @@ static bool is_fixed(const walk *w, int sample, int part)
     return w->rows->fixed[sample] & (part ? FIXED_IM : FIXED_RE);
 }
 
-/// A row's coefficient; those of fixed unknowns are left out.
+/// Sets a row's coefficient; fixed unknowns have none.
 static void put(const walk *w, double *row, int sample, int part, double value)
 {
     const int n = w->rows->count, at = sample < 0 ? sample + n : sample >= n ? sample - n : sample;
@@ -41,7 +41,7 @@ static void put(const walk *w, double *row, int sample, int part, double value)
     if (!is_fixed(w, at, part)) row[column + part] += value;
 }
 
-/// Rotates a row into U; it is used up.
+/// Rotates a row into U; its content is lost.
 static void take_row(walk *w, double *row)
 {
     for (int c = 0; c < COLUMNS; c++) {
@@ -61,7 +61,7 @@ static void take_row(walk *w, double *row)
     }
 }
 
-/// A complex row (two real ones, or one outside complex mode) of coefficients on n samples.
+/// Adds a complex row (two real ones, or one outside complex mode) of coefficients on n samples.
 static void add_row(walk *w, double weight, int n, const int *samples, const cplx *c)
 {
     const double root = sqrt(weight);
@@ -126,20 +126,20 @@ static void add_start(walk *w)
     }
 }
 
-/// The first sample that a slope row touches.
+/// The first sample of a slope row.
 static int first_of(const slope_row *slope)
 {
     return slope->behind.re == 0 && slope->behind.im == 0 ? slope->sample : slope->sample - 1;
 }
 
-/// Whether a row begins in the seam: then it belongs to the first step.
+/// Whether a row begins in the seam: it is then added in the first step.
 static bool begins_in_seam(const walk *w, const slope_row *slope)
 {
     const int first = first_of(slope);
     return first < 0 || first >= w->interior;
 }
 
-/// All rows whose first interior sample is x_k; with the first those that begin in the seam.
+/// Adds all rows whose first interior sample is x_k; in the first step also those that begin in the seam.
 static void add_rows(walk *w)
 {
     const system_rows *rows = w->rows;
@@ -159,7 +159,7 @@ static void add_rows(walk *w)
     if (w->k == 0) add_start(w);
 }
 
-/// Looks at the pivots of a sample, from column `c` on; those of fixed unknowns are 1.
+/// Checks the pivots of a sample, from column `c` on; those of fixed unknowns are 1.
 static pentadiagonal_rank close_sample(walk *w, int sample, int c)
 {
     pentadiagonal_rank rank = RANK_FULL;
@@ -172,7 +172,7 @@ static pentadiagonal_rank close_sample(walk *w, int sample, int c)
     return rank;
 }
 
-/// Writes what U_k* is, and goes on to the next sample.
+/// Stores U_k's row and goes on to the next sample.
 static void finish_step(walk *w, pentadiagonal *m)
 {
     double(*u)[COLUMNS] = w->u, *d = m->diagonal + 3 * w->k;

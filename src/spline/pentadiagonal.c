@@ -9,18 +9,18 @@
 //     |        F2  E3  D4    |                      U_k  = E_k − L2_{k−1} U_{k−1}ᵀ
 //                                                   L1_k = U_k S_k⁻¹,  L2_k = F_k S_k⁻¹
 //
-// No fill outside the band and no pivoting: A is positive definite. A loop wraps the band around; there the last two samples are the
-// border, whose rows of L are full, and their corner of A, less what the rest takes off, is factored by itself.
+// There is no fill outside the band, and no pivoting, because A is positive definite. A loop wraps the band around. Its last two samples
+// are then the border: their rows of L are full, and their corner of A, after elimination, is factored separately.
 #include "spline/pentadiagonal.h"
 #include "spline/wide.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/// A pivot below this part of its diagonal entry is rounding; those of a knot-free stretch of G samples are about G⁻³ of it.
+/// A pivot below this share of its diagonal entry is rounding. Those of a knot-free stretch of G samples are about G⁻³ of it.
 static const double rounding = 8 * DBL_EPSILON;
 
-/// The border's unknowns: outside complex mode only every other one is there.
+/// The step between the border's unknowns: outside complex mode every other one is unused.
 static int stride_of(const pentadiagonal *m) { return m->is_complex ? 1 : 2; }
 
 /// Rows before the border.
@@ -32,7 +32,7 @@ typedef struct block {
 
 static const block zero = {0, 0, 0, 0};
 
-// Each step is written once, for a mode that is known where it is compiled: outside complex mode a block is its first number.
+// Each step is written once, with the mode known at compile time. Outside complex mode a block is its first number.
 
 static inline block load(bool is_complex, const double *p)
 {
@@ -76,7 +76,7 @@ static void add_to_corner(pentadiagonal *m, int r, int c, block x)
     m->corner[r + 1][c] += x.c, m->corner[r + 1][c + 1] += x.d;
 }
 
-/// Border ← L of a sample's rows, once the others are factored; corner ← what that leaves of it.
+/// Border ← the border's rows of L for a sample; corner ← the rest.
 static inline void eliminate_border(pentadiagonal *m, int of_sample, const bool is_complex)
 {
     block before = zero, second = zero, own = zero, beside = zero; // L S of row k−1 and k−2; L S L'
@@ -95,7 +95,7 @@ static inline void eliminate_border(pentadiagonal *m, int of_sample, const bool 
     if (of_sample > 0) add_to_corner(m, 2, 0, beside);
 }
 
-/// Each row waits for the one before: what is left to do once 1 / det of that is known, U S⁻¹ Uᵀ of it, is a product and a difference.
+/// Each row waits for the one before. So U S⁻¹ Uᵀ is kept times det: once 1 / det is known, a product and a difference remain.
 static inline pentadiagonal_rank factor(pentadiagonal *m, const bool is_complex)
 {
     const int rows = interior_of(m);
@@ -197,7 +197,7 @@ WIDEST static pentadiagonal_rank factor_rows(pentadiagonal *m)
     return m->is_complex ? factor(m, true) : factor(m, false);
 }
 
-/// Moves the coupling block A_{row,column} (at `from`, which becomes 0) out of the band into border or corner.
+/// Moves the coupling block A_{row,column} from the band (at `from`, set to 0) to the border or corner.
 static void move_to_border(pentadiagonal *m, int row, int column, double *from)
 {
     const int stride = stride_of(m), interior = interior_of(m), r = 2 * (row - interior), c = 2 * (column - interior);
@@ -236,7 +236,7 @@ static void split_border(pentadiagonal *m)
     }
 }
 
-/// corner ← its Cholesky factor; `entry` are the diagonal entries before the border was taken off.
+/// corner ← its Cholesky factor; `entry` are the diagonal entries before elimination.
 static pentadiagonal_rank factor_corner(pentadiagonal *m, const double *entry)
 {
     pentadiagonal_rank rank = RANK_FULL;

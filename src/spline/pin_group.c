@@ -1,4 +1,4 @@
-/// The memory of a group of splines that share pins: one block, and a solver a spline.
+/// The memory of a group of splines that share pins: one block, with a solver for each spline.
 #include "spline/pin_group.h"
 #include <limits.h>
 #include <stdlib.h>

@@ -1,13 +1,13 @@
-/// Which combinations of a sample's pins can be reached: the eigenvectors of B°B°ᵀ, B being how far each spline's Re x and Im x move them.
+/// Which combinations of a sample's pins can be reached: the eigenvectors of B°B°ᵀ. B is how far each spline's Re x and Im x move the pins.
 #include "spline/pin_group.h"
 #include "spline/symmetric.h"
 #include <math.h>
 #include <string.h>
 
-/// A bound gives way by this much in any case: two that say nearly the same are not at odds then.
+/// The least softness of a bound, so that two nearly equal bounds never contradict each other.
 static const double least_soft = 1e-10;
 
-/// Of the largest eigenvalue: below the first a direction is out of reach; below the second it gives way.
+/// Shares of the largest eigenvalue: below the first a direction is out of reach, below the second it is soft.
 static const double out_of_reach = 1e-4, firm = 0.04;
 
 size_t pin_rows_scratch(int splines, int pins)
@@ -49,7 +49,7 @@ static void put_pin(double *b, int columns, const pulled *splines, const wiggly_
     }
 }
 
-/// B°: keyed samples cannot move their Re x, poses and still ones none of it.
+/// Turns B into B°: keyed samples cannot move Re x, poses and still samples neither part.
 static void hold_keyed(double *b, int rows, int columns, const pulled *splines, int sample)
 {
     for (int s = 0; s < columns / 2; s++) {
@@ -120,21 +120,21 @@ int pin_rows_sample(const pulled *spline, int sample)
     return p->settles && sample > p->latest ? p->latest : sample;
 }
 
-/// c of a bound's spline as coefficients of Re x and Im x.
+/// A bound's coefficients on Re x and Im x of its spline, from c.
 static void put_coefficients(const pulled *spline, const double c[2], double on[2])
 {
     on[0] = c[0];
     on[1] = spline->problem.desc->mode == WIGGLY_COMPLEX ? -c[1] : 0;
 }
 
-/// How many parts of x cannot move a bound's point: a knot knows them.
+/// How many parts of x cannot move a bound's point, because a knot fixes them.
 static int barred(const pulled *spline, int sample)
 {
     const int at = pin_rows_sample(spline, sample);
     return at >= 0 && !bound_tail_moves(&spline->tail, sample) ? known_at(&spline->problem, at) : 0;
 }
 
-/// What of a bound's way lies along a pin's row, as a square.
+/// Squared component of a bound's direction along a pin's row.
 static double square_along(const pin_rows *rows, const pulled *splines, const wiggly_bound *bound, const double *on)
 {
     double product = 0, square = 0;
@@ -170,7 +170,7 @@ double pin_rows_reach(const pin_rows *rows, const pulled *splines, const wiggly_
     return all > 0 ? fmax(0, rest / all) : 0;
 }
 
-/// Behind the last knot x is e^{p…} times what it is there.
+/// After the last knot x is e^{p…} times x at the knot.
 static void turn_to_last(const pulled *spline, int sample, double on[2])
 {
     const problem *p = &spline->problem;

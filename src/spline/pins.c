@@ -1,7 +1,7 @@
-/// Pins: splines solved together, so that points which they move are where they must be (docs/mathematics.md, Pins).
+/// Pins: splines solved together, so that the points they move reach given places (docs/mathematics.md, Pins).
 //
-// Each spline is solved without pins, but starts and ends as with them; and for unit pulls on Re x and Im x at each pinned sample, whose
-// effect on x is read at all of them. With R_s the rows' coefficients of spline s and Z_s its compliance,
+// Each spline is solved without pins (its start and end are the same as with them) and for unit pulls on Re x and Im x at each pinned
+// sample, and the response is read at all of these. With R_s the rows' coefficients of spline s and Z_s its compliance,
 //
 //     S = Σ_s R_sᵀ Z_s R_s / w_s,     (S + diag(φ S_max)) λ = want − Σ_s R_s x_s⁰,
 //
@@ -12,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-/// Rounds that correct what the rows still miss, and how much they may miss, as a part of the largest.
+/// Correction rounds, and the miss they tolerate, as a share of the largest target.
 enum { MAX_ROUNDS = 3 };
 static const double near_enough = 1e-10;
 
@@ -54,7 +54,7 @@ static wiggly_status check_pin(const wiggly_pin *pin, int spline_count)
     return WIGGLY_OK;
 }
 
-/// Takes the caller's descriptions and curves over.
+/// Copies the caller's descriptions and curves.
 static wiggly_status read_splines(wiggly_group *g, const wiggly_desc *descs, wiggly_curve *curves, int spline_count)
 {
     for (int s = 0; s < spline_count; s++) {
@@ -86,7 +86,7 @@ static wiggly_status check(wiggly_group *g, const wiggly_desc *descs, const doub
     return read_splines(g, descs, curves, spline_count);
 }
 
-/// By sample; pins of one sample stay in their order.
+/// Sorts pins by sample; pins of one sample keep their order.
 static void order_pins(wiggly_group *g, const wiggly_pin *pins, int pin_count)
 {
     for (int i = 0; i < pin_count; i++) {
@@ -96,7 +96,7 @@ static void order_pins(wiggly_group *g, const wiggly_pin *pins, int pin_count)
     }
 }
 
-/// Whether a pin moves with a spline.
+/// Whether a spline moves a pin.
 static bool moves(const wiggly_pin *pin, int spline)
 {
     for (int i = 0; i < pin->pull_count; i++) {
@@ -123,7 +123,7 @@ static void find_pulls(wiggly_group *g, int spline, const wiggly_pin *pins, int 
     pulls->latest = pulls->count > 0 ? pulls->sample[pulls->count - 1] : -1;
 }
 
-/// Whether a spline can be pulled at those samples: it has a motion of its own, whose start costs something.
+/// Whether a spline can be pulled there: it has free motion, and its start is penalised.
 static bool can_be_pulled(const pulled *of)
 {
     const problem *p = &of->problem;
@@ -134,7 +134,7 @@ static bool can_be_pulled(const pulled *of)
     return desc->mode != WIGGLY_CUBIC && desc->calm > 0 && fastest > 0;
 }
 
-/// Whether pulls are where the spline has samples of its own; a loop's last is its first.
+/// Whether all pulls are on samples of the spline; a loop's last sample is its first.
 static bool are_inside(const system_pulls *pulls, const wiggly_desc *desc)
 {
     int end = desc->samples - (desc->start == WIGGLY_LOOP ? 1 : 0);
@@ -149,7 +149,7 @@ static wiggly_status pose_spline(pulled *of, double weight)
     solver->pulls = of->pulls.count > 0 ? &of->pulls : NULL;
     wiggly_status status = problem_pose(solver, desc, solver->y, &of->problem);
     if (status == WIGGLY_OK && of->pulls.count > 0 && of->problem.count < 3) {
-        of->pulls.count = 0; // too short for a pull to move anything
+        of->pulls.count = 0; // too short to be moved by a pull
         solver->pulls = NULL;
         status = problem_pose(solver, desc, solver->y, &of->problem);
     }
@@ -172,7 +172,7 @@ static wiggly_status pose(wiggly_group *g, const double *weights, int spline_cou
     return WIGGLY_OK;
 }
 
-/// Index of the pull on a sample; `count` where there is none.
+/// Index of the pull on a sample; `count` if there is none.
 static int find_pull(const system_pulls *pulls, int sample)
 {
     int from = 0, to = pulls->count;
@@ -187,7 +187,7 @@ static int find_pull(const system_pulls *pulls, int sample)
     return from < pulls->count && pulls->sample[from] == sample ? from : pulls->count;
 }
 
-/// Pulls a spline for a bound at one of its samples; a loop's pulls all count as knots, because it has no ends.
+/// Adds a pull for a bound at a sample. A loop's pulls all count as knots, because it has no ends.
 static void add_pull(system_pulls *pulls, int sample, bool is_loop)
 {
     int at = pulls->count;
@@ -198,7 +198,7 @@ static void add_pull(system_pulls *pulls, int sample, bool is_loop)
     if (is_loop) pulls->earliest = pulls->sample[0], pulls->latest = pulls->sample[pulls->count - 1];
 }
 
-/// Makes a posed spline ready for what bounds press.
+/// Prepares a spline for bounds.
 static wiggly_status pose_bounds(wiggly_group *g, int spline, const wiggly_bound *bounds, int bound_count)
 {
     pulled *of = &g->pulled[spline];
@@ -218,7 +218,7 @@ static wiggly_status pose_bounds(wiggly_group *g, int spline, const wiggly_bound
 
 // --- the system of the pins ------------------------------------------------------------------------------------------
 
-/// Of each row, which pull on the spline is at its sample: pins' are ordered as pulls are.
+/// For each row, finds the pull at its sample. Pins are in the same order as pulls.
 static void match_rows(const pin_rows *rows, const pulled *of, int *pull_of)
 {
     const system_pulls *pulls = &of->pulls;
@@ -238,7 +238,7 @@ WIDEST static void add_two(double *restrict sum, double u, const double *restric
     for (int i = 0; i < count; i++) sum[i] += u * a[i] + v * b[i];
 }
 
-/// Adds a spline to the lower triangle of S and takes what it does without pulls off what is wanted.
+/// Adds a spline to the lower triangle of S, and subtracts its motion without pulls from the targets.
 static void add_spline(wiggly_group *g, int spline)
 {
     const pulled *of = &g->pulled[spline];
@@ -263,7 +263,7 @@ static void add_spline(wiggly_group *g, int spline)
     }
 }
 
-/// Adds what bounds press behind a spline's last knot to the lower triangle of S.
+/// Adds the effect of bounds after a spline's last knot to the lower triangle of S.
 static void add_tail(wiggly_group *g, int spline)
 {
     const bound_tail *tail = &g->pulled[spline].tail;
@@ -294,7 +294,7 @@ static void read_pulled(const pulled *of, double *x)
     }
 }
 
-/// What the knots and the equilibrium make of x at the pulled samples.
+/// x at the pulled samples from knots and equilibrium alone.
 static bool find_alone(pulled *of, factorisation *factor, double *alone)
 {
     const problem *p = &of->problem;
@@ -311,8 +311,7 @@ static bool find_alone(pulled *of, factorisation *factor, double *alone)
     return true;
 }
 
-/// x at the pulled samples under single pulls, and without any: two solves for each pull, with one factor. false where the system is
-/// singular.
+/// x at the pulled samples under single pulls, and without any: two solves per pull with one factor. False if the system is singular.
 static bool respond_alone(pulled *of, double *compliance, double *alone)
 {
     const int count = of->pulls.count, width = 2 * count;
@@ -320,7 +319,7 @@ static bool respond_alone(pulled *of, double *compliance, double *alone)
     factorisation factor;
     memset(of->pulls.pull, 0, sizeof *of->pulls.pull * (size_t)count);
     if (!find_alone(of, &factor, alone)) {
-        of->problem.level_slope = true; // as for a spline by itself that nothing holds
+        of->problem.level_slope = true; // as for a spline without pins
         if (!of->problem.free_end || !find_alone(of, &factor, alone)) return false;
     }
     for (int i = 0; i < width; i++) {
@@ -337,7 +336,7 @@ static bool respond_alone(pulled *of, double *compliance, double *alone)
     return true;
 }
 
-/// Solves each spline for S and for the miss without pulls. false where one cannot be solved.
+/// Solves each spline for S and for the miss without pulls. False if one cannot be solved.
 static bool respond(wiggly_group *g, int spline_count)
 {
     const int n = g->rows.count;
@@ -357,7 +356,7 @@ static bool respond(wiggly_group *g, int spline_count)
     return all;
 }
 
-/// Directions that can barely be reached give way.
+/// Softens directions that can barely be reached.
 static void soften(wiggly_group *g)
 {
     const int n = g->rows.count;
@@ -379,7 +378,7 @@ static void soften(wiggly_group *g)
     }
 }
 
-/// The pulls on a spline that λ means.
+/// The pulls on a spline, from λ.
 static void set_pulls(wiggly_group *g, int spline)
 {
     pulled *of = &g->pulled[spline];
@@ -394,7 +393,7 @@ static void set_pulls(wiggly_group *g, int spline)
     }
 }
 
-/// Adds what bounds press behind the last knot to a curve.
+/// Adds the effect of bounds after the last knot to a curve.
 static void press_tail(wiggly_group *g, int spline, wiggly_curve *curve)
 {
     pulled *of = &g->pulled[spline];
@@ -429,7 +428,7 @@ static wiggly_status solve_splines(wiggly_group *g)
     return worst;
 }
 
-/// x of a spline that has been solved: in the caller's arrays, else where the solver has them meanwhile.
+/// x of a solved spline: from the caller's arrays, else from the solver's.
 static cplx solved_x(const pulled *of, int sample)
 {
     const wiggly_solver *solver = of->solver;
@@ -438,7 +437,7 @@ static cplx solved_x(const pulled *of, int sample)
                   (curve->im ? curve->im : solver->rows.gradient + solver->samples)[sample]};
 }
 
-/// Re(c x) of a bound's point.
+/// Re(c x) at a bound's point.
 static double see_bound(const wiggly_group *g, const wiggly_bound *bound)
 {
     double sum = 0;
@@ -449,7 +448,7 @@ static double see_bound(const wiggly_group *g, const wiggly_bound *bound)
     return sum;
 }
 
-/// What the rows miss; true where that is next to nothing beside what they want.
+/// Finds the rows' misses; true if these are negligible compared with the targets.
 static bool find_miss(wiggly_group *g)
 {
     const pin_rows *rows = &g->rows;
@@ -477,7 +476,7 @@ static bool find_miss(wiggly_group *g)
     return most <= near_enough * size;
 }
 
-/// λ and the curves of rows that are all met.
+/// λ and the curves if all rows are equalities.
 static wiggly_status pull(wiggly_group *g)
 {
     const int n = g->rows.count;
@@ -492,7 +491,7 @@ static wiggly_status pull(wiggly_group *g)
     return status;
 }
 
-/// S λ + what is missed: what λ is to make of the rows, from nothing.
+/// S λ + the misses: the targets for a λ computed from scratch.
 static void find_want(wiggly_group *g)
 {
     const int n = g->rows.count;
@@ -502,7 +501,7 @@ static void find_want(wiggly_group *g)
     }
 }
 
-/// λ and the curves of rows some of which are bounds'.
+/// λ and the curves if some rows are bounds.
 static wiggly_status press(wiggly_group *g)
 {
     wiggly_status status = solve_splines(g);

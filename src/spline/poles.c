@@ -1,4 +1,4 @@
-/// From parameters to poles, coefficients and the cost of the start: of one sample, and of a block of them.
+/// Poles, coefficients and cost of the start from parameters: for one sample, and for a block.
 #include "spline/poles.h"
 #include "spline/dd.h"
 #include "spline/desc.h"
@@ -17,10 +17,10 @@ static inline uint64_t bits_of(double x)
 
 static const double pi = 3.14159265358979323846;
 
-/// Nothing beyond this is told apart from it (λ has long been 0), and products of two stay finite.
+/// Larger numbers make no difference (λ has long been 0), and products of two stay finite.
 static const double largest = 1e140;
 
-/// A start cost below this (N⁻⁴ of the longest spline) holds nothing.
+/// A smaller start cost (N⁻⁴ of the longest spline) has no effect.
 static const double negligible = 1e-30;
 
 static double at_sample(wiggly_param param, int sample, double maximum)
@@ -67,7 +67,7 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
     return complex_poles(omega, fmin(zeta, 1.0), at_sample(desc->bandwidth, sample, 1.0));
 }
 
-/// The largest number's bits: positive ones are ordered as their bits are, above all that are not.
+/// Bits of the largest number: positive numbers have the order of their bits, above negative ones.
 WIDEST static int64_t largest_bits(const double *x, int count)
 {
     int64_t most = 0;
@@ -115,7 +115,7 @@ static cplx cplx_expm1_of(double grown, double angle)
 
 static cplx cplx_expm1(cplx z) { return cplx_expm1_of(expm1(z.re), z.im); }
 
-/// μ = exp(s h) − 1 of both poles, which often decay alike or are conjugates.
+/// μ = exp(s h) − 1 of both poles, which often decay equally or are conjugates.
 static void distances(const poles *at, double step, cplx mu[2])
 {
     const cplx *s = at->s;
@@ -126,7 +126,7 @@ static void distances(const poles *at, double step, cplx mu[2])
     mu[1] = conjugate ? cplx_conj(mu[0]) : cplx_expm1_of(grown, s[1].im * step);
 }
 
-/// exact − (whole + m + p) of one part.
+/// exact − (whole + m + p) in one part.
 static double rest_of(double exact, double whole, double m, double p)
 {
     dd sum = dd_add(dd_sum(whole, m), dd_from(p));
@@ -199,7 +199,7 @@ static double z_over_sinh(double z2)
     return z2 > 0 ? z / sinh(z) : z / sin(z);
 }
 
-/// Steepest coefficient of a speed: where two poles alias to the same λ it would be infinite.
+/// Limit for the coefficient of a speed; it would be infinite if two poles alias to the same λ.
 static const double steepest = 1e8;
 
 // With μ = λ − 1, w' = s₀ w + Q (w₁ − λ₀ w) = (s₀ − Q μ₀) w + Q e, and Q = (s₀−s₁)/(λ₀−λ₁) = z / sinh z · exp(−(s₀+s₁)h/2) / h with
@@ -208,14 +208,14 @@ speed_form poles_speed(const poles *at, double step, bool backwards)
 {
     double h = backwards ? -step : step;
     const bool alike =
-        at->s[0].re == at->s[1].re; // else the second fades faster, and the first says how steep it gets
+        at->s[0].re == at->s[1].re; // else the second pole fades faster, and the first determines the slope
     cplx s0 = {fmax(at->s[0].re * step, -DEEPEST) / step, at->s[0].im};
     cplx s1 = {fmax(at->s[1].re * step, alike ? -DEEPEST : -3 * DEEPEST) / step, at->s[1].im};
     cplx z = cplx_scale(0.5 * h, cplx_sub(s0, s1)), mean = cplx_scale(0.5 * h, cplx_add(s0, s1));
     double ratio = fmin(fmax(z_over_sinh(z.re * z.re - z.im * z.im), -steepest), steepest);
     cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));
     cplx on_x = cplx_sub(cplx_scale(h, s0), cplx_mul(q, cplx_expm1(cplx_scale(h, s0))));
-    if (s0.im == -s1.im) on_x.im = q.im = 0; // poles that are conjugates or real: not even rounding ties Im x to Re x
+    if (s0.im == -s1.im) on_x.im = q.im = 0; // conjugate or real poles: not even rounding may couple Im x to Re x
     return backwards ? (speed_form){cplx_scale(-1, on_x), q} : (speed_form){on_x, q};
 }
 
@@ -261,12 +261,12 @@ wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)
 
 // --- a block of samples ----------------------------------------------------------------------------------------------
 //
-// In loops that vectorise: sine, cosine and exponential by polynomials. With the half angle φ = Im s h / 2 and α = Re s h, without
-// cancellation at high sample rates,
+// Loops that vectorise, with sine, cosine and exponential by polynomials. With the half angle φ = Im s h / 2 and α = Re s h, accurate at high
+// sample rates,
 //
 //     λ − 1 = expm1 α − 2 e^α sin² φ + 2j e^α sin φ cos φ.
 
-/// Larger angles and exponents are left to the mathematics library.
+/// The mathematics library handles larger angles and exponents.
 static const double largest_angle = 1e4, largest_exponent = 600;
 
 /// Adding it rounds to an integer, which is then in the lowest bits.
@@ -380,7 +380,7 @@ WIDEST static void set_real(const double *restrict f, const double *restrict z, 
     }
 }
 
-/// Coefficients of exponents; `alike` where both poles decay alike, which halves what there is to do.
+/// Coefficients from exponents; `alike`: both poles decay equally, which halves the work.
 static inline void to_coefficients(const exponents *restrict e, int count, bool alike, poles_block *restrict block)
 {
     for (int i = 0; i < count; i++) {
@@ -410,7 +410,7 @@ WIDEST static void set_alike_coefficients(const exponents *restrict e, int count
     to_coefficients(e, count, true, block);
 }
 
-/// What is out of the polynomials' reach, one by one.
+/// Samples beyond the polynomials' range, one by one.
 static void fill_each(const wiggly_desc *desc, int from, int count, double floor, poles_block *block)
 {
     for (int i = 0; i < count; i++) {
@@ -426,7 +426,7 @@ static void fill_each(const wiggly_desc *desc, int from, int count, double floor
 
 WIDEST static bool is_within_reach(const exponents *e, int count)
 {
-    int64_t beyond = 0; // as wide as what it comes from
+    int64_t beyond = 0; // same width as the comparison
     for (int k = 0; k < 2; k++) {
         for (int i = 0; i < count; i++) beyond |= fabs(e->half[k][i]) <= largest_angle ? 0 : 1;
         for (int i = 0; i < count; i++) beyond |= -e->real[k][i] <= largest_exponent ? 0 : 1;
@@ -434,7 +434,7 @@ WIDEST static bool is_within_reach(const exponents *e, int count)
     return beyond == 0;
 }
 
-/// Frequencies and exponents; the block's coefficients are not touched.
+/// Frequencies and exponents, without coefficients.
 static void set_exponents(const wiggly_desc *desc, int from, int count, double floor, poles_block *block,
                           exponents *e)
 {

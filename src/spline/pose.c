@@ -1,5 +1,5 @@
-/// From the description to the problem (docs/mathematics.md, Constraints): where the domain starts and ends, what knots are measured
-/// from, what the start costs.
+/// Sets up the problem from a description (docs/mathematics.md, Constraints): where the domain starts and ends, the level that knots are
+/// measured from, and the cost of the start.
 #include "spline/problem.h"
 #include "spline/wide.h"
 #include <float.h>
@@ -7,13 +7,13 @@
 #include <stdint.h>
 #include <string.h>
 
-/// Below this part of ω_n a last knot's slope is met by the jets, and not by what moves by itself.
+/// At a lower share of ω_n the jets, and not the free motion, meet a last knot's slope.
 static const double slowest_settling = 0.3;
 
-/// Whether no magnitude is beyond a limit, nor NaN.
+/// Whether all magnitudes are within a limit; false for NaN.
 WIDEST static bool are_within(const double *x, int count, double limit)
 {
-    int64_t beyond = 0; // as wide as what it comes from
+    int64_t beyond = 0; // same width as the comparison
     for (int i = 0; i < count; i++) beyond |= fabs(x[i]) <= limit ? 0 : 1;
     return beyond == 0;
 }
@@ -54,8 +54,7 @@ static wiggly_status check_knot(const wiggly_desc *desc, const wiggly_knot *knot
     return knot->value < desc->low || knot->value > desc->high ? WIGGLY_ERROR_KNOT_LIMIT : WIGGLY_OK;
 }
 
-/// Checks the knots and fills `order`; `knot` receives the one that is wrong. Knots that are in order already, as a document's are,
-/// cost one look each.
+/// Checks the knots and fills `order`; `knot` receives a wrong one. Knots already in order, like a document's, are visited once.
 static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
 {
     bool ordered = true;
@@ -80,7 +79,7 @@ static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc,
     return WIGGLY_OK;
 }
 
-/// Whether w moves by itself behind the latest knot.
+/// Whether w is free after the latest knot.
 static bool is_settling(const wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
@@ -112,7 +111,7 @@ static void set_domain(wiggly_solver *solver, problem *p)
     }
 }
 
-/// What knots are measured from.
+/// Sets the level that knots are measured from.
 static void set_about(wiggly_solver *solver, problem *p)
 {
     const wiggly_desc *desc = p->desc;
@@ -134,7 +133,7 @@ static void set_about(wiggly_solver *solver, problem *p)
     }
 }
 
-/// The filter's start is that of the first sample; the oscillator's that of the fastest up to the first still knot, seen from the first.
+/// The filter's start cost is that of the first sample. The oscillator's is that of the fastest sample up to the first still knot.
 static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
@@ -157,7 +156,7 @@ static double unit_of(wiggly_solver *solver, const problem *p)
     return exp(-poles_weight_exponent(&at, p->desc->step));
 }
 
-/// c·H of the start, for the calm that the problem has now.
+/// c·H of the start, for the problem's present calm.
 static void set_start(wiggly_solver *solver, problem *p)
 {
     p->cost = (start_cost){0};

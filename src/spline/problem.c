@@ -1,33 +1,33 @@
-/// From the description to a chain: which documents it serves, and their nodes.
+/// Sets up the chain from a problem: whether it can be used, and its nodes.
 #include "spline/problem.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-/// Below this many radians of the natural frequency over the domain the imaginary rows hold Im x and may not be left out. Above, what
-/// they change is below 1e-9 of x; twice as high up and more it is about 1e-14. Where next to nothing holds the start it takes more.
+/// Below this phase (radians of the natural frequency over the domain) the imaginary rows hold Im x and may not be left out. Above it they
+/// change x by less than 1e-9, from twice the phase on by about 1e-14. With a nearly free start the phase must be higher.
 static const double least_unpulled_phase = 12.6, least_phase_of_loose_start = 48;
 
-/// Below that and above this, the chain lets them pull on its nodes, if (radians² · domain / longest gap)⁴ is so large that what it
-/// leaves out, how they bend the gaps, is no more than `most_omitted`.
+/// Between that and this phase the chain lets them pull on its nodes, if (radians² · domain / longest gap)⁴ is so large that their bending of
+/// the gaps, which is left out, stays below `most_omitted`.
 static const double least_phase = 6, least_stiffness_of_gaps = 1e7;
 
-/// The most that was left out, as a part of x; from `least_unpulled_phase` on it falls with the eighth power.
+/// The largest omission, as a share of x; from `least_unpulled_phase` on it falls with the eighth power.
 static const double most_omitted = 2e-10;
 
-/// The jet at a sample and what is behind it are far apart where a row's b all but vanishes: speeds seen from there are not for the chain.
+/// If a row's b almost vanishes, the jet at a sample and the motion after it are unrelated: the chain cannot handle speeds seen from there.
 static const double least_b = 1e-3;
 
-/// A knot in order of samples.
+/// The n-th knot in order of samples.
 static const wiggly_knot *knot_at(const wiggly_solver *solver, const problem *p, int n)
 {
     return &p->desc->knots[solver->order[n]];
 }
 
-/// The knot after n, or after more than the last.
+/// The index of the knot after n, wrapped around.
 static int in_turn(const problem *p, int n) { return n < p->desc->knot_count ? n : n - p->desc->knot_count; }
 
-/// Whether knot n has one on the sample after it; in a loop the first comes after the last.
+/// Whether there is a knot on the sample after knot n; in a loop the first knot follows the last.
 static bool has_company(const wiggly_solver *solver, const problem *p, int n)
 {
     int knots = p->desc->knot_count, sample = knot_at(solver, p, n)->sample + 1;
@@ -35,7 +35,7 @@ static bool has_company(const wiggly_solver *solver, const problem *p, int n)
     return p->start == WIGGLY_LOOP && knots > 1 && sample == p->count && knot_at(solver, p, 0)->sample == 0;
 }
 
-/// The knot that the chain begins with: the first, in a loop the first that has none on the sample before, or is still. -1 where there is none.
+/// The chain's first knot: the first; in a loop the first without a knot on the sample before, or that is still. -1: none.
 static int first_of_chain(const wiggly_solver *solver, const problem *p)
 {
     int knots = p->desc->knot_count;
@@ -46,8 +46,8 @@ static int first_of_chain(const wiggly_solver *solver, const problem *p)
     return -1;
 }
 
-/// No slope may act inside a pair of knots side by side, but at its first; nor may the paper's at the domain's last sample. A still knot has
-/// none beside it.
+/// Two knots side by side allow no slope but at the first of them; at the domain's last sample the paper's slope is not allowed. A still knot
+/// has no neighbour.
 static bool knots_fit(wiggly_solver *solver, const problem *p, int begin)
 {
     const wiggly_desc *desc = p->desc;
@@ -73,13 +73,13 @@ static double phase_of(wiggly_solver *solver, const problem *p)
     return problem_filter(solver, p)->at.natural * (intervals * p->desc->step);
 }
 
-/// Whether a chain takes the imaginary rows as a pull on its nodes.
+/// Whether the imaginary rows become a pull on the chain's nodes.
 static bool pulls_imaginary(wiggly_solver *solver, const problem *p)
 {
     return p->desc->mode == WIGGLY_COMPLEX && (problem_is_loose(p) || phase_of(solver, p) < least_unpulled_phase);
 }
 
-/// Samples of the longest stretch. One that ends freely bends as one that is two and a half times as long.
+/// Samples of the longest stretch. A free end makes a stretch bend like one two and a half times as long.
 static double longest_gap(const wiggly_solver *solver, const problem *p)
 {
     const int before = p->start == WIGGLY_LOOP ? p->latest - p->count : p->first;
@@ -110,12 +110,12 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
     if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
     if (desc->mode == WIGGLY_COMPLEX && !imaginary_fit(solver, p)) return false;
     if (p->start == WIGGLY_REST && desc->knot_count > 0 && knot_at(solver, p, 0)->sample < 2)
-        return false; // held at a limit: too near to the node at rest
+        return false; // held at a limit: too close to the node at rest
     int begin = first_of_chain(solver, p);
     return begin >= 0 && knots_fit(solver, p, begin);
 }
 
-/// What a chain without the imaginary rows, or with no more than their pull on the nodes, may be off by, as a part of x; 0 where that is next to nothing.
+/// Relative error of a chain without the imaginary rows, or with their pull on the nodes alone; 0 if negligible.
 static double omission(wiggly_solver *solver, const problem *p)
 {
     if (p->desc->mode != WIGGLY_COMPLEX) return 0;
@@ -123,7 +123,7 @@ static double omission(wiggly_solver *solver, const problem *p)
     return ratio > 0.5 ? most_omitted * r4 * r4 : 0;
 }
 
-/// Writes what a knot says into a node, field by field; true where the node there differed in nothing but its values.
+/// Writes a knot to a node, field by field. True if the node there differed only in values.
 static bool put_node(chain_node *at, int sample, unsigned fixed, chain_view view, double slope, double slope_weight)
 {
     bool same = at->sample == sample && at->fixed == fixed && at->view == view && at->slope_weight == slope_weight;
@@ -135,7 +135,7 @@ static bool put_node(chain_node *at, int sample, unsigned fixed, chain_view view
     return same;
 }
 
-/// From where the speed at a knot is seen.
+/// From which side the speed at a knot is seen.
 static chain_view view_of(const problem *p, int sample)
 {
     if (!problem_oscillates(p)) return VIEW_AHEAD;
@@ -145,7 +145,7 @@ static chain_view view_of(const problem *p, int sample)
     return ahead && behind ? VIEW_BOTH : ahead ? VIEW_AHEAD : VIEW_BEHIND;
 }
 
-/// What of a node is known by its knot, or by the pair of knots that it is.
+/// The unknowns of a node that its knot, or pair of knots, fixes.
 static unsigned known_of(const problem *p, const wiggly_knot *knot, const wiggly_knot *pair)
 {
     const bool settled = p->settles && knot->sample == p->latest;
@@ -155,12 +155,12 @@ static unsigned known_of(const problem *p, const wiggly_knot *knot, const wiggly
     return fixed | NODE_FIXED_E | (problem_is_whole(p, pair) ? NODE_FIXED_E_IM : 0);
 }
 
-/// Writes what a knot says into a node, with the knot on the next sample where there is one; true where only values changed.
+/// Writes a knot to a node, with the knot on the next sample if there is one; true if only values changed.
 static bool put_knot(const problem *p, chain_node *node, const wiggly_knot *knot, const wiggly_knot *pair)
 {
     slope_row slope = {0};
     const bool inside =
-        pair && !problem_oscillates(p); // of two knots: what it asks of them is met to rounding, or not at all
+        pair && !problem_oscillates(p); // the paper's slope between two knots is met to rounding, or not at all
     if (knot->has_slope && !inside) slope = problem_slope(p, knot->sample, knot->slope, knot_stiffness(knot));
     const unsigned fixed = known_of(p, knot, pair);
     node->value = problem_knot_re(p, knot);
@@ -170,7 +170,7 @@ static bool put_knot(const problem *p, chain_node *node, const wiggly_knot *knot
     return put_node(node, knot->sample - p->first, fixed, view_of(p, knot->sample), slope.target, slope.weight);
 }
 
-/// Two keyed samples side by side are one node, whose e is known. true where only values differ from the nodes before.
+/// Two neighbouring keyed samples are one node with a known e. True if only values differ from the nodes before.
 static bool make_nodes(wiggly_solver *solver, const problem *p)
 {
     const int knots = p->desc->knot_count, begin = first_of_chain(solver, p);
@@ -205,7 +205,7 @@ static double cplx_size(cplx z) { return fmax(fabs(z.re), fabs(z.im)); }
 
 static bool same_cplx(cplx a, cplx b) { return a.re == b.re && a.im == b.im; }
 
-/// What the last sample's jet sees of what moves by itself.
+/// The coefficient of the free motion in the last sample's jet.
 static cplx tail_of(const constant_filter *f, const problem *p)
 {
     if (p->desc->mode != WIGGLY_COMPLEX) return (cplx){0, 0};
@@ -220,7 +220,7 @@ static bool same_filter(const wiggly_solver *solver, const problem *p)
            same_cplx(f->delta2, c->delta2) && same_cplx(tail_of(f, p), c->tail) && f->run == c->run;
 }
 
-/// h times the speed as it is seen from a node with d = e − (λ−1) x; behind it is as ahead but for the jet between.
+/// h times the speed, for a node with d = e − (λ−1) x; seen from behind it differs only by the jet between.
 static chain_speed speed_of(speed_form form, cplx lambda, double jet)
 {
     cplx growth = {lambda.re - 1, lambda.im};
@@ -238,7 +238,7 @@ static void set_speeds(chain *c, const problem *p, const constant_filter *f)
     c->tail = tail_of(f, p);
 }
 
-/// Puts filter, start and end into the solver's chain, and forgets what was made for others.
+/// Sets the chain's filter, start and end, and clears its caches.
 static void set_chain(wiggly_solver *solver, const problem *p)
 {
     chain *c = &solver->chain;
@@ -263,10 +263,10 @@ static void set_chain(wiggly_solver *solver, const problem *p)
     set_speeds(c, p, f);
 }
 
-/// One knot without any hold has no single answer.
+/// A single knot with nothing else has no unique solution.
 static bool is_held(const chain *c) { return c->cyclic || c->node_count >= 2 || c->start.row[0].weight > 0; }
 
-/// Puts filter, start and nodes into the solver's chain; true where the nodes differ from those before only in values.
+/// Sets the chain's filter, start and nodes; true if the nodes differ from those before only in values.
 static bool make_chain(wiggly_solver *solver, const problem *p)
 {
     set_chain(solver, p);

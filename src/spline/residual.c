@@ -25,7 +25,7 @@ static inline ddc ddc_scale(cplx z, ddc w)
 static inline ddc ddc_add(ddc a, ddc b) { return (ddc){dd_add(a.re, b.re), dd_add(a.im, b.im)}; }
 static inline ddc ddc_subtract(ddc a, ddc b) { return (ddc){dd_subtract(a.re, b.re), dd_subtract(a.im, b.im)}; }
 
-/// A sample of x; before the first there is 0, behind the last the tail.
+/// A sample of x; 0 before the first, the tail after the last.
 static inline cplx sample_of(const system_rows *rows, int k)
 {
     int last = rows->count - 1;
@@ -35,7 +35,7 @@ static inline cplx sample_of(const system_rows *rows, int k)
     return (cplx){rows->x[2 * k], rows->x[2 * k + 1]};
 }
 
-/// f_i: of a slow loop next to nothing is left of the sum of all, and not even their rounding may be.
+/// f_i. In a slow loop the sum of all is almost 0, so not even their rounding may remain.
 static inline ddc drive_of(const system_rows *rows, int i)
 {
     const int last = rows->count - 1;
@@ -81,7 +81,7 @@ static void set_jets(const system_rows *rows)
     }
 }
 
-/// The jet that begins from rest at the still sample before k.
+/// The jet that starts from rest at the still sample before k.
 static inline ddc jet_from_rest(const system_rows *rows, int k)
 {
     const cplx from = sample_of(rows, k - 1), to = sample_of(rows, k);
@@ -89,14 +89,15 @@ static inline ddc jet_from_rest(const system_rows *rows, int k)
     return ddc_scale((cplx){weight, 0}, (ddc){dd_difference(to.re, from.re), dd_difference(to.im, from.im)});
 }
 
-/// Number of the jet beside k, or -1 where there is none.
+/// The index of the jet at k, or -1.
 static inline int jet_beside(const system_rows *rows, int i)
 {
     if (rows->loop) return i < 0 ? rows->count - 1 : i >= rows->count ? 0 : i;
     return i >= rows->jet_from && i <= rows->jet_to ? i : -1;
 }
 
-/// g = −(before − 2·here + after) + m* here − (m+p)* after, where there are such rows; the tail's row asks less of the last sample.
+/// g = −(before − 2·here + after) + m* here − (m+p)* after, with 0 for missing rows; the tail's row has a smaller coefficient on the last
+/// sample.
 static void set_adjoint(const system_rows *rows)
 {
     for (int k = 0; k < rows->count; k++) {
@@ -128,7 +129,7 @@ static double part_of(const system_rows *rows, cplx c, int j)
     return c.re * rows->x[2 * j] - c.im * rows->x[2 * j + 1];
 }
 
-/// Takes w Re(c* …) off the gradient at a sample.
+/// Subtracts w Re(c* …) from the gradient at a sample.
 static void pull_back(const system_rows *rows, cplx c, int j, double miss)
 {
     if (j < 0) return;
@@ -176,7 +177,7 @@ static void add_pulls(const system_rows *rows)
     }
 }
 
-/// Slope, start and imaginary rows, and pulls: a handful of terms without cancellation between samples.
+/// Slope, start and imaginary rows, and pulls: few terms, without cancellation between samples.
 static void add_other_rows(const system_rows *rows)
 {
     add_pulls(rows);
@@ -185,7 +186,7 @@ static void add_other_rows(const system_rows *rows)
     for (int k = 0; k < rows->count; k++) rows->gradient[2 * k + 1] -= rows->im_weight[k] * rows->x[2 * k + 1];
 }
 
-/// Fixed unknowns take no correction.
+/// Fixed unknowns have no gradient.
 static void hold_fixed(const system_rows *rows)
 {
     for (int k = 0; k < rows->count; k++) {
@@ -194,7 +195,7 @@ static void hold_fixed(const system_rows *rows)
     }
 }
 
-/// w c* r off the gradient at a sample.
+/// Subtracts w c* r from the gradient at a sample.
 static inline void pull_jet(const system_rows *rows, int k, cplx c, cplx r)
 {
     cplx pulled = cplx_mul(cplx_conj(c), r);
@@ -206,7 +207,7 @@ static cplx before_of(const coefficients *at)
     return (cplx){1 + at->m.re + at->p.re + at->b_rest.re, at->m.im + at->p.im + at->b_rest.im};
 }
 
-/// The jets at x in plain double: far from what is known and drives there are none.
+/// The jets at x in plain double; far from known values and drives they are 0.
 static void pull_plainly(const system_rows *rows)
 {
     const int last = rows->count - 1;

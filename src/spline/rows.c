@@ -1,4 +1,4 @@
-/// From the problem to its rows, one after the other (system.h), for the solvers of the band.
+/// The rows of a problem for the solvers of the band (system.h), sample by sample.
 #include "spline/problem.h"
 #include <float.h>
 #include <math.h>
@@ -6,13 +6,13 @@
 
 static const double little = 1e-3;
 
-/// Of a start, in jets of its first sample: what is beside it has no digit left.
+/// Largest cost of a start, in jets of its first sample; beside a larger one nothing keeps a digit.
 static const double heaviest_start = 1e26;
 
-/// ln of how many times as much one jet may weigh as another: beyond, of a light one too few digits are left beside it.
+/// ln of the largest ratio of two jets' weights. Beyond, the lighter one loses too many digits.
 static const double unlike_jets = 16;
 
-/// Where the oscillator's frequency is below this part of the fastest one's, Im x is held.
+/// If the oscillator's frequency is below this share of the fastest one's, Im x is held.
 static const double slow_part = 0.1;
 
 /// y + Re u of a row of the system.
@@ -31,7 +31,7 @@ static cplx drive_at(const problem *p, int k, cplx g)
     return cplx_scale(bend, g);
 }
 
-/// h⁴ of what an oscillator's Im x costs at a sample where its frequency is so much lower than the highest.
+/// h⁴ times the cost of an oscillator's Im x at a sample whose frequency is that much below the highest.
 static double slowness(double natural, double highest, double step)
 {
     if (!(natural < slow_part * highest)) return 0;
@@ -47,7 +47,7 @@ double problem_im_weight(const problem *p, double natural)
     return 1 / (i2 * i2 * (1 + phase4 * phase4));
 }
 
-/// Coefficients of a sample's row, its drive, and where it stands among the weights.
+/// Sets a sample's coefficients, drive and weight.
 static void set_row(system_rows *rows, const problem *p, int k, coefficients at, double jet_weight, double im_weight)
 {
     rows->at[k] = at;
@@ -57,7 +57,7 @@ static void set_row(system_rows *rows, const problem *p, int k, coefficients at,
     rows->drive[k] = drive_at(p, k, at.g);
 }
 
-/// g = exp((s₀+s₁)h/2) of a block's sample; outside complex mode it is real.
+/// g = exp((s₀+s₁)h/2) at a block's sample; real outside complex mode.
 static cplx drive_phase(const poles_block *block, int i, const wiggly_desc *desc)
 {
     double turn = desc->mode == WIGGLY_COMPLEX ? block->centre[i] * desc->step : 0;
@@ -71,8 +71,8 @@ static double highest_from(const problem *p, int from, int to)
     return highest;
 }
 
-/// The highest frequency between the still knots around row k, which is not behind the later one, `end`; or from and to the system's ends, and in a loop
-/// round its seam.
+/// The highest frequency between the still knots around row k; `end` receives the later one. Without still knots the range goes to the
+/// system's ends, or around a loop's seam.
 static double highest_around(const problem *p, int k, int *end)
 {
     const int last = problem_rows(p) - 1;
@@ -92,7 +92,8 @@ static double highest_around(const problem *p, int k, int *end)
     return highest;
 }
 
-/// Every row of parameters that vary, a block at a time; returns the lowest natural frequency at which Im x is left to itself. Weights are relative to the first sample's |g|⁻².
+/// All rows of varying parameters, block by block; returns the lowest natural frequency at which Im x is not held. Weights are relative to the
+/// first sample's |g|⁻².
 static double set_varying(system_rows *rows, const problem *p, bool weighted)
 {
     const wiggly_desc *desc = p->desc;
@@ -101,7 +102,7 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
     poles_block block;
     double weight[POLES_BLOCK], reference = 0, highest = 0, lightest = INFINITY, heaviest = -INFINITY;
     double slowest = INFINITY, least_highest = INFINITY;
-    int end = -1; // of what `highest` is of
+    int end = -1; // the end of the range of `highest`
     for (int k = 0; k < rows->count; k += POLES_BLOCK) {
         int count = rows->count - k < POLES_BLOCK ? rows->count - k : POLES_BLOCK;
         poles_block_fill(desc, p->first + k, count, floor, &block);
@@ -134,7 +135,7 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
     return slowest;
 }
 
-/// Radians after which a stretch is no worse for being longer.
+/// After this phase a longer stretch is not less accurate.
 static const double swings_back = 8;
 
 static void set_stretch(system_rows *rows, const wiggly_solver *solver, const problem *p, double slowest)
@@ -151,10 +152,10 @@ static void set_stretch(system_rows *rows, const wiggly_solver *solver, const pr
     rows->stretch = fmin(whole, swings_back / (slowest * desc->step));
 }
 
-/// Coefficients, drive, weights of jets and of Im x of every row.
+/// Coefficients, drives and weights of jets and Im x of every row.
 static void set_filter(wiggly_solver *solver, const problem *p)
 {
-    chain_forget(&solver->chain); // its tables lie where the matrix will be
+    chain_forget(&solver->chain); // its tables share the matrix's memory
     system_rows *rows = &solver->rows;
     const wiggly_desc *desc = p->desc;
     bool weighted = desc->mode == WIGGLY_COMPLEX && (p->start != WIGGLY_REST || problem_is_asked(p));
@@ -170,7 +171,7 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     set_stretch(rows, solver, p, at->natural);
 }
 
-/// The paper's: a difference of the total.
+/// The paper's slope: a difference of the total.
 static slope_row filter_slope(const problem *p, int k, double slope, double stiffness)
 {
     bool last = p->start != WIGGLY_LOOP && k == p->count - 1;
@@ -182,7 +183,7 @@ static slope_row filter_slope(const problem *p, int k, double slope, double stif
                        .target = h * slope - (to - from)};
 }
 
-/// What a cubic's one-sided speed of the total is more than that of x and the equilibrium's from both sides.
+/// How much a cubic's one-sided speed of the total exceeds the two-sided speed of x and the equilibrium.
 static double bend_beside(const problem *p, int k)
 {
     int j = p->first + k;
@@ -191,7 +192,7 @@ static double bend_beside(const problem *p, int k)
     return k == 0 ? bend : -bend;
 }
 
-/// From which sides an oscillator's speed at a row is seen, or that it is what moves by itself.
+/// From which sides an oscillator's speed at a row is seen, or that the free motion determines it.
 typedef struct sides {
     bool ahead, behind, tied;
 } sides;
@@ -204,7 +205,7 @@ static sides sides_of(const problem *p, int k)
                    .tied = last && p->desc->mode == WIGGLY_COMPLEX};
 }
 
-/// The oscillator's: a speed seen from both sides, or from the one there is.
+/// The oscillator's slope: a speed seen from both sides, or from one at an end.
 static slope_row oscillator_slope(const problem *p, int k, double slope, double stiffness)
 {
     const wiggly_desc *desc = p->desc;
@@ -222,7 +223,7 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
     return row;
 }
 
-/// What the poles say of the speed from both sides, or the one there is; on the tail that of the tail.
+/// The speed by the poles from both sides, or from one at an end; on the tail, the tail's speed.
 static void see_speed(const problem *p, slope_row *row)
 {
     const double h = p->desc->step;
@@ -264,7 +265,7 @@ bool problem_implies_slope(const problem *p)
     return alone && p->free_end && !(p->settles && p->desc->mode == WIGGLY_COMPLEX);
 }
 
-/// From rest w_0 is 0; the filter's w_1 is, too, and the oscillator's costs what brought it there.
+/// At rest w_0 is 0. The filter's w_1 is, too; the oscillator's costs a jet.
 static void set_rest(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
@@ -278,18 +279,18 @@ static void set_rest(wiggly_solver *solver, const problem *p)
     }
 }
 
-/// A still knot: its jet is two, one to rest and one from rest, each of which counts twice.
+/// A still knot has two jets, to rest and from rest, each counted twice.
 static void set_still(system_rows *rows, const problem *p, int k)
 {
     rows->fixed[k] |= FIXED_IM | FIXED_STILL;
-    if (p->settles && p->first + k == p->latest) return; // set_tail() has done it
+    if (p->settles && p->first + k == p->latest) return; // done by set_tail()
     rows->jet_weight[k] *= 2;
     rows->drive[k] = rows->at[k].g = (cplx){0, 0};
     if (k == 0) rows->jet_from = 0;
     if (k == rows->count - 1) rows->jet_to = k;
 }
 
-/// Slopes (also implied ones) and fixed unknowns.
+/// Slopes, also implied ones, and fixed unknowns.
 static void set_constraints(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
@@ -312,7 +313,7 @@ static void set_constraints(wiggly_solver *solver, const problem *p)
     }
 }
 
-/// The last knot's jet, twice, with what moves by itself behind it.
+/// The last knot's jet, counted twice, with the free motion after it.
 static void set_tail(system_rows *rows, const problem *p)
 {
     rows->tail = (cplx){0, 0};
@@ -326,7 +327,7 @@ static void set_tail(system_rows *rows, const problem *p)
     rows->tail = poles_tail(poles_passive(&own), &ahead, p->desc->step);
 }
 
-/// Whether the knots are next to nothing beside what w has to take away for them: then w needs all its digits.
+/// Whether the knots are negligible beside what w must cancel for them: then w needs all its digits.
 static bool cancels(const problem *p)
 {
     double values = 0, needed = 0;
@@ -339,7 +340,7 @@ static bool cancels(const problem *p)
     return values < little * needed;
 }
 
-/// Rounding of what knots are measured from; where there is no response that is told otherwise.
+/// Rounding of the level that knots are measured from. An infinite error of the response is reported elsewhere.
 static double noise_of(const problem *p)
 {
     return 4 * DBL_EPSILON * extent_size(extent_of(p->y, p->desc->samples)) +

@@ -1,4 +1,4 @@
-/// A solver's memory: one block, laid out once. And the filter that it keeps.
+/// A solver's memory: one block with a fixed layout. And the cached filter.
 #include "spline/solver.h"
 #include <limits.h>
 #include <math.h>
@@ -20,9 +20,9 @@ void *arena_take(arena *a, size_t count, size_t size)
     return at;
 }
 
-enum { LINE = 64, RUN_COLUMNS = 6, POWER_COLUMNS = 8 }; ///< LINE: of the cache, columns begin with one
+enum { LINE = 64, RUN_COLUMNS = 6, POWER_COLUMNS = 8 }; ///< LINE: size of a cache line, to which columns are aligned
 
-/// Columns of so many numbers each, one after the other.
+/// Columns of `numbers` each, one after the other.
 static void lay_out_columns(unsigned char *at, double **const *columns, int count, size_t numbers)
 {
     for (int i = 0; i < count && at; i++) {
@@ -32,7 +32,7 @@ static void lay_out_columns(unsigned char *at, double **const *columns, int coun
     }
 }
 
-/// Arrays of so many numbers a sample. The matrix comes first: the chain's tables lie over it, longer where there are few samples.
+/// Arrays of `samples` numbers. The matrix comes first: the chain's tables share its memory, and are larger for few samples.
 static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
 {
     system_rows *rows = &at->rows;
@@ -132,7 +132,7 @@ wiggly_status wiggly_create(int samples, int knots, wiggly_solver **solver)
 {
     size_t size = wiggly_memsize(samples, knots);
     if (!solver || !size) return WIGGLY_ERROR_ARGUMENT;
-    void *memory = calloc(1, size); // pages that a way of solving does not use are never touched
+    void *memory = calloc(1, size); // pages that the method does not use are never touched
     if (!memory) return WIGGLY_ERROR_MEMORY;
     *solver = solver_lay_out(memory, samples, knots);
     (*solver)->owned = true;
@@ -144,14 +144,14 @@ void wiggly_destroy(wiggly_solver *solver)
     if (solver && solver->owned) free(solver);
 }
 
-/// Over a run the poles may decay unlike each other by so much, and both together by so much: exponents of e.
+/// Limits over a run, as exponents of e: how differently the poles may decay, and how much both together.
 static const double most_unlike = 5, most_decay = 50;
 
-/// Samples after which the chain takes a state anew.
+/// After this many samples the chain computes a state anew.
 static int run_of(const poles *at, double step)
 {
     double decay = step * fabs(fmin(at->s[0].re, at->s[1].re)), unlike = step * fabs(at->s[0].re - at->s[1].re);
-    double run = fmin(most_unlike / unlike, most_decay / decay); // of nothing: infinite
+    double run = fmin(most_unlike / unlike, most_decay / decay); // infinite for undamped poles
     return run < CHAIN_RUN ? (int)fmax(run, 1) : CHAIN_RUN;
 }
 

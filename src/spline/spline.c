@@ -1,5 +1,5 @@
-/// Solves one spline: by the chain or by the band, and where a problem is singular as asked, the nearest one that is not
-/// (docs/mathematics.md, last rule of Constraints).
+/// Solves one spline by the chain or by the band; if the problem is singular, solves the nearest one that is not (docs/mathematics.md, last
+/// rule of Constraints).
 #include "spline/limits.h"
 #include "spline/problem.h"
 #include <float.h>
@@ -20,7 +20,7 @@ wiggly_desc wiggly_default_desc(void)
 
 static double tolerance(wiggly_mode mode) { return mode == WIGGLY_CUBIC ? 1e-9 : 1e-8; }
 
-/// w of the system into the curve's arrays, and of what is behind it.
+/// Copies w and the motion after the system into the curve's arrays.
 static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const system_rows *rows = &solver->rows;
@@ -32,8 +32,8 @@ static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
     problem_settle(solver, p, curve->re, curve->im);
 }
 
-/// w into the curve: by the chain where it serves, else by refinement. Where next to nothing holds the start and the chain has lost most
-/// of its digits, its estimate is no judge: the band solves too, and what errs less is taken.
+/// Solves for w by the chain if possible, else by the band. If the start is nearly free and the chain has lost most of its digits, its error
+/// estimate is unreliable: the band solves, too, and the smaller estimate wins.
 static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
 {
     const chain *c = &solver->chain;
@@ -48,7 +48,7 @@ static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
     minimum result = solver_minimise(solver);
     const bool is_worse = by_chain.solved && !(result.solved && result.error <= by_chain.error);
     if (is_worse && problem_solve_chain(solver, p, re, im)) {
-        // Both are inexact, and two roundings that agree prove nothing: the estimate is at least what the factor lost.
+        // Both are inexact, and agreement of two roundings proves nothing: the estimate is at least what the factor lost.
         if (by_chain.error > tolerance(WIGGLY_COMPLEX) * c->size)
             by_chain.error = fmax(by_chain.error, 100 * DBL_EPSILON * c->lost * c->size);
         return by_chain;
@@ -57,7 +57,7 @@ static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
     return result;
 }
 
-/// Knots joined by straight lines: what is shown where the system is singular whatever was tried.
+/// Straight lines between knots, shown if the system is singular in any case.
 static void join_knots(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
@@ -67,7 +67,7 @@ static void join_knots(wiggly_solver *solver, const problem *p)
         if (!(rows->fixed[k] & FIXED_RE)) continue;
         for (int i = before + 1; i < k; i++) {
             double from = before < 0 ? rows->x[2 * k] : rows->x[2 * before];
-            double u = (double)(i - before) / (k - before); // each part by itself: the difference might overflow
+            double u = (double)(i - before) / (k - before); // separately: the difference might overflow
             rows->x[2 * i] = from * (1 - u) + rows->x[2 * k] * u;
         }
         before = k;
@@ -75,7 +75,7 @@ static void join_knots(wiggly_solver *solver, const problem *p)
     for (int i = before + 1; before >= 0 && i < rows->count; i++) rows->x[2 * i] = rows->x[2 * before];
 }
 
-/// Solves, and where the problem is singular as asked, solves the nearest one that is not.
+/// Solves the problem; if it is singular, solves the nearest one that is not.
 static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
     wiggly_status status = p->status;
@@ -102,14 +102,14 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     return WIGGLY_SINGULAR;
 }
 
-/// w of a knot, as far as that is known, else 0.
+/// w of a knot if it is known, else 0.
 static cplx knot_w(const problem *p, const wiggly_knot *knot)
 {
     return (cplx){problem_knot_re(p, knot), problem_is_whole(p, knot) ? problem_knot_im(p, knot) : 0};
 }
 
-/// Domains too short for a jet row (M < 3) or without anything that moves: each w is its knot's, else the earliest knot's, else 0. Of a
-/// cubic that is solved for its total, what is 0 is x; and the paper's has the earliest knot's x, not its total.
+/// Domains too short for a jet row (M < 3) or where nothing moves: each w is its knot's, else the earliest knot's, else 0. For a cubic solved
+/// for its total x is 0 there; with the filter x, not the total, is the earliest knot's.
 static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const wiggly_desc *desc = p->desc;
@@ -131,7 +131,7 @@ static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *c
     }
 }
 
-/// True where nothing moves w: no knots, and no drive that could.
+/// Whether nothing moves w: no knots, and no drive.
 static bool is_unmoved(const problem *p)
 {
     if (problem_is_asked(p)) return false;
@@ -147,10 +147,10 @@ static bool is_unmoved(const problem *p)
     return !moves || !rings;
 }
 
-/// Where a total is next to nothing beside its x, its error is no worse than one of so small a part of x.
+/// If the total is a smaller share of x than this, its error is relative to that share of x.
 static const double negligible = 1e-6;
 
-/// Error relative to the larger of the total's range and its largest magnitude.
+/// Sets the error relative to the larger of the total's range and its largest magnitude.
 static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_status status)
 {
     curve->error = 0;
@@ -158,7 +158,7 @@ static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_st
         const extent total = extent_of(curve->total, curve->samples), re = extent_of(curve->re, curve->samples);
         const double size = fmax(fmax(total.high - total.low, extent_size(total)), negligible * extent_size(re));
         curve->error = size > 0 ? result->error / size : 0;
-        // Of a curve that is all error the size says nothing of that of the right one.
+        // A curve that is all error has no meaningful size.
         if (curve->error > 1 && curve->error < DBL_MAX) curve->error = DBL_MAX;
     }
     curve->refinements = result->sweeps > 1 ? result->sweeps - 1 : 0;
@@ -178,7 +178,7 @@ wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, do
     return WIGGLY_OK;
 }
 
-/// The caller's curve has as many members as its version knows.
+/// Copies the caller's curve with the members that its version has.
 static wiggly_curve read_curve(const wiggly_curve *curve)
 {
     if (curve->size >= sizeof *curve) return *curve;
@@ -187,7 +187,7 @@ static wiggly_curve read_curve(const wiggly_curve *curve)
     return own;
 }
 
-/// The curve with the solver's own arrays in place of missing ones: they are free once x is found.
+/// The curve with the solver's own arrays for missing ones; they are unused once x is found.
 static wiggly_curve with_arrays(const wiggly_solver *solver, const wiggly_curve *curve)
 {
     wiggly_curve all = read_curve(curve);
@@ -197,7 +197,7 @@ static wiggly_curve with_arrays(const wiggly_solver *solver, const wiggly_curve 
     return all;
 }
 
-/// Back to the caller's arrays.
+/// Restores the caller's arrays.
 static void keep_asked(wiggly_curve *curve, wiggly_curve all)
 {
     all.total = curve->total, all.re = curve->re, all.im = curve->im;
@@ -209,7 +209,7 @@ static void keep_asked(wiggly_curve *curve, wiggly_curve all)
     }
 }
 
-/// Whether nothing is to be minimised: too short, nothing moves, or nothing constrains.
+/// Whether there is nothing to minimise: too short, nothing moves, or nothing constrains it.
 static bool is_plain(const problem *p)
 {
     return p->count < 3 || is_unmoved(p) || (p->start == WIGGLY_REST && !problem_is_asked(p));
@@ -234,7 +234,7 @@ wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curv
     return p->status;
 }
 
-/// No sample at all.
+/// A domain without samples.
 static wiggly_status solve_nothing(const wiggly_desc *desc, wiggly_curve *curve)
 {
     wiggly_curve all = read_curve(curve);
@@ -263,7 +263,7 @@ wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     wiggly_status status = problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
     if (status != WIGGLY_OK) curve->knot = p.knot;
     if (status != WIGGLY_OK) return status;
-    const bool limited = limits_are_set(desc) && !solver->pulls; // pins come first
+    const bool limited = limits_are_set(desc) && !solver->pulls; // pins have priority
     wiggly_desc ordered;
     if (limited) limits_begin(solver, &p, &ordered, curve, &all);
     for (;;) {

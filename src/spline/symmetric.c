@@ -6,7 +6,7 @@
 
 enum { MAX_SWEEPS = 40 };
 
-/// A pivot below this part of its diagonal entry holds no digit any more.
+/// A pivot below this share of its diagonal entry has no digit left.
 static const double lost = 64 * DBL_EPSILON;
 
 static double off_diagonal(int n, const double *a)
@@ -18,7 +18,7 @@ static double off_diagonal(int n, const double *a)
     return sum;
 }
 
-/// Turns rows p and q, and columns p and q, so that a_pq is 0.
+/// Rotates rows and columns p and q so that a_pq becomes 0.
 static void rotate(int n, double *a, double *vectors, int p, int q)
 {
     if (a[n * p + q] == 0) return;
@@ -51,7 +51,7 @@ void symmetric_eigen(int n, double *a, double *values, double *vectors)
     for (int i = 0; i < n; i++) values[i] = a[n * i + i];
 }
 
-/// Σ a_k b_k, eight at once.
+/// Σ a_k b_k, in lanes of eight.
 WIDEST static double dot(const double *restrict a, const double *restrict b, int n)
 {
     double part[8] = {0}, sum = 0;

@@ -1,8 +1,8 @@
-/// What moves by itself behind the last knot: w_{i+1} = e^{ph} w_i, p = −ζω_n + jω_n√(1−ζ²); a cubic's total is held.
+/// The free motion after the last knot: w_{i+1} = e^{ph} w_i, p = −ζω_n + jω_n√(1−ζ²); a cubic holds its total.
 #include "spline/problem.h"
 #include "spline/wide.h"
 
-enum { RUN = 64 }; ///< samples that are filled from one power
+enum { RUN = 64 }; ///< samples filled from one power
 
 WIDEST static void scale_powers(const double *restrict power_re, const double *restrict power_im, cplx w, int count,
                                 double *restrict re, double *restrict im)
@@ -13,7 +13,7 @@ WIDEST static void scale_powers(const double *restrict power_re, const double *r
     }
 }
 
-/// Every run of samples by itself, counted from the knot: what is filled does not depend on where one begins to look.
+/// Fills each run of samples on its own, counted from the knot, so that the result does not depend on `from`.
 static void fill_constant(cplx exponent, cplx w, int from, int count, double *re, double *im)
 {
     double power_re[RUN], power_im[RUN];
@@ -35,7 +35,7 @@ static void fill_constant(cplx exponent, cplx w, int from, int count, double *re
 static void fill_varying(const problem *p, cplx w, int from, int count, double *re, double *im)
 {
     poles here = poles_at(p->desc, p->latest, 0);
-    for (int k = 1; k < from + count; k++) { // p of an interval is the mean of its ends'
+    for (int k = 1; k < from + count; k++) { // p of an interval is the mean at its ends
         poles next = poles_at(p->desc, p->latest + k, 0);
         cplx both = cplx_add(poles_passive(&here), poles_passive(&next));
         w = cplx_mul(cplx_exp(cplx_scale(0.5 * p->desc->step, both)), w);

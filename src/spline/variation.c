@@ -1,26 +1,26 @@
-/// Variations: noise through the filter, sample by sample, of spread 1, times amount and size.
+/// Variations: noise through the filter, sample by sample, with spread 1, times amount and size.
 #include "spline/problem.h"
 #include <math.h>
 #include <stdint.h>
 
-/// The force is constant over cells of this part of a period, whatever the sample rate.
+/// The force is constant over cells of this share of a period, whatever the sample rate.
 enum { CELLS = 8 };
 
-/// The noise of a problem on its way: n and its step to the next sample.
+/// The state of the noise: n and its step to the next sample.
 typedef struct walk {
     cplx m, p; ///< of the filter (coefficients)
     cplx n, e;
     cplx gain; ///< of the force: in phase with the filter
 } walk;
 
-/// Where the force comes from.
+/// The source of the force.
 typedef struct source {
-    uint64_t key; ///< of the seed
+    uint64_t key; ///< from the seed
     double cell;  ///< samples
-    double rate;  ///< cells a sample
-    int64_t wrap; ///< cells round a loop; 0: no loop
+    double rate;  ///< cells per sample
+    int64_t wrap; ///< cells in a loop; 0: no loop
     bool is_complex;
-    int64_t at; ///< the cell that `now` is of
+    int64_t at; ///< the cell of `now`
     cplx now, before;
 } source;
 
@@ -35,7 +35,7 @@ static uint64_t mixed(uint64_t x)
     return x ^ (x >> 31);
 }
 
-/// Variance 1, all but normal: the sum of four even numbers, so that every machine has the same.
+/// Variance 1 and nearly normal: the sum of four uniform numbers, so that all machines give the same.
 static double chance(uint64_t key)
 {
     const uint64_t bits = mixed(key);
@@ -67,7 +67,7 @@ static inline cplx force(source *s, int sample)
     return cplx_add(cplx_scale(1 - after, s->before), cplx_scale(after, s->now));
 }
 
-/// One sample on.
+/// Advances by one sample.
 static inline void advance(walk *w, cplx force)
 {
     const cplx bent = cplx_sub(cplx_mul(w->m, w->e), cplx_mul(w->p, w->n));
@@ -81,7 +81,7 @@ bool variation_is_set(const wiggly_desc *desc)
            poles_are_constant(desc) && poles_at(desc, 0, 0).natural > 0;
 }
 
-/// Where the noise has spread 1 it is times this: the amount of the farthest knot, of 1 where there is none.
+/// The factor for noise of spread 1: the variation times the height of the farthest knot, or times 1 without knots.
 static double size_of(const problem *p)
 {
     double farthest = 0;
@@ -107,7 +107,7 @@ static source source_of(const problem *p, const poles *at)
     return s;
 }
 
-/// n and e of the stationary process, by the start's cost seen backwards: |x₀|² and |x₁ + on_e* x₀|² are of variance 1 over the weights.
+/// n and e of the stationary process, from the start's cost reversed in time: |x₀|² and |x₁ + on_e* x₀|² have variance 1 over the weights.
 static void draw_start(walk *w, const source *s, const start_cost *cost, double size)
 {
     const struct start_row *row = cost->row;
@@ -118,7 +118,7 @@ static void draw_start(walk *w, const source *s, const start_cost *cost, double 
 
 static cplx determinant(cplx a, cplx b, cplx c, cplx d) { return cplx_sub(cplx_mul(a, d), cplx_mul(b, c)); }
 
-/// n and e that come back to themselves after `count` samples.
+/// n and e that return to themselves after `count` samples.
 static void close_loop(walk *w, source *s, int count)
 {
     walk forced = *w, one = *w, other = *w;
@@ -136,7 +136,7 @@ static void close_loop(walk *w, source *s, int count)
     w->e = cplx_mul(inverse, determinant(a, forced.n, c, forced.e));
 }
 
-/// Behind the last knot the force stops, and both parts are left to the oscillator.
+/// After the last knot the force stops, and the oscillator moves both parts.
 static void let_go(walk *w, const wiggly_desc *desc)
 {
     poles own = poles_at(desc, 0, 0);
@@ -179,7 +179,7 @@ void variation_add(problem *p)
         advance(&w, force(&s, loops && i + 1 == p->count ? 0 : i + 1));
     }
     if (!loops) return;
-    p->response.speed[0] += half_rate * (before - w.e.re); // w has come back to where it began
+    p->response.speed[0] += half_rate * (before - w.e.re); // w is back where it began
     const forced_response *u = &p->response;
     u->total[p->count] = u->total[0], u->im[p->count] = u->im[0], u->speed[p->count] = u->speed[0];
 }
