@@ -109,7 +109,8 @@ static inline double glb_clip_is_off(const char *path, const char *name, const s
     assert_int_equal(gltf_vertex_count(&gltf, node), points->vertices);
     for (int f = 0; f < points->frames; f += 3) { // a third says as much
         const double *expected = frame_of(points, f);
-        gltf_pose_clip(&gltf, clip, gltf.clips[clip].duration * f / (points->frames - 1), &pose);
+        const double part = (double)f / (points->frames - 1), first = gltf.clips[clip].first;
+        gltf_pose_clip(&gltf, clip, first + (gltf.clips[clip].last - first) * part, &pose);
         gltf_pose_world(&gltf, &pose);
         gltf_pose_vertices(&gltf, &pose, node, place, NULL);
         for (int i = 0; i < 3 * points->vertices; i++)

@@ -87,7 +87,7 @@ TEST(clips_loop)
                 fail_msg("%s moves %s, which is for splines", names[n], joint);
         }
     }
-    assert_near(dog.clips[gltf_find_clip(&dog, "Walk")].duration, 1.0, 1e-6);
+    assert_near(dog.clips[gltf_find_clip(&dog, "Walk")].last, 1.0, 1e-6);
 }
 
 /// In the walk each paw stands for well over half of the time, and all the while moves back at one pace: it would not slip on a
@@ -128,7 +128,7 @@ TEST(stays_above_the_ground)
     assert_true(positions && gltf_pose_create(&dog, &pose));
     for (int clip = 0; clip < dog.clip_count; clip++) {
         for (int sample = 0; sample < 16; sample++) {
-            gltf_pose_clip(&dog, clip, dog.clips[clip].duration * sample / 16, &pose);
+            gltf_pose_clip(&dog, clip, dog.clips[clip].last * sample / 16, &pose);
             gltf_pose_world(&dog, &pose);
             gltf_pose_vertices(&dog, &pose, body, positions, NULL);
             for (int v = 0; v < count; v++) {

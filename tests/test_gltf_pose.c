@@ -31,7 +31,7 @@ GLTF_TEST(step_and_linear)
                                                                     "\"STEP\"}]},{\"channels\":[],\"samplers\":[]}]");
     assert_int_equal(gltf_find_clip(&b->gltf, "Walk"), 0);
     assert_int_equal(gltf_find_clip(&b->gltf, "clip 1"), 1);
-    assert_near(b->gltf.clips[0].duration, 4, 0);
+    assert_near(b->gltf.clips[0].last, 4, 0);
     const struct {
         double time, linear[3], step[3];
     } cases[] = {

@@ -116,7 +116,7 @@ void contents_print(const struct gltf *gltf)
 {
     printf("clips:%s\n", gltf->clip_count > 0 ? "" : " none");
     for (int c = 0; c < gltf->clip_count; c++)
-        print_line(stdout, "  %s (%.3g s)", gltf->clips[c].name, gltf->clips[c].duration);
+        print_line(stdout, "  %s (%.3g s)", gltf->clips[c].name, gltf->clips[c].last - gltf->clips[c].first);
     printf("bones and other nodes:\n");
     for (int n = 0; n < gltf->node_count; n++) {
         if (gltf->nodes[n].parent < 0) print_tree(gltf, n);

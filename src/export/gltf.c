@@ -71,13 +71,14 @@ static void make_targets(const struct form *form, const struct keys *keys, bool 
 
 // --- one animation
 
-void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range)
+void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range,
+                       double start)
 {
     const int count = range->key_count;
     float *times = need((size_t)count, sizeof *times);
     *motion =
         (struct gltf_motion){.file = file, .samplers = json_array(), .channels = json_array(), .key_count = count};
-    for (int k = 0; k < count; k++) times[k] = (float)range_seconds(range, k);
+    for (int k = 0; k < count; k++) times[k] = (float)(start + range_seconds(range, k));
     motion->times = gltf_file_add(file, ELEMENTS_KEYS, times, (size_t)count, true);
     free(times);
 }
@@ -336,7 +337,7 @@ static bool write_scene(struct export_range *range, const int *rigs, int count, 
     scene.looks.file = &scene.file;
     for (int i = 0; i < ARRAYS; i++) *arrays[i] = json_array();
     bool done = true;
-    gltf_motion_begin(&scene.motion, &scene.file, range);
+    gltf_motion_begin(&scene.motion, &scene.file, range, 0);
     for (int r = 0; done && r < count; r++) done = add_rig(&scene, rigs[r], error);
     done = done && gltf_file_write(&scene.file, make_root(&scene), binary, out, error);
     summarise(&scene, range->summary);

@@ -13,8 +13,9 @@ struct gltf_motion {
     int key_count;
 };
 
-/// Starts an animation with a range's keys. `file` must outlive it.
-void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range);
+/// Begins an animation with a range's keys, the first of them at `start` seconds. `file` must outlive it.
+void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range,
+                       double start);
 void gltf_motion_free(struct gltf_motion *motion);
 
 /// Adds a column of a rig's keys, with tangents if they have some.

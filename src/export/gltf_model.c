@@ -166,7 +166,7 @@ static bool put_clip(struct export_range *range, const struct form *form, struct
     const char *plays = range->posing->document->rigs[range->rigs[0]]->model.clip;
     const char *name = range->options->clip ? range->options->clip : plays ? plays : range->title;
     if (!keys_collect(range, range->rigs[0], form, &keys, error)) return false;
-    gltf_motion_begin(&motion, &o->file, range);
+    gltf_motion_begin(&motion, &o->file, range, body->clip ? body->clip->first : 0);
     for (int c = 0; body->clip && c < body->clip->channel_count; c++)
         add_channel(&motion, body, &keys, &body->clip->channels[c]);
     for (int j = 0; j < body->bone_count; j++)

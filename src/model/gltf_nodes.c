@@ -290,6 +290,27 @@ static bool find_target(const struct gltf *gltf, const char *path, struct gltf_c
     return false;
 }
 
+/// Whether the last key is the first again, but for a tenth of the way between them or a hundredth of the channel's size.
+static bool is_closed(const struct gltf_channel *channel)
+{
+    const int width = channel->components, stride = width * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
+    const float *first = channel->values + (channel->interpolation == GLTF_CUBIC ? width : 0);
+    const float *last = first + (size_t)(channel->key_count - 1) * (size_t)stride;
+    float dot = 0, size = 1e-6f;
+    for (int i = 0; channel->path == GLTF_ROTATION && i < 4; i++) dot += first[i] * last[i];
+    for (const float *key = first; key <= last; key += stride)
+        for (int i = 0; i < width; i++) size = fmaxf(size, fabsf(key[i]));
+    for (int i = 0; i < width; i++) {
+        float lo = first[i], hi = first[i];
+        for (const float *key = first; key <= last; key += stride) {
+            lo = fminf(lo, key[i]);
+            hi = fmaxf(hi, key[i]);
+        }
+        if (fabsf((dot < 0 ? -last[i] : last[i]) - first[i]) > 0.1f * (hi - lo) + 0.01f * size) return false;
+    }
+    return true;
+}
+
 static bool read_channel(struct gltf_reader *r, const json_t *json, const json_t *samplers, size_t clip,
                          struct gltf_clip *out)
 {
@@ -305,7 +326,9 @@ static bool read_channel(struct gltf_reader *r, const json_t *json, const json_t
     struct gltf_channel *to = &out->channels[out->channel_count++];
     *to = channel;
     if (!read_sampler(r, json_array_get(samplers, (size_t)sampler), to)) return false;
-    out->duration = fmax(out->duration, (double)to->times[to->key_count - 1]);
+    out->first = fmin(out->first, (double)to->times[0]);
+    out->last = fmax(out->last, (double)to->times[to->key_count - 1]);
+    out->loops = out->loops && is_closed(to);
     return true;
 }
 
@@ -318,11 +341,14 @@ static bool read_clip(struct gltf_reader *r, const json_t *json, size_t number, 
     clip->name = gltf_name(r, json, "clip", number);
     clip->channels = clip->name ? gltf_make(r, json_array_size(channels), sizeof *clip->channels) : NULL;
     if (!clip->channels) return false;
+    clip->first = INFINITY;
+    clip->loops = true;
     json_array_foreach(channels, i, channel)
     {
         gltf_at(r, "animations[%zu].channels[%zu]", number, i);
         if (!read_channel(r, channel, samplers, number, clip)) return false;
     }
+    clip->first = fmin(clip->first, clip->last); // without a key
     return true;
 }
 

@@ -55,12 +55,13 @@ double chain_bend_a_metre(const struct imported *imported, const struct chain_bo
     return DEGREES * 2 / (length_of(imported, bones, scale) * (bones->count + 1));
 }
 
-/// Whether the scene's range is one or several times the model's clip.
+/// Whether the scene's range is one or several times the model's clip, and the clip loops.
 static bool is_loop(const struct document *document, const struct model_rig *model, const struct gltf *gltf)
 {
     const int clip = model->clip ? gltf_find_clip(gltf, model->clip) : -1;
     const double range = (document->last_frame - document->first_frame) / document->fps;
-    const double times = clip < 0 || !(gltf->clips[clip].duration > 0) ? 0 : range / gltf->clips[clip].duration;
+    const double length = clip < 0 || !gltf->clips[clip].loops ? 0 : gltf->clips[clip].last - gltf->clips[clip].first;
+    const double times = length > 0 ? range / length : 0;
     return times > 0.5 && fabs(times - round(times)) < 1e-3;
 }
 

@@ -12,8 +12,8 @@ static const double DEGREES = 57.29577951308232;
 struct followed {
     const struct imported *imported;
     struct gltf_pose *pose;
-    int node, clip;
-    double duration;
+    int node;
+    const struct gltf_clip *clip; ///< NULL: it rests
     enum motion_of of;
     struct chain_axes axes;
     double scale; ///< metres in the world per unit of the file
@@ -44,8 +44,7 @@ static bool find(const struct models *models, const struct document *document, c
     *followed = (struct followed){.imported = imported,
                                   .pose = models_pose(models, document, rig, false),
                                   .node = gltf_find_node(&imported->gltf, motion->joint),
-                                  .clip = clip,
-                                  .duration = clip < 0 ? 0 : imported->gltf.clips[clip].duration,
+                                  .clip = clip < 0 ? NULL : &imported->gltf.clips[clip],
                                   .of = motion->of,
                                   .axes = axes_of(document, imported, motion->chain),
                                   .scale = model->scale};
@@ -68,7 +67,7 @@ static double turn_of(struct followed *followed)
 static double look(struct followed *followed, double time)
 {
     const struct gltf *gltf = &followed->imported->gltf;
-    gltf_pose_clip(gltf, followed->clip, time, followed->pose);
+    gltf_pose_clip(gltf, followed->clip ? (int)(followed->clip - gltf->clips) : -1, time, followed->pose);
     gltf_pose_world(gltf, followed->pose);
     if (followed->of == MOTION_TURN) return turn_of(followed);
     const vec3s side = vec3_from(followed->axes.side), along = vec3_from(followed->axes.along);
@@ -76,22 +75,25 @@ static double look(struct followed *followed, double time)
     return followed->scale * (double)glms_vec3_dot(direction, vec3_from(followed->pose->world[followed->node] + 12));
 }
 
+static double length_of(const struct gltf_clip *clip) { return clip ? clip->last - clip->first : 0; }
+
 static double mean_of(struct followed *followed)
 {
+    const double first = followed->clip ? followed->clip->first : 0, length = length_of(followed->clip);
     double sum = 0;
-    for (int n = 0; n < MEAN_STEPS; n++) sum += look(followed, followed->duration * n / MEAN_STEPS);
+    for (int n = 0; n < MEAN_STEPS; n++) sum += look(followed, first + length * n / MEAN_STEPS);
     return sum / MEAN_STEPS;
 }
 
 /// Number of samples after which the clip repeats exactly, or 0.
-static int period_of(const struct document *document, double duration)
+static int period_of(const struct document *document, const struct gltf_clip *clip)
 {
-    const double samples = duration / document_step(document);
+    const double samples = length_of(clip) / document_step(document);
     return samples >= 1 && samples < 1e6 && fabs(samples - round(samples)) < 1e-4 ? (int)round(samples) : 0;
 }
 
 /// Samples a joint, averaged over a frame on either side: clips have keys on frames with straight lines between, and each corner would kick
-/// the spline. The result is the cubic B-spline of the keys.
+/// the spline. The result is the cubic B-spline of the keys. A clip that does not loop is held at the scene's ends.
 struct smoothing {
     int substeps;
     double ring[2 * SCENE_MAX_SUBSTEPS]; ///< samples around the next one
@@ -106,7 +108,10 @@ static double *raw(struct smoothing *smoothing, int sample)
 static void look_at(struct smoothing *smoothing, const struct document *document, struct followed *followed,
                     int sample)
 {
-    *raw(smoothing, sample) = look(followed, posing_clip_time(document, sample, followed->duration));
+    const struct gltf_clip *clip = followed->clip;
+    const int end = document_samples(document) - 1;
+    const int held = clip && clip->loops ? sample : sample < 0 ? 0 : sample > end ? end : sample;
+    *raw(smoothing, sample) = look(followed, clip ? posing_clip_time(document, held, clip) : 0);
 }
 
 static double smoothed(struct smoothing *smoothing, int sample)
@@ -122,7 +127,7 @@ bool clip_follow(void *context, const struct document *document, const struct jo
     struct followed followed;
     struct smoothing smoothing = {.substeps = document->substeps};
     if (!find(context, document, motion, &followed)) return false;
-    const int count = document_samples(document), period = period_of(document, followed.duration);
+    const int count = document_samples(document), period = period_of(document, followed.clip);
     const double mean = mean_of(&followed);
     for (int s = 1 - document->substeps; s < document->substeps - 1; s++) look_at(&smoothing, document, &followed, s);
     for (int s = 0; s < count; s++) {

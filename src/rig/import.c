@@ -13,6 +13,7 @@
 
 enum { STANDARD_FRAMES = 120, LEAST_FRAMES = 2, MOST_FRAMES = 100000 };
 
+static const double NEAR = 0.01; ///< frames between a key and the frame that it counts for
 static const double SMALLEST = 0.3, LARGEST = 4, USUAL = 1.6; ///< metres: characters between these keep their size
 
 /// Whether a file begins like a .glb, whatever its name.
@@ -38,7 +39,7 @@ static int keys_on_frames(const struct gltf_clip *clip, double fps)
     for (int c = 0; c < clip->channel_count; c++) {
         for (int k = 0; k < clip->channels[c].key_count; k++) {
             const double frame = (double)clip->channels[c].times[k] * fps;
-            count += fabs(frame - round(frame)) < 0.01;
+            count += fabs(frame - round(frame)) < NEAR;
         }
     }
     return count;
@@ -68,10 +69,18 @@ static double scale_of(const struct gltf *gltf)
     return round(scale / digit) * digit;
 }
 
-static int last_frame(const struct gltf_clip *clip, double fps)
+/// Frame rate and range of a document become those of a clip: from its first key to its last. NULL: there is no clip.
+static bool set_range(struct document *document, const struct gltf_clip *clip, struct error *error)
 {
-    if (!clip || !(clip->duration > 0)) return STANDARD_FRAMES;
-    return (int)fmin(fmax(round(clip->duration * fps), LEAST_FRAMES), MOST_FRAMES);
+    const double fps = frame_rate(clip);
+    double first = 0, frames = STANDARD_FRAMES;
+    if (clip && clip->last > clip->first) {
+        first = fmin(fmax(ceil(clip->first * fps - NEAR), -MOST_FRAMES), MOST_FRAMES);
+        frames = clip->loops ? round((clip->last - clip->first) * fps) : floor(clip->last * fps + NEAR) - first;
+        frames = fmin(fmax(frames, LEAST_FRAMES), MOST_FRAMES);
+    }
+    return edit_fps(document, fps, false, error) &&
+           edit_range(document, (int)first, (int)(first + frames), RANGE_REFUSE, error);
 }
 
 /// A coordinate's spline: the given one, or a new one with the coordinate's frequency and damping and a knot at frame 0.
@@ -112,10 +121,7 @@ static bool add_imported(struct document *document, char *file, const struct glt
     const struct rig rig = {.kind = RIG_MODEL,
                             .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = scale_of(gltf)}};
     if (document->spline_count == 0 && document->rig_count == 0) {
-        const double fps = frame_rate(clip);
-        if (!edit_fps(document, fps, false, error) ||
-            !edit_range(document, 0, last_frame(clip, fps), RANGE_REFUSE, error))
-            return false;
+        if (!set_range(document, clip, error)) return false;
     }
     return edit_rig_add(document, &rig, error);
 }
@@ -156,7 +162,5 @@ bool import_choose_clip(struct document *document, int rig, const struct gltf *g
     free(name);
     if (!done) return false;
     if (found < 0 || document->spline_count > 0) return true;
-    const double fps = frame_rate(&gltf->clips[found]);
-    return edit_fps(document, fps, false, error) &&
-           edit_range(document, 0, last_frame(&gltf->clips[found], fps), RANGE_REFUSE, error);
+    return set_range(document, &gltf->clips[found], error);
 }

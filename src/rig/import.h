@@ -8,8 +8,8 @@
 /// Whether a file is a character: by its name, .glb or .gltf, or by its first bytes.
 bool import_suits(const char *path);
 
-/// A new document without a path, with the character of the file, as import_add() adds it. It takes the first clip's range, and the frame rate of
-/// the clip's keys. NULL and an error on failure.
+/// A new document without a path, with the character of the file, as import_add() adds it. It takes the first clip's range, from its first key to
+/// its last, and the frame rate of the clip's keys. NULL and an error on failure.
 struct document *import_scene(const char *path, struct error *error);
 
 /// Adds the character in a file to a document: a soft one, whose first coordinate `spline` drives (-1: a new one), or an imported

@@ -5,11 +5,16 @@
 #include "rig/strand.h"
 #include <math.h>
 
-double posing_clip_time(const struct document *document, double position, double duration)
+static const double ROUNDING = 1e-6; ///< of a clip's length: times of keys are single precision
+
+double posing_clip_time(const struct document *document, double position, const struct gltf_clip *clip)
 {
     const double frame = document->first_frame + position / document->substeps;
-    const double time = duration > 0 ? fmod(frame / document->fps, duration) : 0;
-    return time < 0 ? time + duration : time;
+    const double length = clip->last - clip->first, into = frame / document->fps - clip->first;
+    if (!(length > 0)) return clip->first;
+    double rounds = floor(into / length + ROUNDING), left = into - rounds * length;
+    if (!clip->loops && rounds > 0 && left < ROUNDING * length) left = length; // its last pose is not its first
+    return clip->first + left;
 }
 
 struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, bool shown)
@@ -21,7 +26,7 @@ struct gltf_pose *posing_clip(const struct posing *posing, int rig, double posit
     const struct gltf *gltf = &imported->gltf;
     const char *name = document->rigs[rig]->kind == RIG_MODEL ? document->rigs[rig]->model.clip : NULL;
     const int clip = name && !posing->at_rest ? gltf_find_clip(gltf, name) : -1;
-    gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, gltf->clips[clip].duration), pose);
+    gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, &gltf->clips[clip]), pose);
     return pose;
 }
 

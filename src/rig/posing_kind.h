@@ -31,8 +31,8 @@ struct gltf_pose *posing_clip(const struct posing *posing, int rig, double posit
 /// The place of an imported character: columns and place of its space in the world.
 void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);
 
-/// Seconds into a clip, which starts at frame 0 and repeats, at a position in samples.
-double posing_clip_time(const struct document *document, double position, double duration);
+/// The time in a clip, seconds, at a position in samples: the scene's, before and after the clip that of another round.
+double posing_clip_time(const struct document *document, double position, const struct gltf_clip *clip);
 
 /// The values of a rig's inputs, including motion by hand.
 void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
