@@ -120,6 +120,8 @@ int command_export(int argc, char **argv)
          &o->clip, 0, 0},
         {"--rig", NULL, "NAME", "export only this rig (default: all that the format can hold)", OPTION_TEXT, &o->rig,
          0, 0},
+        {"--as-shown", NULL, NULL, "an imported character as large and where it is on the stage, not as in its file",
+         OPTION_FLAG, &o->as_shown, 0, 0},
         {"--signed", NULL, NULL, "one morph target instead of two, with weights of either sign; Blender clamps them",
          OPTION_FLAG, &o->is_signed, 0, 0},
         {"--keys", NULL, "linear|cubic", "interpolation; cubic adds tangents (linear; .glb, .gltf)", OPTION_WORD,

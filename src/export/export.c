@@ -246,6 +246,12 @@ bool range_pose(const struct export_range *range, int rig, double key, struct ri
     return fail(error, ERROR_INPUT, "rigs[%d]: its model could not be read", rig);
 }
 
+const float *range_root(const struct export_range *range, int rig, const struct rig_pose *pose)
+{
+    const bool is_placed = range->options->as_shown || (range->rig_count > 1 && !range->format->one_rig);
+    return is_placed && range->posing->document->rigs[rig]->kind == RIG_MODEL ? pose->model.root : NULL;
+}
+
 wiggly_value range_value(const struct export_range *range, int spline, double key)
 {
     return evaluation_at(range->posing->evaluation, spline, position_of(range, key));

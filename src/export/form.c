@@ -8,6 +8,7 @@
 #include <string.h>
 
 const struct form_kind meadow_form = {0}; // no format holds one
+const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = form_channels};
 
 #define FORM_ROW(constant, name) [constant] = &name##_form,
 static const struct form_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(FORM_ROW)};
@@ -33,6 +34,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     const struct document *document = range->posing->document;
     const struct rig *source = document->rigs[rig];
     *form = (struct form){.kind = kinds[source->kind]};
+    if (range->format->holds == FORM_JOINTS && source->kind == RIG_MODEL) form->kind = &skeleton_form;
     if (!range_pose(range, rig, 0, &pose, error)) return false;
     make_name(document, rig, form->name);
     if (form->kind->open(range->posing, rig, &pose, form, error)) return true;

@@ -84,6 +84,10 @@ double range_seconds(const struct export_range *range, double key);
 /// else stands still. False with a sentence if the rig's model is missing.
 bool range_pose(const struct export_range *range, int rig, double key, struct rig_pose *pose, struct error *error);
 
+/// Where a rig's form stands in the file, as a matrix: where the stage has it; NULL: at the origin, as in an imported character's own
+/// file.
+const float *range_root(const struct export_range *range, int rig, const struct rig_pose *pose);
+
 /// A spline's value at a key.
 wiggly_value range_value(const struct export_range *range, int spline, double key);
 
@@ -96,14 +100,15 @@ bool range_proceed(struct export_range *range, struct error *error);
 // --- forms
 
 /// What a kind of rig can be exported as, bits: a mesh with joints or targets, joints, the places of its vertices, all that is in the
-/// file that it came from.
-enum { FORM_MESH = 1, FORM_JOINTS = 2, FORM_POINTS = 4, FORM_FILE = 8 };
+/// file that it came from; or as a part of its model.
+enum { FORM_MESH = 1, FORM_JOINTS = 2, FORM_POINTS = 4, FORM_FILE = 8, FORM_IN_MODEL = 16 };
 
 struct form_joint {
     char name[FORM_NAME];
     int parent;      ///< −1: the root
     float offset[3]; ///< at rest, in its parent
     float bind[3];   ///< where it is in the space of the mesh; joints at rest are not turned
+    float tip[3];    ///< where it ends, in itself, if no joint hangs on it
 };
 
 struct form_target {
@@ -122,7 +127,6 @@ struct form {
     int joint_count;           ///< 0: the mesh moves as a whole, and by its targets
     struct form_joint *joints;
     int first_bone; ///< joints before it only carry the mesh
-    float tip[3];   ///< of a chain, in its last joint
     uint16_t (*slots)[FORM_INFLUENCES];
     float (*weights)[FORM_INFLUENCES];
     int target_count;
@@ -161,6 +165,9 @@ struct form_kind {
 #define FORM_KIND(constant, name) extern const struct form_kind name##_form;
 RIG_KIND_LIST(FORM_KIND)
 #undef FORM_KIND
+
+/// The joints of an imported character, in place of its row's form, for formats of joints alone.
+extern const struct form_kind skeleton_form;
 
 /// How a kind is exported; NULL if it is not.
 const struct form_kind *form_kind(enum rig_kind kind);

@@ -183,21 +183,42 @@ static bool put_clip(struct export_range *range, const struct form *form, struct
     return true;
 }
 
+/// Hangs everything at a node that stands where the stage has the character.
+static void put_place(struct original *o, const float root[16])
+{
+    json_t *matrix = json_array(), *scene, *nodes = json_object_get(o->source.json, "nodes");
+    size_t s;
+    for (int i = 0; i < 16; i++) gltf_append(&o->file, matrix, json_real((double)root[i]));
+    json_array_foreach(json_object_get(o->source.json, "scenes"), s, scene)
+    {
+        json_t *roots = json_object_get(scene, "nodes");
+        if (json_array_size(roots) == 0) continue;
+        const json_int_t node = gltf_append(
+            &o->file, nodes, json_pack("{s:s, s:O, s:O}", "name", "as shown", "matrix", matrix, "children", roots));
+        gltf_set(&o->file, scene, "nodes", json_pack("[I]", node));
+    }
+    json_decref(matrix);
+}
+
 static bool write_file(struct export_range *range, const struct form *form, bool *was_packed, FILE *out,
                        struct error *error)
 {
     struct original o = {0};
     const struct model_body *body = form->owned;
     const bool has_clip = body->bone_count > 0, binary = range->format->is_binary;
+    struct rig_pose pose;
+    if (!range_pose(range, range->rigs[0], 0, &pose, error)) return false;
+    const float *root = range_root(range, range->rigs[0], &pose);
     if (!glb_open(&o.source, body->gltf->path, error)) return false;
     *was_packed = glb_is_packed(&o.source);
     o.is_same = !*was_packed && (memcmp(o.source.data, "glTF", 4) == 0) == binary;
     bool done;
-    if (!has_clip && o.is_same) {
+    if (!has_clip && o.is_same && !root) {
         done = check_place(range, &o.source, error) && write_same(body->gltf->path, out, error);
     } else {
-        done = take_bytes(range, &o, error) && (!has_clip || put_clip(range, form, &o, error)) &&
-               gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
+        done = take_bytes(range, &o, error) && (!has_clip || put_clip(range, form, &o, error));
+        if (done && root) put_place(&o, root);
+        done = done && gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
     }
     gltf_file_free(&o.file);
     glb_close(&o.source);

@@ -90,4 +90,4 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
 }
 
 /// Its chains have the columns of a table; its clip is its own.
-const struct form_kind model_form = {FORM_FILE | FORM_POINTS, open, close, key, vertices, NULL};
+const struct form_kind model_form = {FORM_FILE | FORM_POINTS | FORM_JOINTS, open, close, key, vertices, NULL};

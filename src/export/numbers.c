@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "base/need.h"
 #include "export/form.h"
+#include "model/vector.h"
 #include "scene/text.h"
 #include <stdarg.h>
 #include <stdlib.h>
@@ -84,6 +85,9 @@ static bool write_frames(struct export_range *range, const struct form *form, FI
     for (int k = 0; k < range->key_count; k++) {
         if (!range_pose(range, range->rigs[0], k, &pose, error)) return false;
         form->kind->vertices(form, &pose, positions);
+        const float *root = range_root(range, range->rigs[0], &pose);
+        for (int v = 0; root && v < form->vertex_count; v++)
+            glm_mat4_mulv3(mat4_from(root).raw, positions[v], 1, positions[v]);
         motion_print_frame(out, as, (const float(*)[3])positions, form->vertex_count);
         if (ferror(out)) return true; // the caller says what is wrong; a full disk need not be filled to the end
         if (!range_proceed(range, error)) return false;

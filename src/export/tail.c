@@ -62,7 +62,8 @@ static void add_joints(struct form *form, const struct gltf *gltf, const float r
             if (j > 0) joint->bind[k] = -root[0] * gltf->skins->inverse_bind[j - FOX_FIRST_LIMB][12 + k];
         }
     }
-    form->tip[2] = root[0] * FOX_TAIL_LENGTH / (float)(form->joint_count - form->first_bone);
+    form->joints[form->joint_count - 1].tip[2] =
+        root[0] * FOX_TAIL_LENGTH / (float)(form->joint_count - form->first_bone);
 }
 
 static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,

@@ -444,17 +444,18 @@ static bool write_all(struct usda_model *model, struct error *error)
     return true;
 }
 
-/// Where the scene has it, which stands still; its own rigs are there already.
+/// Where it stands, which does not move.
 static bool write_root(const struct usda_model *model, struct error *error)
 {
     struct rig_pose pose;
-    double root[16];
+    double matrix[16];
     fprintf(model->out, "\n    def SkelRoot \"%s\"\n    {\n", model->name);
-    if (model->is_own) return true;
     if (!range_pose(model->range, model->rig, 0, &pose, error)) return false;
-    for (int i = 0; i < 16; i++) root[i] = (double)pose.model.root[i];
+    const float *root = range_root(model->range, model->rig, &pose);
+    if (!root) return true;
+    for (int i = 0; i < 16; i++) matrix[i] = (double)root[i];
     fputs("        matrix4d xformOp:transform = ", model->out);
-    usda_matrix(model->out, root);
+    usda_matrix(model->out, matrix);
     fputs("\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n\n", model->out);
     return true;
 }

@@ -128,7 +128,7 @@ struct gltf_channel {
 };
 
 struct gltf_clip {
-    char *name; ///< "clip 2" where the file has none
+    char *name;         ///< "clip 2" where the file has none
     double first, last; ///< seconds, of its first and last key
     bool loops;         ///< it ends as it begins
     struct gltf_channel *channels;

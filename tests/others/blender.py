@@ -58,6 +58,8 @@ def heads(armature, bones):
 
 def compare_bones(path, reference):
     read, known = (next(o for o in load(p) if o.type == 'ARMATURE') for p in (path, reference))
+    if 'CLIP' in os.environ:
+        choose_clip([known], os.environ['CLIP'])
     bones, off, all_heads = [b.name for b in read.pose.bones], 0.0, []
     first, last = (round(frame) for frame in read.animation_data.action.frame_range)
     for key in ten_of(last - first + 1):

@@ -292,7 +292,7 @@ static void build_keys(struct dialogs *dialogs, const struct document *document,
 
 static bool is_offered(const struct rig *rig, unsigned choices)
 {
-    if (choices & CHOICE_JOINTS) return rig->kind == RIG_TAIL || rig->kind == RIG_CHAIN;
+    if (choices & CHOICE_JOINTS) return rig->kind == RIG_TAIL || rig->kind == RIG_MODEL;
     return rig->kind != RIG_CHAIN; // exported with its character
 }
 

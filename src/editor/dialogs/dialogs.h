@@ -27,7 +27,7 @@ enum dialog_choice {
     CHOICE_SIGNED = 32,
     CHOICE_SIZE = 64, ///< size of its pictures
     CHOICE_ALPHA = 128,
-    CHOICE_JOINTS = 256, ///< tails and chains only
+    CHOICE_JOINTS = 256, ///< tails and imported characters only
 };
 
 /// An export format.
