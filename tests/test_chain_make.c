@@ -3,6 +3,7 @@
 #include "rig/chain_make.h"
 #include "rig/import.h"
 #include "rig/opened.h"
+#include "scene/edit.h"
 #include "scene/history.h"
 
 static const char dog[] = "assets/models/dog.glb";
@@ -78,6 +79,7 @@ TEST(test_a_character_of_any_size_fits_the_stage)
 
 STAND_TEST(test_a_chosen_clip_gives_the_scene_its_length)
 {
+    const struct knot knot = {.frame = 20, .value = 1, .stiffness = 1};
     const struct gltf *gltf = &models_imported(stand->opened.models, stand->opened.document, 0)->gltf;
     assert_done(import_choose_clip(stand->opened.document, 0, gltf, "Trot", &error));
     assert_string_equal(stand->opened.document->rigs[0]->model.clip, "Trot");
@@ -85,7 +87,10 @@ STAND_TEST(test_a_chosen_clip_gives_the_scene_its_length)
     make(stand, "tail_1", true);
     assert_int_equal(spline_start(stand->opened.document->splines[0]), WIGGLY_LOOP);
     assert_done(import_choose_clip(stand->opened.document, 0, gltf, "Idle", &error));
-    assert_int_equal(stand->opened.document->last_frame, 14); // what splines there are keep their frames
+    assert_int_equal(stand->opened.document->last_frame, 120); // chains go with the clip
+    assert_done(edit_knot_insert(stand->opened.document, 0, &knot, &error));
+    assert_done(import_choose_clip(stand->opened.document, 0, gltf, "Trot", &error));
+    assert_int_equal(stand->opened.document->last_frame, 120); // knots keep their frames
 }
 
 STAND_TEST(test_a_tail_swings_with_the_walk_and_loops)

@@ -84,25 +84,57 @@ static void check_clip(const struct gltf *gltf, const struct action *action)
     gltf_pose_free(&pose);
 }
 
+/// Exports the first clip of a file of actions, with a chain from the hand on, or all of them; the caller frees what was read.
+static void export_actions(const struct action *from, int count, bool all, struct gltf *gltf)
+{
+    struct opened opened;
+    struct export_report report;
+    assert_done(opened_read(&opened, write_actions(from, count), &error));
+    assert_int_equal(opened.document->first_frame, from->first);
+    assert_int_equal(opened.document->last_frame, from->last);
+    add_chain(&opened);
+    assert_int_equal(spline_start(opened.document->splines[0]), from->loops ? WIGGLY_LOOP : WIGGLY_REST);
+    opened_solve(&opened, SOLVER_BY_LENGTH);
+    const struct posing posing = opened_posing(&opened);
+    const struct export_options options = {.substeps = 1, .all_clips = all};
+    const char *path = temporary_path("actions.glb");
+    assert_done(export_write(&posing, path, &options, &report, &error));
+    assert_done(gltf_read(path, gltf, &error));
+    opened_free(&opened);
+}
+
 TEST(a_clip_is_the_scene_from_its_first_key_to_its_last)
 {
     for (int a = 0; a < ACTIONS; a++) {
-        struct opened opened;
-        struct export_report report;
         struct gltf gltf;
-        const struct action *action = &actions[a];
-        assert_done(opened_read(&opened, write_actions(action, 1), &error));
-        assert_int_equal(opened.document->first_frame, action->first);
-        assert_int_equal(opened.document->last_frame, action->last);
-        add_chain(&opened);
-        assert_int_equal(spline_start(opened.document->splines[0]), action->loops ? WIGGLY_LOOP : WIGGLY_REST);
-        opened_solve(&opened, SOLVER_BY_LENGTH);
-        const struct posing posing = opened_posing(&opened);
-        const char *path = temporary_path("action.glb");
-        assert_done(export_write(&posing, path, &(struct export_options){.substeps = 1}, &report, &error));
-        assert_done(gltf_read(path, &gltf, &error));
-        check_clip(&gltf, action);
+        export_actions(&actions[a], 1, false, &gltf);
+        check_clip(&gltf, &actions[a]);
         gltf_free(&gltf);
-        opened_free(&opened);
+    }
+}
+
+/// Whatever clip the scene plays, all of them come out, each with the keys of the chain in its own frames.
+TEST(all_clips_get_the_chains)
+{
+    for (int first = 0; first < ACTIONS; first++) {
+        struct gltf gltf;
+        struct action turned[ACTIONS];
+        for (int a = 0; a < ACTIONS; a++) turned[a] = actions[(first + a) % ACTIONS];
+        export_actions(turned, ACTIONS, true, &gltf);
+        assert_int_equal(gltf.clip_count, ACTIONS);
+        for (int a = 0; a < ACTIONS; a++) {
+            const struct gltf_channel *hand = &gltf.clips[a].channels[1];
+            const int last = hand->key_count - 1;
+            double swing = 0;
+            assert_string_equal(gltf.clips[a].name, turned[a].name);
+            check_clip(&gltf, &turned[a]);
+            assert_int_equal(hand->node, ARM + 1);
+            assert_int_equal(last, turned[a].last - turned[a].first);
+            for (int k = 0; k <= last; k++) swing = fmax(swing, fabs((double)hand->values[4 * k]));
+            assert_true(swing > 0.01);
+            const double end = (double)fabsf(hand->values[4 * last] - hand->values[0]);
+            assert_true(turned[a].loops ? end < 1e-5 : end > 1e-3);
+        }
+        gltf_free(&gltf);
     }
 }

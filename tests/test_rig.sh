@@ -42,6 +42,15 @@ holds "or have their own" [ "$(ears --own-splines)" = 4 ]
 expect 0 "straight to an animated character" "$WIGGLY" rig $dog --chain tail_1 --clip Trot -o "$scratch/trot.glb"
 expect 0 "which opens" "$WIGGLY" rig "$scratch/trot.glb"
 says "with the clip at its own length" "Trot (0.583 s)" "$out"
+expect 0 "the same chains on all clips" "$WIGGLY" rig $dog --chain tail_1 --all-clips -o "$scratch/all.glb"
+says "says how many" "8 bones bent by chains in 3 clips, 161 keys" "$out"
+expect 0 "which are there" "$WIGGLY" rig "$scratch/all.glb"
+says "with their names and lengths" "  Walk (1 s)
+  Trot (0.583 s)
+  Idle (5 s)" "$out"
+expect 2 "all clips in a scene" "$WIGGLY" rig $dog --chain tail_1 --all-clips -o "$scratch/no.json"
+expect 2 "all clips in a format of one" "$WIGGLY" rig $dog --chain tail_1 --all-clips -o "$scratch/no.usda"
+says "says which hold them" "no.usda: holds one clip: all clips need .glb or .gltf" "$err"
 expect 0 "a clip of its own for knots alone" "$WIGGLY" rig $dog --chain tail_1 --plain -o "$scratch/plain.json"
 grep -q '"joint"' "$scratch/plain.json"
 holds "follows nothing" [ $? -eq 1 ]

@@ -98,6 +98,8 @@ static enum options_result check(const struct usage *usage, struct job *job)
         return options_wrong(usage, "--paint: expected an output that ends in .npy, got '%s'", job->output);
     if (job->frames && !read_frames(job->frames, &job->options))
         return options_wrong(usage, "--frames: expected FIRST:LAST, such as 0:48, got '%s'", job->frames);
+    if (job->options.all_clips && job->options.clip)
+        return options_wrong(usage, "--clip and --all-clips: clips keep their names where all are exported");
     if (job->options.rate > 0 && job->options.substeps > 0)
         return options_wrong(usage, "--fps and --substeps both set the number of keys: give one");
     job->options.is_cubic = job->keys == CUBIC;
@@ -120,6 +122,8 @@ int command_export(int argc, char **argv)
          &o->clip, 0, 0},
         {"--rig", NULL, "NAME", "export only this rig (default: all that the format can hold)", OPTION_TEXT, &o->rig,
          0, 0},
+        {"--all-clips", NULL, NULL, "put the chains on every clip of the character's file (.glb, .gltf)", OPTION_FLAG,
+         &o->all_clips, 0, 0},
         {"--as-shown", NULL, NULL, "an imported character as large and where it is on the stage, not as in its file",
          OPTION_FLAG, &o->as_shown, 0, 0},
         {"--signed", NULL, NULL, "one morph target instead of two, with weights of either sign; Blender clamps them",

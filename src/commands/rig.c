@@ -16,7 +16,7 @@ struct job {
     const char *character, *output, *clip;
     struct option_list chains;
     struct chain_wish wish; ///< the settings of every chain
-    bool plain;
+    bool plain, all_clips;
 };
 
 /// Splits "A:B" or "A". Names may contain colons, so the splitting colon is one between two existing bones.
@@ -55,7 +55,7 @@ static bool edit(const struct job *job, const struct gltf *gltf, struct opened *
 static bool write_motion(const struct job *job, struct opened *opened, struct error *error)
 {
     struct export_report report;
-    const struct export_options options = {0};
+    const struct export_options options = {.all_clips = job->all_clips};
     opened_solve(opened, SOLVER_BY_LENGTH);
     const struct posing posing = opened_posing(opened);
     if (!export_write(&posing, job->output, &options, &report, error)) return false;
@@ -100,6 +100,8 @@ static enum options_result check(const struct usage *usage, const struct job *jo
     if (job->output && !path_has_end(job->output, ".json") && !export_knows(job->output))
         return options_wrong(usage, "--output: expected a scene (.json) or a character (.glb), got '%s'",
                              job->output);
+    if (job->all_clips && (!job->output || path_has_end(job->output, ".json")))
+        return options_wrong(usage, "--all-clips: expected a character to write (-o FILE.glb)");
     return OPTIONS_RUN;
 }
 
@@ -112,6 +114,8 @@ int command_rig(int argc, char **argv)
         {"--output", "-o", "FILE", "scene to write (.json), or the character with its motion (.glb, …)", OPTION_TEXT,
          &job.output, 0, 0},
         {"--clip", NULL, "NAME", "clip to play (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
+        {"--all-clips", NULL, NULL, "put the chains on every clip of the file (.glb, .gltf)", OPTION_FLAG,
+         &job.all_clips, 0, 0},
         {"--frequency", NULL, "HZ", "swings per second (default: by the chain's length)", OPTION_REAL,
          &job.wish.frequency, 1e-3, 1e3},
         {"--damping", NULL, "RATIO", "damping ratio: 0 swings forever, 1 is critical (default: 0.12)", OPTION_REAL,

@@ -139,7 +139,7 @@ static bool choose_keys(struct export_range *range, struct export_report *report
         return fail(error, ERROR_INPUT, "expected at most %d keys, got %.0f: choose fewer frames or keys per second",
                     MAX_KEYS, keys);
     range->key_count = (int)keys;
-    range->total = (long)range->key_count * range->rig_count;
+    range->total += (long)range->key_count * range->rig_count;
     const double end = range_frame(range, range->key_count - 1);
     if (fabs(end - last) > 1e-6)
         note(report, "the last key is on frame %g, because no key falls on frame %g", end, last);
@@ -218,8 +218,19 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
         export_endings(endings);
         return fail(error, ERROR_USAGE, "%s: expected a name ending in %s", path, endings);
     }
+    if (options->all_clips && range.format->write != gltf_write)
+        return fail(error, ERROR_USAGE, "%s: holds one clip: all clips need .glb or .gltf", path);
     return choose_rigs(&range, report, error) && choose_keys(&range, report, error) &&
            write_file(&range, report, error);
+}
+
+bool range_take(struct export_range *range, const struct posing *posing, const struct export_options *options,
+                struct error *error)
+{
+    struct export_report report = {0};
+    range->posing = posing;
+    range->options = options;
+    return choose_keys(range, &report, error);
 }
 
 // --- the rigs at the times that are exported

@@ -15,6 +15,7 @@ struct export_options {
     int substeps;           ///< keys a frame, or 0
     bool is_signed;         ///< morph weights may be negative, which takes half as many targets
     bool is_cubic;          ///< keys have tangents (glTF)
+    bool all_clips;         ///< the chains move every clip of an imported character's file (glTF)
     bool as_shown;          ///< an imported character as large and where it is on the stage, not as in its own file
     // of films and pictures (app/film.h)
     int size[2];      ///< pixels; 0: 1280 × 720, for .gif 640 × 360

@@ -76,6 +76,10 @@ bool usda_write(struct export_range *range, FILE *out, struct error *error);
 /// Writes a rig that is no imported character as a .glb of its own.
 bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error);
 
+/// Has a range continue with the same rigs of another document.
+bool range_take(struct export_range *range, const struct posing *posing, const struct export_options *options,
+                struct error *error);
+
 /// The frame of a key, and its time in seconds from the first.
 double range_frame(const struct export_range *range, double key);
 double range_seconds(const struct export_range *range, double key);

@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "export/gltf.h"
 #include "model/glb.h"
+#include "rig/import.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -10,6 +11,7 @@ struct original {
     struct glb source;
     struct gltf_file file; ///< its JSON, and the bytes of the buffer that new ones go into
     bool is_same;          ///< the container stays what it is
+    int clips;             ///< that were put into it
 };
 
 // --- the other container: all bytes in one buffer without an address, pictures too
@@ -180,7 +182,48 @@ static bool put_clip(struct export_range *range, const struct form *form, struct
     }
     gltf_motion_free(&motion);
     keys_free(&keys);
+    o->clips++;
     return true;
+}
+
+/// Adds the same chains' motion in another clip of the file.
+static bool put_other(struct export_range *range, int clip, struct original *o, struct error *error)
+{
+    const struct export_range first = *range;
+    const struct gltf *gltf = &models_imported(first.posing->models, first.posing->document, first.rigs[0])->gltf;
+    struct document *document = import_with_clip(first.posing->document, first.rigs[0], gltf, clip, error);
+    if (!document) return false;
+    struct evaluation evaluation = {.solver = first.posing->evaluation->solver,
+                                    .models = first.posing->evaluation->models};
+    struct posing posing = *first.posing;
+    struct export_options options = *first.options;
+    struct form form;
+    evaluation_update(&evaluation, document, false);
+    posing.document = document;
+    posing.evaluation = &evaluation;
+    options.has_frames = false;
+    bool done = range_take(range, &posing, &options, error) && form_open(range, range->rigs[0], &form, error);
+    if (done) {
+        done = put_clip(range, &form, o, error);
+        form_close(&form);
+    }
+    evaluation_free(&evaluation);
+    document_destroy(document);
+    range->posing = first.posing;
+    range->options = first.options;
+    return done;
+}
+
+/// The clip that plays, and where all are asked for the others: of two with one name the first.
+static bool put_clips(struct export_range *range, const struct form *form, struct original *o, struct error *error)
+{
+    const struct model_body *body = form->owned;
+    bool done = put_clip(range, form, o, error);
+    for (int c = 0; done && range->options->all_clips && c < body->gltf->clip_count; c++) {
+        const struct gltf_clip *clip = &body->gltf->clips[c];
+        if (clip != body->clip && gltf_find_clip(body->gltf, clip->name) == c) done = put_other(range, c, o, error);
+    }
+    return done;
 }
 
 /// Hangs everything at a node that stands where the stage has the character.
@@ -200,8 +243,7 @@ static void put_place(struct original *o, const float root[16])
     json_decref(matrix);
 }
 
-static bool write_file(struct export_range *range, const struct form *form, bool *was_packed, FILE *out,
-                       struct error *error)
+static bool write_file(struct export_range *range, const struct form *form, FILE *out, struct error *error)
 {
     struct original o = {0};
     const struct model_body *body = form->owned;
@@ -210,18 +252,25 @@ static bool write_file(struct export_range *range, const struct form *form, bool
     if (!range_pose(range, range->rigs[0], 0, &pose, error)) return false;
     const float *root = range_root(range, range->rigs[0], &pose);
     if (!glb_open(&o.source, body->gltf->path, error)) return false;
-    *was_packed = glb_is_packed(&o.source);
-    o.is_same = !*was_packed && (memcmp(o.source.data, "glTF", 4) == 0) == binary;
+    const bool was_packed = glb_is_packed(&o.source);
+    o.is_same = !was_packed && (memcmp(o.source.data, "glTF", 4) == 0) == binary;
     bool done;
     if (!has_clip && o.is_same && !root) {
         done = check_place(range, &o.source, error) && write_same(body->gltf->path, out, error);
     } else {
-        done = take_bytes(range, &o, error) && (!has_clip || put_clip(range, form, &o, error));
+        done = take_bytes(range, &o, error) && (!has_clip || put_clips(range, form, &o, error));
         if (done && root) put_place(&o, root);
         done = done && gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
     }
     gltf_file_free(&o.file);
     glb_close(&o.source);
+    if (has_clip) {
+        snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains in %d clip%s, %ld keys%s", body->bone_count,
+                 o.clips, o.clips == 1 ? "" : "s", range->total, was_packed ? ", meshes decompressed" : "");
+    } else {
+        snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, %sbecause no chain moves it",
+                 was_packed ? "meshes decompressed, " : "");
+    }
     return done;
 }
 
@@ -229,16 +278,7 @@ bool gltf_model_write(struct export_range *range, FILE *out, struct error *error
 {
     struct form form;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
-    bool was_packed = false;
-    const bool done = write_file(range, &form, &was_packed, out, error);
-    const int bones = ((const struct model_body *)form.owned)->bone_count;
-    if (bones > 0) {
-        snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains, %d keys%s", bones, range->key_count,
-                 was_packed ? ", meshes decompressed" : "");
-    } else {
-        snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, %sbecause no chain moves it",
-                 was_packed ? "meshes decompressed, " : "");
-    }
+    const bool done = write_file(range, &form, out, error);
     form_close(&form);
     return done;
 }

@@ -4,6 +4,7 @@
 #include "base/need.h"
 #include "model/character.h"
 #include "scene/edit.h"
+#include "scene/pins.h"
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
@@ -70,7 +71,8 @@ static double scale_of(const struct gltf *gltf)
 }
 
 /// Frame rate and range of a document become those of a clip: from its first key to its last. NULL: there is no clip.
-static bool set_range(struct document *document, const struct gltf_clip *clip, struct error *error)
+static bool set_range(struct document *document, const struct gltf_clip *clip, enum range_fit fit,
+                      struct error *error)
 {
     const double fps = frame_rate(clip);
     double first = 0, frames = STANDARD_FRAMES;
@@ -80,7 +82,22 @@ static bool set_range(struct document *document, const struct gltf_clip *clip, s
         frames = fmin(fmax(frames, LEAST_FRAMES), MOST_FRAMES);
     }
     return edit_fps(document, fps, false, error) &&
-           edit_range(document, (int)first, (int)(first + frames), RANGE_REFUSE, error);
+           edit_range(document, (int)first, (int)(first + frames), fit, error);
+}
+
+static bool follows_clip(const struct spline *spline) { return spline->parameter[PARAMETER_EQUILIBRIUM].motion; }
+
+/// Has the scene take a clip's frames, and splines that follow it loop where it does.
+static bool take_clip(struct document *document, const struct gltf_clip *clip, enum range_fit fit,
+                      struct error *error)
+{
+    const struct param start = param_number(clip->loops ? WIGGLY_LOOP : WIGGLY_REST);
+    if (!set_range(document, clip, fit, error)) return false;
+    for (int s = 0; s < document->spline_count; s++) {
+        if (!follows_clip(document->splines[s])) continue;
+        if (!edit_parameter(document, s, PARAMETER_START, &start, error)) return false;
+    }
+    return true;
 }
 
 /// A coordinate's spline: the given one, or a new one with the coordinate's frequency and damping and a knot at frame 0.
@@ -121,7 +138,7 @@ static bool add_imported(struct document *document, char *file, const struct glt
     const struct rig rig = {.kind = RIG_MODEL,
                             .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = scale_of(gltf)}};
     if (document->spline_count == 0 && document->rig_count == 0) {
-        if (!set_range(document, clip, error)) return false;
+        if (!set_range(document, clip, RANGE_REFUSE, error)) return false;
     }
     return edit_rig_add(document, &rig, error);
 }
@@ -152,15 +169,55 @@ struct document *import_scene(const char *path, struct error *error)
     return NULL;
 }
 
-bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
-                        struct error *error)
+static bool set_clip(struct document *document, int rig, const char *clip, struct error *error)
 {
-    const int found = clip ? gltf_find_clip(gltf, clip) : -1;
     struct rig changed = *document->rigs[rig];
     char *name = changed.model.clip = clip && clip[0] ? need_text(clip) : NULL;
     const bool done = edit_rig_set(document, rig, &changed, error);
     free(name);
-    if (!done) return false;
-    if (found < 0 || document->spline_count > 0) return true;
-    return set_range(document, &gltf->clips[found], error);
+    return done;
+}
+
+/// Whether the scene has only what a clip moves: nothing in it was set for its frames.
+static bool is_of_clip(const struct document *document)
+{
+    bool follows = document->spline_count == 0;
+    for (int s = 0; s < document->spline_count; s++) {
+        if (document->splines[s]->knot_count > 0) return false;
+        follows = follows || follows_clip(document->splines[s]);
+    }
+    return follows && pins_count(document) == 0;
+}
+
+bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
+                        struct error *error)
+{
+    const int found = clip ? gltf_find_clip(gltf, clip) : -1;
+    if (!set_clip(document, rig, clip, error)) return false;
+    return found < 0 || !is_of_clip(document) || take_clip(document, &gltf->clips[found], RANGE_REFUSE, error);
+}
+
+/// Removes what was keyed on another clip.
+static bool remove_keys(struct document *document, struct error *error)
+{
+    for (int s = 0; s < document->spline_count; s++) {
+        while (follows_clip(document->splines[s]) && document->splines[s]->knot_count > 0)
+            if (!edit_knot_remove(document, s, document->splines[s]->knots[0].id, error)) return false;
+    }
+    for (int r = 0; r < document->rig_count; r++) {
+        while (document->rigs[r]->kind == RIG_CHAIN && document->rigs[r]->pin_count > 0)
+            if (!edit_pin_remove(document, r, document->rigs[r]->pins[0].id, error)) return false;
+    }
+    return true;
+}
+
+struct document *import_with_clip(const struct document *document, int rig, const struct gltf *gltf, int clip,
+                                  struct error *error)
+{
+    struct document *copy = document_copy(document);
+    if (remove_keys(copy, error) && set_clip(copy, rig, gltf->clips[clip].name, error) &&
+        take_clip(copy, &gltf->clips[clip], RANGE_TRIM, error))
+        return copy;
+    document_destroy(copy);
+    return NULL;
 }

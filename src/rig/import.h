@@ -16,8 +16,14 @@ struct document *import_scene(const char *path, struct error *error);
 /// one, which plays its first clip. False with a sentence.
 bool import_add(struct document *document, const char *path, int spline, struct error *error);
 
-/// Makes a model rig play a clip of its file, NULL: none. A scene without splines takes the clip's frame rate and range.
+/// Makes a model rig play a clip of its file, NULL: none. A scene without splines, or with some that follow the clip and no knots or pins,
+/// takes the clip's frame rate and range, and splines that follow it loop if it does.
 bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
                         struct error *error);
+
+/// A copy of a document in which a model rig plays another clip, by its index, in that clip's frames. Splines that follow the clip have
+/// no knots there, chains no pins: they were set for the clip before. NULL with a sentence.
+struct document *import_with_clip(const struct document *document, int rig, const struct gltf *gltf, int clip,
+                                  struct error *error);
 
 #endif

@@ -67,9 +67,10 @@ static void tell(struct core *core, const struct rig *made, int model, bool foll
 void bones_choose_clip(struct core *core, int model, const char *clip)
 {
     const struct imported *character = bones_character(core, model);
+    const int first = core->document->first_frame, last = core->document->last_frame;
     if (!character || !core_begin(core, "Choose clip", 0)) return;
     core_end(core, import_choose_clip(core->document, model, &character->gltf, clip, &core->error));
-    core->refit_curves = core->document->spline_count == 0;
+    core->refit_curves = core->document->first_frame != first || core->document->last_frame != last;
 }
 
 void bones_make_chain(struct core *core, int follow)
