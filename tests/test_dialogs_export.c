@@ -162,7 +162,12 @@ TEST(test_joints_are_those_of_the_character)
     for (int f = 0; f < 2; f++) {
         click(&s, f ? ".bvh" : ".pc2");
         assert_null(shown_text(s.editor, "brush"));
+        assert_null(shown_text(s.editor, "all clips"));
     }
+    click(&s, ".glb");
+    const struct draw_command *label = shown_text(s.editor, "all clips");
+    click_at(&s, label->x - 20, label->y - 4, 1);
+    assert_true(of(&s)->memory.wish.all_clips);
     session_close(&s);
 }
 

@@ -222,6 +222,7 @@ static const struct {
 } flags[] = {
     {"export_tangents", offsetof(struct export_wish, is_cubic)},
     {"export_signed", offsetof(struct export_wish, is_signed)},
+    {"export_all_clips", offsetof(struct export_wish, all_clips)},
     {"export_transparent", offsetof(struct export_wish, transparent)},
 };
 

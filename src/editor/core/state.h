@@ -56,7 +56,7 @@ struct export_wish {
     int width, height; ///< of pictures; 0: the format's default
     char rig[64];      ///< name; "": all
     char clip[64];     ///< of the animation; "": the scene's
-    bool is_cubic, is_signed, transparent;
+    bool is_cubic, is_signed, all_clips, transparent;
 };
 
 struct request {

@@ -345,6 +345,8 @@ static void build_flags(struct dialogs *dialogs, const struct document *document
     struct ui *ui = &dialogs->dialog.ui;
     const bool morphs = document_find_rig(document, RIG_CHARACTER, 0) >= 0;
     if (choices & CHOICE_CUBIC) build_toggle(ui, &row, "export.cubic", "keys with tangents", &wish->is_cubic);
+    if ((choices & CHOICE_CUBIC) && document_find_rig(document, RIG_CHAIN, 0) >= 0)
+        build_toggle(ui, &row, "export.clips", "all clips", &wish->all_clips);
     if ((choices & CHOICE_SIGNED) && morphs)
         build_toggle(ui, &row, "export.signed", "signed morph targets", &wish->is_signed);
     if (choices & CHOICE_ALPHA) build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
