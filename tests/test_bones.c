@@ -103,6 +103,24 @@ SESSION_TEST(test_a_dragged_character_moves_and_its_chain_follows_through, open_
 }
 
 /// Seen from the side both legs lie over each other: the near one is meant.
+/// Alt+V: the clip alone stands beside it, and no chain bends that one.
+SESSION_TEST(test_the_original_is_shown_beside_it, open_beast(s, TAIL))
+{
+    assert_done(edit_knot_insert(s->editor->core.document, 0, &(struct knot){.value = 2, .stiffness = 1}, &error));
+    session_key(s, 'V', MOD_ALT);
+    session_frame(s);
+    const struct stage_view *view = editor_stage(s->editor);
+    assert_int_equal(view->model_count, 2);
+    const struct stage_model *beast = view->models;
+    const int tip = gltf_find_node(beast[0].gltf, "tail_8"), hips = gltf_find_node(beast[0].gltf, "hips");
+    assert_true(beast[1].root[12] > beast[0].root[12] + 0.5f);
+    assert_memory_equal(beast[0].pose->world[hips], beast[1].pose->world[hips], sizeof *beast->pose->world);
+    assert_true(fabsf(beast[0].pose->world[tip][12] - beast[1].pose->world[tip][12]) > 0.05f);
+    session_key(s, 'V', MOD_ALT);
+    session_frame(s);
+    assert_int_equal(editor_stage(s->editor)->model_count, 1);
+}
+
 SESSION_TEST(test_of_bones_over_each_other_the_near_one_is_picked, open_beast(s, ""))
 {
     const struct stage_view *view = editor_stage(s->editor);

@@ -350,6 +350,7 @@ const struct command commands[] = {
             {KEY_PAGE_DOWN, CTRL_SHIFT}),
     COMMAND("Show all of the stage", STAGE, ON_STAGE, NOTHING, 0, .run = run_fit_stage, 0, {KEY_HOME, SHIFT}),
     COMMAND("Onion skin", STAGE, ON_STAGE, NOTHING, ANY_TIME, .core = core_flip, SWITCH_ONION, {'O', 0}),
+    COMMAND("Original clip beside it", STAGE, 0, MODEL, ANY_TIME, .core = core_flip, SWITCH_ORIGINAL, {'V', ALT}),
     COMMAND("Motion arc", STAGE, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_TRAIL, {'O', SHIFT}),
     COMMAND("Ghost of the dragged knot", STAGE, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_GHOST, {KEY_F4, 0}),
     GESTURE("Drag a floor's edge", "Raise or lower the floor", STAGE, 0),

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <sys/stat.h>
 
+enum { POSES = 3 }; ///< of an imported character at once
+
 enum model_kind { MODEL_FIGURE, MODEL_IMPORTED };
 
 /// A file that was read, and its state at that time.
@@ -127,7 +129,7 @@ struct placed_model {
     int level, joints; ///< of a fox
     struct imported *fox;
     const struct imported *imported; ///< NULL: it could not be read
-    struct gltf_pose pose[2];        ///< [1] is shown
+    struct gltf_pose pose[POSES];    ///< but for [0] they are shown
 };
 
 struct models {
@@ -161,7 +163,7 @@ static void drop_characters(struct models *models)
 
 static void free_placed(struct placed_model *placed)
 {
-    for (int k = 0; k < 2; k++) gltf_pose_free(&placed->pose[k]);
+    for (int k = 0; k < POSES; k++) gltf_pose_free(&placed->pose[k]);
     if (placed->fox) imported_free(placed->fox);
     free(placed->fox);
     free(placed->path);
@@ -279,7 +281,9 @@ static bool check_clip(const struct model_rig *rig, const struct gltf *gltf, str
 static bool make_poses(struct placed_model *placed, const struct imported *imported)
 {
     placed->imported = imported;
-    return gltf_pose_create(&imported->gltf, &placed->pose[0]) && gltf_pose_create(&imported->gltf, &placed->pose[1]);
+    for (int k = 0; k < POSES; k++)
+        if (!gltf_pose_create(&imported->gltf, &placed->pose[k])) return false;
+    return true;
 }
 
 /// Rebuilds a fox if its tail's joints or the number of tails have changed.
@@ -410,7 +414,7 @@ const struct imported *models_imported(const struct models *models, const struct
     return placed ? placed->imported : NULL;
 }
 
-struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig, bool shown)
+struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig, int shown)
 {
     struct placed_model *placed = find_placed(models, document, rig);
     return placed && placed->imported ? &placed->pose[shown] : NULL;

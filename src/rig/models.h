@@ -44,7 +44,7 @@ void models_grow(struct models *models, const struct document *document, const s
 /// The meadow as it was last solved; NULL: none. `models` may be NULL.
 const struct meadow *models_meadow(const struct models *models);
 
-/// Memory for its pose: one for the shown pose, one for all others. NULL if models_imported() is.
-struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig, bool shown);
+/// Memory for its pose: 1 for the shown pose, 2 for one shown beside it, 0 for all others. NULL if models_imported() is.
+struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig, int shown);
 
 #endif

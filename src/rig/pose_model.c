@@ -17,7 +17,7 @@ double posing_clip_time(const struct document *document, double position, const 
     return clip->first + left;
 }
 
-struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, bool shown)
+struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, int shown)
 {
     const struct document *document = posing->document;
     const struct imported *imported = models_imported(posing->models, document, rig);

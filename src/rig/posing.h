@@ -23,7 +23,7 @@ struct posing {
     const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
     bool at_rest; ///< clips do not play
-    bool shown;   ///< an imported character's pose stays until the next shown one; otherwise until any other
+    int shown;    ///< which memory of models_pose() takes an imported character's pose, until the next one there
     /// Adds a rig's motion by hand to `hand`; NULL: there is none.
     void (*move)(const void *context, int rig, struct by_hand *hand);
     const void *context; ///< for `move`

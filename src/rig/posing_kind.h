@@ -26,7 +26,7 @@ struct posing_functions {
 
 /// The places of its bones in its clip alone, or at rest, in the models' memory for what is shown or that for all else; NULL where there is no
 /// model.
-struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, bool shown);
+struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, int shown);
 
 /// The place of an imported character: columns and place of its space in the world.
 void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);

@@ -238,6 +238,8 @@ void core_flip(struct core *core, int which)
                                "curve's values."}},
         [SWITCH_GHOST] = {&core->overlays.ghost,
                           {"Ghost off.", "Ghost on: the pose at the knot that is dragged or nudged (F4)."}},
+        [SWITCH_ORIGINAL] = {&core->overlays.original,
+                             {"Original off.", "Original on: beside the character, its clip without the chains."}},
         [SWITCH_RECORD] = {&core->record_armed, {"Recording is off.", "The next drag of the body is recorded."}},
         [SWITCH_PHASE_MAP] = {&core->characters.mapped,
                               {"Phase map off.", "Phase map on: the colour of a point is its phase."}},
@@ -247,7 +249,7 @@ void core_flip(struct core *core, int which)
     bool *on = switches[which].on;
     *on = !*on;
     core->refit_curves |= which == SWITCH_NORMALISE;
-    core->refit_stage |= which == SWITCH_TWIN;
+    core->refit_stage |= which == SWITCH_TWIN || which == SWITCH_ORIGINAL;
     core_message(core, false, switches[which].said[*on]);
 }
 

@@ -60,6 +60,7 @@ enum core_switch {
     SWITCH_ONION,
     SWITCH_TRAIL,
     SWITCH_GHOST,
+    SWITCH_ORIGINAL,
     SWITCH_SHEET,
     SWITCH_PHASE,
     SWITCH_MORE,

@@ -291,7 +291,8 @@ struct brush {
 /// Overlays on the stage, independent of the document.
 struct overlays {
     bool onion, trail;
-    bool ghost; ///< the pose at the dragged or nudged knot
+    bool ghost;    ///< the pose at the dragged or nudged knot
+    bool original; ///< the clip alone beside an imported character
 };
 
 /// View options of the curves panel, independent of the document.

@@ -10,6 +10,7 @@
 enum { BOUND_STEPS = 60, FEET = 8 };
 
 static const float FOOT_HEIGHT = 0.1f, FOOT_RADIUS = 0.085f; ///< in heights of the character
+static const float ASIDE = 1.1f;                             ///< in widths of the character
 static const float FOOT_STRENGTH = 0.55f, BODY_STRENGTH = 0.4f;
 
 /// A shadow under the whole, and one under each joint that is near the ground.
@@ -38,7 +39,7 @@ struct stage_model *models_show(struct stage *stage, const struct core *core, in
 {
     struct stage_view *view = &stage->view;
     struct posing posing = stage_posing_by_hand(stage);
-    posing.shown = true;
+    posing.shown = 1;
     if (view->model_count == STAGE_MAX_MODELS) return NULL;
     if (!rig_pose_body(&posing, rig, core->playback.position, NULL, posed)) return NULL;
     struct stage_model *shown = &view->models[view->model_count++];
@@ -49,15 +50,42 @@ struct stage_model *models_show(struct stage *stage, const struct core *core, in
     return shown;
 }
 
+/// How far beside it the clip alone stands.
+static float aside(const struct core *core, int n)
+{
+    const int rig = document_find_rig(core->document, RIG_MODEL, n);
+    const struct imported *imported = models_imported(core->models, core->document, rig);
+    if (!core->overlays.original || !imported) return 0.0f;
+    const float *lo = imported->gltf.lo, *hi = imported->gltf.hi;
+    return ASIDE * (float)core->document->rigs[rig]->model.scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
+}
+
+/// The clip alone, without what bends it, beside the model that was shown last.
+static void add_original(struct stage *stage, const struct core *core, int rig, float by)
+{
+    struct stage_view *view = &stage->view;
+    struct rig_pose posed;
+    const struct posing posing = {.document = core->document, .models = core->models, .shown = 2};
+    if (view->model_count == STAGE_MAX_MODELS) return;
+    if (!rig_pose_body(&posing, rig, core->playback.position, NULL, &posed)) return;
+    struct stage_model *shown = &view->models[view->model_count++];
+    *shown = shown[-1];
+    shown->pose = posed.model.pose;
+    shown->root[12] += by;
+    shown->lo[0] += by;
+    shown->hi[0] += by;
+    add_shadows(view, shown);
+}
+
 static void pose(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct rig_pose posed;
     struct stage_model *shown = models_show(stage, core, rig, &posed);
-    (void)n;
     if (!shown) return;
     bones_add(stage, rig, &posed);
     shown->dusk = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
     add_shadows(&stage->view, shown);
+    if (core->overlays.original) add_original(stage, core, rig, aside(core, n));
 }
 
 static uint64_t hash(uint64_t sum, const struct stage_view *view)
@@ -73,7 +101,7 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
     return sum;
 }
 
-const struct stage_kind model_stage = {.pose = pose, .bound_steps = BOUND_STEPS, .hash = hash};
+const struct stage_kind model_stage = {.pose = pose, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
 
 void skin_free(struct skin *skin)
 {
