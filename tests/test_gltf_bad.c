@@ -35,6 +35,8 @@ static const struct {
 } bad[] = {
     {"\"scenes\":[]", "nodes: expected something to show, got no nodes"},
     {"\"nodes\":7", "nodes: expected an array, got something else"},
+    {"\"extensionsRequired\":[\"x\",\"KHR_meshopt_compression\"]",
+     "extensionsRequired[1]: expected meshes that are not compressed, got KHR_meshopt"},
     {"\"nodes\":[{\"mesh\":0}]", "nodes[0].mesh: expected none, because the file has none"},
     {POSITION "0}}]}],\"nodes\":[{\"mesh\":1}]", "nodes[0].mesh: expected a number from 0 to 0, got 1"},
     {POSITION "0}}]}],\"nodes\":[{\"mesh\":-1}]", "nodes[0].mesh: expected a number from 0 to 0, got -1"},

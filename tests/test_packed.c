@@ -4,6 +4,7 @@
 #include "gltf_builder.h"
 #include "model/glb.h"
 #include "model/vector.h"
+#include <sys/resource.h>
 
 static const char *const names[] = {"draco", "meshopt"};
 static const char *const extensions[] = {"KHR_draco_mesh_compression", "EXT_meshopt_compression"};
@@ -112,6 +113,22 @@ TEST(wrong_claims_are_refused)
         replace(data, size, cases[i].from, cases[i].to);
         assert_refusal(gltf_read_bytes("claims.glb", data, size, &gltf, &error), cases[i].says);
     }
+}
+
+/// Draco's header may claim any number of faces and vertices: its library would take gigabytes for these.
+TEST(a_claim_of_a_huge_mesh_takes_little_memory)
+{
+    static const char claim[] = "\xff\xff\xff\x1f\xff\xff\xff\x1f\0\xff\xff\xff\x1f";
+    size_t size;
+    struct gltf gltf;
+    struct rusage before, after;
+    char *data = packed(0, &size);
+    if (!data) return;
+    memcpy((char *)memmem(data, size, "DRACO", 5) + 12, claim, sizeof claim);
+    getrusage(RUSAGE_SELF, &before);
+    assert_refusal(gltf_read_bytes("claims.glb", data, size, &gltf, &error), "a Draco mesh");
+    getrusage(RUSAGE_SELF, &after);
+    assert_in_range(after.ru_maxrss - before.ru_maxrss, 0, 100 << 10); // KiB
 }
 
 /// Every byte that is compressed is changed: the file is read or refused (the sanitizers watch).

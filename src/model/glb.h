@@ -66,7 +66,8 @@ size_t glb_element(const json_t *accessor, int *type, int *components);
 
 // Compressed meshes (glb_unpack.c).
 
-/// The package that this program was built without, and would decompress meshes of this extension; NULL of all others.
+/// The package that this program was built without, and would decompress meshes of this extension ("": there is none); NULL of all
+/// other extensions.
 const char *glb_missing_codec(const char *extension);
 
 /// Whether the file has compressed meshes that glb_read_buffers() decompresses, or no buffer for some that it need not read.

@@ -154,10 +154,9 @@ static bool check_required(struct gltf_reader *r)
         gltf_at(r, "extensionsRequired[%zu]", i);
         const char *package = name ? glb_missing_codec(name) : NULL;
         if (package)
-            return gltf_bad(r,
-                            ": expected meshes that are not compressed, got %.60s; export without compression, or "
-                            "install %s and build wiggly again",
-                            name, package);
+            return gltf_bad(
+                r, ": expected meshes that are not compressed, got %.60s; export without compression%s%s%s", name,
+                *package ? ", or install " : "", package, *package ? " and build wiggly again" : "");
     }
     return true;
 }
