@@ -8,6 +8,15 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 mkdir -p "$out"
 
+# The app writes quickly; the repository keeps the same pixels in fewer bytes.
+keep() { # <name> <picture> [option]...
+    name=$1
+    shift
+    convert "$@" -alpha off -strip -define png:compression-level=9 -define png:compression-filter=1 \
+        -define png:compression-strategy=0 "$out/$name"
+    echo "$out/$name, $(($(wc -c <"$out/$name") / 1000)) kB"
+}
+
 picture() { # <name> <frames> [option]...
     name=$1 frames=$2
     shift 2
@@ -15,10 +24,7 @@ picture() { # <name> <frames> [option]...
         cat "$scratch/log" >&2
         exit 1
     }
-    # The app writes quickly; the repository keeps the same pixels in fewer bytes.
-    convert "$scratch/$name" -alpha off -strip -define png:compression-level=9 -define png:compression-filter=1 \
-        "$out/$name"
-    echo "$out/$name, $(($(wc -c <"$out/$name") / 1000)) kB"
+    keep "$name" "$scratch/$name"
 }
 
 # A replay on the built-in scene or another; its header (with the scene's hash) is one that the app itself records.
@@ -28,7 +34,7 @@ replay() { # <name> [scene], events on standard input
     cat >>"$scratch/$1"
 }
 
-# Stage and curves of a window of 960×600 while a loop of the scene is played: a knot goes up, shakes and comes back.
+# Drags a knot up, shakes it and brings it back, in a window of 960×600 that plays the scene in a loop.
 drag_events() {
     echo "20 pointer @knot(sway,2)"
     echo "36 press left @knot(sway,2)"
@@ -44,7 +50,7 @@ drag_events() {
     echo "268 pointer @stage(0.02,0.95)"
 }
 
-# What a job of tests/replays comes to, at some frames, side by side.
+# The result of a job of tests/replays at some frames, side by side.
 row() { # <name> <job> <part of a picture of 480x320> <frame>...
     name=$1 job=$2 part=$3
     shift 3
@@ -52,9 +58,7 @@ row() { # <name> <job> <part of a picture of 480x320> <frame>...
     for frame; do
         "$wiggly" export "$scratch/$job.json" -o "$scratch/$job-$(printf %04d "$frame").png" --frames "$frame:$frame" --size 480x320 --quiet
     done
-    convert "$scratch/$job"-*.png -alpha off -crop "$part" +repage +append -strip -define png:compression-level=9 \
-        -define png:compression-filter=1 "$out/$name"
-    echo "$out/$name, $(($(wc -c <"$out/$name") / 1000)) kB"
+    keep "$name" "$scratch/$job"-*.png -crop "$part" +repage +append
 }
 
 animation() { # <name>: every fourth of 300 frames, 15 a second
