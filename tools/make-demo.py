@@ -56,7 +56,7 @@ def pull(across, up):
 
 
 def fox(t):
-    say(t, "Keys are hit exactly, and everything between them swings")
+    say(t, "The curve hits every knot exactly and swings between them")
     t += 4 * SECOND
     say(t, "Drag the fox: its tail swings after it")
     hold(t + 40, 300, "body(tail)", to_and_fro(0.45, 0, 2.5))
@@ -70,10 +70,10 @@ def fox(t):
 
 
 def curves(t):
-    say(t, "Drag a knot: the curve still hits all of them")
+    say(t, "Drag a knot: the curve still hits every knot")
     to(t + 30, 150, "knot(sway,2)", lambda u: f"curve(sway,{40 + 22 * math.sin(1.5 * math.pi * u):.3f},{0.9 * math.sin(2 * math.pi * u):.4f})")
     t += 5 * SECOND
-    say(t, "Double-click: a new knot, without changing the curve")
+    say(t, "Double-click: a new knot, and the curve goes through it")
     at(t + 30, "pointer @ruler(70)")
     at(t + 60, "pointer @curve(sway,70,0.8)")
     at(t + 90, "double left @curve(sway,70,0.8)")
@@ -83,47 +83,47 @@ def curves(t):
     to(t + 30, 100, "slider(frequency)", lambda u: f"slider(frequency,{1 + 1.4 * u:.4f})")
     to(t + 200, 100, "slider(damping)", lambda u: f"slider(damping,{0.08 + 0.3 * u:.4f})")
     t += 7 * SECOND
-    say(t, "V: the same knots stiff, cubic, and wiggly again")
+    say(t, "V: the same knots stiff, then cubic, then wiggly again")
     for n in range(3):
         key(t + 40 + 100 * n, "V")
     return t + 7 * SECOND
 
 
 def record(t):
-    say(t, "R while you drag the fox: its way becomes knots")
+    say(t, "R while you drag the fox: its path becomes knots")
     key(t + 20, "Left", "shift")
     hold(t + 30, 240, "body(tail)", to_and_fro(0.5, 0, 2))
     key(t + 70, "R")
     t += 9 * SECOND
-    say(t, "F10: as readable in the light")
+    say(t, "F10: light or dark colours")
     key(t + 30, "F10")
     return t + 4 * SECOND
 
 
 def figures(t):
-    say(t, "Ctrl+1 to 7: the figures of the paper, to play with")
+    say(t, "Ctrl+1 to Ctrl+7: figures of the paper to play with")
     key(t + 40, "1", "ctrl")
-    key(t + 220, "4", "ctrl")
-    to(t + 280, 120, "knot(before,2)", lambda u: f"curve(before,{93 + 22 * u:.3f},0)")
+    key(t + 220, "6", "ctrl")
+    to(t + 280, 120, "knot(sway,2)", lambda u: f"curve(sway,{54 + 22 * u:.3f},-0.9)")
     key(t + 500, "F10")
     return t + 9 * SECOND
 
 
 def stage(t):
-    say(t, "F5: the stage alone, keys as they are pressed")
-    key(t + 40, "F5")
-    t += 4 * SECOND
-    say(t, "A soft bear: each part has a lag of its own")
+    say(t, "A soft bear: each part has its own lag")
     key(t + 20, "7", "ctrl")
     t += 7 * SECOND
-    say(t, "Pins: take it by a hand, and the rest swings")
+    say(t, "F5: the stage and the keys you press")
+    key(t + 40, "F5")
+    t += 4 * SECOND
+    say(t, "Pins: drag a hand, and the rest swings")
     key(t + 20, "9", "ctrl")
     hold(t + 90, 120, "pin(creature,0)", pull(-0.12, -0.15))
     hold(t + 290, 120, "pin(creature,0)", pull(0.12, 0.2))
     t += 10 * SECOND
     say(t, "Your own character: its tail and ears follow its walk")
     key(t + 20, "8", "ctrl")
-    hold(t + 120, 120, "chain(tail,0.9)", pull(0.1, -0.25))
+    hold(t + 120, 120, "chain(tail,0.9)", pull(0.12, 0.15))
     t += 9 * SECOND
     say(t, "1,200 reeds, one spline: drag the fox through them")
     key(t + 20, "0", "ctrl")
@@ -133,7 +133,7 @@ def stage(t):
 
 def end(t):
     key(t, "Escape")
-    say(t, "Press any key, and try it yourself")
+    say(t, "Press a key or click to try it yourself")
     return t + 5 * SECOND
 
 
