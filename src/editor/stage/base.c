@@ -1,8 +1,8 @@
-/// The splines that a body's position follows, and a tail that follows through on them.
+/// Splines that move a body, and channels that let its tail follow through.
 ///
-/// A channel whose spline has knots of its own stays as it is: the swing that the base causes is added by a channel of its own,
-/// on a spline with the same poles. By linearity that is the same motion, and no key of the animator's changes its meaning.
-/// A tail that has no channel for a way gets one of these for it too.
+/// A channel whose spline has its own knots keeps that spline. The swing that the base causes goes into a new channel on a spline with the
+/// same poles. By linearity the motion is the same, and every existing key keeps its meaning. A tail without a channel for an axis gets a
+/// new one, too.
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "model/fox.h"
@@ -15,9 +15,9 @@ enum { NAME_SIZE = 300 };
 
 static const double RESOLUTION = 1e-3; ///< metres
 static const double LEAST_SHARE = 0.05;
-static const double MAIN_SHARE = 0.5; ///< of a way that bends the tail above all along an axis
+static const double MAIN_SHARE = 0.5; ///< least component of a coordinate along an axis' bending direction
 
-/// Adds a spline behind all others; its index, or -1.
+/// Appends a spline; returns its index, or -1.
 static int add_spline(struct core *core, const char *name)
 {
     const bool done = edit_spline_add(core->document, -1, name, NULL, &core->error);
@@ -68,7 +68,7 @@ double base_value(const struct core *core, int rig, int coordinate, int sample)
         const wiggly_value value = evaluation_at(core->evaluation, param->track, sample);
         return value.y + value.re;
     }
-    // A height that is a number says where the ground is; one that follows a spline is above 0.
+    // A fixed height stands for the ground; a height that follows a spline is above 0.
     return coordinate == 1 ? moved->length * (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) : param->value;
 }
 
@@ -86,7 +86,7 @@ static void follow_base(struct core *core, int spline, int base)
     edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
 }
 
-/// A spline with the poles of another and no knots, driven by the base from rest (or round the loop); its index, or -1.
+/// A spline with another's poles and no knots, driven by the base, from rest or as a loop; returns its index, or -1.
 static int add_follower(struct core *core, int model, const char *name, int base)
 {
     int spline = add_spline(core, name);
@@ -103,7 +103,7 @@ static int add_follower(struct core *core, int model, const char *name, int base
     return spline;
 }
 
-/// Adds a channel of the displacement that bends about an axis as another does about its own: its spline, or -1.
+/// Adds a displacement channel about an axis, copying another channel; returns its spline, or -1.
 static int add_channel(const struct stage *stage, struct core *core, const struct channel *model, enum axis axis,
                        const char *name, double scale, int base)
 {
@@ -122,7 +122,8 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
     return spline;
 }
 
-/// The axis about which a tail should bend when its base moves along a coordinate, if no channel does that yet; else AXES.
+/// The axis about which the tail should bend when its base moves along a coordinate; AXES if a channel already bends about it, or if it
+/// bends too little along the coordinate.
 static enum axis missing_axis(const struct stage *stage, const struct core *core, int coordinate, double *share)
 {
     const struct tail *tail = tail_of(core->document, stage->body_drag.rig);
@@ -138,7 +139,7 @@ static enum axis missing_axis(const struct stage *stage, const struct core *core
     return fabs(*share) >= MAIN_SHARE ? axis : AXES;
 }
 
-/// Adds a spline by which a tail swings with a coordinate, if none did; returns it, or -1.
+/// Adds a spline and channel that swing the tail with a coordinate, if missing; returns the spline, or -1.
 static int add_missing(const struct stage *stage, struct core *core, int coordinate, int base)
 {
     const struct document *document = core->document;

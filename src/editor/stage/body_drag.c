@@ -1,4 +1,4 @@
-/// Drags the body over the ground, and turns the drag into edits of the document.
+/// Drags a body over the ground and turns the drag into edits.
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
@@ -12,7 +12,7 @@
 
 enum { AXIS_X, AXIS_Y, AXIS_Z };
 
-/// Along one axis of the ground, so that the body stays under the pointer: the axis' own direction on the screen counts.
+/// Movement along one ground axis that keeps the body under the pointer, from the axis' direction on the screen.
 static double along_axis(const struct body_drag *hold, const double axis[2], double dx, double dy)
 {
     double across = axis[0] * hold->right[0] + axis[1] * hold->right[1];
@@ -41,9 +41,9 @@ void body_drag_way(const struct stage *stage, const struct core *core, double of
     if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
 }
 
-static const double RESOLUTION = 1e-3; ///< metres that the document gets
+static const double RESOLUTION = 1e-3; ///< metres; values are rounded to this
 
-/// The report of a drag, and the reason why a knot stopped.
+/// The message after a drag, and why a knot stopped.
 struct report {
     char text[512], why[STOPPED_SIZE];
     size_t length;
@@ -56,14 +56,14 @@ static void say(struct report *report, const char *text)
     if (report->length >= sizeof report->text) report->length = sizeof report->text - 1;
 }
 
-/// A name, after a comma where it is not the first.
+/// Adds a name, with a comma before all but the first.
 static void say_name(struct report *report, bool is_first, const char *name)
 {
     if (!is_first) say(report, ", ");
     say(report, name);
 }
 
-/// The sample of the playhead, or the last one where a spline has knots.
+/// The playhead's sample, clamped to where the spline may have knots.
 static int sample_of(const struct core *core, int spline)
 {
     const struct document *document = core->document;
@@ -72,7 +72,8 @@ static int sample_of(const struct core *core, int spline)
     return sample > last ? last : sample < 0 ? 0 : sample;
 }
 
-/// Sets a knot at the playhead. A coordinate that was a number gets a spline that begins at the body's place. Returns the new spline by
+/// Sets a knot at the playhead. A fixed coordinate gets a spline that starts at the body's place. Returns the new spline that swings the
+/// tail with it, or -1.
 /// which the tail swings with it, or -1.
 static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, double by,
                           char why[STOPPED_SIZE])
@@ -124,7 +125,7 @@ static void key_body(struct stage *stage, struct core *core, const double offset
     if (!is_first) core_message(core, false, report.text);
 }
 
-/// How far of a way all knots of a spline can go within its limits, and the knot that stops them, or NULL.
+/// How far all knots of a spline can move within its limits, and the knot that stops them, or NULL.
 static double room_for(const struct spline *spline, double by, const struct knot **stops)
 {
     double room = by;
@@ -138,7 +139,7 @@ static double room_for(const struct spline *spline, double by, const struct knot
     return room;
 }
 
-/// Limits the offset of the held body, metres, to where the limits of its splines will keep it in place_body() or a recording.
+/// Limits the held body's offset, in metres, as its splines' limits will in place_body() or a recording.
 static void place_within(const struct stage *stage, const struct core *core, double offset[3])
 {
     const struct document *document = core->document;
@@ -159,7 +160,7 @@ static void place_within(const struct stage *stage, const struct core *core, dou
     }
 }
 
-/// A still knot is where the equilibrium is; unless that moves by itself, it goes along with the other knots.
+/// Moves the equilibrium of still knots with the other knots, unless the equilibrium moves by itself.
 static void shift_still(struct core *core, int spline, double by)
 {
     const struct spline *shifted = core->document->splines[spline];
@@ -170,7 +171,7 @@ static void shift_still(struct core *core, int spline, double by)
         core_set_parameter(core, spline, PARAMETER_EQUILIBRIUM, core_round(equilibrium->value + by, RESOLUTION));
 }
 
-/// Shifts all knots of a spline by the same amount, as far as all can go, so that followers keep their motion. Returns that amount.
+/// Shifts all knots of a spline equally, as far as all can move, so that followers keep their motion. Returns the shift.
 static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
 {
     const int count = core->document->splines[spline]->knot_count;
@@ -192,7 +193,6 @@ static double shift_spline(struct core *core, int spline, double way, char why[S
     return by;
 }
 
-/// Of an imported character.
 static double shift_model(struct core *core, int rig, int coordinate, double by)
 {
     struct rig moved = *core->document->rigs[rig];
@@ -200,7 +200,7 @@ static double shift_model(struct core *core, int rig, int coordinate, double by)
     return edit_rig_set(core->document, rig, &moved, &core->error) ? by : 0;
 }
 
-/// Shifts a coordinate; returns by how much. A height that is a number is the ground, which stays.
+/// Shifts a coordinate; returns the shift. A fixed height stands for the ground, which stays.
 static double shift_coordinate(struct core *core, int rig, int coordinate, double by, char why[STOPPED_SIZE])
 {
     const struct tail *tail = tail_of(core->document, rig);
@@ -240,7 +240,7 @@ static void shift_body(struct stage *stage, struct core *core, const double offs
     }
 }
 
-/// Moves the body by metres: knots at the playhead with auto-key, else the whole shot. Reports which.
+/// Moves the body by metres: knots at the playhead with auto-key, else the whole motion. Reports which.
 static void place_body(struct stage *stage, struct core *core, const double offset[3])
 {
     if (core->auto_key && tail_of(core->document, stage->body_drag.rig)) {
@@ -265,9 +265,9 @@ void body_drag_offset(const struct stage *stage, const struct core *core, int ri
 
 enum { RING_POINTS = 64 };
 
-static const double LEAST_PITCH = 0.35; ///< sine of the camera's elevation below which depth follows the pointer less
-static const double LEAST_RISE = 0.3;   ///< cosine of it below which height does
-static const float ring_middle[2] = {0, -0.25f}; ///< x and z in bind size, metres
+static const double LEAST_PITCH = 0.35; ///< sine of the camera's elevation; below it depth follows the pointer less
+static const double LEAST_RISE = 0.3;   ///< cosine of the elevation; below it height follows the pointer less
+static const float ring_middle[2] = {0, -0.25f}; ///< x and z in bind space, metres
 static const float RING_RADIUS = 0.6f;
 
 struct tail *tail_of(const struct document *document, int rig)
@@ -276,13 +276,13 @@ struct tail *tail_of(const struct document *document, int rig)
     return is_tail ? &document->rigs[rig]->tail : NULL;
 }
 
-/// Where a body stands now.
+/// Where a body stands.
 struct stand {
     float base[3], middle[2]; ///< the grabbed point; x and z
     float ground, radius;     ///< of a ring around it
 };
 
-/// False where there is no such body, or nothing to see of it.
+/// False if there is no such body or it is not shown.
 static bool find_stand(const struct stage *stage, const struct core *core, int rig, struct stand *stand)
 {
     const struct posing posing = stage_posing_by_hand(stage);
@@ -307,7 +307,7 @@ static bool find_stand(const struct stage *stage, const struct core *core, int r
     return true;
 }
 
-/// Whether a ray passes through the box around a body.
+/// Whether a ray hits a body's bounding box.
 static bool passes_box(const struct pose *pose, const float eye[3], const float direction[3])
 {
     const float *base = pose->matrix[0] + 12, scale = pose->scale;
@@ -322,7 +322,7 @@ static bool passes_box(const struct pose *pose, const float eye[3], const float 
     return near < far;
 }
 
-/// Where a ray meets the triangles of a part that are the body's, or `nearest`.
+/// The ray's nearest hit on a part's body triangles, or `nearest`.
 static float meet(const struct gltf_part *part, const float (*place)[3], const float eye[3], const float direction[3],
                   float nearest)
 {
@@ -330,14 +330,14 @@ static float meet(const struct gltf_part *part, const float (*place)[3], const f
         const uint32_t *own = part->indices + i;
         const float *const corner[3] = {place[own[0]], place[own[1]], place[own[2]]};
         float uv[2];
-        if (part->fur[own[0]][0] >= 1.0f) continue; // the tail's
+        if (part->fur[own[0]][0] >= 1.0f) continue; // belongs to the tail
         const float distance = pick_triangle(corner, eye, direction, uv);
         if (distance > 0.0f) nearest = fminf(nearest, distance);
     }
     return nearest;
 }
 
-/// Where a ray meets the body of a fox, or INFINITY.
+/// Distance along a ray to a fox's body, or INFINITY.
 static float body_distance(struct stage *stage, const struct rig_pose *fox, const float direction[3])
 {
     const struct gltf *gltf = &fox->model.imported->gltf;
@@ -391,7 +391,7 @@ bool body_point(const struct stage *stage, const struct core *core, int tail, in
     return stage_project_point(stage, core->layout.stage, place.raw, xy);
 }
 
-/// A stretch of the ring that is as far from the eye all along, near or far half.
+/// One half of the ring, near or far.
 static void show_arc(struct core *core, const float point[RING_POINTS + 1][2], int from, int to, uint32_t color)
 {
     drawlist_line(&core->list, point[from], to - from + 1, 1.5f, color);
@@ -406,7 +406,7 @@ void body_drag_show(struct stage *stage, struct core *core)
     if (!find_stand(stage, core, rig, &stand)) return;
     const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
-    for (int i = 0; i <= RING_POINTS; i++) { // from the right side of the picture over the near half
+    for (int i = 0; i <= RING_POINTS; i++) { // from the right of the screen over the near half
         float angle = 6.2831853f * (float)i / RING_POINTS - stage->camera.azimuth;
         const float place[3] = {stand.middle[0] - stand.radius * sinf(-angle), stand.ground,
                                 stand.middle[1] - stand.radius * cosf(-angle)};
@@ -416,12 +416,12 @@ void body_drag_show(struct stage *stage, struct core *core)
     show_arc(core, (const float(*)[2])point, RING_POINTS / 2, RING_POINTS, theme_fade(color, 0.3f));
 }
 
-/// Inside the open step the document gets the recorded motion or the new place.
+/// Edits the document in the open step: the recorded motion or the new place.
 static void release(struct stage *stage, struct core *core, bool keep)
 {
     const int body = stage->body_drag.rig;
     double offset[3];
-    keep = keep && body < core->document->rig_count; // an edit may have taken the body out of the hand
+    keep = keep && body < core->document->rig_count; // an edit may have removed the body
     body_drag_way(stage, core, offset);
     if (keep && record_has_motion(stage) && tail_of(core->document, body)) {
         record_keep(stage, core);
@@ -434,7 +434,7 @@ static void release(struct stage *stage, struct core *core, bool keep)
     record_forget(stage);
 }
 
-/// An armed recording starts with the first movement.
+/// The first movement starts an armed recording.
 static void move(void *room, struct core *core)
 {
     struct stage *stage = room;
@@ -445,7 +445,7 @@ static void move(void *room, struct core *core)
 
 static enum drag_answer take_event(void *room, struct core *core, const struct event *event)
 {
-    // Ctrl may still be down, which lifts bodies.
+    // Ctrl may still be held from lifting the body.
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
     if (!key) return DRAG_PASSES;
     struct stage *stage = room;

@@ -1,4 +1,4 @@
-/// Bones of imported characters on the stage: which one is under the pointer, a click on one, and how they are drawn.
+/// Bones of imported characters on the stage: hover, clicks and drawing.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
@@ -10,9 +10,9 @@
 #include <string.h>
 
 static const float REACH = 12;      ///< pixels from a bone
-static const float OVERLAP = 4;     ///< pixels within which bones overlap: the one nearest to the eye wins
-static const float AS_DEEP = 0.02f; ///< of the depth: bones this close in depth are at the same one
-static const float AS_FAR = 0.5f;   ///< pixels: bones this close in distance are as near
+static const float OVERLAP = 4;     ///< pixels; of bones this close, the nearest to the eye wins
+static const float AS_DEEP = 0.02f; ///< share of the depth; closer bones count as equally deep
+static const float AS_FAR = 0.5f;   ///< pixels; closer bones count as equally near
 
 void bones_add(struct stage *stage, int model, const struct rig_pose *pose)
 {
@@ -31,7 +31,7 @@ void bones_add(struct stage *stage, int model, const struct rig_pose *pose)
     }
 }
 
-/// The spline whose colour a chain has: the active one where it bends it.
+/// The spline that gives a chain its colour: the active one if it bends the chain.
 static int spline_of(const struct core *core, const struct chain *chain)
 {
     for (int c = 0; c < chain->channel_count; c++) {
@@ -78,8 +78,7 @@ static bool measure(const struct stage *stage, const struct core *core, int bone
     return found->distance < REACH;
 }
 
-/// Whether a bone is a better target than the best so far, both about as near to the pointer. At a joint two are as near and as deep:
-/// the one that begins there wins.
+/// Whether a bone is a better target than the best so far, if both are close to the pointer. At a joint the bone that starts there wins.
 static bool is_better(const struct candidate *a, const struct candidate *best)
 {
     if (best->bone < 0) return true;
@@ -88,7 +87,7 @@ static bool is_better(const struct candidate *a, const struct candidate *best)
     return a->fraction < best->fraction;
 }
 
-/// An edit in the same frame may have removed the last one shown.
+/// An edit in the same frame may have removed the bone.
 static bool exists(const struct document *document, const struct shown_bone *bone)
 {
     const bool is_there = bone->model < document->rig_count && document->rigs[bone->model]->kind == RIG_MODEL;
@@ -147,12 +146,12 @@ bool stage_bone_point(const struct stage *stage, const struct core *core, int mo
 
 enum { LABEL_HEIGHT = 20, LABEL_PAD = 7, LABEL_AWAY = 14 };
 
-static const float NEAR_BOX = 12;                              ///< pixels round a character where its bones show
-static const float THICKEST = 5, THINNEST = 1.5f;              ///< pixels of half a bone's width
-static const float SHARE = 0.09f, WIDEST_AT = 0.14f;           ///< of its length: half its width, and where that is
+static const float NEAR_BOX = 12;                    ///< pixels around a character; inside, its bones show
+static const float THICKEST = 5, THINNEST = 1.5f;    ///< pixels: half of a bone's width
+static const float SHARE = 0.09f, WIDEST_AT = 0.14f; ///< of a bone's length: half its width, and where it is widest
 static const float PLAIN = 0.3f, MEANT = 0.6f, CHOSEN = 0.85f; ///< opacity of the fill
 
-/// Whether a point is over the box round a character on the screen.
+/// Whether the pointer is over a character's bounding box on the screen.
 static bool is_over(const struct stage *stage, const struct core *core, const struct stage_model *model)
 {
     float lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
@@ -170,7 +169,7 @@ static bool is_over(const struct stage *stage, const struct core *core, const st
     return rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y);
 }
 
-/// The character's rig whose bones are to be seen because the pointer is over it, −1: none.
+/// The rig whose bones show because the pointer is over its character, or −1.
 static int model_under(const struct stage *stage, const struct core *core)
 {
     const struct stage_view *view = &stage->view;
@@ -200,7 +199,7 @@ static void show_bone(struct drawlist *list, const float a[2], const float b[2],
     drawlist_line(list, corners[0], 5, 1.25f, theme_fade(edge, 0.5f + 0.5f * opacity));
 }
 
-/// The name of a bone beside the pointer, inside of the stage.
+/// The bone's name beside the pointer, inside the stage.
 static void show_name(struct core *core, const char *name)
 {
     const struct rect stage = core->layout.stage;
@@ -214,13 +213,13 @@ static void show_name(struct core *core, const char *name)
                       theme()->text, name);
 }
 
-/// How bones are shown in this frame: the character, the selected bone, the tip of a chain from it, and the bone under the pointer.
+/// What to show in this frame: character, selected bone, tip of a chain from it, bone under the pointer.
 struct showing {
-    bool all; ///< one of them is to be picked
+    bool all; ///< for picking a bone
     int model, chosen_model, chosen, tip, meant_model, meant;
 };
 
-/// Whether a node is on the way from the chosen bone to its tip.
+/// Whether a node lies between the selected bone and the tip.
 static bool is_ahead(const struct gltf *gltf, const struct showing *showing, int node)
 {
     if (showing->tip < 0) return false;

@@ -1,4 +1,4 @@
-/// The brush: strokes as an airbrush makes them. A stroke adds flow × time to every vertex under it.
+/// The brush works like an airbrush: a stroke adds flow × time to every vertex under it.
 #include "base/error.h"
 #include "base/need.h"
 #include "editor/core/characters.h"
@@ -13,12 +13,12 @@
 #include <string.h>
 
 static const double RADIUS_LEAST = 0.01, RADIUS_MOST = 0.5, STRENGTH_LEAST = 0.02;
-static const double WHEEL_STEP = 0.15;   ///< of a notch, as a power of e
-static const double SHORTEST = 1.0 / 60; ///< seconds that a click paints
-static const float STRIDE = 0.3f;        ///< of the radius on the screen, between the spots of one frame
-static const float RIM = 0.25f;          ///< beyond the radius, so that the ring can be drawn between vertices
+static const double WHEEL_STEP = 0.15;   ///< per wheel notch, as a power of e
+static const double SHORTEST = 1.0 / 60; ///< seconds of paint for a click
+static const float STRIDE = 0.3f;        ///< of the radius on the screen, between spots within a frame
+static const float RIM = 0.25f;          ///< search beyond the radius, so that the ring can be drawn between vertices
 
-/// The radius of the brush on a figure, metres.
+/// The brush's radius on a figure, metres.
 static float radius_of(const struct brush *brush, const struct figure *figure)
 {
     return (float)brush->radius * (figure->hi[1] - figure->lo[1]);
@@ -37,7 +37,7 @@ static void free_work(struct brush_work *work)
 
 void brush_free(struct painting *painting) { free_work(&painting->work); }
 
-/// Memory for a figure; kept for the next one where that is no larger.
+/// Allocates for a figure, unless there is enough already.
 static void reserve(struct brush_work *work, int vertices)
 {
     const size_t room = (size_t)vertices + 1;
@@ -56,7 +56,7 @@ static void reserve(struct brush_work *work, int vertices)
     work->capacity = vertices;
 }
 
-/// The figure that is painted on with the skin as the stage shows it; NULL where there is none.
+/// The painted figure, with the skin posed as shown, or NULL.
 static const struct figure *pose_figure(struct stage *stage, const struct core *core, int *coordinate)
 {
     const struct figure *figure = characters_figure(core, coordinate);
@@ -65,7 +65,7 @@ static const struct figure *pose_figure(struct stage *stage, const struct core *
     return skin_pose(stage, core->characters.character) ? figure : NULL;
 }
 
-/// Names of strokes, and the modes with Shift and with Ctrl.
+/// Names of strokes, and the modes with Shift and Ctrl.
 static const struct stroke {
     const char *label;
     enum brush_mode smoothed, other;
@@ -86,7 +86,7 @@ static enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
     return mods & MOD_SHIFT ? stroke->smoothed : mods & MOD_CTRL ? stroke->other : brush->mode;
 }
 
-/// The spots that the pointer went over since the last frame; those off the character are left out.
+/// The surface points under the pointer's path since the last frame.
 static int find_way(const struct stage *stage, const struct core *core, const struct figure *figure,
                     struct surface_spot spots[REACH_MAX_SPOTS])
 {
@@ -103,24 +103,24 @@ static int find_way(const struct stage *stage, const struct core *core, const st
     return count;
 }
 
-/// 1 in the middle, 0 at the rim, flat at both.
+/// 1 in the middle, 0 at the rim, with zero slope at both.
 static float falloff(float distance, float radius)
 {
     const float t = distance / radius;
     return t < 1 ? (1 - t * t) * (1 - t * t) : 0;
 }
 
-enum { SMOOTHINGS = 4 }; ///< passes of a frame
+enum { SMOOTHINGS = 4 }; ///< passes per frame
 
-static const double PHASE_FLOW = 6.2831853071795865;     ///< radians a second at full strength
-static const double AMPLITUDE_FLOW = 1.3862943611198906; ///< of a: four times as much in a second
+static const double PHASE_FLOW = 6.2831853071795865;     ///< radians per second at full strength
+static const double AMPLITUDE_FLOW = 1.3862943611198906; ///< log of a: four times as much per second
 static const float STROKE_LEAD = 1.5707963f,
-                   STROKE_SWELL = 1.3862944f; ///< a stroke saturates here, however long it is held:
-                                              ///< a surface that differs by more folds through itself
+                   STROKE_SWELL = 1.3862944f; ///< a stroke saturates at these, however long:
+                                              ///< larger differences make a surface fold through itself
 static const double BLENDING_FLOW = 12;       ///< of smoothing and erasing, 1/s
-static const double MOST_BLEND = 0.5;         ///< of one pass; more would overshoot
+static const double MOST_BLEND = 0.5;         ///< per pass; more would overshoot
 static const float MOST_LEAD = 12.5663706f, LEAST_SWELL = -4.60517f, MOST_SWELL = 1.3862944f; ///< ±720°; 0.01 … 4
-static const float STILL = 1e-4f; ///< of the largest amplitude: below this a phase means nothing
+static const float STILL = 1e-4f; ///< of the largest amplitude; phases below this mean nothing
 
 static double blend(double flow) { return fmin(MOST_BLEND, BLENDING_FLOW * flow / SMOOTHINGS); }
 
@@ -131,16 +131,15 @@ static void multiply(const float a[2], const float b[2], float out[2])
     out[1] = im;
 }
 
-/// Ñ' of a vertex as far as this frame has come.
+/// A vertex's Ñ' with this frame's changes so far.
 static void motion_of(const struct brush_work *work, const struct coordinate *c, uint32_t vertex, float out[3][2])
 {
     for (int k = 0; k < 3; k++)
         multiply(work->turned[vertex], (const float[2]){c->re[vertex][k], c->im[vertex][k]}, out[k]);
 }
 
-/// What a vertex lacks to be as its neighbours are: log of amplitude, and the angle φ for which e^{jφ} Ñ' comes closest to their
-/// mean m, which is that of Σ conj(Ñ') m over the three directions. Angles that way need no unwrapping. false where
-/// there is no motion to speak of.
+/// Difference between a vertex and its neighbours: log of amplitude, and the angle φ for which e^{jφ} Ñ' is closest to their mean m, which
+/// is the angle of Σ conj(Ñ') m over the three directions. These angles need no unwrapping. False without motion.
 static bool difference(const struct brush_work *work, const struct figure *figure, int coordinate, int vertex,
                        float out[2])
 {
@@ -167,7 +166,7 @@ static bool difference(const struct brush_work *work, const struct figure *figur
     return true;
 }
 
-/// One pass over all vertices from the state before it (Jacobi), so that their order means nothing.
+/// One Jacobi pass over all vertices, so that their order does not matter.
 static void smooth_once(struct painting *painting, const struct figure *figure, int coordinate, float radius,
                         int count, double flow)
 {
@@ -204,7 +203,7 @@ static void smooth(struct painting *painting, const struct figure *figure, int c
     }
 }
 
-/// How much of a step a stroke may still take after `spent`; adds to it.
+/// Limits a step so that the stroke's sum `spent` stays within `most`; adds the step to it.
 static float saturate(float step, float most, float *spent)
 {
     const float allowed = fminf(step, fmaxf(most - *spent, 0));
@@ -212,7 +211,7 @@ static float saturate(float step, float most, float *spent)
     return allowed;
 }
 
-/// The change of one vertex's paint where it does not depend on its neighbours'.
+/// Changes one vertex's paint, in modes that ignore its neighbours.
 static void change(enum brush_mode mode, double flow, float weight, float *spent, float value[2])
 {
     const bool turns = mode == BRUSH_ADVANCE || mode == BRUSH_DELAY,
@@ -228,7 +227,7 @@ static void change(enum brush_mode mode, double flow, float weight, float *spent
     for (int k = 0; k < 2; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
 }
 
-/// A dab on the vertices of work.reach: `flow` is strength times time. Its arrays are the brush's own.
+/// A dab on the vertices of work.reach: `flow` is strength times time. The brush owns the arrays.
 static struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
                             int coordinate, float radius, double flow)
 {
@@ -249,7 +248,7 @@ static struct dab brush_dab(struct painting *painting, const struct paint *paint
     return (struct dab){coordinate, count, work->vertices, (const float(*)[2])work->values};
 }
 
-/// Goes on with the stroke for drag.dt seconds.
+/// Continues the stroke for drag.dt seconds.
 static void apply(void *room, struct core *core)
 {
     struct stage *stage = room;
@@ -346,9 +345,9 @@ enum { STATE_HEIGHT = 46 };
 static const double DEGREES = 57.29577951308232;
 
 static const float RING_WIDTH = 1.5f, SHADE_WIDTH = 3.5f;
-static const uint32_t RING = 0xFFFFFFFFu, SHADE = 0x00000060u; ///< on the colours of the map, in any theme
+static const uint32_t RING = 0xFFFFFFFFu, SHADE = 0x00000060u; ///< in every theme, on the map's colours
 
-/// Adds a triangle that faces the eye, by how much of `radius` its corners leave, `scale` pixels each metre.
+/// Adds a triangle that faces the eye. A corner is inside by the rest of `radius`, in pixels by `scale`.
 static void add_reached(struct stage *stage, const uint32_t *corner, float radius, float scale)
 {
     float xy[3][2], inside[3];
@@ -361,7 +360,7 @@ static void add_reached(struct stage *stage, const uint32_t *corner, float radiu
         silhouette_add_triangle(&stage->silhouette, (const float(*)[2])xy, inside);
 }
 
-/// The outline of the brush's reach.
+/// Outlines the brush's reach.
 static void show_ring(struct stage *stage, struct core *core, const struct figure *figure)
 {
     struct silhouette *silhouette = &stage->silhouette;
@@ -384,7 +383,7 @@ static void show_ring(struct stage *stage, struct core *core, const struct figur
     }
 }
 
-/// The paint at the vertex nearest to the pointer; leaves the text alone where there is none.
+/// Describes the paint at the vertex nearest to the pointer; leaves the text alone if it has none.
 static void describe_spot(const struct stage *stage, const struct paint *paint, int coordinate, char *text,
                           size_t size)
 {

@@ -1,4 +1,4 @@
-/// Soft characters on the stage: how they are posed, and the legend of their phases.
+/// Soft characters on the stage: posing, and the legend of their phases.
 #include "editor/core/characters.h"
 #include "base/hash.h"
 #include "editor/stage/parts.h"
@@ -11,11 +11,11 @@
 
 enum { BOUND_STEPS = 30 };
 
-static const float FRONT_SHARE = 0.1f; ///< of a point's depth, to decide between front and back
+static const float FRONT_SHARE = 0.1f; ///< weight of depth, to prefer front vertices
 
 #define PAIR_GAP 0.58f /* from the middle to each of a pair, in widths of the character */
 
-/// How far each of a pair stands from the middle.
+/// Each one's distance from the middle of a pair.
 static float pair_offset(const struct figure *figure) { return PAIR_GAP * (figure->hi[0] - figure->lo[0]); }
 
 static void add_soles(struct stage_view *view, const struct stage_character *shown)
@@ -31,7 +31,7 @@ static void add_soles(struct stage_view *view, const struct stage_character *sho
     }
 }
 
-/// One figure on the stage, `aside` metres from where its rig stands.
+/// A figure on the stage, `aside` metres beside its rig's place.
 static void add_character(struct stage *stage, const struct core *core, int rig, int n, enum look look, float aside)
 {
     struct stage_view *view = &stage->view;
@@ -93,7 +93,7 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
 
 const struct stage_kind character_stage = {.pose = pose, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
 
-/// The vertex that is seen there from the front of the character at rest.
+/// The vertex seen at `uv` from the front, at rest.
 static int front_vertex(const struct figure *figure, const double uv[2])
 {
     const float *lo = figure->lo, *hi = figure->hi;
@@ -124,7 +124,7 @@ enum { SECTORS = 36, RINGS = 5, LEGEND_WIDTH = 196, LEGEND_HEIGHT = 132 };
 static const float WHEEL = 30; ///< radius
 static const float TEXT_SIZE = 11;
 
-/// Amplitude grows outwards. Rings lie one on the other, and sectors overlap by a bit, so that no edge shows.
+/// Amplitude grows outwards. Rings and sectors overlap, so that no edges show.
 static void show_wheel(struct drawlist *list, float x, float y)
 {
     const float step = 6.28318531f / SECTORS;
@@ -139,7 +139,7 @@ static void show_wheel(struct drawlist *list, float x, float y)
     }
 }
 
-/// The lines that the map on the stage has, as stage_mesh.frag draws them.
+/// The same lines as on the character (stage_mesh.frag).
 static void show_spokes(struct drawlist *list, float x, float y)
 {
     for (int i = 0; i < 8; i++) {
@@ -162,7 +162,7 @@ struct rect characters_legend(const struct core *core)
     return (struct rect){stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
 }
 
-/// Angles are as in the plane: in step to the right, a quarter ahead on top.
+/// Angles as in the complex plane: in step to the right, a quarter ahead at the top.
 static void show_legend(struct core *core, const struct coordinate *coordinate)
 {
     static const char *const directions[] = {"left and right (x)", "up and down (y)", "back and forth (z)"};
@@ -183,7 +183,7 @@ static void show_legend(struct core *core, const struct coordinate *coordinate)
                   theme()->text_dim, left);
 }
 
-/// A line under the feet of each of the pair.
+/// A line under the feet of each of a pair.
 static void show_pair(const struct stage *stage, struct core *core)
 {
     static const char *const names[] = {"with phases", "without phases"};

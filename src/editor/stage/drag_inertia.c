@@ -1,10 +1,10 @@
-/// Tails and chains that follow through while their body is moved by hand, outside of the document's solve and on top of it.
+/// Follow-through of tails and chains while you move their body. It is not part of the document's solution but added to it.
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include <math.h>
 #include <string.h>
 
-/// The filter of a spline at the time shown: parameters that follow others are where those are now.
+/// A spline's filter at the playhead, with parameters that follow splines evaluated there.
 static bool filter_now(const struct core *core, int index, struct swing_filter *filter)
 {
     const struct spline *spline = core->document->splines[index];
@@ -18,7 +18,7 @@ static bool filter_now(const struct core *core, int index, struct swing_filter *
     return swing_filter(spline, parameter, filter);
 }
 
-/// Drives a rig's channels by a change of its base's velocity; whether any of them still swings.
+/// Drives a rig's channels by a change of its base's velocity; returns whether any still swings.
 static bool drive(struct drag_inertia *inertia, const struct core *core, int rig, const double kick[3], double dt)
 {
     const struct posing posing = stage_posing(core);
@@ -45,7 +45,7 @@ static bool drive(struct drag_inertia *inertia, const struct core *core, int rig
     return swings;
 }
 
-/// Where the swing of a rig is kept, 0: of none; −1: nowhere.
+/// Index of a rig's swing; id 0 finds a free one; −1: none.
 static int find(const struct stage *stage, unsigned id)
 {
     int i = STAGE_MAX_STRANDS;
@@ -53,7 +53,7 @@ static int find(const struct stage *stage, unsigned id)
     return i;
 }
 
-/// False where it is at rest, and nothing need be kept of it.
+/// Returns false at rest, when the entry can be dropped.
 static bool advance(struct drag_inertia *inertia, const struct core *core, int rig, const double offset[3], double dt)
 {
     double kick[3];
@@ -74,7 +74,7 @@ void drag_inertia_advance(struct stage *stage, const struct core *core, double d
 {
     const struct document *document = core->document;
     if (!(dt > 0)) return;
-    if (core->look == LOOK_CUBIC) memset(stage->inertia, 0, sizeof stage->inertia); // nothing pulls a cubic back
+    if (core->look == LOOK_CUBIC) memset(stage->inertia, 0, sizeof stage->inertia); // a cubic has no restoring force
     for (int r = 0; r < document->rig_count && core->look != LOOK_CUBIC; r++) {
         const unsigned id = document->rigs[r]->id;
         double offset[3];

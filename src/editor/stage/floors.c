@@ -1,4 +1,4 @@
-/// Floors of characters on the stage: where their edges are, drags up and down, and how they are drawn.
+/// Characters' floors on the stage: hover, vertical drags and drawing.
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
@@ -9,12 +9,11 @@
 #include <math.h>
 #include <stdio.h>
 
-static const float AROUND = 0.42f; ///< of the character's breadth or depth: how far the edge is from its middle
-static const float EDGE_REACH = 5; ///< pixels
-static const double LEAST_RISE =
-    0.3; ///< cosine of the camera's elevation below which height follows the pointer less
+static const float AROUND = 0.42f;    ///< from the middle to the edge, as a share of the character's width or depth
+static const float EDGE_REACH = 5;    ///< pixels
+static const double LEAST_RISE = 0.3; ///< cosine of the camera's elevation; below it height follows the pointer less
 
-/// The floor of a character that is shown, and where it is on the screen; NULL where it has none, or it is not in sight.
+/// A shown character's floor and its place on the screen, or NULL.
 static const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
                                                const struct stage_character *shown, struct shown_floor *floor)
 {
@@ -36,7 +35,7 @@ static const struct character_rig *floors_find(const struct stage *stage, const 
     return rig;
 }
 
-/// How far a point of the screen is from a line between two others.
+/// Distance of a point from a line segment on the screen.
 static float distance_to(const float a[2], const float b[2], float x, float y)
 {
     const float along = segment_nearest(a, b, (const float[2]){x, y});
@@ -52,7 +51,7 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
         const struct stage_character *shown = &stage->view.characters[c];
         struct shown_floor floor = {0};
         if (!floors_find(stage, core, shown, &floor)) continue;
-        for (int side = 1; side < 4; side += 2) { // those behind the character are not in the way of its surface
+        for (int side = 1; side < 4; side += 2) { // edges behind the character would block its surface
             const float distance = distance_to(floor.xy[floor.first], floor.xy[(floor.first + side) % 4], x, y);
             if (distance >= best) continue;
             best = distance;
@@ -63,12 +62,12 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
     return hover;
 }
 
-/// The floor goes where the pointer is now.
+/// Moves the floor to the pointer.
 static void apply(void *room, struct core *core)
 {
     const struct floor_drag *drag = &((const struct stage *)room)->floor_drag;
     const struct document *document = core->document;
-    if (drag->rig >= document->rig_count || !rig_has_floor(document->rigs[drag->rig])) return; // an edit took it away
+    if (drag->rig >= document->rig_count || !rig_has_floor(document->rigs[drag->rig])) return; // an edit removed it
     struct rig changed = *document->rigs[drag->rig];
     const double height = drag->start - core->drag.moved_y / drag->pixels_per_metre;
     const double rounded = core_round(height, 0.5 / drag->pixels_per_metre);
@@ -88,12 +87,12 @@ void floors_begin(struct stage *stage, struct core *core, const struct hover *ho
         .rig = hover->rig, .start = rig->floor, .pixels_per_metre = rise * stage_pixels_per_metre(stage, core, at)};
 }
 
-static const float TOUCH = 2e-3f;     ///< of the character's height: nearer counts as touching
+static const float TOUCH = 2e-3f;     ///< of the character's height; closer counts as touching
 static const float MARK = 4, END = 2; ///< radii, pixels
 static const float FAR_SIDE = 0.35f,
-                   FAR_PART = 0.4f; ///< of edges behind the character: opacity, and the part that is drawn
+                   FAR_PART = 0.4f; ///< edges behind the character: opacity, and visible share
 
-/// Where the lowest vertex is as it is posed.
+/// Place of the lowest vertex, as posed.
 static void find_lowest(const struct stage_character *shown, float place[3])
 {
     float lowest = INFINITY;
@@ -106,7 +105,7 @@ static void find_lowest(const struct stage_character *shown, float place[3])
     stage_vertex(shown->figure, &shown->morph, shown->position, found, place);
 }
 
-/// A disc on the floor under the lowest point, and a line to that where it is below.
+/// Marks the point on the floor at the lowest vertex, with a line if the vertex is below.
 static void show_mark(const struct stage *stage, struct core *core, const float low[3], float height, uint32_t color)
 {
     const float on[3] = {low[0], height, low[2]};
@@ -119,7 +118,7 @@ static void show_mark(const struct stage *stage, struct core *core, const float 
     drawlist_disc(&core->list, line[1], END, color);
 }
 
-/// The height, at the corner that is farthest to the right.
+/// The height, at the rightmost corner.
 static void show_height(struct core *core, const struct shown_floor *floor, double height, float below,
                         uint32_t color)
 {
@@ -137,7 +136,7 @@ static void show_height(struct core *core, const struct shown_floor *floor, doub
     stage_note(core, x, y, FONT_LABEL, color, text);
 }
 
-/// The edges at the nearest corner, and the starts of the other two, so that no line crosses the character.
+/// The edges at the nearest corner and the start of the others, so that no line crosses the character.
 static void show_edges(struct core *core, const struct shown_floor *floor, float width, uint32_t color)
 {
     for (int side = 1; side < 4; side += 2) {

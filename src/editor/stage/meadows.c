@@ -1,4 +1,4 @@
-/// A meadow on the stage: reeds in their wind, pushed by bodies, and swinging after a body was dragged through them.
+/// Meadows on the stage: reeds in the wind, pushed by bodies, and swinging after a body was dragged past.
 #include "base/hash.h"
 #include "editor/stage/parts.h"
 #include "model/vector.h"
@@ -7,17 +7,17 @@
 
 _Static_assert((int)MEADOW_MAX_REEDS <= (int)STAGE_MAX_REEDS, "the stage holds every meadow");
 
-/// Of a body, in the size of its model: metres from its base along z, and how far off it still touches reeds.
+/// Of a body in its model's size, metres: its middle along z from the base, and the distance at which it touches reeds.
 static const double MIDDLE = -0.28, REACH = 0.62;
 
-static const double FARTHEST = 1.35; ///< radians that a reed is pushed where a body stands on it
-static const double STILL = 1e-3;    ///< radians and radians a period that nobody sees
-static const double ROLL = 0.7;      ///< radians that a reed lags behind one a metre up the wind
-static const float SHADOW = 0.55f;   ///< strength of one disc of it
-static const float WIDTH = 0.013f;   ///< of a reed of 1 m
+static const double FARTHEST = 1.35; ///< radians of push right at a body
+static const double STILL = 1e-3;    ///< radians, and radians per period, that nobody sees
+static const double ROLL = 0.7;      ///< radians of lag per metre
+static const float SHADOW = 0.55f;   ///< opacity of one disc
+static const float WIDTH = 0.013f;   ///< of a reed 1 m high
 static const double DEGREE = 0.017453292519943295;
 
-/// How bodies push a reed, radians towards +x and +z.
+/// Push of bodies on a reed, radians towards +x and +z.
 static void push_of(const struct stage *stage, const float place[3], double pushed[2])
 {
     pushed[0] = pushed[1] = 0;
@@ -26,7 +26,7 @@ static void push_of(const struct stage *stage, const float place[3], double push
         const float *base = pose->matrix[0] + 12;
         const double scale = (double)pose->scale;
         const double x = (double)(place[0] - base[0]), z = (double)(place[2] - base[2]) - MIDDLE * scale;
-        const double far = hypot(x, 0.75 * z) / (REACH * scale); // longer than wide
+        const double far = hypot(x, 0.75 * z) / (REACH * scale); // an ellipse along the body
         if (!(far < 1) || !(far > 0)) continue;
         const double share = FARTHEST * (1 - far * far) * (1 - far * far) / hypot(x, z);
         pushed[0] += share * x;
@@ -34,7 +34,7 @@ static void push_of(const struct stage *stage, const float place[3], double push
     }
 }
 
-/// The reeds' oscillator: false where nothing pulls them back.
+/// The reeds' oscillator; false without a restoring force.
 static bool filter_of(const struct spline *spline, struct swing_filter *filter)
 {
     double parameter[PARAMETER_COUNT];
@@ -42,7 +42,7 @@ static bool filter_of(const struct spline *spline, struct swing_filter *filter)
     return swing_filter(spline, parameter, filter);
 }
 
-/// A held body's push kicks the reed's own oscillator, which then swings out. Returns whether it still swings.
+/// The push of a held body kicks the reed's own oscillator. Returns whether it still swings.
 static bool brush_reed(struct brushed_reed *reed, const double pushed[2], bool held, const step_matrix *m,
                        double natural, double dt)
 {
@@ -59,7 +59,7 @@ static bool brush_reed(struct brushed_reed *reed, const double pushed[2], bool h
     return left > STILL;
 }
 
-/// How all are pushed now, and how they swing.
+/// Updates push and swing of all reeds.
 static void brush_all(struct stage *stage, const struct core *core, const struct spline *spline, int count)
 {
     struct meadow_view *shown = &stage->meadow;
@@ -89,7 +89,7 @@ static void brush_all(struct stage *stage, const struct core *core, const struct
     }
 }
 
-/// The shadow of all reeds: discs so wide that they run into each other.
+/// The shadow of all reeds: discs wide enough to merge.
 static void add_shadow(struct stage_view *view, const double area[2])
 {
     enum { ACROSS = 3, DEEP = 2 };

@@ -1,4 +1,4 @@
-/// Imported characters on the stage; and the surface of a soft one as it is shown, for hover.
+/// Imported characters on the stage, and the posed surface of a soft one for hover.
 #include "base/hash.h"
 #include "base/need.h"
 #include "editor/stage/parts.h"
@@ -9,11 +9,11 @@
 
 enum { BOUND_STEPS = 60, FEET = 8 };
 
-static const float FOOT_HEIGHT = 0.1f, FOOT_RADIUS = 0.085f; ///< in heights of the character
-static const float ASIDE = 1.1f;                             ///< in widths of the character
+static const float FOOT_HEIGHT = 0.1f, FOOT_RADIUS = 0.085f; ///< shares of the character's height
+static const float ASIDE = 1.1f;                             ///< share of the character's width
 static const float FOOT_STRENGTH = 0.55f, BODY_STRENGTH = 0.4f;
 
-/// A shadow under the whole, and one under each joint that is near the ground.
+/// A shadow under the whole, and one under each joint near the ground.
 static void add_shadows(struct stage_view *view, const struct stage_model *shown)
 {
     const struct gltf *gltf = shown->gltf;

@@ -1,4 +1,4 @@
-/// Words on the stage: names where there are several rigs of a kind, and the scene's description.
+/// Texts on the stage: rig names, if there are several of a kind, and the scene's description.
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { BELOW = 14, HEIGHT = 20, PAD = 6, DOT = 8 }; ///< pixels; the first: of a name under the feet
+enum { BELOW = 14, HEIGHT = 20, PAD = 6, DOT = 8 }; ///< pixels; BELOW: from the feet to the name
 
-static const float FEET = -0.5f; ///< z of the paws from where the tail begins, metres, bind size
+static const float FEET = -0.5f; ///< z of the paws from the tail's root, metres, bind size
 
 void stage_scrim(struct core *core, struct rect box)
 {
@@ -23,7 +23,7 @@ void stage_note(struct core *core, float x, float y, enum font font, uint32_t co
     drawlist_text(&core->list, x, y, font, THEME_TEXT_SMALL, color, text);
 }
 
-/// Where the name of a tail goes; false where its feet are behind the eye.
+/// Place of a tail's name; false if its feet are behind the eye.
 static bool place_name(const struct stage *stage, const struct core *core, int tail, const char *name,
                        struct rect *place)
 {
@@ -54,7 +54,7 @@ static void show_name(struct core *core, const struct rect *place, uint32_t colo
                   theme()->text, name);
 }
 
-/// A name that would lie over another one is left out.
+/// Skips names that would overlap others.
 void names_show(const struct stage *stage, struct core *core)
 {
     const struct document *document = core->document;
@@ -73,11 +73,11 @@ void names_show(const struct stage *stage, struct core *core)
 
 enum { MARGIN = 16, AROUND = 8, TOP = 10, WIDEST = 960, LINE = 18, MAX_LINES = 4, MAX_TITLE = 256 };
 
-/// A description in lines: the title, which goes up to the first full stop, and the rest below it.
+/// A description in lines: the title up to the first full stop, then the rest.
 struct caption {
     char line[MAX_LINES][MAX_TITLE + 1];
     int count;
-    float width; ///< of the widest
+    float width; ///< of the widest line
 };
 
 static struct caption caption_of(struct rect place, const struct document *document)

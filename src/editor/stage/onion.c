@@ -1,4 +1,4 @@
-/// Onion skin: outlines of a rig at the knots around the playhead; and at the one knot that is being edited, its ghost.
+/// Onion skin: outlines of a rig at knots near the playhead, and a ghost at the knot being edited.
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
@@ -16,12 +16,12 @@
 
 enum {
     MAX_SKINS = 8,
-    CHARACTER_SKINS = 4, ///< their outlines lie over each other, and each is a surface to pose
+    CHARACTER_SKINS = 4, ///< each is a surface to pose, and the outlines overlap
 };
 
-static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first and of the last skin
+static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first and last skin
 static const float GHOST = 0.85f;
-static const double FADE = 0.4; ///< seconds in which a nudged knot's ghost goes
+static const double FADE = 0.4; ///< seconds in which a nudged knot's ghost fades
 
 int overlay_rig(const struct stage *stage, const struct core *core)
 {
@@ -30,7 +30,7 @@ int overlay_rig(const struct stage *stage, const struct core *core)
     return rig >= 0 && strand_of(stage, rig) ? rig : -1;
 }
 
-/// The character that the active spline moves, else that tail or chain, else the first character; -1: nothing.
+/// The character that the active spline moves, else the tail or chain, else the first character; or -1.
 static int overlay_pose_rig(const struct stage *stage, const struct core *core)
 {
     const struct document *document = core->document;
@@ -45,7 +45,7 @@ static int overlay_pose_rig(const struct stage *stage, const struct core *core)
     return strand >= 0 ? strand : first;
 }
 
-/// The spline whose knots are shown: the active one, or where it has none, the one that it swings about.
+/// The spline whose knots are shown: the active one, or if it has none, its equilibrium's.
 static const struct spline *keyed_spline(const struct core *core)
 {
     const struct spline *spline = core_active_spline(core);
@@ -54,7 +54,7 @@ static const struct spline *keyed_spline(const struct core *core)
     return track >= 0 ? core->document->splines[track] : spline;
 }
 
-/// Samples of the knots nearest to a position, the nearest first; returns how many.
+/// Samples of the knots nearest to a position, nearest first; returns their number.
 static int nearest_knots(const struct document *document, const struct spline *spline, double position,
                          int samples[MAX_SKINS], int most)
 {
@@ -76,15 +76,15 @@ static int nearest_knots(const struct document *document, const struct spline *s
 enum { STATIONS = 48 }; ///< along the tail
 
 static const double FROM = 0.16,
-                    TO = 0.985; ///< shares of the length: outside of the body, and where the rounded tip begins
-static const float OPEN = 1.5f; ///< cells from the root's disc, within which a tail's outline is left open
+                    TO = 0.985; ///< shares of the length: outside the body, and up to the rounded tip
+static const float OPEN = 1.5f; ///< cells from the root's disc; closer parts of a tail's outline are not drawn
 
-/// A disc of a tail on the screen.
+/// A disc of a tail, on the screen.
 struct disc {
     float middle[2], radius;
 };
 
-/// The tail at a share of the length; false where it is behind the eye.
+/// The tail's disc at a share of its length; false if behind the eye.
 static bool station(const struct stage *stage, const struct core *core, const struct pose *pose, double share,
                     struct disc *disc)
 {
@@ -100,13 +100,13 @@ static bool station(const struct stage *stage, const struct core *core, const st
     return true;
 }
 
-/// Draws an outline without its longest part at the root, where the tail grows out of the body.
+/// Draws an outline without its longest part at the root, where the tail joins the body.
 static void show_open(struct stage *stage, struct core *core, int count, const struct disc *root, float width,
                       uint32_t color)
 {
     float(*points)[2] = stage->silhouette.points;
     const float reach = root->radius + OPEN * stage->silhouette.cell;
-    const int whole = count - 1; // the last point is the first
+    const int whole = count - 1; // the last point repeats the first
     int longest = 0, start = 0, run = 0;
     memcpy(points[whole], points[0], (size_t)whole * sizeof points[0]);
     for (int i = 0; i < 2 * whole; i++) {
@@ -152,7 +152,7 @@ static bool show_chain(struct stage *stage, struct core *core, const struct pose
     return true;
 }
 
-/// Poses its surface and projects it to the screen, in the skin that hover uses, which is posed again then.
+/// Poses its surface in hover's skin and projects it to the screen; hover will pose the skin again.
 static bool project_surface(struct stage *stage, const struct core *core, const struct figure *figure,
                             const struct morph *morph, const float position[3])
 {
@@ -195,7 +195,7 @@ static bool show_character(struct stage *stage, struct core *core, const struct 
     return true;
 }
 
-/// Draws the rig as it is on a sample; `tip` is where words about it may stand. false where it cannot be seen.
+/// Outlines a rig at a sample; `tip` receives a place for text. False if not visible.
 static bool proxy_show(struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample,
                        float width, uint32_t color, float tip[2])
 {
@@ -231,7 +231,7 @@ void onion_show(struct stage *stage, struct core *core)
     }
 }
 
-/// The knot of the active spline that is being edited: held by the pointer, or the only one that is selected, just nudged.
+/// The active spline's knot being edited: held by the pointer, or the only selected one after a nudge.
 static const struct knot *edited_knot(const struct core *core)
 {
     const struct drag *drag = &core->drag;

@@ -1,4 +1,4 @@
-/// Pins on the stage: hover, drags in the plane that faces the eye, keys, and markers.
+/// Pins on the stage: hover, drags parallel to the screen, keys and markers.
 #include "editor/core/pins.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -14,9 +14,9 @@
 #include <string.h>
 
 static const float MARKER_REACH = 9;    ///< pixels
-static const float LEAST_SHARE = 0.05f; ///< of the largest movement, for a vertex to be offered
+static const float LEAST_SHARE = 0.05f; ///< of the largest movement; vertices that move less are not offered
 
-/// How far a vertex moves per unit of the character's coordinates, squared, as a share of the largest movement along each axis.
+/// A vertex's movement per unit of the coordinates, squared, relative to the largest movement along each axis.
 static float share_of(const struct stage_character *shown, int vertex)
 {
     float own = 0, most = 0;
@@ -31,7 +31,7 @@ static float share_of(const struct stage_character *shown, int vertex)
     return most > 0 ? own / most : 0;
 }
 
-/// The corner of the triangle under the point that is nearest to it.
+/// The triangle's corner nearest to the point.
 static int nearest_corner(const struct surface_spot *spot)
 {
     int best = 0;
@@ -41,7 +41,7 @@ static int nearest_corner(const struct surface_spot *spot)
     return (int)spot->corner[best];
 }
 
-/// The vertex of the characters' surfaces under a point, that of the nearest to the eye.
+/// The surface vertex under a point; of several characters the one nearest to the eye.
 static struct hover find_vertex(struct stage *stage, const struct core *core, float x, float y)
 {
     const struct stage_view *view = &stage->view;
@@ -53,7 +53,7 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
         float xy[2];
         if (!skin_pose(stage, shown->rig) || !skin_spot(stage, shown->figure, x, y, &spot)) continue;
         const int rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig), vertex = nearest_corner(&spot);
-        if (!point_exists(core, (struct rig_point){rig, vertex})) continue; // an edit in the same frame took it away
+        if (!point_exists(core, (struct rig_point){rig, vertex})) continue; // an edit in the same frame removed it
         const float *place = stage->skin.posed[vertex];
         const float depth = camera_depth(view->view, view->eye, place);
         if (depth >= nearest) continue;
@@ -66,7 +66,7 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
     return hover;
 }
 
-/// The same, from memory while neither pointer nor picture have moved. Nothing lights up by playing on under a still pointer.
+/// The same, cached while pointer and picture stay. Playback under a still pointer highlights nothing.
 static struct hover surface_hover(struct stage *stage, const struct core *core, float x, float y)
 {
     struct pointed *pointed = &stage->pointed;
@@ -79,7 +79,7 @@ static struct hover surface_hover(struct stage *stage, const struct core *core, 
     return pointed->hover;
 }
 
-/// Goes on to the next pin with a marker: the characters of a pair stand aside and have none.
+/// The next pin with a marker. Characters of a pair stand aside, so their pins have none.
 static const struct pin *next_marker(const struct core *core, struct pin_place *place)
 {
     const struct pin *pin;
@@ -95,7 +95,7 @@ static bool project(const struct stage *stage, const struct core *core, const do
     return stage_project_point(stage, core->layout.stage, at, xy);
 }
 
-/// The marker under a point; of several the selected one, else the nearest.
+/// The marker under a point: the selected one, else the nearest.
 static struct hover marker_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};
@@ -122,7 +122,7 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
     return found->kind == HOVER_NONE ? surface_hover(stage, core, x, y) : (struct hover){.kind = HOVER_NONE};
 }
 
-/// The picture's directions in the world, and its scale at a place.
+/// The screen's directions in the world, and its scale at a place.
 static void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3],
                             struct pin_drag *drag)
 {
@@ -135,7 +135,7 @@ static void pins_take_plane(const struct stage *stage, const struct core *core, 
     }
 }
 
-/// Where the pointer has taken the point.
+/// Where the pointer has dragged the point.
 static void drag_to(const struct pin_drag *drag, double dx, double dy, double to[3])
 {
     for (int k = 0; k < 3; k++) {
@@ -146,7 +146,7 @@ static void drag_to(const struct pin_drag *drag, double dx, double dy, double to
     to[drag->axis] += stage_along(drag->right[drag->axis], drag->up[drag->axis], dx, dy) / drag->pixels_per_metre;
 }
 
-/// The point, or the marker, goes where the pointer is now.
+/// Moves the point or marker to the pointer.
 static void apply(void *room, struct core *core)
 {
     const struct pin_drag *drag = &((const struct stage *)room)->pin_drag;
@@ -157,18 +157,18 @@ static void apply(void *room, struct core *core)
 
 static enum drag_answer take_event(void *room, struct core *core, const struct event *event)
 {
-    // Ctrl may still be down, which takes joints.
+    // Ctrl may still be held from grabbing a joint.
     const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
     return key && drag_lock_axis(&core->drag, &((struct stage *)room)->pin_drag.axis, event->key) ? DRAG_USED
                                                                                                   : DRAG_PASSES;
 }
 
 static const float HERE = 5, ELSEWHERE = 3.5f, RING = 8, LIT = 6.5f, END = 2; ///< radii, pixels
-static const float LEAST_LINE = 1.5f;                                         ///< pixels that are left to be seen
-static const float FAINT = 0.5f;                                              ///< opacity of markers of other frames
-static const float AXIS = 2; ///< metres of a locked axis to each side
+static const float LEAST_LINE = 1.5f;                                         ///< pixels; shorter lines are not drawn
+static const float FAINT = 0.5f;                                              ///< opacity of markers at other frames
+static const float AXIS = 2; ///< metres of a locked axis to each side, as drawn
 
-/// Draws the line along which a locked drag goes.
+/// Draws the axis of a locked drag.
 static void pins_show_axis(void *room, struct core *core)
 {
     const struct stage *stage = room;
@@ -251,7 +251,7 @@ void stage_hold_point(struct stage *stage, struct core *core)
     }
 }
 
-/// The frame of a marker, right of it.
+/// A marker's frame number, to its right.
 static void show_frame(struct core *core, const float xy[2], double frame)
 {
     char text[32];
@@ -259,7 +259,7 @@ static void show_frame(struct core *core, const float xy[2], double frame)
     stage_note(core, xy[0] + RING + 8, xy[1] + 4, FONT_NUMBER, theme()->text, text);
 }
 
-/// Where its point should be, and a line to where it is on its frame as far as that is known.
+/// The target, and a line to the point at the pin's frame if known.
 static void show_marker(const struct stage *stage, struct core *core, struct pin_place place, const struct pin *pin)
 {
     struct drawlist *list = &core->list;
@@ -283,7 +283,7 @@ static void show_marker(const struct stage *stage, struct core *core, struct pin
     if (selected || hot) show_frame(core, line[0], pin->frame);
 }
 
-/// The target of a press.
+/// Highlights the target of a press.
 static void show_lit(struct core *core)
 {
     const float xy[2] = {core->hover.x, core->hover.y};
@@ -321,7 +321,7 @@ bool point_exists(const struct core *core, struct rig_point point)
     return figure && point.at < figure->character.vertex_count;
 }
 
-/// Out of a posed rig.
+/// Reads a place from a posed rig.
 static void take_place(const struct rig_pose *pose, int at, float place[3])
 {
     if (pose->kind == RIG_CHARACTER) {

@@ -1,4 +1,4 @@
-/// Records a dragged body: a place a sample, the knots made of them, and its path on the stage.
+/// Records a dragged body: a place per sample, knots fitted to them, and the path on the stage.
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
@@ -46,7 +46,7 @@ bool record_has_motion(const struct stage *stage) { return stage->record.count >
 
 void record_forget(struct stage *stage) { stage->record = (struct record){0}; }
 
-/// The cubic through some of the values, level at both ends; false where it could not be solved.
+/// The cubic through some of the values, level at both ends; false if it cannot be solved.
 static bool solve_through(wiggly_solver *solver, const double *values, int count, const int *knots, int knot_count,
                           wiggly_knot *buffer, double *total)
 {
@@ -64,8 +64,8 @@ static bool solve_through(wiggly_solver *solver, const double *values, int count
     return wiggly_solve(solver, &desc, &curve) < WIGGLY_ERROR_ARGUMENT;
 }
 
-/// The sample at which two curves are farthest apart, and how far. Neighbours of the ends are left out: a knot there would take
-/// the end's slope away.
+/// The sample with the largest distance between two curves, and that distance. Excludes neighbours of the ends: a knot there would change
+/// the end's slope.
 static int farthest(const double *a, const double *b, int count, double *distance)
 {
     int at = 0;
@@ -106,8 +106,8 @@ int record_simplify(const double *values, int count, double tolerance, int *knot
 
 enum { MAX_KNOTS = 64 };
 
-static const double STILL = 2e-3;     ///< metres: a coordinate that moved less did not move
-static const double TOLERANCE = 4e-3; ///< metres between the hand's way and the cubic through its knots
+static const double STILL = 2e-3;     ///< metres; less is no movement
+static const double TOLERANCE = 4e-3; ///< metres between the recorded path and the cubic
 
 static double largest(const double *values, int count)
 {
@@ -127,9 +127,8 @@ static void clear_knots(struct core *core, int spline, int from, int to)
     }
 }
 
-/// Keys a coordinate's motion; returns how many knots that took. `swings` is the spline by which the tail swings with that from now
-/// on, where it did not; `why` is what held a knot. Before and after it the body stands still, unless the scene is a loop, in which
-/// it comes back by itself.
+/// Keys a coordinate's motion; returns the number of knots. `swings` receives a new spline that swings the tail with it; `why` what limited
+/// a knot. Before and after it a newly keyed body stands still, except in a loop, where it moves back by itself.
 static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, int *swings,
                           char why[STOPPED_SIZE])
 {
@@ -180,7 +179,7 @@ void record_keep(struct stage *stage, struct core *core)
 
 enum { MARGIN = 12, HEIGHT = 22, PAD = 8, DOT = 10, MAX_POINTS = 256 };
 
-/// In the upper right corner, below the caption.
+/// In the top right corner, below the caption.
 static void show_sign(struct core *core, bool runs, const char *text)
 {
     const struct rect stage = core->layout.stage;
@@ -198,7 +197,7 @@ static void show_sign(struct core *core, bool runs, const char *text)
                   theme()->error, text);
 }
 
-/// The way so far, where the hand took the base at each sample.
+/// The recorded path, with the base's place at each sample.
 static void show_way(const struct stage *stage, struct core *core)
 {
     const struct record *record = &stage->record;

@@ -1,14 +1,14 @@
-/// Outlines by marching squares: between a node inside and one outside, the edge is where the field passes 0.
+/// Outlines by marching squares: an edge lies between an inside and an outside node, where the field crosses 0.
 #include "editor/stage/silhouette.h"
 #include "editor/stage/parts.h"
 #include <math.h>
 #include <string.h>
 
-enum { LEAST_POINTS = 12 }; ///< of an outline that is no speck
+enum { LEAST_POINTS = 12 }; ///< smaller outlines are specks
 
-static const float FINEST = 2;   ///< pixels from node to node
-static const float AROUND = 8;   ///< pixels beside the stage that outlines reach, so that their edge is not seen
-static const float OUTSIDE = -2; ///< cells; farther points make no difference
+static const float FINEST = 2;   ///< pixels between nodes
+static const float AROUND = 8;   ///< pixels beside the stage, so that cut outlines end out of sight
+static const float OUTSIDE = -2; ///< cells; smaller values make no difference
 
 void silhouette_clear(struct silhouette *silhouette)
 {
@@ -43,7 +43,7 @@ bool silhouette_open(struct silhouette *silhouette, struct rect stage)
     return true;
 }
 
-/// The nodes in a box, all but the outermost, which stay outside so that every outline closes: first and last column, first and last row.
+/// The nodes in a box, as first and last column and row. The outermost nodes stay outside, so that every outline closes.
 static void find_nodes(const struct silhouette *silhouette, const float low[2], const float high[2], int nodes[2][2])
 {
     const float from[2] = {silhouette->area.x, silhouette->area.y};
@@ -61,12 +61,12 @@ static void place_node(const struct silhouette *silhouette, int row, int column,
     xy[1] = silhouette->area.y + silhouette->cell * (float)row;
 }
 
-/// Unlike hypotf(), not a call: this is asked of every node of a grid that grows as the view comes near.
+/// Inline, unlike hypotf(): called for every node of a grid that grows as the view comes closer.
 static float length(float x, float y) { return sqrtf(x * x + y * y); }
 
 static float larger(float a, float b) { return a > b ? a : b; }
 
-/// How far inside of the link a point is.
+/// How far inside the link a point is.
 static float depth_in_link(const float p[2], const float a[2], float a_radius, const float b[2], float b_radius)
 {
     const float dx = b[0] - a[0], dy = b[1] - a[1], t = segment_nearest(a, b, p);
@@ -94,7 +94,7 @@ void silhouette_add_link(struct silhouette *silhouette, const float from[2], flo
     }
 }
 
-/// Twice the area of a triangle, positive where its corners go round clockwise on the screen.
+/// Twice a triangle's area, positive if its corners are clockwise on the screen.
 static float turn(const float a[2], const float b[2], const float c[2])
 {
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
@@ -113,7 +113,7 @@ void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3
     for (int row = nodes[1][0]; row <= nodes[1][1] && area != 0; row++) {
         for (int column = nodes[0][0]; column <= nodes[0][1]; column++) {
             float *node = &silhouette->inside[row][column], share[3], p[2];
-            if (*node >= most) continue; // by another one, as on a body's far side
+            if (*node >= most) continue; // another triangle has set it, as on a body's far side
             place_node(silhouette, row, column, p);
             for (int k = 0; k < 3; k++) share[k] = turn(corner[(k + 1) % 3], corner[(k + 2) % 3], p) / area;
             if (!(share[0] >= 0 && share[1] >= 0 && share[2] >= 0)) continue;
@@ -142,7 +142,7 @@ void silhouette_soften(struct silhouette *silhouette)
 
 enum side { SIDE_TOP, SIDE_RIGHT, SIDE_BOTTOM, SIDE_LEFT };
 
-/// Whether the outline crosses a side of the cell whose upper left node that is, and where; `xy` may be NULL.
+/// Whether the outline crosses a side of the cell with this upper left node, and where; `xy` may be NULL.
 static bool crosses(const struct silhouette *silhouette, int row, int column, enum side side, float xy[2])
 {
     const int rows[2] = {row + (side == SIDE_BOTTOM), row + (side != SIDE_TOP)};
@@ -156,7 +156,7 @@ static bool crosses(const struct silhouette *silhouette, int row, int column, en
     return true;
 }
 
-/// The side by which the outline that came in by one leaves; where all four are crossed, it turns around the corner at the left hand.
+/// The side where the outline leaves. If all four are crossed, it turns left around the corner.
 static enum side leave(const struct silhouette *silhouette, int row, int column, enum side in)
 {
     static const enum side order[] = {1, 3, 2};
@@ -167,7 +167,7 @@ static enum side leave(const struct silhouette *silhouette, int row, int column,
     return in;
 }
 
-/// Follows the outline that crosses the upper side of a cell downwards, until it is back.
+/// Follows the outline that crosses a cell's upper side downwards, until it closes.
 static int follow_from(struct silhouette *silhouette, int row, int column)
 {
     static const int down[4] = {-1, 0, 1, 0}, right[4] = {0, 1, 0, -1};

@@ -1,4 +1,4 @@
-/// The outline of a shape on the screen: the shape is painted onto a grid, and its edge followed.
+/// The outline of a shape on the screen: the shape is drawn into a grid, and its edge followed.
 #ifndef EDITOR_STAGE_SILHOUETTE_H
 #define EDITOR_STAGE_SILHOUETTE_H
 
@@ -6,32 +6,32 @@
 
 enum { SILHOUETTE_SIDE = 208, SILHOUETTE_POINTS = 4096 };
 
-/// How far inside each node of the grid is, pixels; negative outside.
+/// For each grid node the distance inside the shape, pixels; negative outside.
 struct silhouette {
-    float low[2], high[2]; ///< of the shape
+    float low[2], high[2]; ///< bounds of the shape
     struct rect area;
-    float cell; ///< pixels from node to node
+    float cell; ///< pixels between nodes
     int columns, rows;
     float inside[SILHOUETTE_SIDE][SILHOUETTE_SIDE]; ///< by row and column
     float blurred[SILHOUETTE_SIDE][SILHOUETTE_SIDE];
-    bool followed[SILHOUETTE_SIDE][SILHOUETTE_SIDE]; ///< the edge between a node and the next of its row
-    float points[2 * SILHOUETTE_POINTS][2]; ///< of the outline that was followed last, and as much room again
+    bool followed[SILHOUETTE_SIDE][SILHOUETTE_SIDE]; ///< the edge between a node and the next in its row
+    float points[2 * SILHOUETTE_POINTS][2];          ///< the last outline, and room for another
 };
 
-/// Nothing yet.
+/// Empties the shape.
 void silhouette_clear(struct silhouette *silhouette);
-/// Makes room for a disc to be painted.
+/// Extends the grid for a disc.
 void silhouette_widen(struct silhouette *silhouette, const float middle[2], float radius);
-/// Opens the grid for all discs; false where none is on the stage.
+/// Sets up the grid for all discs; false if none is on the stage.
 bool silhouette_open(struct silhouette *silhouette, struct rect stage);
-/// Two discs and the area between them.
+/// Adds two discs and the area between them.
 void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],
                          float to_radius);
-/// A triangle whose corners are that far inside, pixels.
+/// Adds a triangle; `inside` is its corners' distance inside the shape, pixels.
 void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2], const float inside[3]);
-/// Rounds the steps of triangles off.
+/// Smooths the steps of triangles.
 void silhouette_soften(struct silhouette *silhouette);
-/// Follows the next outline that can be told from a speck into `points`, closed: the last point is the first. How many, 0 after the
+/// Follows the next outline larger than a speck into `points`; the last point repeats the first. Returns the number of points, 0 after the
 /// last outline.
 int silhouette_follow(struct silhouette *silhouette);
 

@@ -1,4 +1,4 @@
-/// The stage panel: its beginning and end, the mouse, time, and each frame's poses and overlays.
+/// The stage panel: mouse, time, and each frame's poses and overlays.
 #include "editor/stage/stage.h"
 #include "base/hash.h"
 #include "base/need.h"
@@ -36,9 +36,9 @@ void stage_open(struct stage *stage)
 
 const struct stage_view *stage_seen(const struct stage *stage) { return &stage->view; }
 
-static const double ZOOM_STEP = 0.12; ///< of a wheel's notch, as a power of e
+static const double ZOOM_STEP = 0.12; ///< per wheel notch, as a power of e
 
-/// The nearer of two on the screen; the first where only that is there.
+/// The one nearer on the screen; the first if the second is nothing.
 static struct hover nearer(struct hover a, struct hover b, float x, float y)
 {
     if (b.kind == HOVER_NONE) return a;
@@ -78,7 +78,7 @@ void stage_click(void *room, struct core *core, bool keep)
     bone_click(stage, core);
 }
 
-static const float ORBIT_SPEED = 0.008f; ///< radians a pixel
+static const float ORBIT_SPEED = 0.008f; ///< radians per pixel
 
 static void orbit(void *room, struct core *core)
 {
@@ -95,9 +95,9 @@ static void pan(void *room, struct core *core)
 static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan, .end = stage_click};
 static const struct drag_owner orbiting = {.cursor = CURSOR_ARROW, .move = orbit, .end = stage_click};
 
-static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; between two steps a tail moves less than its reach
+static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; per STEP a tail moves less than its grab distance
 
-/// The position shown some seconds ago, round the end of the played range.
+/// The playback position some seconds ago, wrapped at the start of the played range.
 static double position_ago(const struct core *core, double seconds)
 {
     const struct document *document = core->document;
@@ -110,7 +110,7 @@ static double position_ago(const struct core *core, double seconds)
                                                         : fmax(last - (first - position), first);
 }
 
-/// The tail, chain or body that was under the point at a position, or HOVER_NONE.
+/// The tail, chain or body at a point, at an earlier position, or HOVER_NONE.
 static struct hover hover_at(struct stage *stage, const struct core *core, double position, float x, float y)
 {
     struct hover joint = {.kind = HOVER_NONE};
@@ -124,7 +124,7 @@ static struct hover hover_at(struct stage *stage, const struct core *core, doubl
     return joint.kind != HOVER_NONE ? joint : body_hover(stage, core, position, x, y);
 }
 
-/// The item under a point in the last third of a second, in a scene that plays: a press aims at what was seen then.
+/// The item at a point within the last MOMENT of playback: a press aims at what was just visible.
 static struct hover moment_ago(struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};
@@ -143,7 +143,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
         return;
     }
     if (brush_press(stage, core, event)) return;
-    stage->pointed.hash = 0; // a press takes the item of this moment, even while all moves
+    stage->pointed.hash = 0; // forces a new search, because everything may have moved
     struct hover hover = stage_hover(stage, core, event->x, event->y);
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
     if (holds && hover.kind == HOVER_NONE) hover = moment_ago(stage, core, event->x, event->y);
@@ -194,7 +194,7 @@ double stage_pixels_per_metre(const struct stage *stage, const struct core *core
     return 0.5 * (double)(core->layout.stage.h * stage->view.projection[5] / fmaxf(depth, 0.1f));
 }
 
-static const double LEAST_AXIS = 0.3; ///< pixels of an axis in a pixel across, below which it is as slow as that
+static const double LEAST_AXIS = 0.3; ///< pixels; axes that look shorter move as slowly as one of this length
 
 double stage_along(double across, double up, double dx, double dy)
 {
@@ -217,16 +217,16 @@ void stage_vertex(const struct figure *figure, const struct morph *morph, const 
     for (int k = 0; k < 3; k++) place[k] += position[k] - (k == 1 ? figure->lo[1] : 0.0f);
 }
 
-/// Radians. Characters look towards +z; one is met from a bit aside, a pair from the front. Animals are met at three quarters from
-/// behind, so that their tails and ears are seen: this far from straight behind them.
+/// Initial azimuth in radians. A single character, facing +z, is seen slightly from the side, a pair from the front. Animals are seen
+/// FROM_BEHIND off straight behind, which shows tail and ears.
 static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f, FROM_BEHIND = 0.87f;
 
-/// In this order they are posed, hashed and drawn.
+/// The order of posing, hashing and drawing.
 #define STAGE_ROW(constant, name) [constant] = &name##_stage,
 static const struct stage_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(STAGE_ROW)};
 #undef STAGE_ROW
 
-/// Adds the motion of one over the whole scene to the box lo … hi; false where it is not to be seen.
+/// Adds a rig's motion over the scene to the box lo … hi; false if it is not visible.
 static bool add_motion(const struct stage *stage, const struct core *core, int rig, int n, float lo[3], float hi[3])
 {
     const struct stage_kind *kind = kinds[core->document->rigs[rig]->kind];
@@ -248,7 +248,7 @@ static bool add_motion(const struct stage *stage, const struct core *core, int r
     return any;
 }
 
-/// Notes where its motion is in the picture, from the middle of the stage in its heights, by the present camera.
+/// Remembers where the motion is in the picture, from the stage's middle in stage heights.
 static void note_figure(struct stage *stage, struct rect place, const float lo[3], const float hi[3])
 {
     const struct rect unit = {-0.5f * place.w / place.h, -0.5f, place.w / place.h, 1};
@@ -274,7 +274,7 @@ struct rect stage_figure(const struct stage *stage, const struct core *core)
                          figure->w * place->h, figure->h * place->h};
 }
 
-/// The azimuth that imported characters are met from: by the first one.
+/// Initial azimuth for imported characters, taken from the first.
 static float azimuth_of_models(const struct core *core)
 {
     const int rig = document_next_rig(core->document, RIG_MODEL, 0);
@@ -298,7 +298,7 @@ void stage_fit(struct stage *stage, const struct core *core)
         stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
     else if (seen[RIG_MODEL] && !seen[RIG_TAIL])
         stage->camera.azimuth = azimuth_of_models(core);
-    camera_lamp(&stage->camera, stage->view.key_from); // it stays there while the camera goes round
+    camera_lamp(&stage->camera, stage->view.key_from); // fixed while the camera orbits
     stage->figure = (struct rect){0};
     if (!any) return;
     for (int k = 0; k < 2; k++) stage->view.middle[k] = 0.5f * (lo[2 * k] + hi[2 * k]);

@@ -1,9 +1,8 @@
-/// Pulling a tail or chain: one damped Newton step per frame on the values of the knots at the playhead.
+/// Pulls a tail or chain: per frame one damped Newton step on the knots' values at the playhead.
 ///
-/// The grabbed point p (pixels) depends on the values v of at most two knots, one for each axis. Its derivative J
-/// comes from posing it again with x changed by δ(1 + j·turn), which is what a change of the knot does once
-/// `turn` is known (Re x follows the knot exactly; how Im x follows is linear, so one observed step tells it for
-/// good). Then
+/// The grabbed point p (pixels) depends on the values v of at most two knots, one per axis. Its derivative J comes from posing again with x
+/// changed by δ(1 + j·turn), the effect of changing the knot. Re x follows the knot exactly; Im x follows linearly, so one observed step
+/// determines `turn`. Then
 ///
 ///     (JᵀJ + λ) dv = Jᵀ (target − p),   in radians of bend, so that both axes count alike.
 #include "editor/core/core.h"
@@ -14,14 +13,14 @@
 #include "editor/stage/stage.h"
 #include <math.h>
 
-static const double DAMPING = 12; ///< √λ, pixels a radian: below this a channel moves the point too little to be used
-static const double LARGEST_STEP = 0.35, LARGEST_BEND = 7; ///< radians at the grabbed joint, a frame and in all
-static const double CLOSE = 0.2;                           ///< pixels: near enough
+static const double DAMPING = 12; ///< √λ, pixels per radian; channels that move the point less are hardly used
+static const double LARGEST_STEP = 0.35, LARGEST_BEND = 7; ///< radians at the grabbed joint, per frame and in total
+static const double CLOSE = 0.2;                           ///< pixels; closer is close enough
 static const double PROBE = 0.01;                          ///< radians of bend for the derivative
 static const double RESOLUTION = 1e-4;                     ///< radians of bend
 static const double DEGREE = 0.017453292519943295;
 
-/// The channel of a rig for an axis: the active spline's where there is a choice. NULL where there is none.
+/// The rig's channel for an axis, preferably the active spline's; or NULL.
 static const struct channel *channel_for(const struct core *core, const struct rig *rig, enum axis axis)
 {
     const struct channel *found = NULL;
@@ -46,7 +45,7 @@ static struct tail_drag_axis axis_for(const struct core *core, const struct rig 
     return (struct tail_drag_axis){.active = true, .spline = channel->spline, .values_per_radian = 1 / gain};
 }
 
-/// The sample nearest to the playhead that may carry knots of all steered splines, on a whole frame.
+/// The sample on a whole frame nearest to the playhead where all controlled splines may have knots.
 static int sample_for(const struct stage *stage, const struct core *core)
 {
     const struct document *document = core->document;
@@ -67,7 +66,7 @@ bool tail_drag_holds(const struct document *document, int rig, int joint)
     return held->kind == RIG_CHAIN || (held->kind == RIG_TAIL && joint <= held->tail.joints);
 }
 
-/// Takes the present value over and learns from the last step how Im x follows it.
+/// Reads the present value and derives `turn` from the last step.
 static void observe(struct tail_drag_axis *axis, const struct core *core, int sample)
 {
     wiggly_value v = evaluation_at(core->evaluation, axis->spline, sample);
@@ -80,7 +79,7 @@ static void observe(struct tail_drag_axis *axis, const struct core *core, int sa
     axis->seen_im = v.im;
 }
 
-/// Derivative of the grabbed point by radians of bend through one axis.
+/// Derivative of the grabbed point per radian of bend about one axis.
 static void derivative(const struct stage *stage, const struct core *core, const struct tail_drag_axis *axis,
                        const float at[2], double response[2])
 {
@@ -95,7 +94,7 @@ static void derivative(const struct stage *stage, const struct core *core, const
     response[1] = (moved[1] - at[1]) / PROBE;
 }
 
-/// Solves (JᵀJ + λ) step = Jᵀ miss for two unknowns; J by column. A column of zeros leaves its unknown at 0.
+/// Solves (JᵀJ + λ) step = Jᵀ miss for two unknowns; J by column. A zero column leaves its unknown at 0.
 static void damped_step(const double column[2][2], const double miss[2], double step[2])
 {
     double lambda = DAMPING * DAMPING;
@@ -113,7 +112,7 @@ static void damped_step(const double column[2][2], const double miss[2], double 
     step[1] *= factor;
 }
 
-/// A spline without knots begins from rest, a quarter of a period before its first one.
+/// A spline without knots starts from rest, a quarter period before its first knot.
 static void begin_from_rest(struct core *core, int spline, int sample)
 {
     const struct document *document = core->document;
@@ -128,8 +127,7 @@ static void begin_from_rest(struct core *core, int spline, int sample)
     if (still.frame >= first && still.frame != frame) core_put_knot(core, spline, &still);
 }
 
-/// Sets the knot of one axis at the grabbed sample, or inserts it, as far as the limits of its spline allow. Its phase is free for as
-/// long as it is pulled.
+/// Sets or inserts an axis' knot at the grabbed sample, within its spline's limits. Its phase is free during the pull.
 static void set_knot(const struct stage *stage, struct core *core, struct tail_drag_axis *axis,
                      char why[STOPPED_SIZE])
 {
@@ -142,7 +140,7 @@ static void set_knot(const struct stage *stage, struct core *core, struct tail_d
     core_put_knot(core, axis->spline, &knot);
 }
 
-/// Makes a spline that bends it the active one, if it is not.
+/// Activates a spline that bends the strand, unless one is active.
 static void activate(const struct tail_drag *grab, struct core *core)
 {
     bool steered = false;
@@ -150,7 +148,7 @@ static void activate(const struct tail_drag *grab, struct core *core)
     if (!steered) core_activate(core, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
 }
 
-/// Makes the knot that is pulled the selected one.
+/// Selects the pulled knot.
 static void select_knot(const struct stage *stage, struct core *core)
 {
     const struct tail_drag *grab = &stage->tail_drag;
@@ -168,7 +166,7 @@ static void select_knot(const struct stage *stage, struct core *core)
     }
 }
 
-/// One step towards the pointer; needs the pose of the last solved frame.
+/// One step towards the pointer; needs the last solved frame's pose.
 static void apply(void *room, struct core *core)
 {
     struct stage *stage = room;
@@ -204,7 +202,7 @@ static void apply(void *room, struct core *core)
     select_knot(stage, core);
 }
 
-/// The pulled knots become poses, with the phase that is shown: nothing moves at the release.
+/// Turns pulled knots into poses with the shown phase, so that nothing moves at the release.
 static void end(void *room, struct core *core, bool keep)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;

@@ -1,4 +1,4 @@
-/// Tails and chains on the stage: how they are posed, and where their joints are on the screen.
+/// Tails and chains on the stage: posing, and projecting their joints.
 #include "editor/core/bones.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
@@ -8,7 +8,7 @@
 
 enum { BOUND_STEPS = 120, BLOBS_OF_ONE_TAIL = 20 };
 
-static const float DUSK = 0.35f; ///< of a fox of bind size
+static const float DUSK = 0.35f; ///< for a fox of bind size
 
 static void move_by_hand(const void *context, int rig, struct by_hand *hand)
 {
@@ -131,7 +131,7 @@ struct hover strand_hover(const struct stage *stage, const struct core *core, fl
         const struct shown_strand *tail = &stage->strands[s];
         strand_nearer(stage, core, tail->rig, &tail->pose, (const float[2]){x, y}, &nearest, &hover);
     }
-    // An edit in the same frame may have removed the last one shown.
+    // An edit in the same frame may have removed it.
     if (!tail_drag_holds(core->document, hover.rig, hover.joint)) hover.kind = HOVER_NONE;
     return hover;
 }

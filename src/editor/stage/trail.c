@@ -1,5 +1,4 @@
-/// Motion arcs: where the tip of the tail or chain, a character's liveliest or a held point goes, one mark per frame, fading with the
-/// distance from the playhead.
+/// Motion arcs: the path of a tip, a character's vertex or a held point, with one mark per frame, fading away from the playhead.
 #include "base/hash.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -11,14 +10,14 @@
 
 enum {
     MAX_REACH = TRAIL_FRAMES / 2 - 1, ///< frames to each side
-    PIECES = 3,                       ///< straight pieces from frame to frame
-    RUN = 4,                          ///< frames of one opacity
+    PIECES = 3,                       ///< straight pieces per frame
+    RUN = 4,                          ///< frames of equal opacity
 };
 
 static const double REACH = 2;                            ///< seconds to each side
-static const float OPACITY = 0.85f, MARK = 2.5f, NOW = 5; ///< pixels of a mark, and of the one at the playhead
+static const float OPACITY = 0.85f, MARK = 2.5f, NOW = 5; ///< mark radii in pixels; NOW: at the playhead
 
-/// Looks at all vertices once a figure and version.
+/// Searches all vertices once per figure and version.
 static int liveliest_vertex(struct liveliest *known, const struct figure *figure)
 {
     const struct character *character = &figure->character;
@@ -54,7 +53,7 @@ static bool loops(const struct document *document, int spline)
     return spline < 0 || spline_start(document->splines[spline]) == WIGGLY_LOOP;
 }
 
-/// Whether frames beyond the range are those at its other end: where all that moves the rig loops. A chain's clip repeats by itself.
+/// Whether frames beyond the range repeat, because everything that moves the rig loops. A chain's clip repeats anyway.
 static bool rig_loops(const struct document *document, const struct rig *rig)
 {
     bool all = rig_input_count(rig) > 0;
@@ -63,7 +62,7 @@ static bool rig_loops(const struct document *document, const struct rig *rig)
     return all;
 }
 
-/// The point at a frame counted from the first, world; from memory while nothing was edited.
+/// The point's world place at a frame counted from the first, cached until an edit.
 static const float *place_at(struct trail_point *trail, const struct core *core, struct rig_point point, int frame)
 {
     uint64_t solved = core->evaluation ? core->evaluation->revision : 0;
@@ -76,7 +75,7 @@ static const float *place_at(struct trail_point *trail, const struct core *core,
     return kept->place;
 }
 
-/// Catmull-Rom through four neighbours, on the screen.
+/// Catmull-Rom interpolation on the screen.
 static void between(const float a[2], const float b[2], const float c[2], const float d[2], float u, float out[2])
 {
     for (int k = 0; k < 2; k++) {
@@ -85,7 +84,7 @@ static void between(const float a[2], const float b[2], const float c[2], const 
     }
 }
 
-/// Frames first … last as points of the screen with PIECES − 1 more after each; returns how many points.
+/// Projects frames first … last, each followed by PIECES − 1 points; returns the number of points.
 static int lay_out(float screen[TRAIL_FRAMES][2], int count, float points[][2])
 {
     int made = 0;
@@ -122,7 +121,7 @@ static void show_line(struct core *core, float points[][2], int first, int count
     }
 }
 
-/// Where the point is shown now: a tip goes along with a body that is being dragged.
+/// Where the point is shown now: a tip follows a dragged body.
 static bool project_now(struct stage *stage, const struct core *core, struct rig_point point, float xy[2])
 {
     float place[3];
@@ -131,7 +130,7 @@ static bool project_now(struct stage *stage, const struct core *core, struct rig
            stage_project_point(stage, core->layout.stage, place, xy);
 }
 
-/// A ring round the point as it is now.
+/// A ring around the point's current place.
 static void show_now(struct stage *stage, struct core *core, struct rig_point point)
 {
     float xy[2];
