@@ -1,13 +1,13 @@
-/// A soft character as a form: its mesh, and two morph targets a coordinate, as in its own file (model/character.h).
+/// A soft character as a form: its mesh, and two morph targets per coordinate, as in its own file (model/character.h).
 #include "base/need.h"
 #include "export/form.h"
 #include "model/vector.h"
 #include <stdlib.h>
 
-/// The character with those of its coordinates alone that the rig moves by.
+/// The character with only the coordinates that the rig uses.
 struct moving {
     struct character character;
-    struct coordinate coordinates[]; ///< their shapes are the figure's
+    struct coordinate coordinates[]; ///< their shapes belong to the figure
 };
 
 static bool moves_by(const struct morph *morph, int coordinate)
@@ -55,7 +55,7 @@ static void close(struct form *form)
     free(form->owned);
 }
 
-/// Its position is where it stands: the lowest point of the mesh at rest comes there.
+/// Places the lowest point of the mesh at rest on the rig's position.
 static void stand(const struct rig_pose *pose, float place[3])
 {
     for (int k = 0; k < 3; k++)
@@ -84,7 +84,7 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
     }
 }
 
-/// The weight of each coordinate: a complex number.
+/// Each coordinate's weight, a complex number.
 static void columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
                     form_column *column, void *user)
 {

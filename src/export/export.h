@@ -1,44 +1,44 @@
-/// Motion out: a document's rigs and splines into the files of other programs. What a file holds follows from its name's end.
+/// Exports a document's rigs and splines to files for other programs. The file name's extension selects the format.
 #ifndef EXPORT_EXPORT_H
 #define EXPORT_EXPORT_H
 
 #include "rig/posing.h"
 
-/// What to export; all zero: every rig that the file can hold, over all frames, a key a sample.
+/// What to export. All zero: every rig that the format supports, all frames, a key per sample.
 struct export_options {
-    const char *rig;        ///< its name, or NULL
-    const char *rig_choice; ///< what sentences call the way to choose a rig; NULL: "--rig"
-    const char *clip;       ///< what the animation is called; NULL: as the scene
-    bool has_frames;        ///< else all
+    const char *rig;        ///< name, or NULL
+    const char *rig_choice; ///< the option for choosing a rig, as named in errors; NULL: "--rig"
+    const char *clip;       ///< name of the animation; NULL: the scene's
+    bool has_frames;        ///< false: all frames
     double first, last;     ///< frames
-    double rate;            ///< keys or pictures a second; 0: one a sample or, of a film, a frame
-    int substeps;           ///< keys a frame, or 0
-    bool is_signed;         ///< morph weights may be negative, which takes half as many targets
-    bool is_cubic;          ///< keys have tangents (glTF)
-    bool all_clips;         ///< the chains move every clip of an imported character's file (glTF)
-    bool as_shown;          ///< an imported character as large and where it is on the stage, not as in its own file
-    // of films and pictures (app/film.h)
+    double rate;            ///< keys or pictures per second; 0: one per sample or, in films, per frame
+    int substeps;           ///< keys per frame, or 0
+    bool is_signed;         ///< allows negative morph weights, which halves the number of targets
+    bool is_cubic;          ///< keys with tangents (glTF)
+    bool all_clips;         ///< applies chains to all clips of an imported character (glTF)
+    bool as_shown;          ///< an imported character in the stage's size and place, not its file's
+    // films and pictures (app/film.h)
     int size[2];      ///< pixels; 0: 1280 × 720, for .gif 640 × 360
-    int loops;        ///< rounds, each without its last frame, which is the next one's first; 0: once with it
-    bool transparent; ///< the rigs alone (.png, .webm)
-    bool (*proceed)(void *user, long done, long total); ///< called as it goes on; false: stop. May be NULL
+    int loops;        ///< rounds, each without its last frame, which repeats the first; 0: one with it
+    bool transparent; ///< only rigs (.png, .webm)
+    bool (*proceed)(void *user, long done, long total); ///< progress callback; returning false stops. May be NULL
     void *user;
 };
 
 struct export_report {
-    char text[160]; ///< what is in the file and how large it is: "24 joints, 121 keys, 47 KB"
-    char note[256]; ///< what the user should know besides, or empty
+    char text[160]; ///< content and size: "24 joints, 121 keys, 47 KB"
+    char note[256]; ///< a remark for the user, or empty
 };
 
 enum { EXPORT_ENDINGS = 256 };
 
-/// Whether there is a format for a file of that name.
+/// Whether the file name has a known extension.
 bool export_knows(const char *path);
 
-/// The endings there are, as a sentence lists them: ".glb, .gltf … or .npy".
+/// The extensions as a list for sentences: ".glb, .gltf … or .npy".
 void export_endings(char text[EXPORT_ENDINGS]);
 
-/// Writes the file, whole or not at all. The document's splines must be solved and its models read.
+/// Writes the file completely or not at all. The document's splines must be solved and its models loaded.
 bool export_write(const struct posing *posing, const char *path, const struct export_options *options,
                   struct export_report *report, struct error *error);
 

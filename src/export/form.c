@@ -1,4 +1,4 @@
-/// Which kinds of rigs are exported; collects the keys of one rig, and the slopes of its curves by differences.
+/// Lists the exported kinds of rigs, collects the keys of one rig, and computes the slopes of its curves by differences.
 #include "export/form.h"
 #include "base/need.h"
 #include "rig/strand.h"
@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-const struct form_kind meadow_form = {0}; // no format holds one
+const struct form_kind meadow_form = {0}; // no format has meadows
 const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = form_channels};
 
 #define FORM_ROW(constant, name) [constant] = &name##_form,
@@ -18,7 +18,7 @@ const struct form_kind *form_kind(enum rig_kind kind) { return kinds[kind]; }
 
 const char *form_name(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
 
-/// Other programs tell what is in a file by its name: rigs of the same name get a number.
+/// Other programs identify objects by name, so rigs of the same name get a number.
 static void make_name(const struct document *document, int rig, char name[FORM_NAME])
 {
     const char *wanted = form_name(document->rigs[rig]);
@@ -123,7 +123,7 @@ struct difference {
     double offset[3], factor[3];
 };
 
-/// About the key; or, at an end of the document, from its inside.
+/// Central; one-sided at the ends of the document.
 static struct difference choose_difference(const struct export_range *range, double key, bool loops)
 {
     if (!loops && !range_is_inside(range, key - STEP))
@@ -133,7 +133,7 @@ static struct difference choose_difference(const struct export_range *range, dou
     return (struct difference){{-STEP, 0, STEP}, {-0.5, 0, 0.5}};
 }
 
-/// `scratch` is a row.
+/// `scratch` holds one row.
 static bool add_slopes(const struct sampler *from, struct keys *keys, float *scratch, struct error *error)
 {
     const size_t width = (size_t)keys->width;

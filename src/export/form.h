@@ -1,5 +1,5 @@
-/// What is exported: rigs of a document, posed at evenly spaced times. A rig is here as other programs know one: a mesh with joints or morph
-/// targets, and what moves them. What each kind of rig gives is one row, and every file format is made of that alone. Private to src/export.
+/// What is exported: rigs of a document, posed at evenly spaced times. A form describes a rig as other programs know it: a mesh with joints
+/// or morph targets, and their motion. Each kind of rig has a row of functions; all formats use only these. Private to src/export.
 #ifndef EXPORT_FORM_H
 #define EXPORT_FORM_H
 
@@ -9,61 +9,61 @@
 
 enum { FORM_INFLUENCES = 4, FORM_NAME = 64, FORMAT_SUMMARY = 96 };
 
-// --- files in a folder of their own beside the one that is written: all of them are there in the end, or none
+// --- files in a folder beside the exported file; all of them are written, or none
 
-/// All zero at first.
+/// Initially zero.
 struct sidecars {
     struct sidecar {
         struct file_output output;
         char *path;
-        bool is_new; ///< none was there before
+        bool is_new; ///< replaces no file
     } * files;
     int count;
     char folder[PATH_LIMIT];
-    bool is_new; ///< so is the folder
+    bool is_new; ///< the folder is new
 };
 
-/// Writes a file of a folder into a temporary one. False with a sentence.
+/// Writes a file of the folder under a temporary name. Returns false with an error message.
 bool sidecars_add(struct sidecars *sidecars, const char *folder, const char *name, const void *data, size_t size,
                   struct error *error);
 
-/// Gives all files their names. On failure the old files stay.
+/// Renames all files to their final names. On failure the old files stay.
 bool sidecars_commit(struct sidecars *sidecars, struct error *error);
 
-/// Removes what was written, committed or not, unless it has replaced something.
+/// Removes what was written, committed or not, except files that replaced others.
 void sidecars_discard(struct sidecars *sidecars);
 
-/// Keeps what was committed.
+/// Keeps committed files.
 void sidecars_free(struct sidecars *sidecars);
 
-// --- a format, and what goes into a file of it
+// --- formats, and the content of a file
 
 struct export_range {
     const struct posing *posing;
     const struct export_options *options;
     const struct format *format;
-    int rigs[SCENE_MAX_RIGS]; ///< by index in the document
+    int rigs[SCENE_MAX_RIGS]; ///< indices in the document
     int rig_count;
     double first;   ///< frame of the first key
-    double spacing; ///< frames from one key to the next
+    double spacing; ///< frames between keys
     int key_count;
-    const char *path;             ///< of the file that is written
-    const char *rig_choice;       ///< how a rig is chosen, for sentences
-    char title[FORM_NAME];        ///< what the animation may be called: as the scene
-    char summary[FORMAT_SUMMARY]; ///< what was written, in a few words
+    const char *path;             ///< of the exported file
+    const char *rig_choice;       ///< the option for choosing a rig, as named in errors
+    char title[FORM_NAME];        ///< name of the animation, by default the scene's
+    char summary[FORMAT_SUMMARY]; ///< a short description of the result
     long done, total;             ///< keys of all rigs
-    struct sidecars sidecars;     ///< files that the one that is written names
+    struct sidecars sidecars;     ///< files that the exported file refers to
 };
 
 struct format {
     const char *ending;
-    bool without_rigs; ///< it makes sense without one
-    unsigned holds;    ///< of what a kind of rig gives (FORM_MESH …); 0: any kind
-    bool one_rig;      ///< it holds one rig
-    bool is_binary;    ///< of two containers
-    bool has_tangents; ///< keys may have some
+    bool without_rigs; ///< can be exported without rigs
+    unsigned holds;    ///< the content it needs of a rig (FORM_MESH …); 0: any kind
+    bool one_rig;      ///< has only one rig
+    bool is_binary;    ///< the binary one of two containers
+    bool has_tangents; ///< supports tangents
     enum motion_form motion;
-    /// Writes all of it to a stream, whose errors the caller sees, and the summary.
+    /// Writes everything to a stream and fills the summary. The caller checks the stream for errors.
     bool (*write)(struct export_range *range, FILE *out, struct error *error);
 };
 
@@ -73,19 +73,19 @@ bool gltf_write(struct export_range *range, FILE *out, struct error *error);
 bool bvh_write(struct export_range *range, FILE *out, struct error *error);
 bool usda_write(struct export_range *range, FILE *out, struct error *error);
 
-/// Writes a rig that is no imported character as a .glb of its own.
+/// Writes a rig other than an imported character as a .glb of its own.
 bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error);
 
-/// Has a range continue with the same rigs of another document.
+/// Continues a range with the same rigs of another document.
 bool range_take(struct export_range *range, const struct posing *posing, const struct export_options *options,
                 struct error *error);
 
-/// The frame of a key, and its time in seconds from the first.
+/// A key's frame, and its time in seconds from the first.
 double range_frame(const struct export_range *range, double key);
 double range_seconds(const struct export_range *range, double key);
 
-/// Poses a rig of the document, a chain's model, at a key; between two keys for one that is not whole. Outside of the document loops go on, and all
-/// else stands still. False with a sentence if the rig's model is missing.
+/// Poses a rig (for a chain its model) at a key, or between keys. Outside the document loops continue and everything else stands still.
+/// Returns false with an error message if the model is missing.
 bool range_pose(const struct export_range *range, int rig, double key, struct rig_pose *pose, struct error *error);
 
 /// Where a rig's form stands in the file, as a matrix: where the stage has it; NULL: at the origin, as in an imported character's own
@@ -98,26 +98,26 @@ wiggly_value range_value(const struct export_range *range, int spline, double ke
 /// Whether a key's time is within the document.
 bool range_is_inside(const struct export_range *range, double key);
 
-/// Counts a key of a rig as done. False with a sentence if the export is to stop.
+/// Counts a key of a rig as done. Returns false with an error message if the export is to stop.
 bool range_proceed(struct export_range *range, struct error *error);
 
 // --- forms
 
-/// What a kind of rig can be exported as, bits: a mesh with joints or targets, joints, the places of its vertices, all that is in the
-/// file that it came from; or as a part of its model.
+/// How a kind of rig can be exported, as bits: a mesh with joints or targets, joints, vertex positions, the file that it came from, or as
+/// part of its model.
 enum { FORM_MESH = 1, FORM_JOINTS = 2, FORM_POINTS = 4, FORM_FILE = 8, FORM_IN_MODEL = 16 };
 
 struct form_joint {
     char name[FORM_NAME];
     int parent;      ///< −1: the root
-    float offset[3]; ///< at rest, in its parent
-    float bind[3];   ///< where it is in the space of the mesh; joints at rest are not turned
-    float tip[3];    ///< where it ends, in itself, if no joint hangs on it
+    float offset[3]; ///< at rest, relative to the parent
+    float bind[3];   ///< position in the mesh's space; joints at rest are not rotated
+    float tip[3];    ///< its end, relative to itself, if it has no child
 };
 
 struct form_target {
-    struct figure_target figure; ///< how far it moves vertices and turns normals at weight 1
-    int group;                   ///< targets of one group keep their proportion
+    struct figure_target figure; ///< offsets of vertices and rotations of normals at weight 1
+    int group;                   ///< targets of a group are scaled equally
 };
 
 struct form {
@@ -127,40 +127,40 @@ struct form {
     const float (*position)[3], (*normal)[3], (*color)[3]; ///< colours are linear
     const uint32_t *indices;
     int index_count;
-    const struct looks *looks; ///< its materials, polygons and texture coordinates, one a vertex; NULL: none
-    int joint_count;           ///< 0: the mesh moves as a whole, and by its targets
+    const struct looks *looks; ///< materials, polygons and per-vertex texture coordinates, or NULL
+    int joint_count;           ///< 0: only the whole mesh and its targets move
     struct form_joint *joints;
-    int first_bone; ///< joints before it only carry the mesh
+    int first_bone; ///< joints before it only hold the mesh
     uint16_t (*slots)[FORM_INFLUENCES];
     float (*weights)[FORM_INFLUENCES];
     int target_count;
     struct form_target *targets;
-    const struct character *character; ///< whose coordinates the targets are, or NULL
-    void *owned;                       ///< the kind's own
+    const struct character *character; ///< the targets' coordinates, or NULL
+    void *owned;                       ///< private to the kind
 };
 
-/// Where joints and weights are at one time.
+/// Joints and weights at one time.
 struct form_key {
     float translation[3]; ///< of the root, metres
-    float (*rotation)[4]; ///< of each joint in its parent, unit quaternions x y z w
-    float (*scale)[3];    ///< of each joint, along its own axes; 1 unless its kind sets it
-    float (*offset)[3];   ///< of each joint in its parent, as at rest unless its kind sets it
+    float (*rotation)[4]; ///< of each joint relative to its parent, unit quaternions x y z w
+    float (*scale)[3];    ///< of each joint along its own axes; 1 unless the kind sets it
+    float (*offset)[3];   ///< of each joint relative to its parent; at rest unless the kind sets it
     float *weight;        ///< of each target
 };
 
-/// Takes a named number of a rig at one time: a column of a table.
+/// Receives a named number of a rig at one time: a table column.
 typedef void form_column(void *user, double value, const char *format, ...) __attribute__((format(printf, 3, 4)));
 
 struct form_kind {
     unsigned holds; ///< FORM_MESH …
-    /// Fills all but kind and name, from a pose at any time. On failure close() frees what there is.
+    /// Fills everything but kind and name, from a pose at any time. After a failure call close().
     bool (*open)(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error);
     void (*close)(struct form *form);
     void (*key)(const struct form *form, const struct rig_pose *pose, struct form_key *key);
-    /// Where the vertices are, as the stage shows them.
+    /// Vertex positions as on the stage.
     void (*vertices)(const struct form *form, const struct rig_pose *pose, float (*positions)[3]);
-    /// What moves the rig at a key: always the same columns in the same order. NULL: it has none.
+    /// Numbers that move the rig at a key, always the same columns in the same order. NULL: none.
     void (*columns)(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
                     form_column *column, void *user);
 };
@@ -170,43 +170,42 @@ struct form_kind {
 RIG_KIND_LIST(FORM_KIND)
 #undef FORM_KIND
 
-/// The joints of an imported character, in place of its row's form, for formats of joints alone.
+/// The joints of an imported character, for formats that have only joints.
 extern const struct form_kind skeleton_form;
 
-/// How a kind is exported; NULL if it is not.
+/// A kind's form functions; NULL if it is not exported.
 const struct form_kind *form_kind(enum rig_kind kind);
 
-/// Columns of the angles in degrees by which the channels of a tail or chain bend its joints.
+/// Table columns: angles in degrees by which channels bend the joints of a tail or chain.
 void form_channels(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
                    form_column *column, void *user);
 
-/// What a rig is called in files and messages: its name, or its kind's word.
+/// A rig's name in files and messages: its own, or its kind's word.
 const char *form_name(const struct rig *rig);
 
-/// The form of a rig. False with a sentence, and nothing to close.
+/// Creates a rig's form. Returns false with an error message and nothing to close.
 bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error);
 void form_close(struct form *form);
 
-/// What the form of an imported character knows besides, in form.owned. Its joints are the nodes that move, first the bones that chains
-/// bend, and its targets are those of all nodes.
+/// form.owned of an imported character. Its joints are the nodes that move, first the bones that chains bend; its targets are those of all
+/// nodes.
 struct model_body {
     const struct gltf *gltf;
-    const struct gltf_clip *clip; ///< that plays; NULL: none
+    const struct gltf_clip *clip; ///< the clip that plays, or NULL
     int *node;                    ///< of each joint
     int *joint_of;                ///< of each node, −1: none
     int bone_count;
 };
 
-// --- the keys of one rig, collected: what animation formats hold
+// --- all keys of a rig, for animation formats
 
-/// A row of numbers for each key: the translation of the root, the rotations of all joints, their scales, their offsets, the weights of all
-/// targets. Rotations go the short way from key to key.
+/// A row of numbers per key: the root's translation, the joints' rotations, scales and offsets, the targets' weights. Rotations take the
+/// short way between keys.
 struct keys {
     int count, width, joints;
     float *rows;
-    float *
-        slopes; ///< how fast the curves change at the keys, by second; NULL unless tangents were asked for and the format has them
-    bool travels; ///< the translation changes
+    float *slopes; ///< change per second at the keys; NULL unless requested and supported
+    bool travels;  ///< the translation changes
 };
 
 // Columns of a row.
@@ -220,15 +219,15 @@ static inline const float *keys_at(const struct keys *keys, int key, int column)
     return keys->rows + (size_t)key * (size_t)keys->width + column;
 }
 
-/// Poses the rig at each key. False with a sentence, and nothing to free.
+/// Poses the rig at each key. Returns false with an error message and nothing to free.
 bool keys_collect(struct export_range *range, int rig, const struct form *form, struct keys *keys,
                   struct error *error);
 void keys_free(struct keys *keys);
 
-/// A quaternion and its negative are the same rotation: makes `q` the one nearer to `before`.
+/// A quaternion and its negative are the same rotation; makes `q` the one closer to `before`.
 void keys_turn_short_way(const float before[4], float q[4]);
 
-/// Makes the last row equal the first if they nearly are, as in a clip whose length is rounded.
+/// Makes the last row equal to the first if they almost are, as in a clip of rounded length.
 void keys_close_loop(float *rows, int width, int count);
 
 #endif

@@ -6,23 +6,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-// --- the targets of a file: those of a form, or each in a positive and a negative one whose weights are 0 … 1, because Blender clamps
-// --- weights to that
+// --- morph targets of a file: the form's, or each as a positive and a negative one with weights 0 … 1, because Blender clamps weights
 
 /// `scale` times a target of the form.
 struct file_target {
     int source;
-    float scale;          ///< negative for the negative ones
+    float scale;          ///< below 0 for the negative one
     char name[FORM_NAME]; ///< "up.re"; "up.-re" for the negative one
 };
 
 struct file_targets {
-    struct file_target *list; ///< first all of the form's in their order, then the negative ones
+    struct file_target *list; ///< first all of the form's in order, then the negative ones
     int count;
     bool clamped; ///< weights are 0 … 1
 };
 
-/// The largest |weight| of a group's targets over all keys, at least 1: what weights are divided by.
+/// The largest |weight| of a group's targets over all keys, at least 1. Weights are divided by it.
 static float largest_of(const struct form *form, const struct keys *keys, int group)
 {
     float largest = 1.0f;
@@ -89,8 +88,7 @@ void gltf_motion_free(struct gltf_motion *motion)
     json_decref(motion->channels);
 }
 
-/// Adds what moves a node: `width` numbers a key, `stride` from one key to the next, and how fast they change by second (NULL: straight
-/// lines between keys).
+/// Adds a node's curve: `width` numbers per key, `stride` between keys, and slopes per second (NULL: linear between keys).
 static void add_numbers(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const float *values,
                         const float *slopes, int width, int stride)
 {
@@ -104,8 +102,7 @@ static void add_numbers(struct gltf_motion *motion, json_int_t node, enum gltf_p
     const size_t size = (size_t)width * sizeof *values, count = (size_t)motion->key_count * (slopes ? 3 : 1);
     float *const keys = need(count, size), *at = keys;
     for (size_t from = 0; at < keys + count * (size_t)width; from += (size_t)stride) {
-        if (slopes)
-            at = mempcpy(at, slopes + from, size); // the tangent into it, the value, and the tangent out of it
+        if (slopes) at = mempcpy(at, slopes + from, size); // in-tangent, value, out-tangent
         at = mempcpy(at, values + from, size);
         if (slopes) at = mempcpy(at, slopes + from, size);
     }
@@ -143,7 +140,7 @@ struct scene {
     int joints, targets;
 };
 
-/// One rig on its way into a scene.
+/// A rig being added to a scene.
 struct part {
     const struct form *form;
     const struct keys *keys;
@@ -190,7 +187,7 @@ static json_int_t add_mesh(struct scene *scene, const struct part *part)
 
 // --- nodes
 
-/// The joints as nodes, posed as at the first key; returns the skin.
+/// Adds the joints as nodes, posed at the first key; returns the skin.
 static json_int_t add_skin(struct scene *scene, struct part *part)
 {
     const struct form *form = part->form;
@@ -256,7 +253,7 @@ static void add_weights(struct scene *scene, const struct part *part)
     free(slopes);
 }
 
-/// Whether any key is other than at rest.
+/// Whether any key differs from the rest.
 static bool differs(const struct keys *keys, int column, int width, const float *rest)
 {
     for (int k = 0; k < keys->count; k++) {
@@ -283,7 +280,7 @@ static void add_animation(struct scene *scene, const struct part *part)
     add_weights(scene, part);
 }
 
-// --- all of it
+// --- writing
 
 static bool add_rig(struct scene *scene, int rig, struct error *error)
 {
@@ -353,7 +350,7 @@ bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error
     return write_scene(range, &rig, 1, true, out, error);
 }
 
-/// An imported character has a file of its own, in which nothing else has a place.
+/// An imported character is written to a file of its own, without other rigs.
 bool gltf_write(struct export_range *range, FILE *out, struct error *error)
 {
     const struct document *document = range->posing->document;

@@ -1,4 +1,4 @@
-/// What the writers of glTF files share: one animation. Private to src/export.
+/// Writing glTF animations. Private to src/export.
 #ifndef EXPORT_GLTF_H
 #define EXPORT_GLTF_H
 
@@ -9,7 +9,7 @@
 struct gltf_motion {
     struct gltf_file *file;
     json_t *samplers, *channels;
-    json_int_t times; ///< the accessor of the keys' times
+    json_int_t times; ///< accessor of the keys' times
     int key_count;
 };
 
@@ -18,15 +18,15 @@ void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const
                        double start);
 void gltf_motion_free(struct gltf_motion *motion);
 
-/// Adds a column of a rig's keys, with tangents if they have some.
+/// Adds a column of a rig's keys, with tangents if present.
 void gltf_motion_add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
                           int column, int width);
 
-/// The animation; the caller's.
+/// Returns the animation; the caller owns it.
 json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name);
 
-/// Writes the file that the range's only rig came from, with a clip added or, where it has one of that name, replaced. All else stays as it
-/// was; in the other container, .glb or .gltf, it says the same. Without a chain there is no new clip.
+/// Copies the file of the range's only rig and adds a clip, or replaces the clip of that name. Everything else stays the same, also in the
+/// other container (.glb or .gltf). Without a chain there is no new clip.
 bool gltf_model_write(struct export_range *range, FILE *out, struct error *error);
 
 #endif

@@ -1,4 +1,4 @@
-/// An imported character as a form: its vertices, and its moving nodes as joints. All in the space of its file.
+/// An imported character as a form in its file's space: its vertices, and its moving nodes as joints.
 #include "base/need.h"
 #include "export/form.h"
 #include "rig/imported.h"
@@ -13,7 +13,7 @@ static void add_joint(struct form *form, int node)
     body->node[form->joint_count++] = node;
 }
 
-/// Adds the bones of all chains that bend the rig.
+/// Adds the bones of all chains on the rig.
 static bool add_bones(struct form *form, const struct document *document, int rig, struct error *error)
 {
     struct model_body *body = form->owned;
@@ -77,7 +77,7 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
     memcpy(key->weight, now->weights, (size_t)form->target_count * sizeof *key->weight);
 }
 
-/// Node after node.
+/// Node by node.
 static void vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
 {
     const struct gltf *gltf = &pose->model.imported->gltf;
@@ -89,5 +89,5 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
     }
 }
 
-/// Its chains have the columns of a table; its clip is its own.
+/// Its chains have the columns of a table; its own clip has none.
 const struct form_kind model_form = {FORM_FILE | FORM_POINTS | FORM_JOINTS, open, close, key, vertices, NULL};

@@ -1,5 +1,5 @@
-/// Plain numbers: a table, one row per key, with a column for every spline and every channel of the rigs (.csv); or where all vertices of a
-/// rig are at each key (.pc2, .mdd and .npy).
+/// Plain numbers: a table with a row per key and a column for every spline and channel (.csv), or the positions of a rig's vertices at each
+/// key (.pc2, .mdd and .npy).
 #include "base/error.h"
 #include "base/need.h"
 #include "export/form.h"
@@ -8,7 +8,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 
-/// A row being written: names at first, then numbers.
+/// A row being written: first names, then numbers.
 struct row {
     FILE *out;
     bool names;
@@ -89,7 +89,7 @@ static bool write_frames(struct export_range *range, const struct form *form, FI
         for (int v = 0; root && v < form->vertex_count; v++)
             glm_mat4_mulv3(mat4_from(root).raw, positions[v], 1, positions[v]);
         motion_print_frame(out, as, (const float(*)[3])positions, form->vertex_count);
-        if (ferror(out)) return true; // the caller says what is wrong; a full disk need not be filled to the end
+        if (ferror(out)) return true; // the caller reports the error; writing on to a full disk is useless
         if (!range_proceed(range, error)) return false;
     }
     return true;

@@ -12,7 +12,7 @@ struct scaled_fox {
     uint32_t *indices;
 };
 
-/// Appends a part's vertices and triangles; a vertex of ours hangs on four joints at most.
+/// Appends a part's vertices and triangles. A vertex has at most four joints.
 static void add_part(struct form *form, struct scaled_fox *fox, const struct gltf_part *part, float scale)
 {
     for (int i = 0; i < part->index_count; i++)
@@ -45,10 +45,10 @@ static void add_mesh(struct form *form, struct scaled_fox *fox, const struct glt
     for (int p = 0; p < mesh->part_count; p++) add_part(form, fox, &mesh->parts[p], scale);
 }
 
-/// The node that carries the animal, those of its body's parts, and those of the tail.
+/// The animal's root node, the nodes of its body, and those of the tail.
 static void add_joints(struct form *form, const struct gltf *gltf, const float root[16])
 {
-    form->joint_count = gltf->node_count - 1; // the last one shows the mesh
+    form->joint_count = gltf->node_count - 1; // the last node shows the mesh
     form->first_bone = FOX_FIRST_JOINT;
     form->joints = need_zeroed((size_t)form->joint_count, sizeof *form->joints);
     for (int j = 0; j < form->joint_count; j++) {
