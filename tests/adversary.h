@@ -1,5 +1,5 @@
-/// Splines that are meant to be hard on the solver, made from a seed and judged by the textbook: no OK above the tolerance, no estimate
-/// below the error, no complaint about what is easy. tests/test_adversary.c tries a few, tools/adversary.c as many as you like.
+/// Splines made from a seed to be hard for the solver, checked against the textbook: no OK above the tolerance, no estimate below the
+/// error, no complaint about easy problems. tests/test_adversary.c tries a few, tools/adversary.c as many as you like.
 #ifndef TESTS_ADVERSARY_H
 #define TESTS_ADVERSARY_H
 
@@ -9,17 +9,17 @@
 
 enum { ADVERSARY_TRACKS = 6 };
 
-/// What a problem is made to be hard by.
+/// What makes a problem hard.
 typedef enum adversary_kind {
-    ADVERSARY_FILTER,     ///< a short filter, everything at random
-    ADVERSARY_OSCILLATOR, ///< a short oscillator, the same
-    ADVERSARY_ADJACENT,   ///< three knots side by side and no calm: nothing else holds Im x
+    ADVERSARY_FILTER,     ///< a short filter with random parameters
+    ADVERSARY_OSCILLATOR, ///< the same for a short oscillator
+    ADVERSARY_ADJACENT,   ///< three adjacent knots and no calm: nothing else determines Im x
     ADVERSARY_NODAL,      ///< knots where an undamped swing passes through 0
-    ADVERSARY_NYQUIST,    ///< as fast as samples can show, and faster
-    ADVERSARY_FROM_ZERO,  ///< tracks that are 0 at times, damped up to 25 times too much
-    ADVERSARY_SLOW,       ///< a fraction of a period over a loop, or a few
-    ADVERSARY_CHAIN,      ///< hundreds of samples, undamped, next to no calm
-    ADVERSARY_LONG,       ///< up to thousands of samples, everything at random
+    ADVERSARY_NYQUIST,    ///< at the Nyquist frequency and above
+    ADVERSARY_FROM_ZERO,  ///< tracks that touch 0, damped up to 25 times too much
+    ADVERSARY_SLOW,       ///< a loop of a few periods or less
+    ADVERSARY_CHAIN,      ///< hundreds of samples, undamped, almost no calm
+    ADVERSARY_LONG,       ///< up to thousands of samples, random parameters
     ADVERSARY_KINDS
 } adversary_kind;
 
@@ -35,10 +35,10 @@ struct adversary_problem {
 /// The problem of a kind and seed: the same on every machine.
 void adversary_make(struct adversary_problem *problem, adversary_kind kind, uint64_t seed);
 
-/// Makes poses of some of its knots, and lets some be still.
+/// Turns some knots into poses and some into still knots.
 void adversary_hold(struct adversary_problem *problem, uint64_t seed);
 
-/// The nth problem of a search: the kinds take turns, and every other time some knots hold more.
+/// The nth problem of a search: kinds alternate, and every other round some knots are poses or still.
 static inline adversary_kind adversary_make_nth(struct adversary_problem *problem, uint64_t seed, uint64_t n)
 {
     const adversary_kind kind = (adversary_kind)(n % ADVERSARY_KINDS);
@@ -48,25 +48,25 @@ static inline adversary_kind adversary_make_nth(struct adversary_problem *proble
     return kind;
 }
 
-/// Writes the problem as a scene in one line, for `wiggly solve`; its last spline is the problem's, the others its tracks.
+/// Prints the problem as a scene in one line, for `wiggly solve`. The last spline is the problem's, the others are its tracks.
 void adversary_print(FILE *out, const struct adversary_problem *problem);
 
-/// What the solver and the textbook say of a problem.
+/// The solver's answer compared with the textbook's.
 struct adversary_verdict {
     const char *fault; ///< what is wrong with the solver's answer, or NULL
     wiggly_status said, status;
-    bool exists;     ///< there is an answer for the status that the solver gave
-    bool undecided;  ///< quadruple precision is not enough for the textbook either
-    bool needless;   ///< the fault is no more than a complaint about what is easy
-    bool borderline; ///< whether it is singular depends on the last digits
+    bool exists;     ///< an answer exists for the solver's status
+    bool undecided;  ///< quadruple precision does not suffice for the textbook either
+    bool needless;   ///< the fault is only a complaint about an easy problem
+    bool borderline; ///< the last digits decide whether it is singular
     double error, estimate, pivot, growth, condition;
 };
 
-/// Solves with the solver, which has room for it, and judges the answer. Not for two threads at once.
+/// Solves with the solver, which must have room, and checks the answer. Not thread-safe.
 void adversary_judge(wiggly_solver *solver, const struct adversary_problem *problem,
                      struct adversary_verdict *verdict);
 
-/// The verdict in one line.
+/// Prints the verdict in one line.
 void adversary_explain(FILE *out, const char *name, const struct adversary_verdict *verdict);
 
 #endif

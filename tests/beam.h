@@ -1,4 +1,4 @@
-/// Beams of cubes, each cut into six tetrahedra (Kuhn), for the tests of the simulation.
+/// Beams of cubes, each cut into six tetrahedra (Kuhn), for simulation tests.
 #ifndef TESTS_BEAM_H
 #define TESTS_BEAM_H
 
@@ -8,7 +8,7 @@
 #include "simulation/integrator.h"
 #include <stdint.h>
 
-/// A beam along x from the origin, its body, and what a test makes of that.
+/// A beam along x from the origin, its body, and a test's results.
 struct beam {
     int nodes, tets;
     double (*rest)[3];
@@ -18,15 +18,15 @@ struct beam {
     struct integrator integrator;
 };
 
-/// cells[0] × cells[1] × cells[2] cubes of edge `edge` and density 1000; the nodes at x = 0 pinned where `clamped`.
+/// cells[0] × cells[1] × cells[2] cubes of edge `edge` and density 1000. `clamped`: the nodes at x = 0 are pinned.
 void beam_open(struct beam *beam, const int cells[3], double edge, struct material material, bool clamped);
 
-/// Frees what there is of it.
+/// Frees everything.
 void beam_close(struct beam *beam);
 
 #define BEAM_TEST(name, opens) TEST_OF(struct beam, beam, opens, beam_close(beam), name)
 
-/// Numbers in −1 … 1, the same in every run.
+/// Pseudo-random numbers in −1 … 1, the same in every run.
 double beam_random(uint64_t *state);
 
 #endif

@@ -1,5 +1,5 @@
-/// Writes a four-legged beast as a .glb: a skin of boxes on bones with names, a tail, two ears, and two clips. For tests of imported
-/// characters and of the chains on them.
+/// Writes a four-legged beast as a .glb: boxes skinned to named bones, a tail, two ears and two clips. For tests of imported characters and
+/// their chains.
 #ifndef TESTS_BEAST_H
 #define TESTS_BEAST_H
 
@@ -14,8 +14,8 @@ enum { BEAST_TAIL = 8, BEAST_BONES = 17 + BEAST_TAIL, BEAST_KEYS = 5, BEAST_CLIP
 struct beast_bone {
     char name[16];
     int parent;
-    float at[3], end[3]; ///< at rest, from its parent; and from itself
-    float half;          ///< of its box' width
+    float at[3], end[3]; ///< at rest: from its parent, and from itself
+    float half;          ///< half the width of its box
 };
 
 /// In the order of glTF's nodes; node BEAST_BONES shows the mesh.
@@ -85,7 +85,7 @@ struct beast_binary {
     float weights[8 * BEAST_BONES][4];
     uint16_t index[36 * BEAST_BONES];
     float times[BEAST_KEYS];
-    float hips[BEAST_KEYS][4], head[BEAST_KEYS][4]; ///< rotations, in turn about y and x
+    float hips[BEAST_KEYS][4], head[BEAST_KEYS][4]; ///< rotations, alternating about y and x
     float bob[BEAST_KEYS][3];                       ///< translations of the hips
 };
 
@@ -102,8 +102,7 @@ static inline void beast_fill(const struct beast_bone *bones, struct beast_binar
         for (int c = 0; c < 8; c++) b->joints[8 * n + c][0] = (uint8_t)n;
         for (int c = 0; c < 8; c++) b->weights[8 * n + c][0] = 1;
     }
-    for (int k = 0; k < BEAST_KEYS;
-         k++) { // half angles so small that sine and angle are the same but for the unit length
+    for (int k = 0; k < BEAST_KEYS; k++) { // for such small half angles the sine is the angle, up to normalisation
         const float w = 1 - swing[k] * swing[k] / 2;
         b->times[k] = 0.25f * (float)k;
         memcpy(b->hips[k], (float[4]){0, swing[k], 0, w}, sizeof b->hips[k]);
@@ -130,7 +129,7 @@ static inline void beast_nodes(FILE *out, const struct beast_bone *bones)
     fprintf(out, "]}],");
 }
 
-/// Buffer views and accessors, one of each for every member of the binary part.
+/// A buffer view and an accessor for each member of the binary part.
 static inline void beast_accessors(FILE *out)
 {
 #define BEAST_PART(member) offsetof(struct beast_binary, member), sizeof((struct beast_binary *)0)->member
@@ -185,7 +184,7 @@ static inline void beast_word(FILE *out, size_t word)
     for (int i = 0; i < 4; i++) fputc((int)(word >> (8 * i) & 0xFF), out);
 }
 
-/// false where the file cannot be written.
+/// Returns false if the file cannot be written.
 static inline bool beast_write(const char *path)
 {
     static struct beast_binary binary;

@@ -1,4 +1,4 @@
-/// The app without a picture: its event queue, frames, requests and files, and nothing that draws.
+/// The app without drawing: events, frames, requests and files.
 #ifndef TESTS_BLIND_H
 #define TESTS_BLIND_H
 
@@ -44,7 +44,7 @@ static inline void blind_drop(struct blind *blind, const char *path)
     event_queue_push_drop(&blind->app.platform->queue, path, 0);
 }
 
-/// One frame with what is in the queue. Quitting is for others.
+/// One frame with the queued events. Ignores quitting.
 static inline void blind_frame(struct blind *blind)
 {
     app_frame(&blind->app);
@@ -59,7 +59,7 @@ static inline void blind_send_key(struct blind *blind, int key, unsigned mods)
     blind_send(blind, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
 }
 
-/// The same, and a frame.
+/// The same, with a frame.
 static inline void blind_key(struct blind *blind, int key, unsigned mods)
 {
     blind_send_key(blind, key, mods);

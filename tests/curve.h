@@ -1,4 +1,4 @@
-/// A curve with arrays of its own, for tests of the solver.
+/// A curve with its own arrays, for solver tests.
 #ifndef TESTS_CURVE_H
 #define TESTS_CURVE_H
 

@@ -1,4 +1,4 @@
-/// Documents of text and files that must be good, and their canonical text.
+/// Loads documents that must be valid from text or files, and prints them as canonical text.
 #ifndef TESTS_DOCUMENTS_H
 #define TESTS_DOCUMENTS_H
 
@@ -20,7 +20,7 @@ static inline struct document *document_of_file(const char *path)
     return document;
 }
 
-/// Freed by the caller.
+/// The caller frees it.
 static inline char *text_of_document(const struct document *document)
 {
     size_t size;
@@ -37,7 +37,7 @@ static inline void assert_prints(const struct document *document, const char *ex
     free(text);
 }
 
-/// What is saved loads again, and prints the same.
+/// Saving, loading and printing gives the same text.
 static inline void assert_loads_again(const struct document *document)
 {
     char *text = text_of_document(document);

@@ -1,4 +1,4 @@
-/// What tests of exports share: a scene of ours exported into the test's folder, and how far a glTF file is from vertices.
+/// Shared by export tests: exports a scene into the test's folder, and measures a glTF file's distance from vertices.
 #ifndef TESTS_EXPORT_SCENE_H
 #define TESTS_EXPORT_SCENE_H
 
@@ -11,7 +11,7 @@
 #include "rig/models.h"
 #include <dirent.h>
 
-/// A scene that is open, solved, its models read.
+/// An open, solved scene with its models loaded.
 struct opened {
     struct document *document;
     struct evaluation evaluation;
@@ -43,7 +43,7 @@ static inline void close_scene(struct opened *scene)
     document_destroy(scene->document);
 }
 
-/// Exports what is open; returns the file's path, of the same storage at each second call.
+/// Exports the open scene; returns the file's path. Every second call reuses the storage.
 static inline const char *export_opened(struct opened *scene, const char *file, struct export_options options)
 {
     struct export_report report;
@@ -60,7 +60,7 @@ static inline const char *export_file(const char *scene_path, const char *file, 
     return path;
 }
 
-/// Exports a scene of assets/scenes.
+/// Exports a scene from assets/scenes.
 static inline const char *export_scene(const char *name, const char *file, struct export_options options)
 {
     char scene_path[128];
@@ -93,7 +93,7 @@ static inline const double *frame_of(const struct points *points, int frame)
     return points->number + 3 * (ptrdiff_t)points->vertices * frame;
 }
 
-/// The largest distance, over all vertices and coordinates, of a glTF file at each of `frames` evenly spaced times from a motion.
+/// A glTF file's largest distance from a motion, over all vertices and coordinates, at `frames` evenly spaced times.
 static inline double glb_clip_is_off(const char *path, const char *name, const struct points *points)
 {
     struct gltf gltf;
@@ -107,7 +107,7 @@ static inline double glb_clip_is_off(const char *path, const char *name, const s
     assert_true(name ? clip >= 0 : gltf.clip_count == 1);
     while (gltf.nodes[node].mesh < 0) node++;
     assert_int_equal(gltf_vertex_count(&gltf, node), points->vertices);
-    for (int f = 0; f < points->frames; f += 3) { // a third says as much
+    for (int f = 0; f < points->frames; f += 3) { // a third of the frames suffices
         const double *expected = frame_of(points, f);
         const double part = (double)f / (points->frames - 1), first = gltf.clips[clip].first;
         gltf_pose_clip(&gltf, clip, first + (gltf.clips[clip].last - first) * part, &pose);

@@ -1,4 +1,4 @@
-/// A scene for the curves panel: a spline of five knots, of which one has a slope, and one of two.
+/// A scene for the curves panel: a spline with five knots, one with a slope, and a spline with two.
 #ifndef TESTS_FIVE_KNOTS_H
 #define TESTS_FIVE_KNOTS_H
 

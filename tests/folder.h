@@ -1,4 +1,4 @@
-/// An empty folder for each test, or for a group: folder_make() and folder_remove() are the fixtures.
+/// An empty folder per test or group; folder_make() and folder_remove() are the fixtures.
 #ifndef TESTS_FOLDER_H
 #define TESTS_FOLDER_H
 
@@ -23,7 +23,7 @@ static inline int folder_remove(void **state)
     return system(command);
 }
 
-/// The path of a file in it; the same storage at each second call.
+/// The path of a file in it. Every second call reuses the storage.
 static inline const char *folder_path(const char *name)
 {
     static char paths[2][128];
@@ -33,7 +33,7 @@ static inline const char *folder_path(const char *name)
     return paths[next];
 }
 
-/// Writes a file in it, and returns its path.
+/// Writes a file in it; returns its path.
 static inline const char *folder_file(const char *name, const char *text)
 {
     const char *path = folder_path(name);

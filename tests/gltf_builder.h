@@ -1,4 +1,4 @@
-/// Builds .gltf files in tests: accessors are added one after another, the rest of the JSON is the test's.
+/// Builds .gltf files in tests: add accessors one by one; the test supplies the rest of the JSON.
 #ifndef TESTS_GLTF_BUILDER_H
 #define TESTS_GLTF_BUILDER_H
 
@@ -13,7 +13,7 @@ struct builder {
     size_t size;
     char views[1 << 13], accessors[1 << 13], json[1 << 16];
     int view_count, accessor_count;
-    struct gltf gltf; ///< what read_built() has read
+    struct gltf gltf; ///< the result of read_built()
 };
 
 /// A test that reads what it builds: GLTF_TEST(name) { add_data(b, …); read_built(b, members); … b->gltf … }.
@@ -32,7 +32,7 @@ static inline int add_view(struct builder *b, const void *data, size_t size, int
     return b->view_count++;
 }
 
-/// `more` is further members, each with a comma before it.
+/// `more` contains further members, each after a comma.
 static inline int add_accessor(struct builder *b, int component, const char *type, int count, const char *more)
 {
     char *end = b->accessors + strlen(b->accessors);
@@ -41,7 +41,7 @@ static inline int add_accessor(struct builder *b, int component, const char *typ
     return b->accessor_count++;
 }
 
-/// An accessor with a view of its own.
+/// An accessor with its own view.
 static inline int add_data(struct builder *b, int component, const char *type, int count, const void *data,
                            size_t size)
 {

@@ -1,4 +1,4 @@
-/// The editor's insides, for tests that look at what cannot be seen on the screen.
+/// The editor's internals, for tests of state that is not visible.
 #ifndef TESTS_INSIDE_H
 #define TESTS_INSIDE_H
 

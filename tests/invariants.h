@@ -1,4 +1,4 @@
-/// What holds for every document, whatever was done to it: what the loader promises, and what the editor relies on.
+/// Conditions that hold for every document: the loader guarantees them and the editor relies on them.
 #ifndef TESTS_INVARIANTS_H
 #define TESTS_INVARIANTS_H
 
@@ -21,7 +21,7 @@ static inline int compare_ids(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/// Knots are numbers, by sample, at most one on each, and inside the range; their ids are unique in the document.
+/// Knots are finite, sorted by sample, at most one per sample, inside the range; ids are unique in the document.
 static inline void assert_knots(const struct document *d)
 {
     int count = 0;
@@ -59,7 +59,7 @@ static inline void assert_param(const struct document *d, const struct param *pa
     assert_true(document_find_model(d, param->motion->model, param->motion->by_file) >= 0);
 }
 
-/// Parameters are in their ranges, names and ids unique, and no spline follows itself.
+/// Parameters are in range, names and ids unique, and no spline follows itself.
 static inline void assert_splines(const struct document *d)
 {
     for (int s = 0; s < d->spline_count; s++) {
@@ -127,7 +127,7 @@ static inline void assert_characters(const struct document *d)
     }
 }
 
-/// What a chain names is there: its model and the splines that bend it.
+/// A chain's model and splines exist.
 static inline void assert_models(const struct document *d)
 {
     for (int r = 0; r < d->rig_count; r++) {

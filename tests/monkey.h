@@ -1,5 +1,5 @@
-/// What a monkey does to the app: keys, chords, drags, typing, files, all drawn from a seed. It knows what can be hit on the
-/// screen, because most of what blind hands do does nothing. Files it opens and writes are in the working folder.
+/// A monkey's random actions from a seed: keys, chords, drags, typing, files. It aims at things on the screen, because random clicks mostly
+/// do nothing. Its files are in the working folder.
 #ifndef TESTS_MONKEY_H
 #define TESTS_MONKEY_H
 
@@ -8,7 +8,7 @@
 
 #include <unistd.h>
 
-/// Files that the monkey opens, or tries to.
+/// Files that the monkey opens or tries to open.
 struct monkey_files {
     const char *good[16], *bad[256];
     int good_count, bad_count;
@@ -43,7 +43,7 @@ static inline void monkey_send(struct monkey *m, struct event event)
 static inline void monkey_key(struct monkey *m, int key, unsigned mods)
 {
     monkey_send(m, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
-    if (one_in(m, 8)) return; // held until who knows when
+    if (one_in(m, 8)) return; // held until a later action
     monkey_send(m, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_RELEASE, .mods = mods});
 }
 
@@ -70,7 +70,7 @@ static inline void monkey_button(struct monkey *m, enum event_button button, enu
                                   .mods = m->mods});
 }
 
-/// A place of the document on the screen: a knot, a handle, a tail …; false where there is none of that kind.
+/// The screen position of a knot, a handle, a tail …; false if there is none of that kind.
 static inline bool find_thing(struct monkey *m, float *x, float *y)
 {
     struct app *app = &m->blind->app;
@@ -103,7 +103,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     return editor_target(app->table.editor, target, x, y, NULL);
 }
 
-/// A widget of the inspector or of the open dialog.
+/// A widget of the inspector or the open dialog.
 static inline bool find_widget(struct monkey *m, float *x, float *y)
 {
     const struct editor *editor = m->blind->app.table.editor;
@@ -130,7 +130,7 @@ static inline unsigned any_mods(struct monkey *m)
 {
     static const unsigned mods[] = {MOD_SHIFT,           MOD_CTRL,          MOD_ALT, MOD_CTRL | MOD_SHIFT, MOD_SUPER,
                                     MOD_ALT | MOD_SHIFT, MOD_ALT | MOD_CTRL};
-    const int n = below(m, 12); // none in five of twelve
+    const int n = below(m, 12); // none for five of twelve
     return n < 5 ? 0 : mods[n - 5];
 }
 
@@ -145,7 +145,7 @@ static inline void any_key(struct monkey *m)
     }
 }
 
-/// What the curves are edited with.
+/// Keys that edit curves.
 static inline void edit_key(struct monkey *m)
 {
     static const int keys[] = {'I', 'I', 'I', 'T', 'M',        'V', 'S', 'X', 'Y',
@@ -172,7 +172,7 @@ static inline void click(struct monkey *m)
     if (!one_in(m, 10)) monkey_button(m, button, ACTION_RELEASE, 1);
 }
 
-/// A press, a way in small or large steps, perhaps keys on the way, and mostly a release.
+/// A press, a path in small or large steps, perhaps keys on the way, and usually a release.
 static inline void drag(struct monkey *m)
 {
     const enum event_button button = one_in(m, 5) ? (enum event_button)below(m, 3) : BUTTON_LEFT;
@@ -189,7 +189,7 @@ static inline void drag(struct monkey *m)
     if (!one_in(m, 15)) monkey_button(m, button, ACTION_RELEASE, 1);
 }
 
-/// Numbers and nonsense into whatever is typed in. No slash: saving stays in the working folder.
+/// Types numbers and nonsense. No slash, so that saving stays in the working folder.
 static inline void type(struct monkey *m)
 {
     static const char *const texts[] = {
@@ -206,7 +206,7 @@ static inline void type(struct monkey *m)
     if (!one_in(m, 4)) monkey_key(m, KEY_ENTER, 0);
 }
 
-/// A number, most likely an impossible one, into one of the fields that are seen.
+/// Types a number, most likely an invalid one, into a visible field.
 static inline void field(struct monkey *m)
 {
     float x, y;
@@ -218,7 +218,7 @@ static inline void field(struct monkey *m)
     type(m);
 }
 
-/// Rigs that come and go, the theme, the size of everything, and presenting.
+/// Adds and removes rigs, switches theme, scale and presentation.
 static inline void rig(struct monkey *m)
 {
     static const int keys[] = {KEY_DOWN, KEY_DOWN, KEY_UP, KEY_ENTER, KEY_ENTER, KEY_TAB};
@@ -236,7 +236,7 @@ static inline void rig(struct monkey *m)
     }
 }
 
-/// A file is written in the background, in any of the formats, while the rest goes on.
+/// Exports in the background, in any format.
 static inline void export(struct monkey *m)
 {
     static const char *const names[] = {"x.glb", "x.usda", "x.bvh", "x.csv", "x.npy", "x.xyz", "nowhere/x.glb"};
@@ -303,7 +303,7 @@ static inline const char *any_file(struct monkey *m)
     return one_in(m, 3) ? files->bad[below(m, files->bad_count)] : files->good[below(m, files->good_count)];
 }
 
-/// Documents and figures, and an answer to the question that comes first where work would be lost.
+/// Opens and saves documents and figures, and answers the question about unsaved work.
 static inline void document(struct monkey *m)
 {
     static const char *const names[] = {"new.json", "a.json", "b.json", "sub/c.json", "nowhere/d.json", "sub", ""};
@@ -317,8 +317,8 @@ static inline void document(struct monkey *m)
         break;
     case 2:
         monkey_key(m, 'O', MOD_CTRL);
-        monkey_key(m, 'D', 0); // discards what is unsaved
-        if (one_in(m, 3)) {    // one of the recent files
+        monkey_key(m, 'D', 0); // discards unsaved work
+        if (one_in(m, 3)) {    // a recent file
             for (int i = 1 + below(m, 4); i > 0; i--) monkey_key(m, KEY_DOWN, 0);
             monkey_key(m, KEY_ENTER, 0);
             return;
@@ -344,7 +344,7 @@ static inline void document(struct monkey *m)
     if (one_in(m, 2)) monkey_key(m, 'D', 0);
 }
 
-/// Writes `text` over a file, or what is in another file; never outside the working folder.
+/// Overwrites a file with `text` or another file's content, only in the working folder.
 static inline void overwrite(const char *path, const char *text, const char *from)
 {
     char folder[4096];
@@ -357,7 +357,7 @@ static inline void overwrite(const char *path, const char *text, const char *fro
     if (file) fclose(file);
 }
 
-/// Another program, or a second window, writes the scene's file or the settings; the window gets the focus, and the question is answered.
+/// Another program or window writes the scene's file or the settings; then the window gets the focus and the question an answer.
 static inline void another(struct monkey *m)
 {
     static const char *const settings[] = {"theme = light\nui_scale = 1.5\n", "theme dark\n\nui_scale = 1e999\n", "",
@@ -374,7 +374,7 @@ static inline void another(struct monkey *m)
     monkey_key(m, answers[below(m, 5)], 0);
 }
 
-/// The next thing a monkey does: one event or a few, into the queue.
+/// Queues the monkey's next action.
 static inline void monkey_act(struct monkey *m)
 {
     static const struct habit {

@@ -21,14 +21,14 @@
 #undef fail_msg
 #define fail_msg(...) (print_error("ERROR: " __VA_ARGS__), print_error("\n"), _fail(__FILE__, __LINE__))
 
-/// Adds a test that begins at that line.
+/// Adds a test that starts at `line`.
 void tests_add(struct CMUnitTest test, int line);
 
-/// Runs all that were added, in the order of their lines, between a set-up and a tear-down of all; NULL: none. What main() returns, which a
-/// test has of its own where there is one of the two.
+/// Runs all added tests in the order of their lines, between a common set-up and tear-down (may be NULL). Returns what main() returns. A
+/// test file with a set-up has its own main().
 int tests_run(CMFixtureFunction set_up, CMFixtureFunction tear_down);
 
-/// A test with a set-up and a tear-down of its own: TEST_WITH(set_up, tear_down, name) { … }.
+/// A test with its own set-up and tear-down: TEST_WITH(set_up, tear_down, name) { … }.
 #define TEST_WITH(set_up, tear_down, name)                                                                           \
     static void name(void **state);                                                                                  \
     __attribute__((constructor)) static void add_##name(void)                                                        \
@@ -40,8 +40,8 @@ int tests_run(CMFixtureFunction set_up, CMFixtureFunction tear_down);
 /// A test: TEST(name) { … }.
 #define TEST(name) TEST_WITH(NULL, NULL, name)
 
-/// A test of something that is opened before it and closed after it:
-/// TEST_OF(struct session, s, session_open(s, scene), session_close(s), name) { … s->document … }.
+/// A test of something that is opened before and closed after it: TEST_OF(struct session, s, session_open(s, scene), session_close(s),
+/// name) { … s->document … }.
 #define TEST_OF(type, it, opens, closes, name)                                                                       \
     static void name##_of(type *it);                                                                                 \
     TEST(name)                                                                                                       \
@@ -53,19 +53,19 @@ int tests_run(CMFixtureFunction set_up, CMFixtureFunction tear_down);
     }                                                                                                                \
     static void name##_of(type *it)
 
-/// Whether this is `make test-all`, where a test may take all the time that it needs. Otherwise it does less of the same.
+/// Whether this is `make test-all`, which may take its time. Otherwise tests do less of the same.
 static inline bool is_thorough(void) { return getenv("THOROUGH") && *getenv("THOROUGH"); }
 
 static inline int quick_or_all(int quick, int all) { return is_thorough() ? all : quick; }
 
-/// Fails with the sentence of a call that is refused: assert_done(scene_save(document, path, &error)).
+/// Fails with the error message if a call fails: assert_done(scene_save(document, path, &error)).
 #define assert_done(call)                                                                                            \
     do {                                                                                                             \
         struct error error = {0};                                                                                    \
         if (!(call)) fail_msg("%s", error.text);                                                                     \
     } while (0)
 
-/// Fails unless the call is refused, with those words in its sentence.
+/// Fails unless the call fails with these words in its error message.
 #define assert_refusal(call, words)                                                                                  \
     do {                                                                                                             \
         struct error error = {0};                                                                                    \

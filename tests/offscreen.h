@@ -1,4 +1,4 @@
-/// The stage drawn offscreen, as the fixture of a group of tests. Where that is not possible `platform` is NULL, and tests skip().
+/// Draws the stage offscreen; the fixture of a group of tests. If that is not possible, `platform` is NULL and tests skip().
 #ifndef TESTS_OFFSCREEN_H
 #define TESTS_OFFSCREEN_H
 
@@ -34,12 +34,12 @@ static inline int offscreen_close(void **state)
     return 0;
 }
 
-/// The main() of tests that draw pictures of that size.
+/// main() of tests that draw pictures of this size.
 #define OFFSCREEN_MAIN(width, height)                                                                                \
     static int open_picture(__attribute__((unused)) void **state) { return offscreen_open(width, height); }          \
     int main(void) { return tests_run(open_picture, offscreen_close); }
 
-/// Draws a view over the whole picture and reads it, bottom row first.
+/// Draws a view over the whole picture and reads it back, bottom row first.
 static inline void offscreen_draw(const struct stage_view *view, int width, int height, void *pixels)
 {
     long bytes = 0;
@@ -50,7 +50,7 @@ static inline void offscreen_draw(const struct stage_view *view, int width, int 
     assert_int_equal(glGetError(), GL_NO_ERROR);
 }
 
-/// Draws `count` characters alone, the box lo … hi in sight.
+/// Draws only `count` characters, with the box lo … hi in view.
 static inline void offscreen_draw_characters(const struct stage_character *characters, int count, const float lo[3],
                                              const float hi[3], int width, int height, void *pixels)
 {

@@ -1,4 +1,4 @@
-/// What the tests of inspector and dialogs do besides session.h: widgets by name, and typing.
+/// For tests of inspector and dialogs, besides session.h: widgets by name, and typing.
 #ifndef TESTS_PANEL_SESSION_H
 #define TESTS_PANEL_SESSION_H
 
@@ -7,7 +7,7 @@
 
 #include "rig/models.h"
 
-/// Opens a scene in a window of that size.
+/// Opens a scene in a window of this size.
 static inline void panel_open(struct session *session, const char *scene, float width, float height)
 {
     session_open(session, scene);
@@ -15,7 +15,7 @@ static inline void panel_open(struct session *session, const char *scene, float 
     session_frame(session);
 }
 
-/// The same with the models of its characters, in a window so high that no section has to be scrolled to.
+/// The same with the characters' models, in a window high enough for all sections.
 static inline struct models *panel_open_models(struct session *session, const char *scene)
 {
     panel_open(session, scene, 1280, 1500);
@@ -25,7 +25,7 @@ static inline struct models *panel_open_models(struct session *session, const ch
     return models;
 }
 
-/// The splines that the tests of the inspector begin with: keyed; a cubic; one whose frequency follows that.
+/// Splines for inspector tests: keyed, a cubic, and one whose frequency follows the cubic.
 #define PANEL_SPLINES                                                                                                \
     "{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 0},"             \
     "  {\"frame\": 36, \"value\": 1}, {\"frame\": 60, \"value\": -0.5}]},"                                           \
@@ -34,7 +34,7 @@ static inline struct models *panel_open_models(struct session *session, const ch
     "{\"name\": \"lift\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": [{\"frame\": 10, "     \
     "\"value\": 1}]}"
 
-/// Characters with the keys that they come from, as a window sends them.
+/// Sends characters with their keys, as a window does.
 static inline void panel_type(struct session *session, const char *text)
 {
     while (*text) {
@@ -54,7 +54,7 @@ static inline bool panel_shows(struct session *session, const char *name)
     return inspector_target(session->editor->inspector, name, &x, &y);
 }
 
-/// Presses a widget of the inspector; the button stays down.
+/// Presses a widget of the inspector and keeps the button down.
 static inline void panel_press(struct session *session, const char *name, int clicks)
 {
     float x, y;
@@ -80,7 +80,7 @@ static inline void panel_enter(struct session *session, const char *name, const 
     session_key(session, KEY_ENTER, 0);
 }
 
-/// Presses the handle of a slider and drags it to a value; the button stays down.
+/// Drags a slider's handle to a value and keeps the button down.
 static inline void panel_drag(struct session *session, const char *name, double value)
 {
     char target[64];
@@ -88,14 +88,14 @@ static inline void panel_drag(struct session *session, const char *name, double 
     panel_press(session, name, 1);
     snprintf(target, sizeof target, "%s,%.17g", name, value);
     assert_true(inspector_target(session->editor->inspector, target, &x, &y));
-    session_move(session, x + 3, y); // so that the drag is one where the value is at the handle already
+    session_move(session, x + 3, y); // makes it a drag even if the handle is already there
     session_move(session, x, y);
     session_frame(session);
 }
 
 static inline void panel_release(struct session *session) { session_release(session, BUTTON_LEFT); }
 
-/// Presses a widget, drags it by (dx, dy) in `steps` events and lets go.
+/// Drags a widget by (dx, dy) in `steps` events and releases it.
 static inline void panel_pull(struct session *session, const char *name, float dx, float dy, int steps)
 {
     panel_press(session, name, 1);
@@ -103,13 +103,13 @@ static inline void panel_pull(struct session *session, const char *name, float d
     panel_release(session);
 }
 
-/// What the app says to the oldest request of a kind.
+/// The app's answer to the oldest request of a kind.
 static inline void panel_answer(struct session *session, enum request_kind kind, bool ok, const char *text)
 {
     editor_answer(session->editor, &(struct request){.kind = kind}, ok, text);
 }
 
-/// Whether the editor draws this text, whole.
+/// Whether the editor draws this text uncut.
 static inline bool session_shows(const struct session *s, const char *text)
 {
     const struct drawlist *list = &s->editor->core.list;

@@ -1,4 +1,4 @@
-/// Motions of which it is known what is in them, as files.
+/// Motions with known content, as files.
 #ifndef TESTS_PLANTED_H
 #define TESTS_PLANTED_H
 
@@ -6,14 +6,14 @@
 #include "near.h"
 #include "temporary.h"
 
-/// In [-0.5, 0.5); reference.py has the same.
+/// In [-0.5, 0.5); reference.py uses the same.
 static inline double noise(uint32_t *state)
 {
     *state = 1664525u * *state + 1013904223u;
     return *state / 4294967296.0 - 0.5;
 }
 
-/// What column j holds at frame i.
+/// Value of column j at frame i.
 typedef double sample(int i, int j, void *user);
 
 /// Writes a motion in float64 and opens it.

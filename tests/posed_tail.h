@@ -1,4 +1,4 @@
-/// A tail without a scene, posed by values of its channels; with its fox, if there are models.
+/// A tail without a scene, posed by its channels' values; with its fox if there are models.
 #ifndef TESTS_POSED_TAIL_H
 #define TESTS_POSED_TAIL_H
 
@@ -29,7 +29,7 @@ static inline void pose_tail(const struct tail *tail, const wiggly_value *values
     pose_tail_in(NULL, tail, values, look, pose, NULL);
 }
 
-/// Where all vertices of a posed fox are; how many is in `count`. The caller frees them.
+/// All vertex positions of a posed fox, `count` of them. The caller frees them.
 static inline float (*fox_places(const struct rig_pose *fox, int *count))[3]
 {
     const struct gltf *gltf = &fox->model.imported->gltf;

@@ -1,4 +1,4 @@
-/// A round figure with coordinates that a test makes up.
+/// A round figure with coordinates made by a test.
 #ifndef TESTS_PUPPET_H
 #define TESTS_PUPPET_H
 
@@ -17,7 +17,7 @@ static inline void puppet_paint(struct vertex *vertex)
     for (int k = 0; k < 3; k++) vertex->color[k] = 0.5f;
 }
 
-/// The skin of a solid, with `coordinates` coordinates called "a", "b" … whose Ñ are zero.
+/// A solid's surface, with `coordinates` coordinates "a", "b" … whose Ñ are zero.
 static inline struct character puppet_solid(const struct solid *made_of, const float lo[3], const float hi[3],
                                             float cell, int coordinates)
 {
@@ -44,7 +44,7 @@ static inline struct character puppet_solid(const struct solid *made_of, const f
     return character;
 }
 
-/// A ball of 1 m that stands on the ground.
+/// A ball of 1 m on the ground.
 static inline struct character puppet_character(float cell, int coordinates)
 {
     const struct solid ball = {puppet_distance, puppet_paint};
@@ -52,14 +52,14 @@ static inline struct character puppet_character(float cell, int coordinates)
     return puppet_solid(&ball, lo, hi, cell, coordinates);
 }
 
-/// Writes it, and frees it.
+/// Writes and frees it.
 static inline void puppet_write(struct character *character, const char *path)
 {
     assert_done(character_write(path, character, true, &error));
     character_free(character);
 }
 
-/// The figure of a character, which it takes over.
+/// A character's figure; takes over the character.
 static inline struct figure puppet_figure(struct character *character)
 {
     struct figure figure;

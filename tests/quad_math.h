@@ -1,4 +1,4 @@
-/// Quadruple precision: gcc's libquadmath, for clang too, which finds the library but has not its header.
+/// Quadruple precision with gcc's libquadmath. clang finds the library but has no header.
 #ifndef TESTS_QUAD_MATH_H
 #define TESTS_QUAD_MATH_H
 

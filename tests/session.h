@@ -1,4 +1,4 @@
-/// A user at the editor without a window: a document, its history and solution, and hands for mouse and keyboard.
+/// An editor without a window, for tests: a document with history and solution, and simulated mouse and keyboard.
 #ifndef TESTS_SESSION_H
 #define TESTS_SESSION_H
 
@@ -12,12 +12,12 @@
 struct session {
     struct table table;
     struct editor_world world;
-    struct document *document; ///< the table's, as the next two
+    struct document *document; ///< from `table`, like the next two
     struct history *history;
     struct editor *editor;
     float x, y;    ///< pointer
     unsigned mods; ///< of pointer and buttons
-    char **saved;  ///< what session_saved() has given
+    char **saved;  ///< texts returned by session_saved()
     int saved_count;
 };
 
@@ -33,7 +33,7 @@ static inline void session_close(struct session *session)
     table_free(&session->table);
 }
 
-/// A frame of 1/60 s, the editor's requests left to the test.
+/// A frame of 1/60 s; requests are left to the test.
 static inline void session_frame(struct session *session)
 {
     struct frame_row row = {0};
@@ -50,7 +50,7 @@ static inline void session_move(struct session *session, float x, float y)
     session_send(session, (struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = session->mods});
 }
 
-/// Moves the pointer by (dx, dy) in `steps` events, a frame after each.
+/// Moves the pointer by (dx, dy) in `steps` events, with a frame after each.
 static inline void session_drag(struct session *session, float dx, float dy, int steps)
 {
     float x = session->x, y = session->y;
@@ -61,13 +61,13 @@ static inline void session_drag(struct session *session, float dx, float dy, int
     }
 }
 
-/// Where a target of editor_target() is; fails the test where there is none.
+/// Position of an editor_target(); fails the test if there is none.
 static inline void session_where(const struct session *session, const char *target, float xy[2])
 {
     assert_done(editor_target(session->editor, target, &xy[0], &xy[1], &error));
 }
 
-/// Puts the pointer on a target.
+/// Moves the pointer to a target.
 static inline void session_point(struct session *session, const char *target)
 {
     float xy[2];
@@ -104,7 +104,7 @@ static inline void session_release(struct session *session, enum event_button wh
     session_frame(session);
 }
 
-/// Takes hold of a target and drags it by (dx, dy) in `steps` events; the button stays down.
+/// Drags a target by (dx, dy) in `steps` events and keeps the button down.
 static inline void session_pull(struct session *session, const char *target, float dx, float dy, int steps)
 {
     session_point(session, target);
@@ -112,14 +112,14 @@ static inline void session_pull(struct session *session, const char *target, flo
     session_drag(session, dx, dy, steps);
 }
 
-/// The same, and lets go.
+/// The same, and releases it.
 static inline void session_carry(struct session *session, const char *target, float dx, float dy, int steps)
 {
     session_pull(session, target, dx, dy, steps);
     session_release(session, BUTTON_LEFT);
 }
 
-/// The last of so many clicks where the pointer is.
+/// The last of `clicks` clicks at the pointer.
 static inline void session_click_here(struct session *session, int clicks)
 {
     session_press(session, BUTTON_LEFT, clicks);
@@ -161,7 +161,7 @@ static inline void session_key(struct session *session, int key, unsigned mods)
     session_frame(session);
 }
 
-/// Strikes a key that types a character: under another layout that is not the one it is named after.
+/// Presses a key that types a character, which may differ from the key's name in other layouts.
 static inline void session_strike(struct session *session, int key, unsigned mods, uint32_t typed)
 {
     session_send(session, (struct event){.kind = EVENT_KEY, .key = key, .action = ACTION_PRESS, .mods = mods});
@@ -170,13 +170,13 @@ static inline void session_strike(struct session *session, int key, unsigned mod
     session_frame(session);
 }
 
-/// Strikes the keys that small letters, digits and punctuation are printed on.
+/// Presses the keys for small letters, digits and punctuation.
 static inline void session_type(struct session *session, const char *text)
 {
     for (; *text; text++) session_strike(session, toupper((unsigned char)*text), 0, (unsigned char)*text);
 }
 
-/// The document's canonical text, which lives as long as the session.
+/// The document's canonical text, valid as long as the session.
 static inline const char *session_saved(struct session *session)
 {
     const size_t count = (size_t)++session->saved_count;
@@ -190,7 +190,7 @@ static inline void assert_saved(const struct session *session, const char *expec
     assert_prints(session->document, expected);
 }
 
-/// The document is no longer `original`; one undo brings that back byte by byte, one redo what there was.
+/// The document differs from `original`; one undo restores that byte by byte, one redo the change.
 static inline void assert_one_step(struct session *session, const char *original)
 {
     const char *changed = session_saved(session);
@@ -201,7 +201,7 @@ static inline void assert_one_step(struct session *session, const char *original
     assert_saved(session, changed);
 }
 
-/// Opens a scene given as text and shows its first frame (1280×720, paused). Fails the test where that is not
+/// Opens a scene given as text and shows its first frame (1280×720, paused). Fails the test on errors.
 /// possible.
 static inline void session_open(struct session *session, const char *scene)
 {
@@ -211,7 +211,7 @@ static inline void session_open(struct session *session, const char *scene)
     session->history = history_create(session->document);
     assert_non_null(session->history);
     session->editor = editor_create();
-    session->editor->core.more = true; // all that the inspector has
+    session->editor->core.more = true; // shows everything in the inspector
     session->table = (struct table){.editor = session->editor,
                                     .document = session->document,
                                     .history = session->history,
@@ -222,7 +222,7 @@ static inline void session_open(struct session *session, const char *scene)
     session_frame(session);
 }
 
-/// Opens the scene that the app starts with.
+/// Opens the app's built-in scene.
 static inline void session_open_start(struct session *session)
 {
     char *text;
@@ -232,7 +232,7 @@ static inline void session_open_start(struct session *session)
     free(text);
 }
 
-/// A test in a session that `opens` opens and that is closed at its end: SESSION_TEST(name, session_open(s, scene)) { … }.
+/// A test in a session opened by `opens` and closed afterwards: SESSION_TEST(name, session_open(s, scene)) { … }.
 #define SESSION_TEST(name, opens) TEST_OF(struct session, s, opens, session_close(s), name)
 
 #endif

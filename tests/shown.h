@@ -1,10 +1,10 @@
-/// What stands on the screen.
+/// Texts on the screen.
 #ifndef TESTS_SHOWN_H
 #define TESTS_SHOWN_H
 
 #include "editor/editor.h"
 
-/// The text that is drawn last of those that read so, hence the dialog's where one is open; NULL if there is none.
+/// The last drawn text with this content (a dialog's, if one is open), or NULL.
 const struct draw_command *shown_text(const struct editor *editor, const char *text);
 
 #endif

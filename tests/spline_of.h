@@ -4,7 +4,7 @@
 
 #include "scene/document.h"
 
-/// Frequency in Hz, ratios of damping and bandwidth; all else is the default.
+/// Frequency in Hz, ratios of damping and bandwidth, otherwise defaults.
 static inline struct spline spline_of(enum wiggly_mode mode, double frequency, double damping, double bandwidth)
 {
     struct spline spline = {.color = -1};

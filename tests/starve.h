@@ -1,7 +1,7 @@
-/// Memory that runs out: runs something once for each of its allocations, which then fails, in a process of its own.
+/// Out of memory: runs a function once for each of its allocations, which then fails, in a child process.
 ///
-/// The libraries' allocations count, too: malloc and the like of this program are those of the whole process. The graphics driver is
-/// left alone, for tests that starve draw nothing.
+/// Libraries' allocations count, too, because the program replaces malloc for the whole process. The graphics driver's do not; these tests
+/// draw nothing.
 #ifndef TESTS_STARVE_H
 #define TESTS_STARVE_H
 
@@ -13,16 +13,16 @@
 #include <unistd.h>
 
 #if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__ || !defined __GLIBC__
-enum { CAN_STARVE = 0 }; // the sanitizer's allocator is in the way
+enum { CAN_STARVE = 0 }; // the sanitizer's allocator conflicts
 static atomic_long allocations;
 static long starve_at;
 static int starve_on, starve_on_last;
 #else
 enum { CAN_STARVE = 1 };
-static atomic_long allocations; ///< since it was set to 0
-static long starve_at = -1;     ///< the allocation that fails; negative: none
-static int starve_on;           ///< so do those after it
-static int starve_on_last;      ///< as it was in the last run
+static atomic_long allocations; ///< since the last reset
+static long starve_at = -1;     ///< index of the failing allocation; negative: none
+static int starve_on;           ///< later allocations fail, too
+static int starve_on_last;      ///< in the last run
 
 void *__libc_malloc(size_t size);
 void *__libc_calloc(size_t count, size_t size);
@@ -33,7 +33,7 @@ static int starves(void)
 {
     const long n = atomic_fetch_add(&allocations, 1);
     const int fails = starve_at >= 0 && (starve_on ? n >= starve_at : n == starve_at);
-    if (fails) errno = ENOMEM; // which libraries look at
+    if (fails) errno = ENOMEM; // libraries check it
     return fails;
 }
 
@@ -43,11 +43,11 @@ void *realloc(void *old, size_t size) { return starves() ? NULL : __libc_realloc
 void *aligned_alloc(size_t alignment, size_t size) { return starves() ? NULL : __libc_memalign(alignment, size); }
 #endif
 
-/// Ends with the status of a command: 0 only if all that was asked for is done and right.
+/// Returns the exit status: 0 only if everything succeeded correctly.
 typedef int starved(void *user);
 
-/// Runs it in a child with one allocation failing (negative: none) or, `on`, with all from there on. Returns what waitpid() says;
-/// `*count` (may be NULL) is how many there were.
+/// Runs it in a child with one allocation failing (negative: none) or, if `on`, all from there. Returns waitpid()'s status; `*count` (may
+/// be NULL) receives the number of allocations.
 static inline int starve_once(starved *run, void *user, long at, int on, long *count)
 {
     int ends[2];
@@ -76,12 +76,11 @@ static inline int starve_once(starved *run, void *user, long at, int on, long *c
     return status;
 }
 
-/// What must hold after a run that has ended with that status, or was ended by need(): looked at from outside.
+/// Checks from outside after a run that ended with `status`, also by need().
 typedef void starve_check(void *user, int status);
 
-/// Each allocation fails, by itself and with all after it: in at most so many runs, for which the two take turns and every so many
-/// allocations fail, by a fixed stride; a twelfth of that in `make test`, all of them both ways where STARVE_ALL is set. What runs ends by
-/// itself, and some of it with an error. `check` may be NULL.
+/// Fails each allocation, alone and with all after it, in at most `most` runs at a fixed stride; a twelfth of that in `make test`, every
+/// allocation both ways if STARVE_ALL is set. Every run must end by itself, at least one with an error. `check` may be NULL.
 static inline void starve_checked(const char *what, starved *run, starve_check *check, void *user, long most)
 {
     long all = 0, refused = 0, runs = 0;

@@ -1,4 +1,4 @@
-/// Files that tests write: a folder of the test's own below TEST_OUT, emptied by the test that made it.
+/// Files that tests write: a folder per test below TEST_OUT, emptied by its test.
 #ifndef TESTS_TEMPORARY_H
 #define TESTS_TEMPORARY_H
 
@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/// The path of a file called `name`; the same storage at each fourth call.
+/// The path of a file called `name`. Every fourth call reuses the storage.
 static inline const char *temporary_path(const char *name)
 {
     static char paths[4][512];
@@ -20,11 +20,11 @@ static inline const char *temporary_path(const char *name)
     return paths[next];
 }
 
-/// Writes a file of `size` bytes and returns its path; a failure ends the test program.
+/// Writes a file of `size` bytes and returns its path. A failure ends the program.
 static inline const char *temporary_file(const char *name, const void *bytes, size_t size)
 {
     const char *path = temporary_path(name);
-    unlink(path); // a file that is cut to nothing and written again would wait for the disk
+    unlink(path); // truncating and rewriting a file would wait for the disk
     FILE *file = fopen(path, "wb");
     if (!file || fwrite(bytes, 1, size, file) != size || fclose(file) != 0) abort();
     return path;

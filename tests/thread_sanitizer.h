@@ -1,8 +1,8 @@
-/// C11's threads by the names of POSIX, because the thread sanitizer does not see through <threads.h>. Included ahead of all sources:
+/// Maps C11 threads to POSIX threads, because the thread sanitizer does not support <threads.h>. Included before all sources:
 ///
 ///     make B=build/threads CFLAGS="-fsanitize=thread -include tests/thread_sanitizer.h" TESTS=tests/test_autosave.c test
 ///
-/// In glibc each type is the other's.
+/// In glibc the types are interchangeable.
 #ifndef TESTS_THREAD_SANITIZER_H
 #define TESTS_THREAD_SANITIZER_H
 

@@ -1,4 +1,4 @@
-/// Runs something in a child of which one system call fails, or after one of which it is killed, as by a full disk or a power cut.
+/// Runs a function in a child in which one system call fails or is the last, as on a full disk or a power cut.
 #ifndef TESTS_TRACED_H
 #define TESTS_TRACED_H
 
@@ -17,13 +17,13 @@ enum { CAN_TRACE = 1 };
 
 typedef int traced(void *user);
 
-/// What is to go wrong: the `n`th of the calls that count (from 0 on; negative: none) fails with `error` or, 0, is the last. Below 0 the
-/// call is done, and then the signal −`error` comes.
+/// The `n`th counted call (from 0; negative: none) fails with `error`. If `error` is 0, the child is killed there; below 0 the call
+/// succeeds and the signal −`error` follows.
 struct trouble {
     int n, error;
 };
 
-/// Calls that change files; for a crash, they are all that matter.
+/// Calls that change files; only these matter for a crash.
 static inline bool changes_files(unsigned long long call)
 {
     switch (call) {
@@ -45,13 +45,14 @@ static inline bool changes_files(unsigned long long call)
     }
 }
 
-/// A file that cannot be closed or removed is no fault of its own: nothing could be done.
+/// Failing to close or remove a file has no remedy, so it is not tested.
 static inline bool can_fail(unsigned long long call)
 {
     return changes_files(call) && call != SYS_close && call != SYS_unlink && call != SYS_unlinkat;
 }
 
-/// Its threads' calls count too. Returns the child's exit status, or -1 where it was killed; `*count` (may be NULL): the calls that count.
+/// Threads' calls count, too. Returns the child's exit status, or -1 if it was killed; `*count` (may be NULL) receives the number of
+/// counted calls.
 static inline int trace(traced *run, void *user, struct trouble trouble, int *count)
 {
     int status, n = 0;
@@ -63,7 +64,7 @@ static inline int trace(traced *run, void *user, struct trouble trouble, int *co
     }
     assert_int_equal(waitpid(child, &status, 0), child);
     ptrace(PTRACE_SETOPTIONS, child, NULL, (void *)(PTRACE_O_TRACESYSGOOD | PTRACE_O_TRACECLONE | PTRACE_O_EXITKILL));
-    pid_t hit = 0, stopped = child; // the thread whose call is the one, and the one that waits for us
+    pid_t hit = 0, stopped = child; // the thread that made the chosen call; the thread that waits for us
     for (int passed = 0;;) {
         if (stopped) assert_int_equal(ptrace(PTRACE_SYSCALL, stopped, NULL, passed), 0);
         stopped = waitpid(-1, &status, __WALL);
@@ -76,7 +77,7 @@ static inline int trace(traced *run, void *user, struct trouble trouble, int *co
         }
         if (WSTOPSIG(status) != (SIGTRAP | 0x80)) {
             const bool is_begun = status >> 16 != 0 || (stopped != child && WSTOPSIG(status) == SIGSTOP);
-            passed = is_begun ? 0 : WSTOPSIG(status); // a thread begins with stops of ours
+            passed = is_begun ? 0 : WSTOPSIG(status); // a new thread starts with stops caused by tracing
             continue;
         }
         struct user_regs_struct registers;
@@ -92,7 +93,7 @@ static inline int trace(traced *run, void *user, struct trouble trouble, int *co
             kill(child, SIGKILL);
             while (waitpid(-1, &status, __WALL) > 0) continue;
             return -1;
-        } else if (registers.rax == (unsigned long long)-ENOSYS) { // at the call's start
+        } else if (registers.rax == (unsigned long long)-ENOSYS) { // at the call's entry
             const bool counts = trouble.error > 0 ? can_fail(registers.orig_rax) : changes_files(registers.orig_rax);
             if (counts && n++ == trouble.n) hit = stopped;
             if (hit != stopped || trouble.error <= 0) continue;

@@ -1,4 +1,4 @@
-/// Scenes with exact answers: all of a folder, their tables, and how far a curve is from them.
+/// Scenes with exact solutions: lists a folder's scenes, reads their tables, and measures a curve's error.
 #ifndef TESTS_VECTORS_H
 #define TESTS_VECTORS_H
 
@@ -8,7 +8,7 @@
 #include <dirent.h>
 #include <wiggly/wiggly.h>
 
-/// Calls `check` with the name, without .json, of each scene; returns how many there are.
+/// Calls `check` with each scene's name without .json; returns the number of scenes.
 static inline int vectors_each(const char *folder, void (*check)(const char *name))
 {
     DIR *directory = opendir(folder);
@@ -25,7 +25,7 @@ static inline int vectors_each(const char *folder, void (*check)(const char *nam
     return count;
 }
 
-/// The numbers of FOLDER/NAME.csv after its header, `columns` of them a row; freed by the caller.
+/// The numbers of FOLDER/NAME.csv after its header, `columns` per row. The caller frees them.
 static inline double *vectors_table(const char *folder, const char *name, int columns, int rows)
 {
     char path[512], *text;

@@ -1,4 +1,4 @@
-/// LAPACKE for a group of tests: what loads it before them, and lets go of it after. To be included after near.h.
+/// Loads LAPACKE before a group of tests and unloads it after. Include it after near.h.
 #ifndef TESTS_WITH_LAPACK_H
 #define TESTS_WITH_LAPACK_H
 

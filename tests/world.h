@@ -1,4 +1,4 @@
-/// A small document under edit, and edits of it, for the tests of edits and of their history.
+/// A small document, and edits of it, for tests of edits and history.
 #ifndef TESTS_WORLD_H
 #define TESTS_WORLD_H
 
@@ -13,39 +13,38 @@ enum { SWAY, PLUCK, LOOP };
 struct world {
     struct document *document;
     struct history *history;
-    struct error error;      ///< of the last edit that was refused
-    struct document *before; ///< the step of world_edit(); NULL: none is open
-    const char *label;       ///< of the step before
-    char **printed;          ///< what world_print() has given
+    struct error error;      ///< of the last refused edit
+    struct document *before; ///< the open step of world_edit(), or NULL
+    const char *label;       ///< of the previous step
+    char **printed;          ///< texts returned by world_print()
     int printed_count;
 };
 
 void world_open(struct world *world);
-/// The same of another scene.
+/// The same with another scene.
 void world_open_scene(struct world *world, const char *scene);
 void world_close(struct world *world);
 
-/// The document's canonical text, which lives as long as the world.
+/// The document's canonical text, valid as long as the world.
 const char *world_print(struct world *world);
 void assert_document(const struct world *world, const char *expected);
 
-/// The document, to be edited in a step, which this opens unless one is open:
-/// `world_must(&world, edit_joints(world_edit(&world), 0, 12, &world.error))`.
+/// The document in an open step, which this opens if necessary: `world_must(&world, edit_joints(world_edit(&world), 0, 12, &world.error))`.
 struct document *world_edit(struct world *world);
-/// An edit of `world` by scene/edit.h, in such a step: assert_reversible(world, EDIT(edit_joints, 0, 12)).
+/// An edit of scene/edit.h in such a step: assert_reversible(world, EDIT(edit_joints, 0, 12)).
 #define EDIT(edit, ...) edit(world_edit(world), __VA_ARGS__, &world->error)
 
-/// Closes the step of an edit that has been done or refused; the same of one that must be possible.
+/// Closes the step of an edit that succeeded or failed; the second requires success.
 bool world_step(struct world *world, bool done);
 void world_must(struct world *world, bool done);
 
-/// The edit was refused with that sentence, and left document and history as they were.
+/// The edit failed with this message and left document and history unchanged.
 void assert_refused(struct world *world, bool done, const char *sentence);
 
-/// The edit changed the text as a step that undo takes back byte by byte and redo makes again, as which it stays.
+/// The edit is one step that undo reverts byte by byte and redo repeats; it stays done.
 void assert_reversible(struct world *world, bool done);
 
-/// Undoes all, and says how many steps there were.
+/// Undoes everything; returns the number of steps.
 int world_undo_all(struct world *world);
 
 // Edits of the world's document, as by world_edit().
@@ -57,10 +56,10 @@ bool edit_track(struct world *world, int spline, enum parameter parameter, int t
 bool edit_mode(struct world *world, int spline, enum wiggly_mode mode);
 bool edit_start(struct world *world, int spline, enum wiggly_start start);
 bool edit_frames(struct world *world, int first, int last);
-/// A channel gets another spline, axis or part; −1: its own.
+/// Sets a channel's spline, axis or part; −1 keeps it.
 bool edit_bend(struct world *world, int rig, int channel, int spline, int axis, int of);
 
-/// A test of a world that `opens` opens and that is closed at its end: WORLD_TEST(name, world_open(world)) { … }.
+/// A test of a world opened by `opens` and closed afterwards: WORLD_TEST(name, world_open(world)) { … }.
 #define WORLD_TEST(name, opens) TEST_OF(struct world, world, opens, world_close(world), name)
 
 #endif
