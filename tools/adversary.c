@@ -1,6 +1,6 @@
-/// Searches for splines that the solver gets wrong without saying so: makes problems meant to be hard from a seed, judges each answer by
-/// the textbook in quadruple precision, and prints what is wrong with the scene that shows it. Exit status 1 where there is any.
-/// adversary SEED COUNT [PROCESSES [FIRST]]: problems FIRST … FIRST + COUNT − 1 of the seed.
+/// Searches for splines that the solver gets wrong without reporting it: makes hard problems from a seed, checks each answer against the
+/// textbook in quadruple precision, and prints faults with the scene. Exit status 1 if there are any. Usage: adversary SEED COUNT
+/// [PROCESSES [FIRST]], for problems FIRST … FIRST + COUNT − 1 of the seed.
 #include "adversary.h"
 #include <stdlib.h>
 #include <sys/wait.h>
@@ -34,13 +34,13 @@ static struct tally search(uint64_t seed, long first, long count, int step)
         snprintf(name, sizeof name, "%llu %ld (%s)", (unsigned long long)seed, n, kinds[kind]);
         adversary_explain(stdout, name, &verdict);
         adversary_print(stdout, &problem);
-        fflush(stdout); // a line is not torn by another process
+        fflush(stdout); // keeps lines of several processes apart
     }
     wiggly_destroy(solver);
     return tally;
 }
 
-/// One process of several; its tally comes through a pipe.
+/// Starts one of several processes; its tally comes through a pipe.
 static int begin(uint64_t seed, long first, long count, int step)
 {
     int ends[2];

@@ -1,8 +1,8 @@
 #!/bin/sh
-# Runs a command on this tree in a system that has nothing but make: what a newcomer's first command meets.
+# Runs a command on this tree in a system that has only make, to test a newcomer's first command.
 # Usage: tools/bare-machine.sh <bookworm | trixie | jammy | noble> <command>...   as root, e.g. tools/bare-machine.sh noble make test
-# The bare system is made once (debootstrap) and kept as build/bare/SUITE.tar; each run unpacks it anew and removes it.
-# BARE_OUT=FOLDER keeps the build folder that the command leaves. Exit status: the command's.
+# debootstrap makes the bare system once, in build/bare/SUITE.tar. Each run unpacks it and removes the copy.
+# BARE_OUT=FOLDER keeps the command's build folder. Exits with the command's status.
 set -eu
 [ $# -ge 2 ] || { sed -n '2,5s/^# //p' "$0" >&2; exit 2; }
 suite=$1
@@ -11,7 +11,7 @@ cd "$(dirname "$0")/.."
 
 case $suite in
 bookworm | trixie) components=main script="" ;;
-# Debian's debootstrap may be older than the suite; all of Ubuntu's share one script.
+# Debian's debootstrap may not know the suite; all Ubuntu suites share one script.
 jammy | noble) components=main,universe script=/usr/share/debootstrap/scripts/gutsy ;;
 *)
     echo "bare-machine: unknown suite '$suite'; expected bookworm, trixie, jammy or noble" >&2
@@ -26,7 +26,7 @@ base=build/bare/$suite.tar
 root=$(mktemp -d "$PWD/build/bare/$suite.XXXXXX")
 trap 'rm -rf "$root"' EXIT INT TERM
 if [ ! -s "$base" ]; then
-    # debootstrap's own mirror of the suite, which it takes by itself only for Debian's.
+    # the suite's default mirror, which debootstrap uses by itself only for Debian
     mirror=""
     [ -z "$script" ] || mirror=$(sed -n 's/.*default_mirror \(.*archive.*\)/\1/p' "$script" | head -n 1)
     # shellcheck disable=SC2086 # script may be empty
@@ -45,13 +45,13 @@ fi
 
 chmod 755 "$root" # mktemp keeps it from everybody else, who live there too
 mkdir "$root/wiggly"
-# Root may run it in somebody else's clone.
+# Root may run it in another user's clone.
 git -c safe.directory='*' ls-files -z --cached --others --exclude-standard | tar --null -T - -cf - | tar -C "$root/wiggly" -xf -
 cp /etc/resolv.conf "$root/etc/resolv.conf"
 
 started=$(date +%s)
 status=0
-# Mounts and processes of the run end with its namespaces.
+# Mounts and processes end with the run's namespaces.
 # shellcheck disable=SC2016 # expanded inside
 unshare --mount --pid --fork sh -c '
     root=$1

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Prints how large the tree is, and with --frames also how many functions a frame of a knot's drag runs that an idle frame does not.
-# Usage: tools/bars.sh [--frames]. --frames builds into build/bars, once, with every call of a function of ours noted.
+# Prints the size of the tree. --frames also prints the number of functions that run in a frame of a knot's drag but not in an idle frame.
+# Usage: tools/bars.sh [--frames]. --frames builds an instrumented program in build/bars once.
 set -eu
 cd "$(dirname "$0")/.."
 lines() { git ls-files "$@" | tr '\n' '\0' | xargs -0 cat | wc -l; }
@@ -15,7 +15,7 @@ echo "lines of tests: $(lines tests)"
 echo "words of README: $(wc -w <README.md), with docs, CONTRIBUTING and CHANGELOG: $(cat README.md CONTRIBUTING.md CHANGELOG.md docs/*.md | wc -w)"
 echo ".c files of src under 60 lines: $(short c 60)"
 echo "headers of src under 30 lines: $(short h 30)"
-# A function's lines are those from its brace to the one that closes it.
+# Counts a function's lines from its opening to its closing brace.
 git ls-files 'src/*.c' | tr '\n' '\0' | xargs -0 awk '
     /^\{/ && before ~ /\)$/ { start = FNR }
     /^\}/ && start { print FNR - start + 1; start = 0 }

@@ -1,13 +1,13 @@
 #!/bin/sh
-# Makes the source with what is known only while building: commit, compiler, flags. Left alone where nothing changed.
+# Makes a source file with the build's commit, compiler and flags. Leaves it alone if nothing changed.
 # Usage: tools/build-info.sh <output.c> <compiler> <flags>
 set -eu
 output=$1
-# Root may build in somebody else's clone, which git calls dubious and must not write to.
+# Root may build in another user's clone, which git calls dubious and must not write to.
 git() { GIT_OPTIONAL_LOCKS=0 command git -c safe.directory='*' "$@" 2>/dev/null; }
 commit=$(git rev-parse --short=12 HEAD || echo unknown)
 [ -z "$(git status --porcelain --untracked-files=no || true)" ] || commit=$commit-dirty
-# shellcheck disable=SC2086 # a compiler may come with a word before it (ccache gcc)
+# shellcheck disable=SC2086 # the compiler may have a prefix (ccache gcc)
 compiler=$($2 --version | head -n 1 | tr -d '"\\')
 mkdir -p "$(dirname "$output")"
 new=$output.$$ # several may be at it at once

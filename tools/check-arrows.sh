@@ -1,8 +1,7 @@
 #!/bin/sh
-# Proves that includes follow the arrows of the house, headers' own includes among them: no file reaches a folder that is not
-# listed here for its own. GL stays in draw and platform, JSON in scene, the glTF files of model and export, and
-# commands/companion.c; cglm comes through model/vector.h, and the spline core does no I/O. Between the rooms of the editor are walls: a
-# panel sees core and itself, core sees no panel, the editor's own files see the panels' doors (curves/curves.h) alone.
+# Checks that includes, headers' own ones too, follow the directions listed here. GL stays in draw and platform, JSON in scene, the glTF
+# files of model and export, and commands/companion.c; cglm is included through model/vector.h; the spline core does no I/O. In the editor
+# a panel may include core and itself, core no panel, and the editor's own files only the panels' interfaces (curves/curves.h).
 # Usage: tools/check-arrows.sh [root of the tree]
 set -eu
 cd "${1:-.}"
@@ -35,7 +34,7 @@ function complain(what) {
     printf "%s:%s: %s\n", file, line, what
     bad = 1
 }
-# Why a file must have nothing to do with a header, whichever way it comes; empty where it may.
+# Why a file must not include a header, directly or indirectly; empty if it may.
 function reason(file, header,    room) {
     room = room_of(file)
     if (header ~ /^(src|include)\//)
@@ -47,12 +46,12 @@ function reason(file, header,    room) {
     if (header ~ /^(stdio|unistd|fcntl)\.h$/ && room == "spline") return "the spline core does no I/O: " header
     return ""
 }
-# The part of the editor that a file is in: core, a panel, or "" for the editor itself.
+# The part of the editor that a file belongs to: core, a panel, or "" for the editor itself.
 function part_of(file,    folder, depth) {
     depth = split(file, folder, "/")
     return file ~ /^src\/editor\// && depth > 3 ? folder[3] : ""
 }
-# Why a wall of the editor is between a file and what it includes.
+# Why the rules of the editor forbid an include.
 function wall(file, header,    from, to) {
     if (header !~ /^src\/editor\//) return ""
     from = part_of(file)
@@ -64,7 +63,7 @@ function wall(file, header,    from, to) {
         return short(header) " is private to editor/" to ": the way in is editor/" to "/" to ".h"
     return ""
 }
-# What is wrong with all that a header includes, unless its own folder is told so already.
+# Why the includes of a header are forbidden, unless the check of its own folder says so.
 function reason_through(file, header,    queue, count, next_one, seen, i, why) {
     queue[count = 1] = header
     for (next_one = 1; next_one <= count; next_one++) {

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Finds files that include each other in a circle (a .c and its .h are one), names the largest, and refuses more than CIRCLE (3)
-# files in one. Usage: tools/check-circles.sh [root]
+# Finds files that include each other in a circle (a .c and its .h count as one), prints the largest circle, and fails if it has more than
+# CIRCLE (3) files. Usage: tools/check-circles.sh [root]
 set -eu
 cd "${1:-.}"
 grep -rE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' --include='*.[ch]' src |
@@ -15,7 +15,7 @@ grep -rE '^[[:space:]]*#[[:space:]]*include[[:space:]]*"' --include='*.[ch]' src
     if (!(file in edges)) files[++count] = file
     edge[file, ++edges[file]] = header
 }
-# Marks what a file reaches.
+# Marks all files reached from one.
 function walk(from,    queue, last, n, i, to) {
     queue[last = 1] = from
     for (n = 1; n <= last; n++) {

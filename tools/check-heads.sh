@@ -1,6 +1,6 @@
 #!/bin/sh
-# Every C file opens with a line or two (///) that say what it is for, and no comment cites a page that the repository lacks:
-# docs/NAME.md must be there, and so must the heading in "docs/NAME.md, Heading". Run it from the root of the tree.
+# Checks that every C file starts with a line or two (///) about its purpose, and that comments cite only pages and headings that exist:
+# docs/NAME.md, and the heading in "docs/NAME.md, Heading". Run it in the root of the tree.
 # Usage: tools/check-heads.sh <file.c or .h>...
 bad=0
 complain() {

@@ -1,5 +1,5 @@
 #!/bin/sh
-# No file above 600 lines, no function above 80 (from the brace that opens it in the first column to the one that closes it).
+# No file above 600 lines, no function above 80 (from the opening brace in the first column to the closing one).
 # Usage: tools/check-lengths.sh <file.c or .h>...
 exec awk '
 FNR == 1 { opened = 0 }

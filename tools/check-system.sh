@@ -1,5 +1,5 @@
 #!/bin/sh
-# Finds out what compiling needs and is not there, before the first file is compiled.
+# Reports missing build requirements before compiling.
 # Usage: tools/check-system.sh <compiler> <pkg-config module>...
 set -eu
 compiler=${1%% *}

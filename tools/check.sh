@@ -1,6 +1,6 @@
 #!/bin/sh
-# Formatting, static analysis, include arrows and circles, lengths and file heads over all our C. Prints what is wrong; exit status 1
-# where anything is.
+# Checks formatting, static analysis, include directions and circles, lengths and file heads of all C files. Prints problems; exit status 1
+# if there are any.
 set -u
 files=$(find src include tests tools examples -name '*.[ch]' | sort)
 failed=""

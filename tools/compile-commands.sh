@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes a compilation database (compile_commands.json) of the compiler's command lines among what `make -n` prints.
+# Makes a compilation database (compile_commands.json) from the compiler calls that `make -n` prints.
 # Usage: make -n V=1 ... | tools/compile-commands.sh > compile_commands.json   from the root of the tree
 set -eu
 sed -nE '/ -c [^ ]+\.c -o /{ s/[\\"]/\\&/g; s/^.* -c ([^ ]+\.c) -o .*$/\1\n&/p; }' |

@@ -1,8 +1,7 @@
 /// creature_obj OUT.obj: the soft character of the paper's Figure 7 as a closed mesh, for `wiggly simulate`.
 ///
-/// One solid, so that the mesh is one closed manifold: a smooth union of round cones, cut off flat at the ground. It is
-/// 1.5 m high, looks towards +z and stands on y = 0; its arms stand well clear of the body, so that a lattice around the
-/// mesh does not glue them together.
+/// One closed manifold: a smooth union of round cones, cut off flat at the ground. It is 1.5 m high, looks towards +z and stands on y = 0.
+/// Its arms keep clear of the body, so that a lattice around the mesh does not join them.
 #include "base/need.h"
 #include "model/surface.h"
 #include "model/vector.h"
@@ -18,7 +17,7 @@
 #define BELLY 0xF3E6CBu
 #define CHEEK 0xE79A8Eu
 
-/// Later parts lie on top of earlier ones with their colours and fillets.
+/// Later parts override the colours and fillets of earlier ones.
 static const struct part body[] = {
     {{0, 0.40f, 0}, {0, 0.88f, -0.01f}, 0.345f, 0.215f, 0.001f, SKIN, false},                        // rump to chest
     {{0, 0.42f, 0.10f}, {0, 0.76f, 0.08f}, 0.270f, 0.185f, 0.09f, BELLY, false},                     // belly
@@ -37,7 +36,7 @@ static const struct part body[] = {
     {{0.122f, 1.248f, 0.268f}, {0.124f, 1.272f, 0.262f}, 0.044f, 0.044f, 0.004f, COAT_DARK, true},   // eyes
 };
 
-/// What the cheeks blush around, for x > 0, and the nose and eyes' place in the table: they shine.
+/// Centre of the cheeks' blush, for x > 0. Nose and eyes are at this place in the table: they shine.
 static const float blush[3] = {0.205f, 1.135f, 0.245f};
 static const float glint[3] = {0.30f, 0.72f, 0.62f};
 enum { FIRST_SHINING = 13, PART_COUNT = sizeof body / sizeof *body };
@@ -49,7 +48,7 @@ static const float lo[3] = {-0.90f, -0.02f, -0.45f}, hi[3] = {0.90f, 1.60f, 0.55
 #define GROUND_FILLET 0.035f /* of the soles' edges */
 enum { REFINE_ROUNDS = 3 };
 
-/// Everything below the ground is cut off, so that the soles are flat.
+/// Everything below the ground is cut off, which flattens the soles.
 static float distance(const float p[3])
 {
     return -parts_union(-parts_add(body, PART_COUNT, p, 1e3f, NULL), p[1], GROUND_FILLET, NULL, NULL);
@@ -63,13 +62,13 @@ static void paint(struct vertex *vertex)
     const float face = parts_add(body + FIRST_SHINING, PART_COUNT - FIRST_SHINING, p, 1e3f, NULL);
     const float away = glms_vec3_distance(cheek, vec3_from(blush));
     coat_mix(vertex->color, CHEEK, 0.75f * glm_smoothstep(0.085f, 0.025f, away));
-    // A dark lid hides the hard line where eyes and nose sink into the skin.
+    // A dark rim hides the hard line where eyes and nose meet the skin.
     coat_mix(vertex->color, COAT_DARK, glm_smoothstep(0.014f, 0.004f, face));
     const float shine = glm_smoothstep(0.92f, 0.95f, glms_vec3_dot(vec3_from(vertex->normal), vec3_from(glint)));
     if (face < 0.002f) coat_mix(vertex->color, COAT_TIP, shine);
 }
 
-/// Below the nose triangles reach from it to the muzzle: their corners there are dark, too, or the nose would have teeth.
+/// Triangles below the nose reach from it to the muzzle. Their corners there are dark as well, or the nose would look jagged.
 static void darken_below_nose(struct mesh *mesh)
 {
     for (int i = 0; i < mesh->vertex_count; i++) {

@@ -1,4 +1,4 @@
-/// dog_glb OUT.glb: makes the dog for assets/models/dog.glb: one skinned mesh with a primitive per material, its skeleton, its clips.
+/// dog_glb OUT.glb: makes assets/models/dog.glb: one skinned mesh with a primitive per material, its skeleton and clips.
 #include "base/file.h"
 #include "base/need.h"
 #include "base/png.h"
@@ -13,7 +13,7 @@
 enum { BYTE = 5121, SHORT = 5123, FLOAT = 5126, ARRAY_BUFFER = 34962 };
 enum { COAT_TRIANGLES = 14200, TAG_PIXELS = 64, KEY_LIMIT = 256 };
 
-/// A file being written. The first node is the root of the skeleton, then come its joints, then the mesh.
+/// A file being written. Its nodes are the skeleton's root, the joints, and the mesh.
 struct output {
     const struct dog_skeleton *skeleton;
     const struct dog_pieces *pieces;
@@ -21,7 +21,7 @@ struct output {
     json_int_t picture; ///< its buffer view
 };
 
-/// A vertex as the file has it.
+/// A vertex in the file's layout.
 struct packed {
     float position[3], normal[3];
     uint16_t uv[2];
@@ -29,7 +29,7 @@ struct packed {
     uint16_t weights[DOG_INFLUENCES];
 };
 
-/// One of its members. Its type is OpenGL's.
+/// A member of it, with OpenGL's type.
 static const struct column {
     const char *name, *shape;
     int type;
@@ -46,7 +46,7 @@ static const struct column {
 
 enum { PLACED, PICTURED = 2 };
 
-/// Weights as shorts whose sum is exactly 65535.
+/// Converts weights to shorts with a sum of exactly 65535.
 static void pack_influences(const struct output *o, const struct dog_piece *piece, struct packed *packed)
 {
     struct dog_influences influences = {.joint = {piece->joint}, .weight = {1}};
@@ -92,7 +92,7 @@ static void add_bounds(struct output *o, json_t *accessor, const struct packed *
     gltf_set(&o->file, accessor, "max", vector_json(o, hi.raw, 3));
 }
 
-/// Rows of vertices, and an accessor for each of their columns.
+/// Vertex rows, and an accessor for each column.
 static json_t *make_attributes(struct output *o, const struct packed *rows, size_t count, bool pictured)
 {
     const json_int_t number = gltf_file_add_bytes(&o->file, rows, count * sizeof *rows);
@@ -112,7 +112,7 @@ static json_t *make_attributes(struct output *o, const struct packed *rows, size
     return named;
 }
 
-/// All pieces of one material.
+/// All pieces of a material.
 static json_t *make_primitive(struct output *o, enum dog_material material)
 {
     const struct dog_pieces *pieces = o->pieces;
@@ -167,14 +167,14 @@ static json_t *make_materials(struct output *o)
     return array;
 }
 
-/// The encoder hands the whole file over.
+/// Called by the encoder with the whole file.
 static void add_png(void *output, const void *bytes, size_t size)
 {
     struct output *o = output;
     o->picture = gltf_file_add_bytes(&o->file, bytes, size);
 }
 
-/// The tag's picture: brass with a swing that dies away, the mark of wiggly.
+/// The tag's picture: brass with a decaying swing, wiggly's mark.
 static void add_picture(struct output *o)
 {
     unsigned char pixels[TAG_PIXELS][TAG_PIXELS][3];
@@ -190,7 +190,7 @@ static void add_picture(struct output *o)
     png_encode(add_png, o, TAG_PIXELS, TAG_PIXELS, 3, &pixels[0][0][0], PNG_SMALL);
 }
 
-/// Node 0 is the root, node j + 1 joint j.
+/// Node 0 is the root, node j + 1 is joint j.
 static json_t *make_nodes(struct output *o)
 {
     const struct dog_skeleton *s = o->skeleton;
@@ -245,7 +245,7 @@ static void add_channel(struct output *o, json_t *animation, int node, const cha
                 json_pack("{s:I, s:{s:i, s:s}}", "sampler", sampler, "target", "node", node, "path", path));
 }
 
-/// Whether any key differs from the first; makes each rotation the one of two equal quaternions that is nearer to the one before.
+/// Whether any key differs from the first. Replaces each rotation by the one of two equal quaternions nearer to the previous one.
 static bool moves(float (*keys)[4], int count)
 {
     bool any = false;
@@ -295,7 +295,7 @@ static json_t *make_clips(struct output *o)
     return array;
 }
 
-/// NULL where memory is short.
+/// NULL if memory runs out.
 static json_t *make_json(struct output *o)
 {
     json_t *primitives = json_array();

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Makes the sources that put files into the binary: embedded_data.S (the bytes) and embedded_table.c (their names).
+# Makes the sources that embed files in the program: embedded_data.S (the bytes) and embedded_table.c (their names).
 # Usage: tools/embed.sh <output folder> <list of name, tab, file> <file>...
 set -eu
 export LC_ALL=C

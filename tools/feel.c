@@ -1,5 +1,5 @@
-/// What an animator feels, as a table: how far the curve moves when a knot moves by one frame, how far it overshoots, before and after the
-/// last knot, and Figure 4; of the paper's filter, the oscillator, poses, limits and the cubic.
+/// Measures the feel of curves as a table: how far a curve moves when a knot moves by one frame, its overshoot, its motion before and after
+/// the last knot, and Figure 4. For the paper's filter, the oscillator, poses, limits and the cubic.
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -12,7 +12,7 @@ enum way { FILTER, OSCILLATOR, POSES, LIMITED, CUBIC, WAYS };
 static const char *const names[] = {"filter", "oscillator", "poses", "limits", "cubic"};
 static const double limit = 1.15;
 static const double most_change =
-    1; ///< of a curve of poses, p99, where a knot moves by one frame; of its largest knot
+    1; ///< of pose curves, p99, when a knot moves by one frame; relative to the largest knot
 
 struct layout {
     wiggly_desc desc;
@@ -28,7 +28,7 @@ static double uniform(void)
     return (seed >> 8) / 16777216.0;
 }
 
-/// Settings of the mathematics page by turns; knots at least `apart` frames apart.
+/// Settings of the mathematics page in turn, with knots at least `apart` frames apart.
 static void make_layout(struct layout *l, int number, int apart)
 {
     static const double f[] = {0.5, 0.75, 1, 1.25, 1.5, 1.75, 2, 2.25, 2.5, 3};
@@ -43,7 +43,7 @@ static void make_layout(struct layout *l, int number, int apart)
     l->desc.knot_count = 3 + (int)(4 * uniform());
     bool taken[SAMPLES] = {false};
     for (int k = 0; k < l->desc.knot_count;) {
-        int at = 2 + (int)(uniform() * (SAMPLES - 42)); // the last second and a half is free
+        int at = 2 + (int)(uniform() * (SAMPLES - 42)); // the last second and a half has no knots
         bool free = true;
         for (int i = at - apart + 1; i < at + apart; i++) free = free && (i < 0 || !taken[i]);
         if (!free) continue;
@@ -79,7 +79,7 @@ static void solve_way(wiggly_solver *solver, const struct layout *l, enum way wa
     if (status >= WIGGLY_ERROR_ARGUMENT) fprintf(stderr, "%s\n", wiggly_status_text(status));
 }
 
-/// Knots set one after the other, each with the phase that is seen when it is set.
+/// Sets knots one after another, each with the phase visible at that time.
 static void make_poses(wiggly_solver *solver, struct layout *l)
 {
     static struct arrays seen;
@@ -99,7 +99,7 @@ static int compare(const void *a, const void *b)
     return (*left > *right) - (*left < *right);
 }
 
-/// Prints median and 99th percentile; gives the latter.
+/// Prints median and 99th percentile; returns the latter.
 static double print_two(double *values)
 {
     qsort(values, RUNS, sizeof *values, compare);
@@ -115,7 +115,7 @@ static bool is_alone(const struct layout *l, const wiggly_knot *knot)
     return true;
 }
 
-/// Prints a row; gives the p99 of how far the curve moves.
+/// Prints a row; returns the p99 of the curve's movement.
 static double measure(wiggly_solver *solver, enum way way, int apart)
 {
     static double change[2][RUNS], overshoot[2][RUNS];
@@ -129,7 +129,7 @@ static double measure(wiggly_solver *solver, enum way way, int apart)
         wiggly_knot *moved = &l.knots[(int)(uniform() * l.desc.knot_count)];
         moved->sample++;
         if (!is_alone(&l, moved)) moved->sample -= 2;
-        if (!is_alone(&l, moved)) moved->sample++; // between two it stays
+        if (!is_alone(&l, moved)) moved->sample++; // between two knots it stays
         solve_way(solver, &l, way, &after);
         for (int side = 0; side < 2; side++) {
             change[side][n] = overshoot[side][n] = 0;
@@ -146,12 +146,12 @@ static double measure(wiggly_solver *solver, enum way way, int apart)
     return fmax(before_last, after_last);
 }
 
-/// The smallest extremum between the second and the third knot of Figure 4, the third moved by a tenth.
+/// The smallest extremum between the second and third knot of Figure 4, with the third moved by a tenth.
 static void measure_figure(wiggly_solver *solver)
 {
     printf("Figure 4, smallest extremum:");
     for (enum way way = 0; way < CUBIC; way++) {
-        if (way == POSES) continue; // they hold the phase that the figure lets go
+        if (way == POSES) continue; // poses hold the phase that the figure leaves free
         struct layout l = {.desc = wiggly_default_desc(), .largest = 1};
         static struct arrays out;
         const int samples[] = {0, 36, 115};

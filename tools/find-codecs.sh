@@ -1,6 +1,6 @@
 #!/bin/sh
-# Finds the libraries that decompress meshes, which wiggly does without: prints, on a line, what to compile and to link with.
-# Draco is linked as an archive, for src/model/draco.cpp to watch over its allocations. Usage: tools/find-codecs.sh <compiler>
+# Finds the optional libraries that decompress meshes, and prints their compiler and linker flags on a line. Draco is linked as an archive,
+# so that src/model/draco.cpp can limit its allocations. Usage: tools/find-codecs.sh <compiler>
 compiler=$1
 
 there() { # <language> <header> <library>: prints where the library is

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Finds what of other people's work becomes part of the binary: the fonts, and the licences of each of them, of the header-only
-# libraries and of the libraries that are named. Prints a line for each: name in the binary, tab, file.
-# The layout is made for Inter and JetBrains Mono; where they are not installed, any sans and any monospaced font will do.
+# Finds other people's work in the program: fonts, and licences of fonts, header-only libraries and the named libraries. Prints a line for
+# each: name in the program, tab, file. The layout is made for Inter and JetBrains Mono; without them it takes any sans and monospaced
+# fonts.
 set -eu
 export LC_ALL=C
 tab=$(printf '\t')
@@ -21,7 +21,7 @@ font() { # <name in the binary> <families, best first> <what else it must be>
     licence "$family" "$file"
 }
 
-# The package's own text where there is one, else what lies beside the file.
+# The package's own text if any, else the file beside it.
 licence() { # <whose> <file>
     package=$(dpkg-query -S "$2" 2>/dev/null | head -n 1 | cut -d : -f 1 || true)
     for text in "/usr/share/doc/$package/copyright" "$(dirname "$2")"/OFL* "$(dirname "$2")"/LICEN[CS]E*; do

@@ -1,4 +1,4 @@
-/// fox_glb OUT.glb: makes the fox for assets/models/fox.glb: its skin at several levels of detail, the first of which the scene shows, and its skeleton.
+/// fox_glb OUT.glb: makes assets/models/fox.glb: the skin at several levels of detail (the scene shows the first) and the skeleton.
 #include "base/file.h"
 #include "base/need.h"
 #include "model/fox.h"
@@ -9,10 +9,10 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { JOINTS = 24 }; ///< of the tail in the file
+enum { JOINTS = 24 }; ///< of the tail
 enum { COAT, FACE, MATERIALS };
 
-/// The node that one hangs on; and where one is in bind space.
+/// A node's parent; a node's place in bind space.
 static int parent_of(int node)
 {
     const int limb = node - FOX_FIRST_LIMB;
@@ -28,7 +28,7 @@ static vec3s place_of(int node)
     return node >= FOX_FIRST_JOINT ? (vec3s){{0, 0, along}} : vec3_from(pivot[node - FOX_FIRST_LIMB]);
 }
 
-/// Copies a vertex; the tail's weights come later.
+/// Copies a vertex without the tail's weights.
 static void add_vertex(struct gltf_part *part, const struct vertex *vertex)
 {
     const int v = part->vertex_count++;
@@ -66,7 +66,7 @@ static void part_free(struct gltf_part *part)
     for (size_t i = 0; i < sizeof owned / sizeof *owned; i++) free(owned[i]);
 }
 
-/// The triangles of a material, and the vertices that they have, in the mesh's order of triangles.
+/// A material's triangles in the mesh's order, with their vertices.
 static void part_fill(const struct mesh *mesh, int material, struct gltf_part *part)
 {
     const size_t vertices = (size_t)mesh->vertex_count;
@@ -86,7 +86,7 @@ static void part_fill(const struct mesh *mesh, int material, struct gltf_part *p
     fox_hang(part, JOINTS);
 }
 
-/// The first `size` bytes of rows that are `stride` apart.
+/// The first `size` bytes of each row, `stride` apart.
 static json_int_t add_rows(struct gltf_file *file, enum gltf_elements elements, const void *rows, size_t size,
                            size_t stride, size_t count, bool bounds)
 {
@@ -149,7 +149,7 @@ static json_t *vector_json(struct gltf_file *file, vec3s v)
     return array;
 }
 
-/// The skeleton, then what shows the mesh.
+/// The skeleton, then the nodes that show the mesh.
 static json_t *make_nodes(struct gltf_file *file, json_t *joints, float (*inverse)[16])
 {
     static const char *const names[LIMBS] = {"body", "chest", "head", "ear_l", "ear_r", "ear_tip_l", "ear_tip_r"};

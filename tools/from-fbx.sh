@@ -1,12 +1,12 @@
 #!/bin/sh
-# Converts an FBX character to glTF, with all of its clips. Blender does it, which must be installed.
+# Converts an FBX character with all its clips to glTF. Needs Blender.
 # Usage: tools/from-fbx.sh <character.fbx> [<character.glb>]
 set -eu
 [ $# -ge 1 ] && [ $# -le 2 ] || { sed -n '2,3s/^# //p' "$0" >&2; exit 2; }
 command -v blender >/dev/null || { echo "from-fbx: there is no blender; install it" >&2; exit 3; }
 log=$(mktemp)
 trap 'rm -f "$log"' EXIT
-# Blender exports the clip that an object has, and those on its tracks. Its glTF add-on wants a name that NumPy has dropped.
+# Blender exports an object's clip and those on its tracks. Its glTF add-on uses a name that NumPy has removed.
 blender --background --factory-startup --python-exit-code 1 --python-expr '
 import sys, bpy, numpy
 if not hasattr(numpy, "bool"): numpy.bool = bool

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Where `make install` takes the program from when root installs from another user's clone, in which it must write nothing.
-# Usage: tools/install-from.sh <build folder>          prints nothing in any other case; "borrowed" where the user's own build is
-#                                                      complete and up to date; else a new folder to build in
+# Where `make install` takes the program from if root installs from another user's clone, which it must not write to.
+# Usage: tools/install-from.sh <build folder>          prints "borrowed" if the user's build is complete and up to date,
+#                                                     else a new folder to build in; otherwise nothing
 #        tools/install-from.sh --done <build folder>   removes such a folder
 set -eu
 if [ "$1" = --done ]; then

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs the Debian packages that the named sets need and that are not there. Fast and silent when nothing is missing.
-# "a|b": a, or b where the system has no package a. "a|": wanted, but never asked for alone, so that a build without it stays quiet.
+# Installs missing Debian packages of the named sets. Quick and silent if nothing is missing.
+# "a|b": a, or b if the system has no a. "a|": optional, never installed alone, so that a build without it stays quiet.
 # Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [bare] [whole]
 set -eu
 
@@ -24,7 +24,7 @@ packages_of() {
     esac
 }
 
-# On other systems the packages have other names; these are commands and pkg-config modules that must answer.
+# Other systems name packages differently; check that these commands and pkg-config modules work.
 probes_of() {
     case $1 in
     build) echo gcc pkg-config fc-match glfw3.pc epoxy.pc egl.pc cglm.pc jansson.pc stb.pc ;;
@@ -74,7 +74,7 @@ for choice in $wanted; do
 done
 [ -z "$missing" ] && exit 0
 
-# Of each choice the first that the package lists have; the last where they have none.
+# The first available package of each choice, else the last.
 chosen() {
     for choice in $missing $besides; do
         for package in "${choice%|*}" "${choice#*|}"; do
@@ -98,7 +98,7 @@ install() { # shellcheck disable=SC2046,SC2086
     $as_root $quietly apt-get install -y -qq --no-install-recommends $(chosen) >/dev/null
 }
 echo "Installing:" $missing
-# The package lists of a fresh system are empty.
+# A fresh system has no package lists yet.
 if ! install 2>/dev/null; then
     $as_root $quietly apt-get update -qq || true # the installation says what is wrong
     install || {

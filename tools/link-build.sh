@@ -1,5 +1,5 @@
 #!/bin/sh
-# Prints a name without spaces, build/links/N, by which a build folder can be reached whose own name has some.
+# Prints a path without spaces, build/links/N, for a build folder whose own path has some.
 # Usage: tools/link-build.sh <folder>
 set -eu
 mkdir -p "$1" build/links

@@ -1,7 +1,7 @@
 #!/bin/sh
-# Makes assets/models/creature.glb, as anyone can from a mesh of their own: the mesh, two bursts of its base as a soft body, limbs eight
-# times softer than feet, and what the analysis finds in them. The bursts lie between the frequencies of trunk and limbs, so that limbs
-# come late. Takes about a minute of one core. Usage: tools/make-creature.sh [build folder] [output.glb]
+# Makes assets/models/creature.glb, as you can from any mesh: the mesh, a soft-body simulation with two bursts of its base and limbs eight
+# times softer than feet, and the result's analysis. The bursts' frequencies lie between those of trunk and limbs, so that limbs lag behind.
+# Takes about a minute of one core. Usage: tools/make-creature.sh [build folder] [output.glb]
 set -eu
 export LC_ALL=C
 build=${1:-build}
@@ -17,6 +17,6 @@ shake() { # <direction> <amplitude>
 shake up 0.05
 shake side 0.09 # a larger swing would change the volume by more than 5 % at amplitude 1: a linear shape lengthens what turns
 mkdir -p "$(dirname "$out")"
-# As the paper does it: by complex principal components. Without, coordinates would have one pole each.
-# The stage finds for itself how normals turn, so the file does without.
+# As in the paper, by complex principal components; otherwise each coordinate would have one pole.
+# The stage computes how normals turn, so the file omits that.
 "$build/wiggly" analyze "$work/up.npy" "$work/side.npy" --method cpca --modes 3 --no-normals -o "$out"

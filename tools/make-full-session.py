@@ -52,7 +52,7 @@ drag(414, 60, "slider(frequency)", lambda u: f"slider(frequency,{0.5 + 2 * u:.4f
 scroll_inspector(477, -40)
 click(477, "widget(section.advanced)")
 drag(480, 60, "slider(bandwidth)", lambda u: f"slider(bandwidth,{0.08 + 0.2 * u:.4f})")
-# Every curve as high as the active one, then another spline, and the wheel.
+# Fit every curve to the active one's height, then another spline, and the wheel.
 key(550, "N")
 key(554, "PageDown")
 for n in range(40):
@@ -66,7 +66,7 @@ drag(664, 60, "ruler(20)", lambda u: f"ruler({20 + 180 * u:.3f})")
 click(730, "ruler(60)")
 drag(736, 120, "tail(tail,0.95)", lambda u: f"tail(tail,0.95){6 * math.sin(9 * u):+.2f},{4 * math.cos(9 * u):.2f}")
 drag(870, 150, "body(tail)", lambda u: f"stage({0.4 + 0.15 * math.sin(9 * u):.4f},{0.6 + 0.05 * math.cos(9 * u):.4f})")
-# Playing again, the panels' sizes.
+# Playing again, with panel sizes.
 key(1030, "Space")
 drag(1040, 60, "divider(stage)", circle("stage(0.5,1)", 40))
 drag(1110, 60, "divider(inspector)", circle("divider(inspector)", 3))

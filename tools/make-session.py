@@ -17,9 +17,9 @@ def curve(spline, from_to_frame, from_to_value, swing=0.0):
     return lambda u: f"curve({spline},{f0 + (f1 - f0) * u:.3f},{v0 + (v1 - v0) * u + swing * math.sin(2 * math.pi * u):.4f})"
 
 
-# While it plays: drag the third knot up and a little later, back and forth.
+# While playing: drag the third knot up and slightly later, back and forth.
 drag(40, 80, "knot(sway,2)", curve("sway", (56, 62), (0.4, 0.8), 0.4))
-# Insert one by double click, drag it across its neighbour.
+# Insert a knot by double-click and drag it across its neighbour.
 at(140, "pointer @curve(sway,34,0.5)")
 at(141, "press left @curve(sway,34,0.5)")
 at(142, "release left @curve(sway,34,0.5)")
@@ -29,7 +29,7 @@ drag(150, 60, "knot(sway,2)", curve("sway", (34, 16), (0.5, -0.6), 0.2))
 key(220, "Right", "alt", times=8)
 key(246, "Up", "alt", times=10)
 key(280, "Up", "alt", "shift", times=2)
-# Retime with the value locked, fine.
+# Retime finely with the value locked.
 at(300, "pointer @knot(sway,4)")
 at(301, "press left @knot(sway,4)")
 key(303, "X")
@@ -50,7 +50,7 @@ click(513, "widget(section.advanced)")
 drag(516, 30, "slider(bandwidth)", lambda u: f"slider(bandwidth,{0.08 + 0.2 * u:.4f})")
 scroll_inspector(550, 40)
 drag(552, 24, "slider(lag)", lambda u: f"slider(lag,{6.5 + 6 * u:.4f})")
-# Keys held: frequency, damping, lag.
+# Hold keys for frequency, damping and lag.
 for frame, letter in ((584, "F"), (604, "Z"), (624, "L")):
     at(frame, f"key {letter}")
     key(frame + 2, "Up", times=4)
@@ -82,7 +82,7 @@ at(992, "wheel 0 1 @curve(sway,60,0) ctrl")
 at(996, "wheel 0 -2 @curve(sway,60,0) shift")
 key(1000, "Home")
 drag(1004, 40, "stage(0.15,0.2)", lambda u: f"stage({0.15 + 0.1 * math.sin(2 * math.pi * u):.4f},0.2)", button="right")
-# Undo a stretch, redo most of it, drag once more.
+# Undo a series, redo most of it, drag once more.
 key(1050, "Z", "ctrl", times=12)
 key(1090, "Y", "ctrl", times=9)
 drag(1124, 60, "knot(sway,0)", curve("sway", (8, 6), (1, 0.7), -0.3))

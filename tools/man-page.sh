@@ -1,11 +1,11 @@
 #!/bin/sh
-# Prints wiggly(1): what the program's own --help-all says, command by command, as a page for man. So it has every option there is.
+# Prints wiggly(1) as a man page from the output of --help-all, so that it lists every option.
 # Usage: tools/man-page.sh <wiggly>
 set -eu
 wiggly=$1
 
-# Help as roff. "  TERM   text" becomes a tagged paragraph; a long term has its text on the next line, far to the right. "Options:"
-# and the like are left out.
+# Converts help to roff. "  TERM   text" becomes a tagged paragraph; a long term has its text on the next line, indented far. Headings such
+# as "Options:" are left out.
 as_roff() {
     awk '
     function roff(text) {

@@ -23,8 +23,8 @@ import sys
 import time
 
 WANTED = 85  # per cent
-FEWEST = 5  # faults for even the smallest room
-# As the suite's run under sanitizers ends.
+FEWEST = 5  # faults for the smallest part of the code
+# How a suite run under sanitizers ends.
 FLAGS = "CFLAGS=-g0 -fsanitize=undefined -fsanitize-undefined-trap-on-error"
 FOLDER = pathlib.Path("build/mutate")
 
@@ -40,7 +40,7 @@ NUMBER = re.compile(r"(?<![\w.])(\d+\.\d*(?:e[+-]?\d+)?|\d+(?:e[+-]?\d+)?)f?(?![
 CONDITION = re.compile(r"^\s*(?:\} else )?if \((.*)\) (?:\{|\w.*;)$")
 STATEMENT = re.compile(r"^\s+(?!return\b|break\b|continue\b|goto\b|case\b|default\b|if\b|else\b|for\b|while\b|do\b|\(void\)"
                        r"|static |const |struct \w+ |enum \w+ |unsigned |double |float |int |char |bool |long |u?int\d+_t |size_t )[\w*(].*;$")
-# Asserts, allocations, what gives memory back, and texts: no behaviour, or seen only by a sanitizer.
+# Asserts, allocations, releases and texts: no behaviour, or only visible to sanitizers.
 LEFT_OUT = re.compile(r"^\s*#|assert|alloc|need|sizeof|free|capacity|OPTION_|fail\w*\(|warn\w*\(|printf\(|options_wrong\(")
 
 

@@ -1,5 +1,5 @@
-/// Writes the paper's figures as SVG and CSV, from the scenes in assets/scenes and the solver as it stands.
-/// Usage: paper_figures <folder>. Exit status 1 where a scene cannot be read or solved, 3 where a file cannot be written.
+/// Writes the paper's figures as SVG and CSV, from assets/scenes and the present solver. Usage: paper_figures <folder>. Exit status 1 if a
+/// scene cannot be read or solved, 3 if a file cannot be written.
 #include "base/error.h"
 #include "editor/inspector/response.h"
 #include "model/character.h"
@@ -22,7 +22,7 @@ struct solved {
     struct evaluation evaluation;
 };
 
-/// One plot of a figure: a spline's row of numbers.
+/// A plot of a figure: a spline's values.
 struct plot {
     const char *spline, *label;
     enum { ROW_TOTAL, ROW_RE, ROW_IM } row;
@@ -32,7 +32,7 @@ struct plot {
 struct chart {
     const char *scene;
     int rows;
-    struct plot plot[MAX_ROWS]; ///< top to bottom, as the paper has them
+    struct plot plot[MAX_ROWS]; ///< top to bottom, as in the paper
 };
 
 static const struct chart curves[] = {
@@ -121,7 +121,7 @@ static void svg_text(FILE *svg, double x, double y, const char *anchor, const ch
     fprintf(svg, "<text x=\"%.1f\" y=\"%.1f\" text-anchor=\"%s\">%s</text>\n", x, y, anchor, text);
 }
 
-/// A rectangle of the picture and the numbers at its edges.
+/// A rectangle of the picture, and the values at its edges.
 struct frame {
     double x, y, w, h, x0, x1, y0, y1;
 };
@@ -148,7 +148,7 @@ static const double *row_of(const struct solved *s, const struct plot *plot)
     return plot->row == ROW_TOTAL ? curve->total : plot->row == ROW_RE ? curve->re : curve->im;
 }
 
-/// Knots as diamonds, keyed slopes as short lines through them.
+/// Knots as diamonds, their slopes as short lines.
 static void svg_knots(FILE *svg, const struct frame *f, const struct document *document, const char *name)
 {
     const struct spline *spline = document->splines[document_find_spline(document, name)];
@@ -249,7 +249,7 @@ static void svg_response(FILE *svg, const struct filter *filter, const struct fr
     svg_text(svg, f->x + 8, f->y + f->h + 16, "start", text);
 }
 
-/// Figure 2, for f 1 Hz, damping 0.05, bandwidth 0.1 at 24 frames a second.
+/// Figure 2, for f 1 Hz, damping 0.05, bandwidth 0.1 at 24 frames per second.
 static void write_responses(const char *folder)
 {
     static const char *const name[FILTER_KINDS] = {"two-pole real", "four-pole real", "two-pole complex"};
@@ -272,7 +272,7 @@ static void write_responses(const char *folder)
     finish(csv, "figure2");
 }
 
-/// Figure 6: the tail from above, every few frames, and all joints in the table.
+/// Figure 6: the tail from above at every few frames, and all joints in the table.
 static void write_tail(const char *folder)
 {
     enum { POSES = 9, EVERY = 6, PER_ROW = 3 };
@@ -309,10 +309,10 @@ static void write_tail(const char *folder)
     release(&s);
 }
 
-/// A triangle of figure 7 as seen from the front.
+/// A triangle of figure 7, seen from the front.
 struct facet {
     float depth;
-    int at; ///< of its first index
+    int at; ///< its first index
 };
 
 static int compare_depth(const void *a, const void *b)
@@ -321,7 +321,7 @@ static int compare_depth(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/// The triangles that face the viewer at +z, the farthest first. Returns their number.
+/// Triangles that face the viewer at +z, farthest first. Returns their number.
 static int facets_of(const struct character *c, struct facet *facets)
 {
     int count = 0;
@@ -351,7 +351,7 @@ static void svg_facet(FILE *svg, const struct character *c, const struct coordin
     fprintf(svg, "z\" fill=\"#%06X\" stroke=\"#%06X\" stroke-width=\".6\"/>\n", color, color);
 }
 
-/// Figure 7: the phase of the up-and-down motion as hue, its size as chroma; in the table all vertices.
+/// Figure 7: the phase of the vertical motion as hue, its amplitude as chroma; all vertices in the table.
 static void write_phases(const char *folder)
 {
     enum { UP = 1 };

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Frame times of two builds on the committed session, compared. Both play it at once and draw their frames in turn, so that
-# frame n of one is measured milliseconds from frame n of the other, and whatever else the machine does hits both.
+# Compares frame times of two builds on the committed session. Both play it at once and draw their frames alternately, so that the machine's
+# other work affects both equally.
 # Usage: tools/regress.sh <old wiggly> <new wiggly> <timing_diff> <output folder>   (PAIRS, at least 11, from the environment)
 set -eu
 old=$1 new=$2 timing_diff=$3 out=$4

@@ -1,10 +1,9 @@
 #!/bin/bash
-# Runs test programs (cmocka) and test scripts, one more at once than there are processors, from the root of the tree. Prints a line
-# for each in the order given and, for one that failed, the end of what it said; then what was skipped, and "N passed, N failed"
-# over all cases. Exit status 1 where any failed. Scripts report their cases as lines "ok - what" and "not ok - what"; what is
-# skipped says "skip - why", in cmocka's programs too.
-# Environment: JOBS, how many at once; TEST_OUT, a folder for logs, of which each test gets a folder of its own to write in;
-# TEST_TIMEOUT in seconds, for a test that hangs: a loaded machine makes tests ten times as slow.
+# Runs test programs (cmocka) and scripts in the root of the tree, one more at once than there are processors. Prints a line for each in the
+# given order, the end of the output of each failed test, the skipped tests, and "N passed, N failed" over all cases. Exit status 1 if any
+# failed. Scripts report cases as lines "ok - what" and "not ok - what"; skipped tests say "skip - why", in cmocka's programs too.
+# Environment: JOBS, number of parallel tests; TEST_OUT, a folder for logs and a folder per test to write in; TEST_TIMEOUT, seconds before a
+# test counts as hanging (a loaded machine makes tests ten times as slow).
 set -u
 TEST_OUT=${TEST_OUT:-build/test-out}
 JOBS=${JOBS:-$(($(nproc 2>/dev/null || echo 2) + 1))} # some of them wait for a window
@@ -15,12 +14,12 @@ skips=()
 mkdir -p "$TEST_OUT"
 touch "$times"
 
-# gcc 12's LeakSanitizer takes what lies before a library's thread-local storage for glibc 2.19's header where that ends 16 bytes after a
-# page's start, and dies of it.
+# gcc 12's LeakSanitizer mistakes the bytes before a library's thread-local storage for glibc 2.19's header if they end 16 bytes after a
+# page's start, and crashes.
 export ASAN_OPTIONS=${ASAN_OPTIONS:-intercept_tls_get_addr=0}
 trap 'kill $(jobs -p) 2>/dev/null; wait; exit 130' INT TERM
 
-# Runs one test; what is known of it afterwards, in its .result file, is its exit status and its time.
+# Runs one test and writes its exit status and time to its .result file.
 run() { # <test>
     local name log started status
     name=$(basename "$1")
@@ -44,7 +43,7 @@ report() { # <test>
     read -r status took <"$TEST_OUT/$name.result"
     good=$(grep -cE '^(\[       OK \]|ok - )' "$log")
     bad=$(grep -E '^(\[  FAILED  \] [a-z_0-9A-Z]+$|not ok - )' "$log" | sort -u | wc -l) # cmocka names a failed case twice
-    # A crash, a time-out or a test without cases is a failure that no case reports.
+    # Count a crash, a time-out or a test without cases as a failure.
     mapfile -t skipped < <(grep -E '^skip - ' "$log" | sort -u)
     if [ "$status" -ne 0 ] && [ "$bad" -eq 0 ] || [ $((good + bad + ${#skipped[@]})) -eq 0 ]; then bad=$((bad + 1)); fi
     skips+=("${skipped[@]/#skip - /skip  $name: }")
@@ -58,7 +57,7 @@ report() { # <test>
     fi
 }
 
-# Prints the tests that have ended, up to the first that has not.
+# Prints finished tests up to the first unfinished one.
 reported=0
 report_ended() {
     while [ $reported -lt ${#tests[@]} ] && [ -e "$TEST_OUT/$(basename "${tests[reported]}").result" ]; do
@@ -67,7 +66,7 @@ report_ended() {
     done
 }
 
-# The longest first, so that none is left to run alone at the end; one that never ran may be long, a script above all.
+# Start the longest tests first, so that none runs alone at the end. A test without a known time may be long, scripts first.
 longest_first() { # <test>...
     local test took
     for test in "$@"; do

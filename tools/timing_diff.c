@@ -1,7 +1,7 @@
-/// timing_diff old.csv new.csv: what became slower or faster, number by number, and how sure that is.
+/// timing_diff old.csv new.csv: shows which numbers became slower or faster, with confidence intervals.
 ///
-/// The logs are of the same frames, so frame n of one is compared with frame n of the other. Exit status 1 where something became worse by
-/// more than its limit or a counter differs in any frame; 2 where the logs cannot be compared; else 0.
+/// The logs must be of the same frames, so that frame n is compared with frame n. Exit status 1 if something worsened beyond its limit or a
+/// counter differs in any frame, 2 if the logs cannot be compared, else 0.
 #include "base/need.h"
 #include "regress/bootstrap.h"
 #include "timing/columns.h"
@@ -14,36 +14,35 @@ enum {
     RUNS_ENOUGH = 8
 }; ///< five runs all differ in the same direction once in 16 times by chance
 
-/// Worse means grown by more than `value`, with the whole interval above `low`. Twelve pairs of runs of one build, in turn on
-/// two busy cores (load 6 to 10), differed by at most 0.6 % frame by frame in stages above 0.1 ms, by 4 % at p95 and p99
-/// of the frame, and by 1.1 % in the share of slow frames.
+/// Worse means an increase above `value`, with the whole interval above `low`. Twelve pairs of runs of one build, alternating on two busy
+/// cores (load 6 to 10), differed by at most 0.6 % per frame in stages above 0.1 ms, by 4 % at the frame's p95 and p99, and by 1.1 % in the
+/// share of slow frames.
 struct limit {
     double value, low;
 };
 static const struct limit frame_limit = {0.015, 0.005}, quantile_limit = {0.10, 0.05}, share_limit = {0.01, 0.003},
                           longest_limit = {3, 1};
-static const double LONGER = 1.5; ///< and the longest run of frames has to grow by half
+static const double LONGER = 1.5; ///< the longest run of frames must also grow by half
 
-/// Per segment of a log: a sum, and of how many.
+/// Per segment of a log: a sum and a count.
 struct tally {
     double sum, of;
 };
 
-/// Two logs and room to compare them.
+/// Two logs, and memory to compare them.
 struct comparison {
     const struct timing_log *old, *new;
     int segments;
-    bool by_run; ///< segments are runs: at least eight; else stretches of 60 frames
+    bool by_run; ///< segments are runs (at least eight), else stretches of 60 frames
     struct observation *old_items, *new_items, *ratios; ///< private
     struct tally *old_tallies, *new_tallies;            ///< private
 };
 
-/// One number of both builds. `change` is new over old less 1 for times, new less old for shares (1 is all frames) and runs
-/// of frames.
+/// A number of both builds. `change` is new over old minus 1 for times, new minus old for shares (1 is all frames) and runs of frames.
 struct change {
     double old, new;
     struct estimate change;
-    bool worse; ///< by more than its limit, with the whole interval past a part of it
+    bool worse; ///< beyond its limit, with the whole interval above the lower limit
 };
 
 enum { QUANTILE_P50, QUANTILE_P95, QUANTILE_P99, QUANTILE_COUNT };
@@ -54,14 +53,14 @@ static double value_at(const struct timing_log *log, int row, int column)
     return log->values[(size_t)row * COLUMN_COUNT + (size_t)column];
 }
 
-/// Which frames the bootstrap keeps together: whole runs if there are enough, because runs differ by more than chance;
-/// else stretches of about a second.
+/// The frames that the bootstrap keeps together: whole runs if there are enough, because runs differ by more than chance, else stretches of
+/// about a second.
 static int segment_of(const struct comparison *c, const struct timing_log *log, int row)
 {
     return c->by_run ? log->run[row] : row / STRETCH_FRAMES;
 }
 
-/// As many runs of as many frames in both: frame n did the same work.
+/// Same number of runs and of frames: frame n did the same work in both.
 static bool has_same_shape(const struct timing_log *old, const struct timing_log *new)
 {
     if (old->rows != new->rows) return false;
@@ -80,7 +79,7 @@ static struct comparison comparison_open(const struct timing_log *old, const str
     c.old_items = need_zeroed(rows, sizeof *c.old_items);
     c.new_items = need_zeroed(rows, sizeof *c.new_items);
     c.ratios = need_zeroed(rows, sizeof *c.ratios);
-    c.old_tallies = need_zeroed(rows, sizeof *c.old_tallies); // at most a run or a stretch a frame
+    c.old_tallies = need_zeroed(rows, sizeof *c.old_tallies); // at most one segment per frame
     c.new_tallies = need_zeroed(rows, sizeof *c.new_tallies);
     return c;
 }
@@ -107,7 +106,7 @@ static int observe(const struct comparison *c, const struct timing_log *log, int
 
 static double ratio_of(double new, double old) { return new == old ? 1 : new / old; }
 
-/// New over old, for every frame that both measured.
+/// New over old for every frame measured in both logs.
 static int observe_ratios(struct comparison *c, int column)
 {
     int count = 0;
@@ -119,7 +118,7 @@ static int observe_ratios(struct comparison *c, int column)
     return count;
 }
 
-/// Sorted observations, and which quantile of them is asked for.
+/// Sorted observations, and the quantile to compute.
 struct question {
     const struct observation *old, *new;
     int old_count, new_count;
@@ -134,7 +133,7 @@ static double quantile_growth(const int *weight, const void *user)
            1;
 }
 
-/// The median of ratios, which are in `new`.
+/// The median of the ratios in `new`.
 static double frame_growth(const int *weight, const void *user)
 {
     const struct question *q = user;
@@ -153,8 +152,8 @@ static double plain_quantile(const struct observation *sorted, int count, double
     return sorted[below].value + (position - below) * (sorted[above].value - sorted[below].value);
 }
 
-/// Quantiles of a column. The change of p50 is the median of new over old frame by frame, which detects a few percent. False if no frame
-/// was measured in both logs: no change then.
+/// Quantiles of a column. The change of p50 is the median of the per-frame ratios, which detects a few percent. Returns false, without a
+/// change, if no frame was measured in both logs.
 static bool compare_times(struct comparison *c, int column, struct change changes[QUANTILE_COUNT])
 {
     const struct column *about = &timing_columns[column];
@@ -192,7 +191,7 @@ static double mean_growth(const int *weight, const void *user)
     return mean(c->new_tallies, weight, c->segments) - mean(c->old_tallies, weight, c->segments);
 }
 
-/// Frames over the budget in every segment; returns their share of all.
+/// Counts frames over the budget in every segment; returns their share.
 static double tally_share(const struct comparison *c, const struct timing_log *log, double budget,
                           struct tally *tallies)
 {
@@ -208,7 +207,7 @@ static double tally_share(const struct comparison *c, const struct timing_log *l
     return sum / log->rows;
 }
 
-/// The longest run of frames over the budget in every run of the program; returns the mean over these.
+/// Finds the longest run of frames over the budget in every run of the program; returns their mean.
 static double tally_longest(const struct timing_log *log, double budget, struct tally *tallies)
 {
     double sum = 0;
@@ -224,7 +223,7 @@ static double tally_longest(const struct timing_log *log, double budget, struct 
     return sum / log->runs;
 }
 
-/// Share of frames over a budget, and the mean over the runs of the longest run of them; without an interval unless segments are runs.
+/// Share of frames over a budget, and the mean length of the longest run of them. The latter has an interval only if segments are runs.
 static void compare_budget(struct comparison *c, double budget_ms, struct change *share, struct change *longest)
 {
     share->old = tally_share(c, c->old, budget_ms, c->old_tallies);
@@ -239,9 +238,9 @@ static void compare_budget(struct comparison *c, double budget_ms, struct change
     longest->worse = is_past(&longest->change, longest_limit) && longest->new > LONGER * longest->old;
 }
 
-// --- what is printed
+// --- output
 
-/// Compares a counter frame by frame; true where it is the same.
+/// Compares a counter frame by frame; returns true if it is the same.
 static bool compare_counter(const struct timing_log *old, const struct timing_log *new, int column)
 {
     const char *name = timing_columns[column].name;

@@ -1,4 +1,4 @@
-/// wiggly-bench [--json FILE] [--large]: the solver against LAPACKE, on the same systems in the same run.
+/// wiggly-bench [--json FILE] [--large]: compares the solver with LAPACKE on the same systems in the same run.
 #include "base/embedded.h"
 #include "base/error.h"
 #include "base/file.h"
@@ -20,7 +20,7 @@ static const struct {
     enum bench_kind kind;
     int modes;
     int samples[LENGTHS];
-    bool values_only; ///< only knots' values change from run to run
+    bool values_only; ///< only knots' values change between runs
 } plan[] = {
     {"single", BENCH_SINGLE, ALL, {240, 1000, 10000, 100000}, false},
     {"resolve", BENCH_SINGLE, COMPLEX, {240, 1000, 10000, 100000}, true},
@@ -65,7 +65,7 @@ static void expect(const struct bench_result *result, wiggly_status status)
     if (status != WIGGLY_OK) bench_stop("%s: %s", result->name, wiggly_status_text(status));
 }
 
-/// A loop of 10,000,000 samples, its total alone, and the memory that this takes: to be run before all else.
+/// A loop of 10,000,000 samples: the time of its total curve, and the memory. Must run before everything else.
 static void run_large(struct bench *bench)
 {
     enum { SAMPLES = 10000000, RUNS = 3 };

@@ -60,7 +60,7 @@ static void crowd_destroy(struct crowd *crowd)
     free(crowd->equilibria);
 }
 
-/// Times the crowd on several threads.
+/// Times all splines on several threads.
 static void run_crowd(struct bench *bench, struct crowd *crowd, int threads, struct bench_result *result)
 {
     wiggly_batch *batch = NULL;
@@ -79,7 +79,7 @@ static void run_crowd(struct bench *bench, struct crowd *crowd, int threads, str
     bench_sum_up(bench, runs, (double)SAMPLES * CROWD, result);
 }
 
-/// The plain kind is timed on one thread and two, the others on one.
+/// The plain kind is timed on one and on two threads, the others on one.
 static const struct {
     enum bench_kind kind;
     const char *name;

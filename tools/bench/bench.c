@@ -1,4 +1,4 @@
-/// What the parts of the benchmark share: memory, times, the table on stdout and as JSON.
+/// Shared by the benchmark's files: memory, times, and the table on stdout and as JSON.
 #include "bench/bench.h"
 #include "base/error.h"
 #include "base/progress.h"
@@ -47,7 +47,7 @@ void bench_sum_up(struct bench *bench, int runs, double samples, struct bench_re
     result->p99_us = 1e6 * statistics_quantile(bench->times, runs, 0.99);
 }
 
-/// "12.3", or what stands for a figure that was not measured.
+/// "12.3", or `missing` for NAN.
 static const char *number(char text[32], const char *format, double value, const char *missing)
 {
     snprintf(text, 32, isnan(value) ? missing : format, value);

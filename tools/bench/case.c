@@ -1,4 +1,4 @@
-/// One spline of the benchmark: its check against LAPACK on the squared system, and its times.
+/// One spline of the benchmark: compares it with LAPACK on the squared system, and times it.
 #include "base/need.h"
 #include "base/progress.h"
 #include "bench/bench.h"
@@ -8,16 +8,16 @@
 #include <string.h>
 
 static const double seconds_a_case = 0.2, seconds_beside = 0.05;
-static const double agreement = 1e-6; ///< of the largest value: dpbsv's own error on these systems is about 1e-9
+static const double agreement = 1e-6; ///< of the largest value; dpbsv's own error here is about 1e-9
 
-/// What one case works on.
+/// Data of a case.
 struct work {
     wiggly_solver *solver;
     wiggly_desc desc;
     wiggly_knot *knots; ///< its own
     wiggly_curve curve;
-    double *about; ///< what the system's x is measured from
-    /// The system in LAPACK's lower band storage (column major), and what stands on its right: once filled, once solved.
+    double *about; ///< subtracted from the curve to get the system's x
+    /// The system in LAPACK's lower band storage (column major) and its right side, before and after solving.
     double *band, *right, *solved_band, *solved;
     int unknowns, band_width;
 };
@@ -26,7 +26,7 @@ enum { MOST_BAND = 5 };
 
 static bool is_limited(const wiggly_desc *desc) { return desc->has_high; }
 
-/// Limits, the mean of several and noise are no system for LAPACK: such a case is timed alone.
+/// Limits, means of several and noise are no linear system, so such a case is timed without LAPACK.
 static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->variation > 0; }
 
 static void work_create(struct work *w, const wiggly_desc *desc, const char *name)
@@ -58,8 +58,8 @@ static void work_destroy(struct work *w)
     free(w->curve.total);
 }
 
-/// The gradient at "knots fixed, 0 elsewhere" stands on the right, so that the solution is x less the knots.
-/// Entries that would stand below the last row are never read.
+/// The right side is the gradient at "knots fixed, 0 elsewhere", so the solution is x minus the knots. Entries below the last row are never
+/// read.
 static void fill_band(struct work *w)
 {
     const pentadiagonal *m = &w->solver->matrix;
@@ -81,7 +81,7 @@ static void fill_band(struct work *w)
     }
 }
 
-/// Seconds that LAPACKE_dpbsv takes; NAN where it failed.
+/// Seconds for LAPACKE_dpbsv; NAN on failure.
 static double run_dpbsv(struct work *w, const struct lapack *lapack)
 {
     const int rows = w->band_width + 1;
@@ -94,7 +94,7 @@ static double run_dpbsv(struct work *w, const struct lapack *lapack)
     return info == 0 ? time : NAN;
 }
 
-/// Solves by the band of all samples, block by block: a factor and a solve.
+/// Solves with the band of all samples, block by block: factor and solve.
 static double run_band(struct work *w)
 {
     double start = clock_now();
@@ -106,7 +106,7 @@ static double run_band(struct work *w)
     return good ? time : NAN;
 }
 
-/// Compares the samples of the system with dpbsv's, or the band's without LAPACK, relative to the largest value; NAN where it failed.
+/// Compares the system's samples with dpbsv's, or with the band's without LAPACK, relative to the largest value; NAN on failure.
 static double compare(struct work *w, const struct lapack *lapack)
 {
     const system_rows *rows = &w->solver->rows;
@@ -127,7 +127,7 @@ static double compare(struct work *w, const struct lapack *lapack)
     return worst / largest;
 }
 
-/// Fastest of several runs of a way beside the solver's own, per sample.
+/// Fastest of several runs of LAPACK or the band, per sample.
 static double time_beside(struct work *w, const struct lapack *lapack, bool by_band)
 {
     double best = INFINITY, end = clock_now() + seconds_beside;
@@ -162,7 +162,7 @@ void bench_case(struct bench *bench, const wiggly_desc *desc, bool values_only, 
     result->samples = desc->samples;
     result->error = w.curve.error;
     if (!is_alone(desc)) {
-        // A loop is no banded system: the band has blocks in the corners.
+        // A loop's system has blocks in the corners, so it is not banded.
         const struct lapack *lapack = bench->lapack.dpbsv && desc->start != WIGGLY_LOOP ? &bench->lapack : NULL;
         if (lapack) fill_band(&w);
         result->error = compare(&w, lapack);

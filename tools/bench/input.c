@@ -1,4 +1,4 @@
-/// The benchmark's splines: frequency 1, damping 0.05, at 24 samples a second, about a knot a second.
+/// The benchmark's splines: frequency 1, damping 0.05, 24 samples per second, about one knot per second.
 #include "base/need.h"
 #include "bench/bench.h"
 #include <math.h>
@@ -24,7 +24,7 @@ static void add_knot(struct bench_input *input, int sample, bool with_slope)
                                     .stiffness = 1000};
 }
 
-/// Gaps from LEAST_GAP to twice KNOT_EVERY less that, in no order.
+/// Gaps between LEAST_GAP and 2 KNOT_EVERY − LEAST_GAP in pseudo-random order.
 static void add_knots(struct bench_input *input, enum bench_kind kind)
 {
     bool even = kind == BENCH_SINGLE, ends = kind == BENCH_ENDS || kind == BENCH_END_SLOPES;
@@ -48,7 +48,7 @@ static void set_limits(struct bench_input *input, double by)
     input->desc.has_low = input->desc.has_high = true;
 }
 
-/// Up and down about every 15 seconds; a loop's would close.
+/// Oscillates about every 15 seconds; in a loop it would close.
 static void add_track(struct bench_input *input, wiggly_param *param, double middle, double by)
 {
     for (int i = 0; i < input->desc.samples; i++) input->track[i] = middle + by * sin(2 * pi * i / (15 * KNOT_EVERY));

@@ -1,4 +1,4 @@
-/// The benchmark's pins: groups of splines that share points, one of which is dragged.
+/// The benchmark's pins: groups of splines that share points, with one point dragged.
 #include "base/need.h"
 #include "base/progress.h"
 #include "bench/bench.h"
@@ -11,7 +11,7 @@ enum { GAP = 24, MOST_SPLINES = 8, MOST_PINS = 40, MOST_BOUNDS = 40, RUNS = 2000
 static const struct {
     const char *name;
     int splines, pins, samples;
-    bool moves; ///< the dragged pin changes its sample too, so nothing of the run before serves
+    bool moves; ///< the dragged pin also changes its sample, so the last run's results are useless
     int bounds;
 } plan[] = {
     {"pins/drag/6x9x240", 6, 9, 240, false, 0},       {"pins/retime/6x9x240", 6, 9, 240, true, 0},
@@ -62,7 +62,7 @@ static void place(struct pinned *p, int i)
     }
 }
 
-/// A bound on a point that half of the time is pressed.
+/// A bound on a point, active in about half of the cases.
 static void lay(struct pinned *p, int b)
 {
     for (int s = 0; s < p->splines; s++) {

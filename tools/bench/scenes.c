@@ -1,4 +1,4 @@
-/// Times the splines of assets/scenes, tracks and all.
+/// Times the splines of assets/scenes, including tracks.
 #include "base/error.h"
 #include "base/need.h"
 #include "bench/bench.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// The figures of a line, whose geometric mean is asked for.
+/// Number of results per line, averaged geometrically.
 enum { FIGURES = 6 };
 
 static double *figure_of(struct bench_result *r, int f)
@@ -17,7 +17,7 @@ static double *figure_of(struct bench_result *r, int f)
                                &r->dpbsv_ns_per_sample, &r->error}[f];
 }
 
-/// Sums of logarithms, each over the splines that have the figure.
+/// Sums of logarithms, each over the splines that have the result.
 struct means {
     double sum[FIGURES], samples;
     int count[FIGURES];

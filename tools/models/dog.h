@@ -1,7 +1,5 @@
-/// The dog of the stage, from which assets/models/dog.glb is made: an animal that nobody drew, with a skeleton, a skin, a face and
-/// clips of its own.
-///
-/// Metres, y up; it stands on y = 0 and looks towards +z, so that its left is +x.
+/// The dog of assets/models/dog.glb, made without any drawing: skeleton, skin, face and clips. Metres, y up; it stands on y = 0 and looks
+/// towards +z, so its left is +x.
 #ifndef MODELS_DOG_H
 #define MODELS_DOG_H
 
@@ -17,8 +15,7 @@ enum {
     DOG_FPS = 24,
 };
 
-/// A joint in the model's space at rest. Its own y axis runs along its bone; how it is rolled about that differs from chain to chain,
-/// as in most rigs.
+/// A joint in the model's space at rest. Its y axis lies along its bone; the roll about it differs between chains, as in most rigs.
 struct dog_joint {
     char name[20];
     int parent; ///< −1: the root node
@@ -32,24 +29,24 @@ struct dog_skeleton {
     int count;
 };
 
-/// Points of the tail from its root to its tip, and of the left ear.
+/// Points of the tail from root to tip, and of the left ear.
 extern const float dog_tail[DOG_TAIL_JOINTS + 1][3], dog_ear[DOG_EAR_JOINTS + 1][3];
 
 void dog_skeleton_make(struct dog_skeleton *skeleton);
 
-/// The number of a joint; there must be one with that name.
+/// Index of a joint, which must exist.
 int dog_joint(const struct dog_skeleton *skeleton, const char *name);
 
-/// Joints that a vertex follows, the strongest first; the weights' sum is 1.
+/// Joints of a vertex, strongest first; the weights sum to 1.
 struct dog_influences {
     int joint[DOG_INFLUENCES];
     float weight[DOG_INFLUENCES];
 };
 
-/// What a point of the coat follows: joints near it along the limbs that it lies on.
+/// The joints of a point of the coat: near ones on the limbs at that point.
 void dog_influences(const struct dog_skeleton *skeleton, const float p[3], struct dog_influences *influences);
 
-/// Its limbs, each a solid that follows a chain of joints.
+/// Limbs: solids that follow a chain of joints.
 enum dog_limb_number {
     DOG_TRUNK,
     DOG_HEAD,
@@ -64,15 +61,15 @@ enum dog_limb_number {
 /// Distance to one limb.
 float dog_limb_distance(int limb, const float p[3]);
 
-/// A limb: the chain of joints that it follows. `blend`: over how many metres it shares vertices with its neighbours; `bend`: over which
-/// share of a bone each of its joints bends.
+/// A limb's chain of joints. `blend`: metres over which it shares vertices with its neighbours; `bend`: the share of a bone over which each
+/// joint bends.
 struct dog_limb {
-    const char *joints[DOG_TAIL_JOINTS + 1]; ///< up to NULL
+    const char *joints[DOG_TAIL_JOINTS + 1]; ///< ends with NULL
     float blend, bend;
 };
 extern const struct dog_limb dog_limbs[DOG_LIMBS];
 
-/// The coat: about so many triangles.
+/// Makes the coat with about `triangles` triangles.
 void dog_coat(int triangles, struct mesh *mesh);
 
 enum dog_material {
@@ -87,7 +84,7 @@ enum dog_material {
     DOG_MATERIALS
 };
 
-/// A part of the dog of one material. `joint`: all of it follows that one; −1: each vertex by dog_influences().
+/// A part of one material. `joint`: the joint of the whole part; −1: joints per vertex by dog_influences().
 struct dog_piece {
     enum dog_material material;
     int joint;
@@ -98,13 +95,13 @@ enum { DOG_MAX_PIECES = 20 };
 struct dog_pieces {
     struct dog_piece pieces[DOG_MAX_PIECES];
     int count;
-    float tag_middle[3], tag_radius; ///< where its picture is laid on
+    float tag_middle[3], tag_radius; ///< place of its picture
 };
 
 /// Eyes, lids, nose, collar and tag.
 void dog_face(const struct dog_skeleton *skeleton, struct dog_pieces *pieces);
 
-/// A looping motion of so many frames; the last key equals the first.
+/// A looping clip; the last key equals the first.
 struct dog_clip {
     const char *name;
     int frames;
@@ -112,13 +109,13 @@ struct dog_clip {
 enum { DOG_CLIPS = 3 };
 extern const struct dog_clip dog_clips[DOG_CLIPS];
 
-/// Where everything is at one time of a clip, joints against their parents.
+/// Joints relative to their parents at one time of a clip.
 struct dog_pose {
     float rotation[DOG_MAX_JOINTS][4];
     float hips[3];
 };
 
-/// The pose at 0 … 1 of a clip. Where a leg does not reach its paw, which is an error in the clip, the program ends.
+/// The pose at 0 … 1 of a clip. Ends the program if a leg does not reach its paw, an error in the clip.
 void dog_pose(const struct dog_skeleton *skeleton, int clip, float time, struct dog_pose *pose);
 
 #endif

@@ -1,8 +1,7 @@
-/// The dog's clips: how paws and trunk move in a walk and a trot, and poses from that, with the paws held where they belong by two-bone
-/// inverse kinematics.
+/// The dog's clips: gaits move paws and trunk, and two-bone inverse kinematics bends the legs to reach the paws.
 ///
-/// A pose is made of turns about the model's own axes: A of each joint against its parent, G = G(parent)·A against the world. With the
-/// rest rotation R of each joint, what a file stores is R(parent)⁻¹·A·R.
+/// A pose consists of rotations about the model's axes: A of each joint relative to its parent, G = G(parent)·A relative to the world. With
+/// the joints' rest rotations R, a file stores R(parent)⁻¹·A·R.
 #include "model/vector.h"
 #include "models/dog.h"
 #include <math.h>
@@ -15,27 +14,27 @@ enum { DOG_LEGS = 4 }; ///< front left, front right, hind left, hind right, as i
 
 /// A gait, in place. Lengths in metres, angles in degrees, phases in cycles.
 struct gait {
-    float phase[DOG_LEGS]; ///< at which each paw comes down
+    float phase[DOG_LEGS]; ///< when each paw touches down
     float duty;            ///< share of the cycle that a paw is on the ground
-    float stride;          ///< how far it then moves back
+    float stride;          ///< movement backwards on the ground
     float lift[2];         ///< of front and hind paws
     float bob, sway;       ///< of hips and chest
     float turn, roll;
     float nod;
 };
 
-/// A paw against where it stands at rest: its ball moves, the foot tilts forward about the ball, the toes tilt down.
+/// A paw relative to its rest: its ball moves, the foot tilts forward about the ball, the toes tilt down.
 struct paw {
     float up, ahead;
     float foot, toes; ///< degrees
 };
 
-/// Where one end of the trunk goes with its pair of legs: 0 the chest, 1 the hips. Degrees: `turn` to its left, `roll` left side up.
+/// Movement of one end of the trunk with its legs: 0 the chest, 1 the hips. Degrees: `turn` to the left, `roll` left side up.
 struct sway {
     float across, up, turn, roll;
 };
 
-/// A lateral sequence: hind left, front left, hind right, front right, a quarter of a cycle apart.
+/// Lateral sequence: hind left, front left, hind right, front right, a quarter cycle apart.
 static const struct gait walk = {
     .phase = {0.25f, 0.75f, 0.0f, 0.5f},
     .duty = 0.62f,
@@ -60,7 +59,7 @@ static const struct gait trot = {
     .nod = 2.5f,
 };
 
-/// An angle at a place in the step: 0 … 0.5 on the ground, 0.5 … 1 in the air.
+/// An angle at a time of the step: 0 … 0.5 on the ground, 0.5 … 1 in the air.
 struct key {
     float place, degrees;
 };
@@ -94,7 +93,7 @@ static float foot_tilt(const struct key *keys, float duty, float u)
     return glm_hermite(t, value[1], in, out, value[2]);
 }
 
-/// On the ground a paw moves back evenly, flat; its path is smooth.
+/// On the ground a paw moves back flat at constant speed.
 static struct paw gait_paw(const struct gait *gait, int leg, float time)
 {
     const int pair = leg / 2;
@@ -114,8 +113,8 @@ static struct paw gait_paw(const struct gait *gait, int leg, float time)
 
 static struct sway gait_sway(const struct gait *gait, int end, float time)
 {
-    const float left = 2.0f * GLM_PIf * (time - gait->phase[2 * end]); // 0 where the left paw comes down
-    const float borne = left - GLM_PIf * gait->duty;                   // 0 half-way through its time on the ground
+    const float left = 2.0f * GLM_PIf * (time - gait->phase[2 * end]); // 0 when the left paw touches down
+    const float borne = left - GLM_PIf * gait->duty;                   // 0 halfway through its time on the ground
     return (struct sway){
         .across = gait->sway * cosf(borne),
         .up = gait->bob * cosf(2.0f * borne) * (gait->duty < 0.5f ? -1.0f : 1.0f),
@@ -153,7 +152,7 @@ static void turn(struct figure_pose *pose, const char *name, float x, float y, f
     pose->turn[dog_joint(pose->skeleton, name)] = angles(x, y, z);
 }
 
-/// G and place of a joint.
+/// G and position of a joint.
 static versors in_world(const struct figure_pose *pose, int joint, vec3s *at)
 {
     const int parent = pose->skeleton->joints[joint].parent;
@@ -167,7 +166,7 @@ static versors in_world(const struct figure_pose *pose, int joint, vec3s *at)
     return glms_quat_mul(g, pose->turn[joint]);
 }
 
-/// The turn that takes the plane and direction of a bone at rest to others.
+/// The rotation from a bone's plane and direction at rest to others.
 static versors turn_between(vec3s from, vec3s from_normal, vec3s to, vec3s to_normal)
 {
     mat3s a, b;
@@ -180,7 +179,7 @@ static versors turn_between(vec3s from, vec3s from_normal, vec3s to, vec3s to_no
     return glms_quat_normalize(glms_mat3_quat(glms_mat3_mul(b, glms_mat3_transpose(a))));
 }
 
-/// Bends thigh and shin so that the foot's joint is at `ankle`, with the knee on the side where it is at rest. False where it is too far.
+/// Bends thigh and shin so that the foot's joint is at `ankle`, with the knee on the same side as at rest. False if it is too far.
 static bool reach(const struct dog_skeleton *skeleton, const int leg[DOG_LEG_JOINTS], vec3s hip, vec3s ankle,
                   versors turned[2])
 {
@@ -190,7 +189,7 @@ static bool reach(const struct dog_skeleton *skeleton, const int leg[DOG_LEG_JOI
     const float a = glms_vec3_norm(thigh), b = glms_vec3_norm(shin), length = glms_vec3_norm(line);
     const float along = (a * a - b * b + length * length) / (2.0f * length);
     if (length > 0.998f * (a + b) || fabsf(along) >= a) return false;
-    // At rest the knee is to one side of the line from hip to ankle; it stays in the upright plane of that side.
+    // The knee stays in the upright plane of its side at rest.
     const vec3s rest_normal = glms_vec3_normalize(glms_vec3_cross(thigh, shin));
     const vec3s side = glms_vec3_normalize(glms_vec3_cross(rest_normal, way));
     const vec3s normal = glms_vec3_cross(way, side);
@@ -201,7 +200,7 @@ static bool reach(const struct dog_skeleton *skeleton, const int leg[DOG_LEG_JOI
     return true;
 }
 
-/// Puts a leg's paw where it belongs.
+/// Places a leg's paw.
 static void stand(struct figure_pose *pose, int leg, const struct paw *paw)
 {
     int joint[DOG_LEG_JOINTS];
@@ -222,7 +221,7 @@ static void stand(struct figure_pose *pose, int leg, const struct paw *paw)
         pose->turn[joint[n]] = glms_quat_mul(glms_quat_inv(n == 0 ? body : g[n - 1]), g[n]);
 }
 
-/// The trunk between hips and chest, which each go with their own legs; the head keeps steady, and nods.
+/// The trunk between hips and chest, each following its legs; the head stays level and nods.
 static void trunk(struct figure_pose *pose, const struct gait *gait, float time)
 {
     const struct sway hips = gait_sway(gait, 1, time), chest = gait_sway(gait, 0, time);
@@ -240,7 +239,7 @@ static void trunk(struct figure_pose *pose, const struct gait *gait, float time)
     turn(pose, "jaw", 2.0f + 2.5f * cosf(late - 1.0f), 0, 0);
 }
 
-/// A value at a time, seconds, of those given; it eases from one to the next.
+/// A value at a time in seconds, eased between keys.
 static float eased(const float (*keys)[2], int count, float seconds)
 {
     int k = 0;
@@ -250,7 +249,7 @@ static float eased(const float (*keys)[2], int count, float seconds)
 
 #define EASED(keys, seconds) eased(keys, sizeof keys / sizeof *keys, seconds)
 
-/// It breathes, looks to its left and its right, and blinks.
+/// It breathes, looks left and right, and blinks.
 static void rest(struct figure_pose *pose, float time)
 {
     static const float look[][2] = {{0, 0},      {0.8f, 0},   {1.3f, 26}, {2.2f, 24},

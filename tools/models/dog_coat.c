@@ -1,4 +1,4 @@
-/// The dog's coat: a smooth union of limbs, each of which is made of round cones and follows a chain of joints; its mesh and its colours.
+/// The dog's coat: a smooth union of limbs, made of round cones that follow a chain of joints; its mesh and colours.
 #include "base/need.h"
 #include "model/figure.h"
 #include "model/vector.h"
@@ -8,7 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// How much flatter than wide the ears are.
+/// Ratio of the ears' width to thickness.
 #define EAR_FLATNESS 2.6f
 #define SOLE_FILLET 0.010f
 
@@ -30,7 +30,7 @@ static const struct part jaw[] = {
     {{0.018f, 0.682f, 0.365f}, {0.011f, 0.628f, 0.492f}, 0.044f, 0.027f, 0.02f, 0, true},
 };
 
-/// Front and hind leg, of the left side.
+/// Left front leg; the hind leg follows.
 static const struct part front_leg[] = {
     {{0.080f, 0.445f, 0.155f}, {0.093f, 0.300f, 0.078f}, 0.080f, 0.050f, 0.001f, 0, false}, // upper arm
     {{0.093f, 0.295f, 0.075f}, {0.091f, 0.105f, 0.110f}, 0.051f, 0.037f, 0.03f, 0, false},  // forearm
@@ -55,7 +55,7 @@ static const float tail_radius[DOG_TAIL_JOINTS + 1] = {0.046f, 0.037f, 0.033f, 0
                                                        0.040f, 0.040f, 0.034f, 0.018f};
 static const float ear_radius[DOG_EAR_JOINTS + 1] = {0.034f, 0.046f, 0.056f, 0.062f, 0.040f};
 
-/// How limbs join the ones before them.
+/// How limbs join the previous ones.
 static const struct {
     const struct part *parts;
     size_t count;
@@ -87,7 +87,7 @@ const struct dog_limb dog_limbs[DOG_LIMBS] = {
     {{"thigh_back_R", "shin_back_R", "foot_back_R", "toe_back_R"}, 0.08f, 0.5f},
 };
 
-/// A point of the Catmull–Rom curve through the points, `t` of the way from number i to the next.
+/// A point of the Catmull–Rom curve through the points, at `t` between number i and the next.
 static vec3s curve_point(const float (*points)[3], int count, int i, float t)
 {
     vec3s at = glms_vec3_zero();
@@ -98,10 +98,10 @@ static vec3s curve_point(const float (*points)[3], int count, int i, float t)
     return at;
 }
 
-/// Round cones along a curve; x is stretched by `flatness` for that, and distances shrink again.
+/// Round cones along a curve, with x stretched by `flatness`; the distance is scaled back.
 static float tube(const float (*points)[3], const float *radii, int count, float flatness, const float p[3])
 {
-    enum { CONES = 3 }; // from point to point
+    enum { CONES = 3 }; // between two points
     const float q[3] = {flatness * p[0], p[1], p[2]};
     float nearest = 1e3f;
     for (int n = 0; n < CONES * count; n++) {
@@ -127,7 +127,7 @@ float dog_limb_distance(int limb, const float p[3])
     return tube(dog_ear, ear_radius, DOG_EAR_JOINTS, EAR_FLATNESS, q);
 }
 
-/// Everything below the ground is cut off, so that the soles are flat.
+/// Everything below the ground is cut off, which flattens the soles.
 static float distance(const float p[3])
 {
     float nearest = 1e3f;
@@ -150,7 +150,7 @@ enum { REFINE_ROUNDS = 3 };
 
 static const float lo[3] = {-0.26f, -0.02f, -0.82f}, hi[3] = {0.26f, 0.95f, 0.66f};
 
-/// 1 where a is beyond b by more than a soft edge.
+/// Rises from 0 to 1 as a exceeds b, over a soft edge.
 static float beyond(float a, float b, float edge) { return glm_smoothstep(-edge, edge, a - b); }
 
 static float patches(const float p[3])
@@ -165,7 +165,7 @@ static float patches(const float p[3])
     return fmaxf(fmaxf(saddle, tail), fmaxf(p[2] < 0.30f ? nape : 0.0f, mask * beyond(p[2], 0.22f, 0.02f)));
 }
 
-/// Distance to the lines around the muzzle: from the nose down to the lip, and up from the corner of the mouth, so that it smiles.
+/// Distance to the lines around the muzzle: from the nose down to the lip, and up from the corner of the mouth, for a smile.
 static float smile(const float p[3])
 {
     static const struct part lines[] = {
@@ -175,8 +175,8 @@ static float smile(const float p[3])
     return parts_add(lines, sizeof lines / sizeof *lines, p, 1e3f, NULL);
 }
 
-/// White with chestnut patches: a saddle, a mask with a blaze, the nape and the tail up to its white tip. The ears are darker, and dark is
-/// what is near both lips: the inside of the mouth.
+/// White with chestnut patches: a saddle, a mask with a blaze, the nape and the tail except its white tip. The ears are darker, the inside
+/// of the mouth is dark.
 static void paint(struct vertex *vertex)
 {
     const float *p = vertex->position;
@@ -190,7 +190,7 @@ static void paint(struct vertex *vertex)
              glm_smoothstep(0.014f, 0.003f, fmaxf(from_head, from_jaw)) * beyond(p[2], 0.405f, 0.01f));
 }
 
-/// The mesh as a character, which decimate() takes. It borrows nothing.
+/// Decimates the mesh as a character that owns all its data.
 static void thin(struct mesh *mesh, int triangles)
 {
     const size_t count = (size_t)mesh->vertex_count;
@@ -212,7 +212,7 @@ static void thin(struct mesh *mesh, int triangles)
     free(c.color);
 }
 
-/// Drops the vertices that no triangle needs any more.
+/// Drops unused vertices.
 static void drop_unused(struct mesh *mesh)
 {
     uint32_t *place = need((size_t)mesh->vertex_count, sizeof *place);

@@ -1,4 +1,4 @@
-/// What the dog wears on its coat: eyes with lids, a nose, a collar with a tag.
+/// The dog's eyes with lids, nose, tongue, and collar with tag.
 #include "model/vector.h"
 #include "models/dog.h"
 #include "models/mesh.h"
@@ -10,7 +10,7 @@
 #define LASHES 0x2B1D18u
 enum { AROUND = 24, RINGS = 5 };
 
-/// A frame for round things: `axis` points out of it.
+/// A frame for round parts; `axis` points outwards.
 struct frame {
     vec3s middle, across, up, axis;
 };
@@ -45,7 +45,7 @@ static uint32_t put(struct mesh *mesh, vec3s position, vec3s normal, uint32_t co
     return mesh_vertex(mesh, &vertex);
 }
 
-/// Quads between rows of `columns` vertices each, the first of which is number `first`.
+/// Quads between rows of `columns` vertices, starting at vertex `first`.
 static void weave(struct mesh *mesh, uint32_t first, int rows, int columns)
 {
     for (int r = 0; r + 1 < rows; r++) {
@@ -57,7 +57,7 @@ static void weave(struct mesh *mesh, uint32_t first, int rows, int columns)
     }
 }
 
-/// Makes triangles from an index on face the other way.
+/// Flips triangles from an index on.
 static void turn_over(struct mesh *mesh, int first_index)
 {
     for (int i = first_index; i < mesh->index_count; i += 3) {
@@ -67,7 +67,7 @@ static void turn_over(struct mesh *mesh, int first_index)
     }
 }
 
-/// The part of an ellipsoid from `inner` to `outer` radians off its axis.
+/// The part of an ellipsoid `inner` to `outer` radians from its axis.
 static void cap(struct mesh *mesh, const struct frame *f, const float radius[3], float inner, float outer, int rings)
 {
     const uint32_t first = (uint32_t)mesh->vertex_count;
@@ -84,7 +84,7 @@ static void cap(struct mesh *mesh, const struct frame *f, const float radius[3],
     weave(mesh, first, rings + 1, AROUND + 1);
 }
 
-/// A ball's cap about a direction off the eye's axis.
+/// A cap of the eyeball about a direction off its axis.
 static void ball_cap(struct mesh *mesh, const struct frame *eye, float across, float up, float radius, float inner,
                      float outer, int rings)
 {
@@ -92,11 +92,10 @@ static void ball_cap(struct mesh *mesh, const struct frame *eye, float across, f
     cap(mesh, &f, (const float[3]){radius, radius, radius}, inner, outer, rings);
 }
 
-/// A lid: a shell around the eye from angle `from` (its dark rim) to `to`, radians about the eye's own horizontal axis, from straight
-/// ahead upwards.
+/// A lid: a shell around the eye from angle `from` (its dark rim) to `to`, radians upwards about the eye's horizontal axis.
 static void lid(struct mesh *mesh, const struct frame *eye, float radius, float from, float to)
 {
-    enum { ROWS = 10, RIM = 3 }; // of the rim: its edge on the eyeball, its edge outside, its end
+    enum { ROWS = 10, RIM = 3 }; // the rim's edge on the eyeball, its outer edge, its end
     const uint32_t first = (uint32_t)mesh->vertex_count;
     const float sign = to > from ? 1.0f : -1.0f, rim_end = from + 0.11f * sign;
     for (int r = 0; r < ROWS; r++) {
@@ -115,7 +114,7 @@ static void lid(struct mesh *mesh, const struct frame *eye, float radius, float 
     if (sign < 0.0f) turn_over(mesh, from_index);
 }
 
-/// The lids' frame: across is the hinge, which is the lid's bone.
+/// The lids' frame: across is the hinge, the lid's bone.
 static struct frame socket_of(const struct dog_joint *joint, float side)
 {
     struct frame f = {.middle = vec3_from(joint->position)};
@@ -163,7 +162,7 @@ static void tongue(const struct dog_skeleton *skeleton, struct dog_pieces *piece
     const struct frame f = frame_towards((vec3s){{0, 0.652f, 0.480f}}, (vec3s){{0, -0.16f, 1}}, (vec3s){{0, 1, 0}});
     cap(mesh, &f, (const float[3]){0.026f, 0.010f, 0.060f}, 0.0f, GLM_PIf, 10);
     for (int v = 0; v < mesh->vertex_count; v++) {
-        // It hangs: the further out, the lower.
+        // It hangs lower further out.
         float *p = mesh->vertices[v].position;
         const float out = fmaxf(p[2] - 0.495f, 0.0f);
         p[1] -= 16.0f * out * out;

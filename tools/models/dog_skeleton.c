@@ -1,4 +1,4 @@
-/// The dog's joints, and which of them a point of its coat follows: those of the limbs that it lies on or near.
+/// The dog's joints, and the joints of a point of its coat: those of the limbs on or near it.
 #include "model/vector.h"
 #include "models/dog.h"
 #include <assert.h>
@@ -14,7 +14,7 @@ const float dog_ear[DOG_EAR_JOINTS + 1][3] = {
     {0.186f, 0.672f, 0.312f}, {0.184f, 0.594f, 0.326f},
 };
 
-/// A bone. Those of the left side are mirrored to the right; names get _L and _R.
+/// A bone. Bones of the left side are mirrored; names get _L and _R.
 struct bone {
     const char *name, *parent;
     float from[3], to[3];
@@ -45,7 +45,7 @@ static const struct bone bones[] = {
 #define TAIL_ROLL 40.0f
 #define EAR_ROLL 65.0f
 
-/// The rotation that takes y to the bone's direction the shortest way, after a roll about y.
+/// The shortest rotation from y to the bone's direction, after a roll about y.
 static void bone_rotation(const float from[3], const float to[3], float roll, float rotation[4])
 {
     versors along =
@@ -69,7 +69,7 @@ int dog_joint(const struct dog_skeleton *skeleton, const char *name)
     return joint;
 }
 
-/// `side`: 0 in the middle, 1 left, −1 right. The parent is the one of the same side, or in the middle.
+/// `side`: 0 middle, 1 left, −1 right. The parent is on the same side or in the middle.
 static void add(struct dog_skeleton *skeleton, const struct bone *bone, int side)
 {
     static const char *const suffix[3] = {"_R", "", "_L"};
@@ -124,7 +124,7 @@ void dog_skeleton_make(struct dog_skeleton *skeleton)
 
 // --- skin
 
-/// Points this much further from a limb's axis than the nearest one do not count, softly.
+/// Points this much further from a limb's axis than the nearest count little, with a soft limit.
 #define AXIS_WIDTH 0.03f
 
 /// The joints of a limb.
@@ -140,8 +140,7 @@ static struct limb_joints joints_of(const struct dog_skeleton *skeleton, const s
     return joints;
 }
 
-/// How far along the limb the point lies, in bones. Where several bones are about as near, their mean: so it is smooth across the
-/// inside of a bend.
+/// A point's position along the limb, in bones; a mean if several bones are about equally near, so that it is smooth inside a bend.
 static float place_along(const struct dog_skeleton *skeleton, const struct limb_joints *joints, const float p[3])
 {
     float square[DOG_TAIL_JOINTS], place[DOG_TAIL_JOINTS], least = INFINITY, sum = 0.0f, total = 0.0f;
@@ -167,7 +166,7 @@ static void add_limb(float *weights, const struct dog_skeleton *skeleton, const 
 {
     const struct limb_joints joints = joints_of(skeleton, limb);
     const float place = place_along(skeleton, &joints, p);
-    float before = 1.0f; // how far the point is beyond the joint
+    float before = 1.0f; // how far the point is past the joint
     for (int i = 0; i < joints.count; i++) {
         const float next = (float)(i + 1);
         const float after = i + 1 < joints.count ? glm_smoothstep(next - limb->bend, next + limb->bend, place) : 0.0f;
@@ -176,7 +175,7 @@ static void add_limb(float *weights, const struct dog_skeleton *skeleton, const 
     }
 }
 
-/// Keeps the strongest and makes their sum 1.
+/// Keeps the strongest and normalises their sum to 1.
 static void strongest(float *weights, struct dog_influences *influences)
 {
     float sum = 0.0f;

@@ -8,10 +8,9 @@
 
 #define PARTS(table) (sizeof(table) / sizeof *(table))
 
-/// The torso is a smooth union of round cones. Metres, bind size, but with y = 0 on the ground. The animal looks towards
-/// −z. Parts of the head are relative to its middle and also look towards −z: the head is turned afterwards.
-///
-/// Later parts lie on top of earlier ones with their colours and fillets.
+/// The torso is a smooth union of round cones, in metres, bind size, but with y = 0 on the ground. The animal looks towards −z. Parts of
+/// the head are relative to its middle and also look towards −z; the head is turned afterwards. Later parts override colours and fillets of
+/// earlier ones.
 static const struct part trunk[] = {
     {{0, 0.235f, -0.22f}, {0, 0.53f, -0.40f}, 0.210f, 0.120f, 0.001f, COAT_FUR, false},           // rump to chest
     {{0, 0.54f, -0.40f}, {0, 0.70f, -0.385f}, 0.115f, 0.100f, 0.08f, COAT_FUR, false},            // neck
@@ -30,12 +29,12 @@ static const struct part head[] = {
     {{0, -0.046f, -0.262f}, {0, -0.050f, -0.270f}, 0.021f, 0.018f, 0.012f, COAT_DARK, false},       // nose
 };
 
-/// What ears are hollowed by.
+/// Hollows in the ears.
 static const struct part ear_hollow[] = {
     {{0.096f, 0.120f, -0.078f}, {0.143f, 0.245f, -0.034f}, 0.050f, 0.018f, 0.001f, COAT_TIP, true},
 };
 
-/// Markings: what lies in these is white, or dark.
+/// Volumes of white, then dark, markings.
 static const struct part white_trunk[] = {
     {{0, 0.64f, -0.57f}, {0, 0.40f, -0.60f}, 0.105f, 0.070f, 0.001f, COAT_TIP, false},
 };
@@ -52,7 +51,7 @@ static const struct part dark_head[] = {
     {{0.128f, 0.215f, 0.140f}, {0.185f, 0.380f, 0.140f}, 0.105f, 0.110f, 0.001f, COAT_DARK, true},
 };
 
-/// Eyes and nose of a mesh that is coloured by vertex; the stage draws them by the pixel (stage_mesh.frag).
+/// Eyes and nose of a mesh with vertex colours; the stage draws them per pixel (stage_mesh.frag).
 static const struct part face[] = {
     {{0.074f, 0.012f, -0.40f}, {0.074f, 0.018f, 0.0f}, 0.029f, 0.029f, 0.001f, COAT_DARK, true},
     {{0, -0.046f, -0.262f}, {0, -0.050f, -0.272f}, 0.024f, 0.021f, 0.001f, COAT_DARK, false},
@@ -63,10 +62,10 @@ static const struct part face[] = {
 #define STUMP_BLEND 0.14f
 #define EAR_BLEND 0.020f
 
-/// The box in the head's own space that eyes, nose and mouth are drawn in (stage_mesh.frag).
+/// Box of eyes, nose and mouth in the head's own space (stage_mesh.frag).
 static const float face_lo[3] = {-0.118f, -0.112f, -0.32f}, face_hi[3] = {0.118f, 0.066f, -0.035f};
 
-/// Bind space → the head's own, before it was turned and tilted.
+/// From bind space to the head's own, before it was turned and tilted.
 static vec3s in_head(const float bind[3])
 {
     float matrix[16];
@@ -90,8 +89,8 @@ bool fox_is_face(const struct mesh *mesh, const uint32_t corners[3])
     return true;
 }
 
-/// The tail's stump: a hair thicker than the tail along the fillet, then sinking below the tail's own
-/// skin at so flat an angle that the seam cannot be seen.
+/// The tail's stump: slightly thicker than the tail along the fillet, then sinking below the tail's skin at a flat angle that hides the
+/// seam.
 static float stump_distance(const float p[3])
 {
     const float z = fminf(fmaxf(p[2], -0.14f), 0.25f);
@@ -112,7 +111,7 @@ static float fox_body_distance(const float p[3])
     return parts_union(distance, -parts_union(-solid, hollow, EAR_BLEND, NULL, NULL), NECK_BLEND, NULL, NULL);
 }
 
-/// How much light from all around reaches a place on the skin: less of it where, some way out, the skin or the ground is nearer than that.
+/// Share of ambient light at a place on the skin. It is lower if, some way outwards, skin or ground is nearer than that.
 static float openness(const float position[3], const float normal[3])
 {
     static const struct {
@@ -127,11 +126,11 @@ static float openness(const float position[3], const float normal[3])
     return expf(-shade);
 }
 
-static const float CHEST_INNER = 0.05f;                 ///< metres from its middle: wholly part of it
-static const float NECK_LOW = 0.57f, NECK_HIGH = 0.68f; ///< heights: not part of the head, and wholly
+static const float CHEST_INNER = 0.05f;                 ///< metres from its middle: fully part of it
+static const float NECK_LOW = 0.57f, NECK_HIGH = 0.68f; ///< heights: not part of the head, fully part of it
 static const float HALF_BEND = 0.25f;                   ///< of an ear's length, over which it bends
 
-/// How far along its ear a place in the head's own space is: 0 at the root, 1 at the tip.
+/// Position along its ear in the head's own space: 0 at the root, 1 at the tip.
 static float along_ear(vec3s of_head)
 {
     const vec3s root = vec3_from(limbs_ear_root), along = glms_vec3_sub(vec3_from(limbs_ear_tip), root);
@@ -139,7 +138,7 @@ static float along_ear(vec3s of_head)
     return glms_vec3_dot(up_ear, along) / glms_vec3_norm2(along);
 }
 
-/// Between two parts, or wholly on the second.
+/// Weights between two parts, or only the second.
 static void hang_on(struct vertex *vertex, int from, int to, float share)
 {
     vertex->limb[0] = (float)from;
@@ -147,13 +146,13 @@ static void hang_on(struct vertex *vertex, int from, int to, float share)
     vertex->limb[2] = share;
 }
 
-/// Evenly from 0 to 1 around a place where the ear bends, or it would crease.
+/// Linear from 0 to 1 around an ear's bend, to avoid a crease.
 static float behind_joint(float place, int joint)
 {
     return glm_clamp((place - limbs_ear_joint[joint]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f);
 }
 
-/// Says which parts of the body a vertex hangs on.
+/// Sets a vertex's joints.
 static void hang(struct vertex *vertex, vec3s of_head)
 {
     const float *p = vertex->position, standing[3] = {p[0], p[1] + FOX_BASE_HEIGHT, p[2]};
@@ -173,7 +172,7 @@ static void hang(struct vertex *vertex, vec3s of_head)
     }
 }
 
-/// Each marking has a volume; around the stump markings and bending go over into the tail's.
+/// Each marking has a volume; around the stump markings and bending blend into the tail's.
 static void torso_paint(struct vertex *vertex)
 {
     const float *p = vertex->position, standing[3] = {p[0], p[1] + FOX_BASE_HEIGHT, p[2]};

@@ -4,17 +4,17 @@
 
 #include "models/mesh.h"
 
-/// Appends body and tail of a level of detail.
+/// Appends body and tail at a level of detail.
 void mesh_fox(int level, struct mesh *mesh);
 
-/// Appends the body, with the stump that the tail hides. Edges are about `cell` metres long, and halved in up to `rounds` rounds where
-/// they would miss the round shape by more than `tolerance` metres, or blur colours.
+/// Appends the body, with the stump that the tail hides. Edges are about `cell` metres long, and halved in up to `rounds` rounds where they
+/// deviate from the round shape by more than `tolerance` metres or blur colours.
 void mesh_fox_body(float cell, float tolerance, int rounds, struct mesh *mesh);
 
 /// Appends the tail: `rings` rings of `segments` vertices each, from inside the body, where it is open, to a rounded tip.
 void mesh_fox_tail(int rings, int segments, struct mesh *mesh);
 
-/// Whether a triangle is of what eyes, nose and mouth are drawn on.
+/// Whether eyes, nose or mouth are drawn on a triangle.
 bool fox_is_face(const struct mesh *mesh, const uint32_t corners[3]);
 
 #endif

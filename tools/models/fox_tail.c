@@ -3,13 +3,13 @@
 #include "models/fox_maker.h"
 #include <math.h>
 
-/// Where the tube starts (inside the torso), where the brush begins to swell, and where its tip begins.
+/// Start of the tube inside the torso, of the swelling, and of the tip.
 #define TUBE_START (-0.10f)
 #define TIP_LENGTH (FOX_TAIL_LENGTH - FOX_TIP_START)
 
 static const float half_turn = 3.14159265f;
 
-/// One ring: place along the tail, radius, and the profile's direction there (along, outward), of length 1.
+/// A ring: place along the tail, radius, and the profile's unit direction there (along, outward).
 struct ring {
     float z, radius, along, outward;
 };
@@ -25,7 +25,7 @@ static struct ring swelling_ring(float z)
 
 static float tip_radius(float s) { return FOX_BRUSH_RADIUS * sqrtf(1.0f - s * s) * (1.0f - FOX_TIP_POINT * s * s); }
 
-/// `angle` runs from 0 where the tip begins to a quarter turn at its end: rings stand closer where it curves more.
+/// `angle` runs from 0 at the tip's start to a quarter turn at its end; rings are closer at higher curvature.
 static struct ring tip_ring(float angle)
 {
     const float s = sinf(angle), c = cosf(angle);
@@ -52,7 +52,7 @@ static void add_ring(struct ring ring, int segments, struct mesh *mesh)
     }
 }
 
-/// Two triangles a segment between the ring that starts at vertex `first` and the next.
+/// Two triangles per segment between the ring at vertex `first` and the next.
 static void join_rings(uint32_t first, uint32_t segments, struct mesh *mesh)
 {
     for (uint32_t s = 0; s < segments; s++) {

@@ -6,14 +6,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-/// Corners of cells are sampled in blocks of this many a side, and a block far from the surface is sampled once.
+/// Cell corners are sampled in blocks of this size; a block far from the surface is sampled once.
 enum { BLOCK = 4 };
 
 struct grid {
-    int n[3]; ///< corners a side
+    int n[3]; ///< corners per side
     float lo[3], cell;
     float *distance;  ///< at corners, x fastest
-    uint32_t *vertex; ///< of the cell whose lowest corner it is; NO_VERTEX where the surface is elsewhere
+    uint32_t *vertex; ///< of the cell with this lowest corner; NO_VERTEX away from the surface
 };
 
 #define NO_VERTEX UINT32_MAX
@@ -56,7 +56,7 @@ static void sample(const struct solid *solid, struct grid *grid)
     }
 }
 
-/// From four corners of a tetrahedron, which is the fewest that will do.
+/// From a tetrahedron's four corners, the fewest possible.
 static vec3s gradient(const struct solid *solid, vec3s p, float step)
 {
     static const vec3s corner[4] = {{{1, -1, -1}}, {{-1, 1, -1}}, {{-1, -1, 1}}, {{1, 1, 1}}};
@@ -68,7 +68,7 @@ static vec3s gradient(const struct solid *solid, vec3s p, float step)
     return g;
 }
 
-/// Mean of the points where the cell's twelve edges cross the surface, in cells from the cell's lowest corner.
+/// Mean of the intersections of the cell's twelve edges with the surface, in cells from the lowest corner.
 static bool cell_crossing(const struct grid *grid, int x, int y, int z, float mean[3])
 {
     float d[8];
@@ -90,7 +90,7 @@ static bool cell_crossing(const struct grid *grid, int x, int y, int z, float me
     return true;
 }
 
-/// Newton steps along the gradient bring the point onto the surface.
+/// Newton steps along the gradient move the point onto the surface.
 void surface_place(const struct solid *solid, float cell, struct vertex *vertex)
 {
     vec3s position = vec3_from(vertex->position);
@@ -124,8 +124,8 @@ static void place_vertices(const struct solid *solid, struct grid *grid, struct 
     }
 }
 
-/// The quad around the edge that leaves corner c along `axis`, if the surface crosses it: its corners are the
-/// vertices of the four cells that share the edge.
+/// The quad around the edge that leaves corner c along `axis`, if the surface crosses it. Its corners are the vertices of the four cells at
+/// the edge.
 static void edge_quad(const struct grid *grid, const int c[3], int axis, struct mesh *mesh)
 {
     const int u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -175,9 +175,8 @@ void isosurface(const struct solid *solid, const float lo[3], const float hi[3],
     free(grid.vertex);
 }
 
-/// Distance to a round cone. Seen in the half plane through its axis (x along it, r from it), the ball that is
-/// nearest to a point sits where the cone's surface normal, tilted by asin((radius_a − radius_b)/length), meets the
-/// axis.
+/// Distance to a round cone. In the half plane through its axis (x along, r from it), the ball nearest to a point lies where the cone's
+/// surface normal through the point, tilted by asin((radius_a − radius_b)/length), meets the axis.
 static float part_distance(const struct part *part, const float p[3])
 {
     const vec3s from = vec3_from(part->a), axis = glms_vec3_sub(vec3_from(part->b), from);

@@ -1,5 +1,5 @@
-/// Solids: soft shapes built of round cones (the hull of two balls) that blend into each other, each with its own colour, and the triangles of
-/// whatever has a distance function.
+/// Solids of round cones (hulls of two balls) that blend into each other, each with its own colour, and triangles for any distance
+/// function.
 #ifndef MODELS_ISOSURFACE_H
 #define MODELS_ISOSURFACE_H
 
@@ -8,16 +8,15 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/// A solid: negative inside; never larger than the true distance, and close to it near the surface.
+/// Distance to a solid: negative inside, never larger than the true distance, and close to it near the surface.
 struct solid {
     float (*distance)(const float p[3]);
-    /// Colour and bend of a vertex whose position and normal are set.
+    /// Sets colour and bend of a vertex, after its position and normal.
     void (*paint)(struct vertex *vertex);
 };
 
-/// Appends the surface inside the box lo … hi, which must hold it whole, with edges about `cell` metres long. Surface nets: one vertex per
-/// grid cell that the surface passes through, one quad per edge that it crosses. Vertices lie on the surface; normals are the
-/// distance's gradient.
+/// Appends the surface in the box lo … hi, which must contain it, with edges about `cell` metres long. Surface nets: a vertex per grid cell
+/// that the surface passes through, a quad per grid edge that it crosses. Vertices lie on the surface; normals are the distance's gradient.
 void isosurface(const struct solid *solid, const float lo[3], const float hi[3], float cell, struct mesh *mesh);
 
 /// Moves a vertex less than `cell` metres off onto the surface, and sets its normal and colour.

@@ -6,7 +6,7 @@
 #include "model/vector.h"
 #include <stdlib.h>
 
-/// Room for `more` further elements of `size` bytes.
+/// Makes room for `more` elements of `size` bytes.
 static void *grow(void *block, int *capacity, int count, int more, size_t size)
 {
     if (count <= *capacity - more) return block;

@@ -1,4 +1,4 @@
-/// Triangle meshes that are made, and the colours and markings of the coat on them.
+/// Triangle meshes under construction, and their coat's colours and markings.
 #ifndef MODELS_MESH_H
 #define MODELS_MESH_H
 
@@ -10,10 +10,10 @@ struct vertex {
     float position[3];
     float normal[3];
     float color[3]; ///< linear RGB
-    float bend;     ///< how far it follows the joints: 1 on the tail, 0 on the torso, between where they join
-    float open;     ///< share of the light from all around that reaches it, 0 … 1
-    float limb[3];  ///< which two parts of the body it hangs on, and its share of the second: see fox.h
-    float mark[3];  ///< a coat's markings, see below; `color` is what they come to
+    float bend;     ///< 1 on the tail, 0 on the torso, between at the seam
+    float open;     ///< share of ambient light, 0 … 1
+    float limb[3];  ///< two parts of the body, and its weight for the second: see fox.h
+    float mark[3];  ///< a coat's markings, see below; `color` is their result
 };
 
 struct mesh {
@@ -27,10 +27,10 @@ struct mesh {
 uint32_t mesh_vertex(struct mesh *mesh, const struct vertex *vertex);
 void mesh_triangle(struct mesh *mesh, uint32_t a, uint32_t b, uint32_t c);
 
-/// Leaves an empty mesh: all zero, as every mesh starts.
+/// Leaves an empty mesh, all zero.
 void mesh_free(struct mesh *mesh);
 
-// The colours of the animal's coat. Linear RGB.
+// Colours of the coat. Linear RGB.
 
 #define COAT_FUR 0xD98A4Bu
 #define COAT_BELLY 0xF2D3ACu
@@ -44,14 +44,14 @@ void coat_linear(uint32_t srgb, float rgb[3]);
 /// rgb = rgb + (to − rgb)·amount.
 void coat_mix(float rgb[3], uint32_t to, float amount);
 
-/// A coat is fur with markings, which have clear edges however near one looks: mark[0] is how deep a point lies in what is
-/// white, mark[1] in what is dark (metres, negative outside), mark[2] how brown its fur is (0 … 1).
+/// A coat is fur with markings, whose edges stay sharp at any distance: mark[0] is a point's depth inside the white, mark[1] inside the
+/// dark (metres, negative outside), mark[2] the share of brown (0 … 1).
 enum { MARK_WHITE, MARK_DARK, MARK_BROWN, MARKS };
 
-/// The colour that markings come to where nothing evaluates them by the pixel.
+/// The markings' colour for meshes that are not coloured per pixel.
 void coat_marked(const float mark[MARKS], float rgb[3]);
 
-/// Markings of the tail `z` metres from its base, where its skin faces `up` (the y of the direction from its axis, −1 … 1).
+/// Markings of the tail `z` metres from its base, on skin that faces `up` (y of the direction from the axis, −1 … 1).
 void coat_tail(float z, float up, float mark[MARKS]);
 
 #endif

@@ -23,7 +23,7 @@ static int compare_edges(const void *a, const void *b)
 
 static struct edge edge_between(uint32_t a, uint32_t b) { return (struct edge){a < b ? a : b, a < b ? b : a, WHOLE}; }
 
-/// The edges of `count` triangles, sorted, each once; returns how many.
+/// The edges of `count` triangles, sorted and without duplicates; returns their number.
 static size_t collect_edges(const uint32_t *triangles, size_t count, struct edge *edges)
 {
     for (size_t t = 0; t < count; t++) {
@@ -38,7 +38,7 @@ static size_t collect_edges(const uint32_t *triangles, size_t count, struct edge
     return unique;
 }
 
-/// How far a circular arc with the normals of both ends rises above the edge: length · angle/8.
+/// Height above the edge of a circular arc with both ends' normals: length · angle/8.
 static float sagitta(const struct vertex *a, const struct vertex *b)
 {
     const float length = glms_vec3_distance2(vec3_from(a->position), vec3_from(b->position));
@@ -46,13 +46,13 @@ static float sagitta(const struct vertex *a, const struct vertex *b)
     return 0.125f * sqrtf(length * turn);
 }
 
-/// Whether the colours of both ends differ so much that the edge would blur what is between.
+/// Whether the ends' colours differ so much that the edge would blur detail between them.
 static bool blurs(const struct vertex *a, const struct vertex *b)
 {
     return glms_vec3_norm_inf(glms_vec3_sub(vec3_from(a->color), vec3_from(b->color))) > MAX_CONTRAST;
 }
 
-/// Gives every edge that is too flat a middle on the surface; returns whether there was one.
+/// Adds a middle on the surface to every edge that is too flat; returns whether there was one.
 static bool halve_edges(const struct solid *solid, float tolerance, struct edge *edges, size_t count,
                         struct mesh *mesh)
 {
@@ -70,7 +70,7 @@ static bool halve_edges(const struct solid *solid, float tolerance, struct edge 
     return any;
 }
 
-/// A triangle with a middle, or WHOLE, on each edge v[e] → v[e + 1]: becomes one to four.
+/// A triangle with a middle or WHOLE on each edge v[e] → v[e + 1]; becomes one to four.
 static void split(const uint32_t v[3], const uint32_t middle[3], struct mesh *mesh)
 {
     const int halved = (middle[0] != WHOLE) + (middle[1] != WHOLE) + (middle[2] != WHOLE);
@@ -80,7 +80,7 @@ static void split(const uint32_t v[3], const uint32_t middle[3], struct mesh *me
         for (int e = 0; e < 3; e++) mesh_triangle(mesh, v[e], middle[e], middle[(e + 2) % 3]);
         mesh_triangle(mesh, middle[0], middle[1], middle[2]);
     } else {
-        // Start at the halved edge that follows a whole one.
+        // Start at the halved edge after a whole one.
         int s = 0;
         while (middle[s] == WHOLE || middle[(s + 2) % 3] != WHOLE) s++;
         const uint32_t a = v[s], b = v[(s + 1) % 3], c = v[(s + 2) % 3], ab = middle[s], bc = middle[(s + 1) % 3];
