@@ -10,6 +10,7 @@
 ///
 /// A point or a line leaves rotations open. A little weight on the identity chooses the smallest.
 #include "analysis/rigid.h"
+#include "analysis/basis.h"
 #include "analysis/slabs.h"
 #include "base/need.h"
 #include <math.h>
@@ -133,10 +134,36 @@ static void fill_turn(const double q[4], double r[3][3])
     }
 }
 
-static void fit(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames)
+/// Whether the motion of the base, as lengths in `rows` rows over the frames, is more a parabola than what is left of it.
+static bool travels(const double *path, int rows, int frames)
 {
+    enum { POWERS = 3 };
+    struct basis basis;
+    double *power = need((size_t)frames, sizeof *power), along = 0, left = 0;
+    basis_create(&basis, frames, POWERS);
+    for (int k = 0; k < POWERS; k++) {
+        for (int t = 0; t < frames; t++) power[t] = pow((double)t / frames, k);
+        basis_append(&basis, power);
+    }
+    for (const double *row = path; row < path + (size_t)rows * (size_t)frames; row += frames) {
+        left += basis_dot(row, row, frames);
+        for (int k = 0; k < POWERS; k++) {
+            const double part = basis_dot(row, basis.q + (size_t)k * (size_t)frames, frames);
+            left -= part * part;
+            if (k > 0) along += part * part;
+        }
+    }
+    basis_free(&basis);
+    free(power);
+    return along > left;
+}
+
+/// Fits all frames; an unknown base counts only if it travels.
+static void fit(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames, bool known)
+{
+    enum { ROWS = 6 };
     const double size = size_of(s), reach = sqrt(size / s->count);
-    double first[4], moved = 0;
+    double first[4], moved = 0, *path = need(ROWS * (size_t)frames, sizeof *path);
     rigid->turn = need((size_t)frames, sizeof *rigid->turn);
     rigid->place = need((size_t)frames, sizeof *rigid->place);
     for (int t = 0; t < frames; t++) {
@@ -150,12 +177,16 @@ static void fit(struct rigid *rigid, const struct lapack *lapack, const struct s
             rigid->place[t][a] = s->mean[t][a] - r[0] * s->centre[0] - r[1] * s->centre[1] - r[2] * s->centre[2];
             travel += pow(s->mean[t][a] - s->mean[0][a], 2);
             away += pow(s->mean[t][a] - s->centre[a], 2);
+            path[a * frames + t] = s->mean[t][a] - s->mean[0][a];
+            path[(3 + a) * frames + t] = 2 * reach * copysign(q[1 + a], q[1 + a] * same);
         }
         rigid->travel = fmax(rigid->travel, sqrt(travel));
         rigid->angle = fmax(rigid->angle, 2 * acos(fmin(fabs(same), 1)) * 180 / M_PI);
         moved = fmax(moved, sqrt(away) + 2 * reach * sqrt(fmax(1 - q[0] * q[0], 0)));
     }
-    rigid->frames = moved > nothing * reach ? frames : 0;
+    rigid->loose = !known && !travels(path, ROWS, frames);
+    rigid->frames = moved > nothing * reach && !rigid->loose ? frames : 0;
+    free(path);
 }
 
 bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct motion *motion,
@@ -176,8 +207,8 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
     }
     measure_rest(&s);
     const bool done = s.count == 0 || read_motion(&s, motion, error);
-    if (done && s.count > 0 && (base || !keep_still(&s))) fit(rigid, lapack, &s, motion->frames);
-    rigid->hinged = done && s.count > 0 && is_hinge(&s);
+    if (done && s.count > 0 && (base || !keep_still(&s))) fit(rigid, lapack, &s, motion->frames, base);
+    rigid->loose |= done && s.count > 0 && is_hinge(&s);
     free(used);
     free(s.base);
     free(s.moment);

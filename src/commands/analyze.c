@@ -21,7 +21,7 @@ enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX, DIRECTION_SIZE = 64 };
 
 static const double recommended_bandwidth = 0.1; ///< the spline's default; an analysis of one oscillation cannot tell
 static const double fast_warning = 0.01;         ///< share of power near half the frame rate that causes a warning
-static const double rigid_warning = 0.5;         ///< share of a coordinate that turns about a point or line at rest
+static const double rigid_warning = 0.5;         ///< share of a coordinate that is a rigid motion of a loose mesh
 static const double fast_pole = 0.8;             ///< share of half the frame rate; higher frequencies cause a warning
 
 struct job {
@@ -155,8 +155,6 @@ static void report_motion(const struct job *job, const struct input *in, const s
         printf("  removed the motion of the %s: up to %.3g m and %.3g degrees\n", base->whole ? "whole mesh" : "base",
                printable_number(base->travel, 1e-4), printable_number(base->angle, 0.01));
     }
-    if (base->frames > 0 && base->whole && !job->pin)
-        printf("    (no vertex rests; if something holds the mesh, name it with --pin)\n");
     if (a->count < job->modes)
         printf("  %d of %d coordinates: the motion has no more poles that matter\n", a->count, job->modes);
 }
@@ -184,17 +182,17 @@ static void warn_of_cancelling(const struct motion *motion, const struct analysi
                motion->path, a->cancelled, a->cancelled > 1 ? "s" : "");
 }
 
-/// A base that is a point or a line allows turns about it.
-static void warn_of_turns(const struct job *job, const struct input *in, const struct analysis *a,
+/// Of a mesh that is not known to be held, a coordinate may be a rigid motion.
+static void warn_of_rigid(const struct job *job, const struct input *in, const struct analysis *a,
                           const struct surface *rest)
 {
-    for (int k = 0; !job->pin && in->base.hinged && k < a->count; k++) {
+    for (int k = 0; !job->pin && in->base.loose && k < a->count; k++) {
         const double share = rigid_share((const double complex(*)[3])a->components[k].shape, rest);
         if (share < rigid_warning) continue;
         print_line(
             stderr,
-            "%s: warning: %.0f %% of coordinate %d turns the whole mesh about the vertices at rest; set --pin to "
-            "what holds it, or to none",
+            "%s: warning: %.0f %% of coordinate %d is a rigid motion of the whole mesh; name what holds it with "
+            "--pin, or --pin none",
             in->motion.path, 100 * share, k + 1);
     }
 }
@@ -316,7 +314,7 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
         warn_of_distance(&in.motion, &analysis, &result->character);
         warn_of_speed(&in.motion, &analysis, in.fps);
         warn_of_cancelling(&in.motion, &analysis);
-        warn_of_turns(job, &in, &analysis, &rest);
+        warn_of_rigid(job, &in, &analysis, &rest);
         report_motion(job, &in, &analysis);
         keep_all(job, &analysis, &in.motion, in.fps, result);
     }
