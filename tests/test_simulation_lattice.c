@@ -276,7 +276,7 @@ CUT_TEST(mixed_sides_are_made_to_agree,
     assert_int_equal(solid.open, 0);
     assert_int_equal(solid.turned, 4 + 12);
     cut_into(cut, 2000);
-    assert_near(filled_volume(&cut->lattice), 64 - 1 + 4, 1.5);
+    assert_near(filled_volume(&cut->lattice), 64 - 1 + 4, 2);
     assert_string_equal(cut->lattice.repair, "16 triangles turned to face outwards");
     solid_free(&solid);
 }

@@ -77,11 +77,14 @@ void tiling_point(const struct tiling *tiling, int key, double position[3])
 /// edge. `key` names its nodes: the two cubes' centres and the edge's ends.
 static void tetrahedron_at(const struct voxels *voxels, const int voxel[3], int key[4])
 {
-    int from_centre[3], centre[3], order[3] = {0, 1, 2};
+    int from_centre[3], centre[3], order[3] = {0, 1, 2}, steps = 0;
     for (int c = 0; c < 3; c++) {
         from_centre[c] = 2 * (voxel[c] % VOXELS_A_CELL) - (VOXELS_A_CELL - 1);
+        steps += (abs(from_centre[c]) + 1) / 2;
         centre[c] = 2 * (voxel[c] / VOXELS_A_CELL) + 1;
     }
+    // Voxels on a diagonal go to either side in turn, so that no axis gets all of them.
+    if (steps % 2 == 1) order[0] = 2, order[2] = 0;
     for (int pass = 0; pass < 3; pass++) { // farthest axis first
         int i = pass % 2, swap = order[i];
         if (abs(from_centre[order[i]]) >= abs(from_centre[order[i + 1]])) continue;
