@@ -38,21 +38,12 @@ static struct imported make_character(void)
         before = after;
     }
     gltf_link_nodes(gltf);
-    assert_true(gltf_pose_create(gltf, &imported.rest));
-    gltf_pose_clip(gltf, -1, 0, &imported.rest);
-    gltf_pose_world(gltf, &imported.rest);
+    assert_true(imported_complete(&imported));
     return imported;
 }
 
 /// `spur` has the wrong place under bone 3, which no test looks at.
-static void free_character(struct imported *imported)
-{
-    for (int n = 0; n < imported->gltf.node_count; n++) free(imported->gltf.nodes[n].name);
-    free(imported->gltf.nodes);
-    free(imported->gltf.order);
-    free(imported->gltf.path);
-    gltf_pose_free(&imported->rest);
-}
+static void free_character(struct imported *imported) { imported_free(imported); }
 
 struct points {
     float point[BONES + 1][3];
@@ -140,9 +131,9 @@ CHARACTER_TEST(test_what_is_no_chain)
     assert_string_equal(error.text, "made.glb: expected \"bone_2\" below \"bone_4\", got it elsewhere");
     assert_false(chain_find(gltf, "bone_4", "ear", &bones, &error));
     assert_string_equal(error.text, "made.glb: expected a bone called \"ear\", got none");
-    assert_int_equal(chain_end(gltf, 1, &error), -1);
+    assert_int_equal(chain_end(imported, 1, &error), -1);
     assert_string_equal(
         error.text,
         "\"bone_3\" branches into \"bone_4\" and \"spur\": choose the bone where the chain begins or ends");
-    assert_int_equal(chain_end(gltf, 4, &error), BONES + 1);
+    assert_int_equal(chain_end(imported, 4, &error), BONES + 1);
 }

@@ -84,17 +84,20 @@ static bool check_document(const char *path, struct document *document)
 
 static int check_character(const char *path)
 {
-    struct gltf gltf;
+    struct imported imported;
     struct error error;
-    int triangles = 0;
-    if (!gltf_read(path, &gltf, &error)) return options_end(false, &error);
-    for (int m = 0; m < gltf.mesh_count; m++) {
-        for (int p = 0; p < gltf.meshes[m].part_count; p++) triangles += gltf.meshes[m].parts[p].index_count / 3;
+    int triangles = 0, joints = 0;
+    if (!imported_read(&imported, path, &error)) return options_end(false, &error);
+    const struct gltf *gltf = &imported.gltf;
+    for (int m = 0; m < gltf->mesh_count; m++) {
+        for (int p = 0; p < gltf->meshes[m].part_count; p++) triangles += gltf->meshes[m].parts[p].index_count / 3;
     }
+    for (int b = 0; gltf->skin_count > 0 && b < imported.skeleton.count; b++)
+        joints += imported.skeleton.bones[b].from == imported.skeleton.bones[b].node;
     print_line(stdout, "%s: a glTF character of %d triangle%s and %d joint%s", path, triangles,
-               triangles == 1 ? "" : "s", gltf.joint_count, gltf.joint_count == 1 ? "" : "s");
-    contents_print(&gltf);
-    gltf_free(&gltf);
+               triangles == 1 ? "" : "s", joints, joints == 1 ? "" : "s");
+    contents_print(&imported);
+    imported_free(&imported);
     return 0;
 }
 

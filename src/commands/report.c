@@ -1,7 +1,6 @@
 /// Reports unmet parts of a solution, and a glTF character's contents.
 #include "commands/report.h"
 #include "base/error.h"
-#include "rig/imported.h"
 #include "scene/pins.h"
 #include <math.h>
 #include <stdio.h>
@@ -90,20 +89,22 @@ static void print_tree(const struct gltf *gltf, int root)
 }
 
 /// Whether a chain to a tip starts at this node, not further up.
-static bool begins_chain(const struct gltf *gltf, int node)
+static bool begins_chain(const struct imported *imported, int node)
 {
-    const int parent = gltf->nodes[node].parent;
+    const int parent = imported->gltf.nodes[node].parent;
     struct error branches;
-    return chain_end(gltf, node, &branches) >= 0 && (parent < 0 || chain_end(gltf, parent, &branches) < 0);
+    return imported->skeleton.leads[node] && chain_end(imported, node, &branches) >= 0 &&
+           (parent < 0 || chain_end(imported, parent, &branches) < 0);
 }
 
-static void print_chains(const struct gltf *gltf)
+static void print_chains(const struct imported *imported)
 {
+    const struct gltf *gltf = &imported->gltf;
     bool any = false;
     for (int n = 0; n < gltf->node_count; n++) {
         struct chain_bones bones;
         struct error error;
-        const int last = begins_chain(gltf, n) ? chain_end(gltf, n, &error) : -1;
+        const int last = begins_chain(imported, n) ? chain_end(imported, n, &error) : -1;
         if (last < 0 || last == n) continue;
         if (!chain_find(gltf, gltf->nodes[n].name, gltf->nodes[last].name, &bones, &error)) continue;
         if (!any) puts("chains you can use with --chain:");
@@ -112,8 +113,9 @@ static void print_chains(const struct gltf *gltf)
     }
 }
 
-void contents_print(const struct gltf *gltf)
+void contents_print(const struct imported *imported)
 {
+    const struct gltf *gltf = &imported->gltf;
     printf("clips:%s\n", gltf->clip_count > 0 ? "" : " none");
     for (int c = 0; c < gltf->clip_count; c++)
         print_line(stdout, "  %s (%.3g s)", gltf->clips[c].name, gltf->clips[c].last - gltf->clips[c].first);
@@ -121,6 +123,6 @@ void contents_print(const struct gltf *gltf)
     for (int n = 0; n < gltf->node_count; n++) {
         if (gltf->nodes[n].parent < 0) print_tree(gltf, n);
     }
-    print_chains(gltf);
+    print_chains(imported);
     if (gltf->not_shown) print_line(stdout, "not shown: %s", gltf->not_shown);
 }

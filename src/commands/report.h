@@ -2,7 +2,7 @@
 #ifndef COMMANDS_REPORT_H
 #define COMMANDS_REPORT_H
 
-#include "model/gltf.h"
+#include "rig/imported.h"
 #include "scene/evaluate.h"
 
 /// Receives a printable sentence.
@@ -13,6 +13,6 @@ void solution_warnings(const struct document *document, const struct evaluation 
                        void *user);
 
 /// Prints a glTF character's clips, bones and nodes as a tree, possible chains, and what is not shown.
-void contents_print(const struct gltf *gltf);
+void contents_print(const struct imported *imported);
 
 #endif

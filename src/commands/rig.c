@@ -81,7 +81,7 @@ static bool run(const struct job *job, struct error *error)
     if (!character) {
         done = fail(error, ERROR_INPUT, "%s: expected a character with bones, got a soft one", job->character);
     } else if (!job->output) {
-        contents_print(&character->gltf);
+        contents_print(character);
     } else {
         done = edit(job, &character->gltf, &opened, error) &&
                (path_has_end(job->output, ".json") ? write_scene : write_motion)(job, &opened, error);

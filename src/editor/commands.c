@@ -156,6 +156,12 @@ static void run_fit_stage(struct editor *editor, int argument)
     stage_fit(editor->stage, &editor->core);
 }
 
+static void run_frame_stage(struct editor *editor, int argument)
+{
+    (void)argument;
+    stage_frame(editor->stage, &editor->core);
+}
+
 /// One frame or 1 % of the visible values; a pin, 1 % of the view. Shift: ten times, Ctrl: a tenth.
 static void run_nudge(struct editor *editor, int way)
 {
@@ -339,16 +345,18 @@ const struct command commands[] = {
     GESTURE("Ctrl+drag the body", "Lift it", STAGE, 0),
     COMMAND("Auto-key: a drag sets knots", STAGE, 0, NOTHING, 0, .core = core_flip, SWITCH_AUTO_KEY, {'A', SHIFT}),
     GESTURE("Click a bone", "Select it", STAGE, ON_STAGE),
+    GESTURE("Hold Alt", "Control and leaf bones", STAGE, 0),
     COMMAND("Make the bone a chain", STAGE, 0, BONE, 0, .core = bones_make_chain, 0, {'J', 0}),
     COMMAND("Make a chain over the clip", STAGE, ON_STAGE, BONE, 0, .core = bones_make_chain, true, {'J', SHIFT}),
     COMMAND("Paint phase and amplitude", STAGE, 0, PAINT, 0, .run = run_brush, 0, {'K', 0}),
     GESTURE("Right drag", "Orbit", STAGE, ON_STAGE),
     GESTURE("Ctrl+Shift+arrows", "Orbit", STAGE, 0),
-    GESTURE("Wheel", "Zoom", STAGE, ON_STAGE),
+    GESTURE("Wheel", "Zoom to the pointer", STAGE, ON_STAGE),
     COMMAND("Zoom in on the stage", STAGE, 0, NOTHING, REPEATS, .run = run_approach, 1, {KEY_PAGE_UP, CTRL_SHIFT}),
     COMMAND("Zoom out on the stage", STAGE, 0, NOTHING, REPEATS, .run = run_approach, -1,
             {KEY_PAGE_DOWN, CTRL_SHIFT}),
     COMMAND("Show all of the stage", STAGE, ON_STAGE, NOTHING, 0, .run = run_fit_stage, 0, {KEY_HOME, SHIFT}),
+    COMMAND("Show the bone, chain or tail", STAGE, 0, NOTHING, 0, .run = run_frame_stage, 0, {'F', 0}),
     COMMAND("Onion skin", STAGE, ON_STAGE, NOTHING, ANY_TIME, .core = core_flip, SWITCH_ONION, {'O', 0}),
     COMMAND("Original clip beside it", STAGE, 0, MODEL, ANY_TIME, .core = core_flip, SWITCH_ORIGINAL, {'V', ALT}),
     COMMAND("Motion arc", STAGE, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_TRAIL, {'O', SHIFT}),

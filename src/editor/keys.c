@@ -61,16 +61,23 @@ bool keys_event(struct editor *editor, const struct event *event)
 {
     if (event->kind == EVENT_TEXT) return text_event(editor, event);
     const unsigned mods = mods_of(event);
+    struct core *core = &editor->core;
     if (event->key == KEY_SPACE && (mods == 0 || event->action == ACTION_RELEASE)) {
         space_event(editor, event);
         return true;
     }
     if (event->action == ACTION_RELEASE) {
-        if (event->key == editor->core.held_key) editor->core.held_key = 0;
-        return false;
+        if (event->key != core->held_key) return false;
+        core->held_key = 0;
+        const bool on_stage = core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_STAGE;
+        return !core->held_used && on_stage && run(editor, event->key, 0, false); // F alone
     }
-    if (mods == 0 && event->action == ACTION_PRESS && is_held_letter(event->key)) editor->core.held_key = event->key;
-    const bool bound = run(editor, event->key, mods, event->action == ACTION_REPEAT);
+    const bool holds = mods == 0 && is_held_letter(event->key);
+    if (holds && event->action == ACTION_PRESS) {
+        core->held_key = event->key;
+        core->held_used = false;
+    }
+    const bool bound = !holds && run(editor, event->key, mods, event->action == ACTION_REPEAT);
     editor->press.opened = inspector_ui(editor->inspector)->popup.id != 0;
     editor->press.used |= bound && mods & MOD_ALT; // some systems still send the key's text
     return bound;

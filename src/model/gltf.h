@@ -225,11 +225,14 @@ int gltf_vertex_count(const struct gltf *gltf, int node);
 
 // --- the box around a posed character, from boxes of the vertices that follow each joint, without posing vertices
 
+enum gltf_reach { GLTF_AT_REST, GLTF_ONE_TARGET, GLTF_ALL_TARGETS, GLTF_REACHES };
+
 /// The vertices that follow a joint of a mesh's skin, or a whole mesh without skin.
 struct gltf_box {
-    int node;           ///< that shows the mesh
-    int joint;          ///< of its skin, −1: none
-    float lo[3], hi[3]; ///< of these vertices in the mesh's own space
+    int node;  ///< that shows the mesh
+    int joint; ///< of its skin, −1: none
+    /// Of these vertices in the mesh's own space: without morphs, with any one of them at 1, with all between −1 and 1.
+    float lo[GLTF_REACHES][3], hi[GLTF_REACHES][3];
 };
 
 struct gltf_bounds {

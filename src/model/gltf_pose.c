@@ -240,12 +240,18 @@ void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_
 static void add_vertex(struct gltf_box *box, const struct gltf_mesh *mesh, const struct gltf_part *part, int v)
 {
     for (int k = 0; k < 3; k++) {
-        float reach = 0.0f;
+        float sum = 0.0f, least = 0.0f, most = 0.0f;
         for (int t = 0; t < mesh->target_count; t++) {
-            if (part->targets[t].position) reach += fabsf(part->targets[t].position[v][k]);
+            const float way = part->targets[t].position ? part->targets[t].position[v][k] : 0.0f;
+            sum += fabsf(way);
+            least = fminf(least, way);
+            most = fmaxf(most, way);
         }
-        box->lo[k] = fminf(box->lo[k], part->position[v][k] - reach);
-        box->hi[k] = fmaxf(box->hi[k], part->position[v][k] + reach);
+        const float at = part->position[v][k], down[] = {0.0f, least, -sum}, up[] = {0.0f, most, sum};
+        for (int r = 0; r < GLTF_REACHES; r++) {
+            box->lo[r][k] = fminf(box->lo[r][k], at + down[r]);
+            box->hi[r][k] = fmaxf(box->hi[r][k], at + up[r]);
+        }
     }
 }
 
@@ -276,13 +282,16 @@ bool gltf_bounds_create(const struct gltf *gltf, struct gltf_bounds *bounds)
         const int count = box_count(gltf, node);
         struct gltf_box *first = bounds->boxes + bounds->count;
         for (int f = 0; f < count; f++) {
-            first[f] = (struct gltf_box){
-                n, node->skin < 0 ? -1 : f, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}};
+            first[f] = (struct gltf_box){.node = n, .joint = node->skin < 0 ? -1 : f};
+            for (int i = 0; i < 3 * GLTF_REACHES; i++) {
+                first[f].lo[i / 3][i % 3] = INFINITY;
+                first[f].hi[i / 3][i % 3] = -INFINITY;
+            }
         }
         for (int p = 0; count > 0 && p < gltf->meshes[node->mesh].part_count; p++)
             add_part(first, &gltf->meshes[node->mesh], &gltf->meshes[node->mesh].parts[p], node->skin >= 0);
         for (int f = 0; f < count; f++) { // most joints of a large skin move a small part of one mesh, or nothing
-            if (first[f].lo[0] <= first[f].hi[0]) bounds->boxes[bounds->count++] = first[f];
+            if (first[f].lo[0][0] <= first[f].hi[0][0]) bounds->boxes[bounds->count++] = first[f];
         }
     }
     return true;
@@ -292,6 +301,29 @@ void gltf_bounds_free(struct gltf_bounds *bounds)
 {
     free(bounds->boxes);
     *bounds = (struct gltf_bounds){0};
+}
+
+/// The box at a pose's morph weights: part of the way from the one at rest to a larger one. Weights that are positive and together at most 1
+/// mix places that single targets reach.
+static void box_at(const struct gltf_box *box, const struct gltf *gltf, const struct gltf_pose *pose, float lo[3],
+                   float hi[3])
+{
+    const struct gltf_node *node = &gltf->nodes[box->node];
+    float sum = 0.0f, largest = 0.0f;
+    bool mixes = true;
+    for (int t = 0; t < gltf->meshes[node->mesh].target_count; t++) {
+        const float weight = pose->weights[node->first_weight + t];
+        sum += weight;
+        largest = fmaxf(largest, fabsf(weight));
+        mixes &= weight >= 0.0f;
+    }
+    mixes &= sum < 1.001f;
+    const float share = fminf(mixes ? sum : largest, 1.0f);
+    const enum gltf_reach reach = mixes ? GLTF_ONE_TARGET : GLTF_ALL_TARGETS;
+    for (int k = 0; k < 3; k++) {
+        lo[k] = box->lo[GLTF_AT_REST][k] + share * (box->lo[reach][k] - box->lo[GLTF_AT_REST][k]);
+        hi[k] = box->hi[GLTF_AT_REST][k] + share * (box->hi[reach][k] - box->hi[GLTF_AT_REST][k]);
+    }
 }
 
 void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose,
@@ -306,11 +338,13 @@ void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, c
         const struct gltf_node *node = &gltf->nodes[box->node];
         const float *m =
             box->joint < 0 ? pose->world[box->node] : pose->joints[gltf->skins[node->skin].first_joint + box->joint];
+        float from[3], to[3];
+        box_at(box, gltf, pose, from, to);
         for (int k = 0; k < 3; k++) {
             float middle = m[12 + k], reach = 0.0f;
             for (int a = 0; a < 3; a++) {
-                middle += m[4 * a + k] * 0.5f * (box->lo[a] + box->hi[a]);
-                reach += fabsf(m[4 * a + k]) * 0.5f * (box->hi[a] - box->lo[a]);
+                middle += m[4 * a + k] * 0.5f * (from[a] + to[a]);
+                reach += fabsf(m[4 * a + k]) * 0.5f * (to[a] - from[a]);
             }
             lo[k] = fminf(lo[k], middle - reach);
             hi[k] = fmaxf(hi[k], middle + reach);

@@ -97,15 +97,6 @@ static enum event_action action_of(int glfw_action)
     return glfw_action == GLFW_PRESS ? ACTION_PRESS : glfw_action == GLFW_REPEAT ? ACTION_REPEAT : ACTION_RELEASE;
 }
 
-static void on_key(GLFWwindow *handle, int glfw_key, int scancode, int action, int glfw_mods)
-{
-    struct window *window = of(handle);
-    int key = key_translate(glfw_key, scancode);
-    if (key == KEY_NONE) return;
-    push(window, (struct event){
-                     .kind = EVENT_KEY, .key = key, .action = action_of(action), .mods = mods_translate(glfw_mods)});
-}
-
 static void on_character(GLFWwindow *handle, unsigned codepoint)
 {
     push(of(handle), (struct event){.kind = EVENT_TEXT, .codepoint = codepoint});
@@ -157,6 +148,20 @@ static void on_pointer(GLFWwindow *handle, double x, double y)
                                 .x = (float)x * window->units,
                                 .y = (float)y * window->units,
                                 .mods = mods_now(handle)});
+}
+
+static void on_key(GLFWwindow *handle, int glfw_key, int scancode, int action, int glfw_mods)
+{
+    struct window *window = of(handle);
+    int key = key_translate(glfw_key, scancode);
+    if (key == KEY_NONE) { // Alt, say
+        double x = 0.0, y = 0.0;
+        glfwGetCursorPos(handle, &x, &y);
+        on_pointer(handle, x, y);
+        return;
+    }
+    push(window, (struct event){
+                     .kind = EVENT_KEY, .key = key, .action = action_of(action), .mods = mods_translate(glfw_mods)});
 }
 
 /// 2 for a press soon after another at the same place; a third counts as 1.

@@ -156,7 +156,7 @@ bool chain_make(struct document *document, const struct models *models, const st
         return fail(error, ERROR_INPUT, "%s: it could not be read, so it has no bones", model->model.model);
     const struct gltf *gltf = &imported->gltf;
     const int from = gltf_find_node(gltf, wish->from);
-    const int last = wish->to || from < 0 ? -1 : chain_end(gltf, from, error);
+    const int last = wish->to || from < 0 ? -1 : chain_end(imported, from, error);
     if (from >= 0 && !wish->to && last < 0) return false;
     const char *to = wish->to ? wish->to : last < 0 ? wish->from : gltf->nodes[last].name;
     if (!chain_find(gltf, wish->from, to, &bones, error)) return false;

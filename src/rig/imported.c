@@ -10,64 +10,123 @@
 static const float SHORT_TIP = 0.1f;     ///< share of the character's height: length of a lone joint's bone
 static const float BESIDE = 0.1f;        ///< share of its length: a tail that ends nearer to the middle shows no back
 static const float SHORT_SIBLING = 0.4f; ///< share of the way from its parent, for one of several bones, like an eye
+static const float STRAIGHT = 0.8f;      ///< cosine within which one of several children goes on from the bone before
 
-static void mark_joints(const struct gltf *gltf, bool *is_bone)
+/// Joints; in a file without skins, nodes below others. A single mesh is no skeleton.
+static void mark_joints(const struct imported *imported, bool *is_bone)
 {
+    const struct gltf *gltf = &imported->gltf;
     for (int s = 0; s < gltf->skin_count; s++) {
         for (int j = 0; j < gltf->skins[s].joint_count; j++) is_bone[gltf->skins[s].joints[j]] = true;
     }
-    for (int n = 0; n < gltf->node_count && gltf->skin_count == 0; n++) is_bone[n] = gltf->nodes[n].parent >= 0;
+    for (int n = 0; n < gltf->node_count && gltf->skin_count == 0; n++)
+        is_bone[n] = gltf->nodes[n].parent >= 0 && imported->bounds.count != 1;
+}
+
+/// A mesh without a skin is carried by the bone above it.
+static void mark_carrying(const struct imported *imported, const bool *is_bone, struct skeleton *skeleton)
+{
+    const struct gltf *gltf = &imported->gltf;
+    const struct gltf_bounds *bounds = &imported->bounds;
+    for (int f = 0; f < bounds->count; f++) {
+        const struct gltf_box *box = &bounds->boxes[f];
+        int n = box->joint < 0 ? box->node : gltf->skins[gltf->nodes[box->node].skin].joints[box->joint];
+        while (n >= 0 && !is_bone[n]) n = gltf->nodes[n].parent;
+        if (n >= 0) skeleton->carries[n] = true;
+    }
+    for (int n = 0; n < gltf->node_count; n++) skeleton->carries[n] |= bounds->count == 0 && is_bone[n];
+    for (int i = gltf->node_count - 1; i >= 0; i--) {
+        const int n = gltf->order[i], parent = gltf->nodes[n].parent;
+        skeleton->leads[n] |= skeleton->carries[n];
+        if (parent >= 0) skeleton->leads[parent] |= skeleton->leads[n];
+    }
 }
 
 static vec3s place_of(const struct gltf_pose *pose, int node) { return vec3_from(pose->world[node] + 12); }
 
-/// The end of a bone without a child: as far on as the bone before is long, if it has one.
-static struct bone tip_bone(const struct gltf *gltf, const struct gltf_pose *rest, int node, int parent_children)
+/// How a bone goes on if no child says so: as far as the bone before is long, if it has one.
+static vec3s way_on(const struct imported *imported, const bool *is_bone, int node)
 {
-    const vec3s at = place_of(rest, node);
-    vec3s on = {.raw = {0, SHORT_TIP * (gltf->hi[1] - gltf->lo[1]), 0}};
-    if (parent_children > 0) on = glms_vec3_sub(at, place_of(rest, gltf->nodes[node].parent));
-    if (parent_children > 1) on = glms_vec3_scale(on, SHORT_SIBLING);
-    const vec3s tip = glms_mat3_mulv(mat3_inverse(glms_mat4_pick3(mat4_from(rest->world[node]))), on);
-    struct bone bone = {.node = node, .child = -1};
-    memcpy(bone.tip, tip.raw, sizeof bone.tip);
-    return bone;
+    const struct gltf *gltf = &imported->gltf;
+    const int parent = gltf->nodes[node].parent;
+    if (parent < 0 || !is_bone[parent]) return (vec3s){.raw = {0, SHORT_TIP * (gltf->hi[1] - gltf->lo[1]), 0}};
+    int siblings = 0;
+    for (int c = gltf->nodes[parent].child; c >= 0; c = gltf->nodes[c].next) siblings += is_bone[c];
+    const vec3s on = glms_vec3_sub(place_of(&imported->rest, node), place_of(&imported->rest, parent));
+    return siblings > 1 ? glms_vec3_scale(on, SHORT_SIBLING) : on;
 }
 
-/// In the file's order, so that a chain's bones follow each other.
-static void list_bones(const struct gltf *gltf, const struct gltf_pose *rest, const bool *is_bone, int *children,
-                       struct skeleton *skeleton)
+/// The child that a bone leads to: the only one that leads to vertices, or the only one at all; of several, the one that goes straight on.
+static int main_child(const struct imported *imported, const struct skeleton *skeleton, const bool *is_bone, int node)
 {
-    for (int n = 0; n < gltf->node_count; n++) {
-        const int parent = gltf->nodes[n].parent;
-        if (!is_bone[n] || parent < 0 || !is_bone[parent]) continue;
-        children[parent]++;
-        skeleton->bones[skeleton->count++] = (struct bone){.node = parent, .child = n};
+    const struct gltf_node *nodes = imported->gltf.nodes;
+    const vec3s at = place_of(&imported->rest, node), on = glms_vec3_normalize(way_on(imported, is_bone, node));
+    for (int all = 0; all < 2; all++) {
+        int count = 0, only = -1, best = -1;
+        float most = STRAIGHT;
+        for (int c = nodes[node].child; c >= 0; c = nodes[c].next) {
+            if (!is_bone[c] || !(skeleton->leads[c] || all)) continue;
+            const vec3s way = glms_vec3_normalize(glms_vec3_sub(place_of(&imported->rest, c), at));
+            only = count++ == 0 ? c : -1;
+            if (glms_vec3_dot(way, on) <= most) continue;
+            most = glms_vec3_dot(way, on);
+            best = c;
+        }
+        if (count > 0) return only >= 0 ? only : best;
     }
+    return -1;
+}
+
+static bool is_hidden(const struct gltf *gltf, const struct skeleton *skeleton, int node)
+{
+    bool seen = skeleton->carries[node];
+    for (int c = gltf->nodes[node].child; c >= 0 && !seen; c = gltf->nodes[c].next) seen = skeleton->carries[c];
+    return !seen;
+}
+
+static void list_bones(const struct imported *imported, const bool *is_bone, struct skeleton *skeleton)
+{
+    const struct gltf *gltf = &imported->gltf;
+    int own = 0;
     for (int n = 0; n < gltf->node_count; n++) {
-        const int parent = gltf->nodes[n].parent;
-        if (!is_bone[n] || children[n] > 0) continue;
-        skeleton->bones[skeleton->count++] = tip_bone(gltf, rest, n, parent >= 0 ? children[parent] : 0);
+        if (!is_bone[n]) continue;
+        const mat3s turn = mat3_inverse(glms_mat4_pick3(mat4_from(imported->rest.world[n])));
+        const vec3s tip = glms_mat3_mulv(turn, way_on(imported, is_bone, n));
+        struct bone *bone = &skeleton->bones[own++];
+        *bone = (struct bone){.node = n, .from = n, .hidden = is_hidden(gltf, skeleton, n)};
+        bone->child = main_child(imported, skeleton, is_bone, n);
+        memcpy(bone->tip, tip.raw, sizeof bone->tip);
+    }
+    skeleton->count = own;
+    for (int b = 0; b < own; b++) {
+        const int parent = skeleton->bones[b].from, main = skeleton->bones[b].child;
+        for (int c = gltf->nodes[parent].child; c >= 0; c = gltf->nodes[c].next) {
+            const bool hidden = skeleton->bones[b].hidden || is_hidden(gltf, skeleton, c);
+            if (is_bone[c] && c != main)
+                skeleton->bones[skeleton->count++] =
+                    (struct bone){.node = c, .from = parent, .child = c, .hidden = hidden};
+        }
     }
 }
 
-static void skeleton_create(const struct gltf *gltf, const struct gltf_pose *rest, struct skeleton *skeleton)
+static void skeleton_create(struct imported *imported)
 {
-    const size_t count = (size_t)gltf->node_count + 1;
+    const size_t count = (size_t)imported->gltf.node_count + 1;
     bool *is_bone = need_zeroed(count, sizeof *is_bone);
-    int *children = need_zeroed(count, sizeof *children); // child bones
-    *skeleton = (struct skeleton){.bones = need_zeroed(2 * count, sizeof *skeleton->bones)};
-    mark_joints(gltf, is_bone);
-    list_bones(gltf, rest, is_bone, children, skeleton);
+    imported->skeleton = (struct skeleton){.bones = need_zeroed(2 * count, sizeof(struct bone)),
+                                           .carries = need_zeroed(count, sizeof(bool)),
+                                           .leads = need_zeroed(count, sizeof(bool))};
+    mark_joints(imported, is_bone);
+    mark_carrying(imported, is_bone, &imported->skeleton);
+    list_bones(imported, is_bone, &imported->skeleton);
     free(is_bone);
-    free(children);
 }
 
 void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3])
 {
     vec3s end = bone->child >= 0 ? place_of(pose, bone->child)
                                  : glms_mat4_mulv3(mat4_from(pose->world[bone->node]), vec3_from(bone->tip), 1.0f);
-    memcpy(ends[0], pose->world[bone->node] + 12, sizeof ends[0]);
+    memcpy(ends[0], pose->world[bone->from] + 12, sizeof ends[0]);
     memcpy(ends[1], end.raw, sizeof ends[1]);
 }
 
@@ -100,7 +159,7 @@ bool imported_complete(struct imported *imported)
     if (!gltf_pose_create(&imported->gltf, &imported->rest) ||
         !gltf_bounds_create(&imported->gltf, &imported->bounds))
         return false;
-    skeleton_create(&imported->gltf, &imported->rest, &imported->skeleton);
+    skeleton_create(imported);
     return true;
 }
 
@@ -116,6 +175,8 @@ bool imported_read(struct imported *imported, const char *path, struct error *er
 void imported_free(struct imported *imported)
 {
     free(imported->skeleton.bones);
+    free(imported->skeleton.carries);
+    free(imported->skeleton.leads);
     gltf_bounds_free(&imported->bounds);
     gltf_pose_free(&imported->rest);
     gltf_free(&imported->gltf);
@@ -153,11 +214,21 @@ bool chain_find(const struct gltf *gltf, const char *from, const char *to, struc
     return true;
 }
 
-int chain_end(const struct gltf *gltf, int from, struct error *error)
+/// The first of `node` and those after it below the same parent that counts as a way down.
+static int next_way(const struct imported *imported, int node, bool leads)
 {
+    while (node >= 0 && leads && !imported->skeleton.leads[node]) node = imported->gltf.nodes[node].next;
+    return node;
+}
+
+int chain_end(const struct imported *imported, int from, struct error *error)
+{
+    const struct gltf *gltf = &imported->gltf;
+    const bool leads = imported->skeleton.leads[from];
     int last = from;
     for (int count = 1; count <= ANGLES_MAX_JOINTS; count++) {
-        const int child = gltf->nodes[last].child, other = child < 0 ? -1 : gltf->nodes[child].next;
+        const int child = next_way(imported, gltf->nodes[last].child, leads);
+        const int other = child < 0 ? -1 : next_way(imported, gltf->nodes[child].next, leads);
         if (child < 0) return last;
         if (other >= 0) {
             fail(error, ERROR_INPUT,

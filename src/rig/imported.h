@@ -8,16 +8,21 @@
 #include "model/gltf.h"
 #include "scene/rig.h"
 
-/// From a node to a child that is a bone, too; if there is none, to a tip.
+/// A drawn part of a bone. Its own part goes from the node to the child that it leads to, else to a tip. A bone beside that child, such as
+/// an ear on a head, also has the link from its parent.
 struct bone {
-    int node;     ///< that turns it
-    int child;    ///< −1: it ends in a tip
+    int node;     ///< the bone
+    int from;     ///< where the part begins: the node, or its parent
+    int child;    ///< where it ends; −1: in a tip
     float tip[3]; ///< in the node's own space
+    bool hidden;  ///< no vertex follows the bone or a child of it: a control, a pole, a leaf
 };
 
 struct skeleton {
-    struct bone *bones;
-    int count; ///< one for each pair of joints, one for each tip
+    struct bone *bones; ///< own parts first
+    int count;
+    bool *carries; ///< by node: whether vertices follow the bone; true for all bones of a file without meshes
+    bool *leads;   ///< whether it or a node below it carries
 };
 
 struct imported {
@@ -52,8 +57,9 @@ struct chain_bones {
 bool chain_find(const struct gltf *gltf, const char *from, const char *to, struct chain_bones *bones,
                 struct error *error);
 
-/// The bone at the end of the only way down from `from`; −1 and an error if the way branches, or is too long.
-int chain_end(const struct gltf *gltf, int from, struct error *error);
+/// The bone at the end of the only way down from `from`; −1 and an error if the way branches, or is too long. Below a bone that leads to
+/// vertices, the way ends at the last one that carries some.
+int chain_end(const struct imported *imported, int from, struct error *error);
 
 // --- pairs
 

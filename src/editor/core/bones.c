@@ -219,14 +219,15 @@ void bones_follow(struct core *core, int spline, int model, int node)
 }
 
 /// The names of a chain's ends after one of them moves to `node`; false with an error.
-static bool find_ends(const struct gltf *gltf, const struct chain *chain, bool first, int node, char *ends[2],
-                      struct error *error)
+static bool find_ends(const struct imported *character, const struct chain *chain, bool first, int node,
+                      char *ends[2], struct error *error)
 {
+    const struct gltf *gltf = &character->gltf;
     struct chain_bones bones;
     ends[0] = first ? gltf->nodes[node].name : chain->from;
     ends[1] = first ? chain->to : gltf->nodes[node].name;
     if (chain_find(gltf, ends[0], ends[1], &bones, error)) return true;
-    const int last = first ? chain_end(gltf, node, error) : -1;
+    const int last = first ? chain_end(character, node, error) : -1;
     if (last < 0) return false;
     ends[1] = gltf->nodes[last].name;
     return chain_find(gltf, ends[0], ends[1], &bones, error);
@@ -257,7 +258,7 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
     struct error error = {0};
     char *ends[2];
     if (!character || history_is_open(core->history)) return;
-    if (!find_ends(&character->gltf, &contents.chain, first, node, ends, &error)) {
+    if (!find_ends(character, &contents.chain, first, node, ends, &error)) {
         core_message(core, true, error.text);
         return;
     }

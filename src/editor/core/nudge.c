@@ -113,6 +113,7 @@ void core_nudge_parameter(struct core *core, int direction)
 {
     const struct spline *spline = core_active_spline(core);
     if (core->held_key == 0) return;
+    core->held_used = true;
     if (core->held_key == 'L') nudge_lag(core, 0.5 * direction);
     enum parameter parameter = parameter_of_letter(core->held_key);
     if (!spline || parameter == PARAMETER_COUNT) return;

@@ -5,8 +5,10 @@
 #include "editor/core/state.h"
 
 /// What new users should drag: the first of these kinds the scene has.
-enum lead { LEAD_TAIL, LEAD_CHARACTER, LEAD_CHAIN, LEAD_MODEL, LEAD_NOTHING, LEADS };
-enum lead rigs_lead(const struct document *document);
+enum lead { LEAD_TAIL, LEAD_CHARACTER, LEAD_CHAIN, LEAD_MODEL, LEAD_MESH, LEAD_NOTHING, LEADS };
+enum lead rigs_lead(const struct core *core);
+/// Whether an imported character has bones to click. One that could not be read counts.
+bool rigs_have_bones(const struct core *core);
 bool rigs_have_knots(const struct document *document);
 
 /// Adds a tail beside the other rigs, bent by the active spline or a new one.

@@ -335,7 +335,8 @@ struct core {
     enum look look;
     float pointer_x, pointer_y;
     unsigned mods;
-    int held_key; ///< F Z B C L while held, else 0
+    int held_key;   ///< F Z B C L while held, else 0
+    bool held_used; ///< with an arrow
     bool space_down, space_used;
 
     struct character_view characters;

@@ -1,5 +1,6 @@
 /// Draws the curves panel: lines, knots, slope handles, names, playhead.
 #include "editor/core/core.h"
+#include "editor/core/rigs.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
 #include "scene/pins.h"
@@ -364,7 +365,7 @@ static void show_empty(struct core *core)
                 !pins_move_spline(core->document, core->active);
     bool hidden = spline && !spline_list_seen(core);
     if (spline && !flat && !hidden) return;
-    const bool has_bones = document_find_rig(core->document, RIG_MODEL, 0) >= 0;
+    const bool has_bones = rigs_have_bones(core);
     const char *text = hidden      ? "This spline is hidden. Click its eye in the list (F9: More) to show it."
                        : flat      ? "Double-click to set the first knot."
                        : has_bones ? "This scene has no splines. Click a bone and press Shift+J to let it swing."

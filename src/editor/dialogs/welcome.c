@@ -30,6 +30,10 @@ static const struct hint {
                     {"Press Shift+J", "it follows through on the clip"},
                     {"Pull the tail", "it is held where you let go"},
                     {"Press Ctrl+E", "a .glb with the new motion"}},
+    [LEAD_MESH] = {{"Drag on empty", "goes round it; the wheel zooms"},
+                   {"Press A", "adds a tail or a character"},
+                   {"Press Ctrl+E", "a film, or files for Blender"},
+                   {"Drop a .glb", "with bones: click one, Shift+J"}},
     [LEAD_NOTHING] = {{"Double-click", "adds a knot to a curve"},
                       {"Drag a knot", "the curve hits it, and swings"},
                       {"Press A", "adds a tail or a character"},
@@ -39,10 +43,10 @@ static const struct hint {
 static const struct hint knot_hints[] = {{"Double-click", "adds a knot to a curve"},
                                          {"Drag a knot", "the curve hits it, and swings"}};
 
-static const struct hint *hint_of(const struct document *document, int row)
+static const struct hint *hint_of(const struct core *core, int row)
 {
-    const struct hint *hint = &hints[rigs_lead(document)][row];
-    return hint->what ? hint : &knot_hints[rigs_have_knots(document)];
+    const struct hint *hint = &hints[rigs_lead(core)][row];
+    return hint->what ? hint : &knot_hints[rigs_have_knots(core->document)];
 }
 
 static const char closing[] = "Got it", more[] = "F1 shows all keys";
@@ -64,11 +68,11 @@ struct card {
 };
 
 /// Widths of the widest action and the widest reason.
-static void measure(const struct document *document, int count, float *what, float *why)
+static void measure(const struct core *core, int count, float *what, float *why)
 {
     *what = *why = 0;
     for (int i = 0; i < count; i++) {
-        const struct hint *hint = hint_of(document, i);
+        const struct hint *hint = hint_of(core, i);
         *what = fmaxf(*what, ceilf(width_of(FONT_LABEL_BOLD, hint->what)));
         *why = fmaxf(*why, ceilf(width_of(FONT_LABEL, hint->why)));
     }
@@ -79,7 +83,7 @@ static struct card corner_card(const struct core *core, enum form form, bool rig
     const struct rect *stage = &core->layout.stage;
     struct card card = {.form = form, .hints = HINTS};
     float what, why;
-    measure(core->document, HINTS, &what, &why);
+    measure(core, HINTS, &what, &why);
     card.before = form == FORM_WIDE ? what + GAP : 0;
     const float closes = width_of(FONT_LABEL, more) + GAP + width_of(FONT_LABEL_BOLD, closing);
     const float width = 2 * PAD + ceilf(fmaxf(fmaxf(card.before + why, what), closes));
@@ -95,7 +99,7 @@ static struct card band_card(const struct core *core, int count)
     const struct rect *stage = &core->layout.stage;
     struct card card = {.form = FORM_BAND, .hints = count};
     float what, why;
-    measure(core->document, card.hints, &what, &why);
+    measure(core, card.hints, &what, &why);
     card.before = what + GAP;
     const float closes = width_of(card.hints > 1 ? FONT_LABEL : FONT_LABEL_BOLD, card.hints > 1 ? more : closing);
     card.rect = (struct rect){stage->x + BAND_MARGIN, stage->y + BAND_MARGIN,
@@ -119,7 +123,7 @@ static struct card place_card(const struct core *core, struct rect figure)
         bool right;
     } places[] = {{FORM_WIDE, false}, {FORM_UPRIGHT, false}, {FORM_UPRIGHT, true}, {FORM_WIDE, true}};
     const bool legend = core->characters.mapped || core->brush.on; // the phase map's legend is at the left
-    const bool roomy = core->layout.stage.w >= WIDE && rigs_lead(core->document) != LEAD_CHARACTER;
+    const bool roomy = core->layout.stage.w >= WIDE && rigs_lead(core) != LEAD_CHARACTER;
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         const struct card card = corner_card(core, places[i].form, places[i].right);
         if (legend && !places[i].right) continue;
@@ -176,7 +180,7 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, struct rec
     const float left = card.rect.x + PAD;
     float y = card.rect.y + (card.form == FORM_BAND ? PAD / 2 : PAD) + 12;
     for (int i = 0; i < card.hints; i++, y += LINE) {
-        const struct hint *hint = hint_of(core->document, i);
+        const struct hint *hint = hint_of(core, i);
         show_text(core, left, y, FONT_LABEL_BOLD, theme()->text, hint->what);
         if (card.form == FORM_UPRIGHT) y += LINE;
         show_text(core, left + card.before, y, FONT_LABEL, theme()->text_dim, hint->why);

@@ -22,7 +22,8 @@ void bones_add(struct stage *stage, int model, const struct rig_pose *pose)
         const struct bone *bone = &skeleton->bones[b];
         struct shown_bone *shown = &stage->bones[stage->bone_count++];
         float ends[2][3];
-        *shown = (struct shown_bone){.model = model, .node = bone->node, .chain = -1};
+        *shown =
+            (struct shown_bone){.model = model, .part = *bone, .carries = skeleton->carries[bone->node], .chain = -1};
         skeleton_ends(bone, pose->model.pose, ends);
         for (int e = 0; e < 2; e++) {
             const vec3s at = glms_mat4_mulv3(to_world, vec3_from(ends[e]), 1.0f);
@@ -47,7 +48,11 @@ void bones_mark(struct stage *stage, const struct core *core, int rig, int model
         struct shown_bone *bone = &stage->bones[b];
         if (bone->model != model || (bone->chain >= 0 && spline != core->active)) continue;
         for (int n = 0; n < bones->count; n++) {
-            if (bones->node[n] != bone->node) continue;
+            const struct bone *part = &bone->part;
+            const bool is_last = n + 1 == bones->count;
+            if (part->from != bones->node[n]) continue;
+            if (is_last ? part->node != part->from : part->child != bones->node[n + 1]) continue;
+            bone->part.hidden = false;
             bone->chain = rig;
             bone->joint = n;
             bone->color = spline >= 0 ? spline_list_color(core->document, spline) : 0;
@@ -61,18 +66,25 @@ struct candidate {
     float xy[2], fraction, distance, depth;
 };
 
+/// Control, pole and leaf bones show while Alt is held.
+static bool is_hidden(const struct core *core, const struct shown_bone *bone)
+{
+    return bone->part.hidden && !(core->mods & MOD_ALT);
+}
+
+/// False where it is hidden or out of reach. A bone without vertices counts as farther.
 static bool measure(const struct stage *stage, const struct core *core, int bone, const float p[2],
                     struct candidate *found)
 {
     const struct shown_bone *shown = &stage->bones[bone];
     float a[2], b[2];
-    if (!stage_project_point(stage, core->layout.stage, shown->ends[0], a) ||
+    if (is_hidden(core, shown) || !stage_project_point(stage, core->layout.stage, shown->ends[0], a) ||
         !stage_project_point(stage, core->layout.stage, shown->ends[1], b))
         return false;
     found->bone = bone;
     found->fraction = segment_nearest(a, b, p);
     for (int k = 0; k < 2; k++) found->xy[k] = a[k] + (b[k] - a[k]) * found->fraction;
-    found->distance = hypotf(p[0] - found->xy[0], p[1] - found->xy[1]);
+    found->distance = hypotf(p[0] - found->xy[0], p[1] - found->xy[1]) + (shown->carries ? 0 : OVERLAP);
     const vec3s at = glms_vec3_lerp(vec3_from(shown->ends[0]), vec3_from(shown->ends[1]), found->fraction);
     found->depth = camera_depth(stage->view.view, stage->view.eye, at.raw);
     return found->distance < REACH;
@@ -114,7 +126,7 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
                           .joint = bone->joint,
                           .fraction = (double)best.fraction,
                           .model = bone->model,
-                          .node = bone->node,
+                          .node = bone->part.node,
                           .x = best.xy[0],
                           .y = best.xy[1]};
 }
@@ -138,7 +150,7 @@ bool stage_bone_point(const struct stage *stage, const struct core *core, int mo
     for (int b = 0; b < stage->bone_count; b++) {
         const struct shown_bone *bone = &stage->bones[b];
         const vec3s middle = glms_vec3_lerp(vec3_from(bone->ends[0]), vec3_from(bone->ends[1]), 0.5f);
-        if (bone->model == model && bone->node == node)
+        if (bone->model == model && bone->part.node == node && !is_hidden(core, bone))
             return stage_project_point(stage, core->layout.stage, middle.raw, xy);
     }
     return false;
@@ -203,7 +215,7 @@ static void show_bone(struct drawlist *list, const float a[2], const float b[2],
 static void show_name(struct core *core, const char *name)
 {
     const struct rect stage = core->layout.stage;
-    const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, name), stage.w / 3) + 2 * LABEL_PAD + 2;
+    const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, name), stage.w / 2) + 2 * LABEL_PAD + 2;
     struct rect r = {core->pointer_x + LABEL_AWAY, core->pointer_y - LABEL_AWAY - LABEL_HEIGHT, width, LABEL_HEIGHT};
     if (r.x + r.w > stage.x + stage.w) r.x = core->pointer_x - LABEL_AWAY - r.w;
     if (r.y < stage.y) r.y = core->pointer_y + LABEL_AWAY;
@@ -213,42 +225,69 @@ static void show_name(struct core *core, const char *name)
                       theme()->text, name);
 }
 
-/// What to show in this frame: character, selected bone, tip of a chain from it, bone under the pointer.
-struct showing {
-    bool all; ///< for picking a bone
-    int model, chosen_model, chosen, tip, meant_model, meant;
+/// A bone and the tip of the chain that it would make; −1: none.
+struct way {
+    int model, node, tip;
 };
 
-/// Whether a node lies between the selected bone and the tip.
-static bool is_ahead(const struct gltf *gltf, const struct showing *showing, int node)
+/// What to show in this frame: character, and the ways from the selected bone and from the one under the pointer.
+struct showing {
+    bool all; ///< for picking a bone
+    int model;
+    struct way chosen, meant;
+};
+
+static struct way way_from(const struct core *core, int model, int node)
 {
-    if (showing->tip < 0) return false;
-    for (int n = showing->tip; n >= 0; n = n == showing->chosen ? -1 : gltf->nodes[n].parent) {
-        if (n == node) return true;
+    const struct imported *character = node >= 0 ? bones_character(core, model) : NULL;
+    return (struct way){model, node, character ? chain_end(character, node, NULL) : -1};
+}
+
+static struct way way_chosen(const struct core *core)
+{
+    int model;
+    const int node = bones_selected(core, &model);
+    return way_from(core, model, node);
+}
+
+/// The number of bones from the way's tip up to a node on it; 0 for others.
+static int way_count(const struct core *core, const struct way *way, int model, int node)
+{
+    if (way->model != model || way->tip < 0) return 0;
+    const struct gltf_node *nodes = bones_character(core, model)->gltf.nodes;
+    int count = 1;
+    for (int n = way->tip; n >= 0; n = n == way->node ? -1 : nodes[n].parent, count++) {
+        if (n == node) return count;
     }
-    return false;
+    return 0;
 }
 
-static float opacity_of(const struct showing *showing, const struct gltf *chosen, const struct shown_bone *bone)
+static float opacity_of(const struct showing *showing, const struct core *core, const struct shown_bone *bone)
 {
-    if (bone->model == showing->chosen_model && bone->node == showing->chosen) return CHOSEN;
-    if (bone->model == showing->meant_model && bone->node == showing->meant) return MEANT;
-    if (bone->model == showing->chosen_model && is_ahead(chosen, showing, bone->node)) return MEANT;
-    return PLAIN;
+    const int model = bone->model, node = bone->part.node;
+    if (model == showing->chosen.model && node == showing->chosen.node) return CHOSEN;
+    if (model == showing->meant.model && node == showing->meant.node) return MEANT;
+    const bool ahead =
+        way_count(core, &showing->chosen, model, node) + way_count(core, &showing->meant, model, node) > 0;
+    return ahead ? MEANT : PLAIN;
 }
 
-static void show_all(const struct stage *stage, struct core *core, const struct showing *showing,
-                     const struct gltf *chosen)
+static void show_all(const struct stage *stage, struct core *core, const struct showing *showing)
 {
     for (int b = 0; b < stage->bone_count; b++) {
         const struct shown_bone *bone = &stage->bones[b];
         float ends[2][2];
-        if (bone->model != showing->model && bone->model != showing->chosen_model && !showing->all) continue;
+        if (bone->model != showing->model && bone->model != showing->chosen.model && !showing->all) continue;
+        const float opacity = opacity_of(showing, core, bone);
+        if (is_hidden(core, bone) && opacity == PLAIN) continue;
         if (!stage_project_point(stage, core->layout.stage, bone->ends[0], ends[0]) ||
             !stage_project_point(stage, core->layout.stage, bone->ends[1], ends[1]))
             continue;
-        const float opacity = opacity_of(showing, chosen, bone);
         const uint32_t color = bone->chain >= 0 && bone->color ? bone->color : theme()->playhead;
+        if (bone->part.node != bone->part.from) {
+            drawlist_line(&core->list, ends[0], 2, 1.25f, theme_fade(color, opacity));
+            continue;
+        }
         show_bone(&core->list, ends[0], ends[1], color, opacity == CHOSEN ? theme()->text : color, opacity);
     }
 }
@@ -256,19 +295,42 @@ static void show_all(const struct stage *stage, struct core *core, const struct 
 void bones_show(const struct stage *stage, struct core *core)
 {
     const struct hover *hover = &core->hover;
-    struct showing showing = {
-        .all = core->pick.use != BONE_SELECTED, .model = model_under(stage, core), .tip = -1, .meant = -1};
-    showing.chosen = bones_selected(core, &showing.chosen_model);
-    const struct imported *chosen = showing.chosen >= 0 ? bones_character(core, showing.chosen_model) : NULL;
-    if (chosen) showing.tip = chain_end(&chosen->gltf, showing.chosen, NULL);
+    struct showing showing = {.all = core->pick.use != BONE_SELECTED,
+                              .model = model_under(stage, core),
+                              .chosen = way_chosen(core),
+                              .meant = {-1, -1, -1}};
     const bool on_chain = hover->kind == HOVER_JOINT && core->document->rigs[hover->rig]->kind == RIG_CHAIN;
-    if (!core->drag.owner && (hover->kind == HOVER_BONE || on_chain)) {
-        showing.meant_model = hover->model;
-        showing.meant = hover->node;
+    if (!core->drag.owner && hover->kind == HOVER_BONE)
+        showing.meant = way_from(core, hover->model, hover->node);
+    else if (!core->drag.owner && on_chain)
+        showing.meant = (struct way){hover->model, hover->node, -1};
+    show_all(stage, core, &showing);
+    const struct way *meant = &showing.meant;
+    if (meant->node < 0) return;
+    char title[BONES_TITLE], text[2 * BONES_TITLE];
+    const struct gltf_node *nodes = bones_character(core, meant->model)->gltf.nodes;
+    const int count = way_count(core, meant, meant->model, meant->node);
+    int length =
+        snprintf(text, sizeof text, "%s", bones_title(core->document, meant->model, nodes[meant->node].name, title));
+    if (count > 1)
+        snprintf(text + length, sizeof text - (size_t)length, " to %.200s, %d bones", nodes[meant->tip].name, count);
+    show_name(core, text);
+}
+
+bool bones_box(const struct stage *stage, const struct core *core, float lo[3], float hi[3])
+{
+    const struct way way = way_chosen(core);
+    bool any = false;
+    for (int b = 0; b < stage->bone_count; b++) {
+        const struct shown_bone *bone = &stage->bones[b];
+        const int node = bone->part.node;
+        if (bone->model != way.model || node != bone->part.from) continue;
+        if (node != way.node && way_count(core, &way, way.model, node) == 0) continue;
+        for (int e = 0; e < 6; e++) {
+            lo[e % 3] = fminf(lo[e % 3], bone->ends[e / 3][e % 3]);
+            hi[e % 3] = fmaxf(hi[e % 3], bone->ends[e / 3][e % 3]);
+        }
+        any = true;
     }
-    show_all(stage, core, &showing, chosen ? &chosen->gltf : NULL);
-    if (showing.meant < 0) return;
-    char title[BONES_TITLE];
-    const char *name = bones_character(core, hover->model)->gltf.nodes[hover->node].name;
-    show_name(core, bones_title(core->document, hover->model, name, title));
+    return any;
 }

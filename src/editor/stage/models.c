@@ -13,25 +13,23 @@ static const float FOOT_HEIGHT = 0.1f, FOOT_RADIUS = 0.085f; ///< shares of the 
 static const float ASIDE = 1.1f;                             ///< share of the character's width
 static const float FOOT_STRENGTH = 0.55f, BODY_STRENGTH = 0.4f;
 
-/// A shadow under the whole, and one under each joint near the ground.
-static void add_shadows(struct stage_view *view, const struct stage_model *shown)
+/// A shadow under the whole, and one under each joint that vertices follow near the ground.
+static void add_shadows(struct stage_view *view, const struct stage_model *shown, const struct skeleton *skeleton)
 {
-    const struct gltf *gltf = shown->gltf;
     const mat4s root = mat4_from(shown->root);
     const float height = fmaxf(shown->hi[1] - shown->lo[1], 1e-6f);
     const float width = shown->hi[0] - shown->lo[0], depth = shown->hi[2] - shown->lo[2];
     stage_add_blob(view, 0.5f * (shown->lo[0] + shown->hi[0]), 0.5f * (shown->lo[2] + shown->hi[2]),
                    0.28f * (width + depth), BODY_STRENGTH);
     int feet = 0;
-    for (int s = 0; s < gltf->skin_count; s++) {
-        for (int j = 0; j < gltf->skins[s].joint_count && feet < FEET; j++) {
-            const float *at = shown->pose->world[gltf->skins[s].joints[j]] + 12;
-            const vec3s joint = glms_mat4_mulv3(root, vec3_from(at), 1.0f);
-            const float near = 1.0f - (joint.y - shown->ground) / (FOOT_HEIGHT * height);
-            if (near <= 0.0f) continue;
-            stage_add_blob(view, joint.x, joint.z, FOOT_RADIUS * height, FOOT_STRENGTH * fminf(near, 1.0f));
-            feet++;
-        }
+    for (int b = 0; shown->gltf->skin_count > 0 && b < skeleton->count && feet < FEET; b++) {
+        const struct bone *bone = &skeleton->bones[b];
+        if (bone->from != bone->node || !skeleton->carries[bone->node]) continue;
+        const vec3s joint = glms_mat4_mulv3(root, vec3_from(shown->pose->world[bone->node] + 12), 1.0f);
+        const float near = 1.0f - (joint.y - shown->ground) / (FOOT_HEIGHT * height);
+        if (near <= 0.0f) continue;
+        stage_add_blob(view, joint.x, joint.z, FOOT_RADIUS * height, FOOT_STRENGTH * fminf(near, 1.0f));
+        feet++;
     }
 }
 
@@ -84,7 +82,7 @@ static void pose(struct stage *stage, const struct core *core, int rig, int n)
     if (!shown) return;
     bones_add(stage, rig, &posed);
     shown->dusk = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
-    add_shadows(&stage->view, shown);
+    add_shadows(&stage->view, shown, &posed.model.imported->skeleton);
     if (core->overlays.original) add_original(stage, core, rig, aside(core, n));
 }
 

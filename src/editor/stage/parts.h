@@ -104,6 +104,8 @@ void bone_click(const struct stage *stage, struct core *core);
 
 /// Draws bones: all of the character under the pointer, and those from the selected bone to its tip.
 void bones_show(const struct stage *stage, struct core *core);
+/// Widens the box to the selected bone and those to its tip; false if none is shown.
+bool bones_box(const struct stage *stage, const struct core *core, float lo[3], float hi[3]);
 
 /// A floor's corners in order, on the screen.
 struct shown_floor {

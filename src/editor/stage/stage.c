@@ -165,7 +165,11 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
 void stage_wheel(struct stage *stage, struct core *core, const struct event *event)
 {
     if (brush_wheel(core, event)) return;
+    const struct rect *r = &core->layout.stage;
+    const float before = stage->camera.distance;
     camera_zoom(&stage->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
+    const float share = 1 - before / stage->camera.distance; // the place under the pointer stays there
+    camera_pan(&stage->camera, share * (event->x - r->x - r->w / 2), share * (event->y - r->y - r->h / 2), r->h);
 }
 
 void stage_advance(struct stage *stage, struct core *core, double dt)
@@ -306,6 +310,34 @@ void stage_fit(struct stage *stage, const struct core *core)
     const float caption = core->plain ? 0 : caption_height(place, document);
     camera_fit(&stage->camera, lo, hi, place.w / place.h, caption / place.h);
     note_figure(stage, place, lo, hi);
+}
+
+static const float AROUND = 0.15f; ///< of its largest side: room about what is framed
+
+void stage_frame(struct stage *stage, const struct core *core)
+{
+    float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY}, widest = 0;
+    const int rig = overlay_rig(stage, core);
+    const struct pose *strand = rig >= 0 ? &strand_of(stage, rig)->pose : NULL;
+    if (!bones_box(stage, core, lo, hi)) {
+        for (int i = 0; strand && i < 3 * strand->count; i++) {
+            const float at = strand->matrix[i / 3][12 + i % 3];
+            lo[i % 3] = fminf(lo[i % 3], at);
+            hi[i % 3] = fmaxf(hi[i % 3], at);
+        }
+    }
+    if (!(lo[0] <= hi[0])) {
+        stage_fit(stage, core);
+        return;
+    }
+    for (int k = 0; k < 3; k++) widest = fmaxf(widest, hi[k] - lo[k]);
+    for (int k = 0; k < 3; k++) {
+        lo[k] -= AROUND * widest;
+        hi[k] += AROUND * widest;
+    }
+    const float floor = stage->camera.floor;
+    camera_fit(&stage->camera, lo, hi, core->layout.stage.w / core->layout.stage.h, 0);
+    stage->camera.floor = floor;
 }
 
 static uint64_t view_hash(const struct stage_view *view)

@@ -26,6 +26,8 @@ void stage_open(struct stage *stage);
 const struct stage_view *stage_seen(const struct stage *stage);
 /// Resets the camera to show everything.
 void stage_fit(struct stage *stage, const struct core *core);
+/// Shows the selected bone and those to its tip, else the tail or chain of the active spline, else everything.
+void stage_frame(struct stage *stage, const struct core *core);
 /// Where the scene moves on the screen, as first seen; empty without rigs.
 struct rect stage_figure(const struct stage *stage, const struct core *core);
 /// Turns the camera about its target, radians.

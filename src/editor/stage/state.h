@@ -6,6 +6,7 @@
 #include "editor/stage/silhouette.h"
 #include "model/reach.h"
 #include "rig/camera.h"
+#include "rig/imported.h"
 #include "rig/swing.h"
 
 /// Stiff enough for the body to stand still at both ends of its path, 1/s.
@@ -39,7 +40,9 @@ struct shown_strand {
 
 /// A bone of an imported character, as last posed.
 struct shown_bone {
-    int model, node;  ///< rig, and node that rotates the bone
+    int model;        ///< rig
+    struct bone part; ///< as the skeleton has it
+    bool carries;     ///< vertices follow it
     int chain, joint; ///< its chain and number there; −1: none
     uint32_t color;   ///< of the chain's spline
     float ends[2][3]; ///< world

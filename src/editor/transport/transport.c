@@ -119,8 +119,9 @@ void transport_advance(struct core *core, double dt)
 }
 
 /// The hint with nothing under the pointer.
-static const char *lead_hint(const struct document *document)
+static const char *lead_hint(const struct core *core)
 {
+    const struct document *document = core->document;
     static const char *const hints[LEADS][2] = {
         [LEAD_TAIL] = {"Drag the fox or its tail. Space plays, F1 shows all keys",
                        "Drag the fox, its tail or a knot. Space plays, F1 shows all keys"},
@@ -130,10 +131,12 @@ static const char *lead_hint(const struct document *document)
                         "Drag a chain or a knot, or click a bone to make another chain. F1 shows all keys"},
         [LEAD_MODEL] = {"Click a bone, then press Shift+J to let it swing. F1 shows all keys",
                         "Click a bone, then press Shift+J to let it swing. F1 shows all keys"},
+        [LEAD_MESH] = {"It has no bones to bend. A adds a tail or a character, F1 shows all keys",
+                       "It has no bones to bend. Drag a knot. F1 shows all keys"},
         [LEAD_NOTHING] = {"Double-click to set a knot. Space plays, F1 shows all keys",
                           "Drag a knot. Space plays, F1 shows all keys"},
     };
-    const enum lead lead = rigs_lead(document);
+    const enum lead lead = rigs_lead(core);
     if (lead == LEAD_NOTHING && document->spline_count == 0)
         return "A adds a tail, Ctrl+O opens a scene. F1 shows all keys";
     return hints[lead][rigs_have_knots(document)];
@@ -149,7 +152,7 @@ static const char *const hover_hints[] = {
     [HOVER_ROW] = "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box",
     [HOVER_WARNING] = "Click to fix; Ctrl+Z undoes it",
     [HOVER_JOINT] = "Drag the tail: it is held where you let go. Ctrl+drag or H pins a joint",
-    [HOVER_BONE] = "Click to select this bone; drag to move the character, and its chains follow through",
+    [HOVER_BONE] = "Click to select this bone (Alt shows control bones too); drag to move the character",
     [HOVER_BODY] = "Drag the body: the tail follows through (Ctrl lifts it, X, Y or Z locks an axis, R records)",
     [HOVER_PLAY] = "Play, pause (Space)",
     [HOVER_LOOP] = "Loop or stop at the end (Ctrl+L)",
@@ -186,7 +189,7 @@ static const char *hover_hint(const struct core *core)
     if (hover->kind != HOVER_NONE) return hover_hints[hover->kind];
     if (core->bone.any)
         return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc deselects it";
-    return lead_hint(core->document);
+    return lead_hint(core);
 }
 
 const char *transport_hint(const struct core *core)
