@@ -97,5 +97,5 @@ void inspector_model(struct inspector *in)
     if (shown && shown->gltf.clip_count > 0)
         inspector_dropdown(in, &clip_list, inspector_labelled(in, "clip"), in->model, clip ? clip : "None", 0);
     inspector_numbers(in, place, sizeof place / sizeof place[0], &home);
-    if (shown) build_bone(in);
+    if (shown && shown->skeleton.count > 0) build_bone(in);
 }

@@ -72,7 +72,7 @@ static void add_original(struct stage *stage, const struct core *core, int rig, 
     shown->root[12] += by;
     shown->lo[0] += by;
     shown->hi[0] += by;
-    add_shadows(view, shown);
+    add_shadows(view, shown, &posed.model.imported->skeleton);
 }
 
 static void pose(struct stage *stage, const struct core *core, int rig, int n)
