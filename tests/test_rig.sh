@@ -81,8 +81,7 @@ expect 2 "a file that nobody knows" "$WIGGLY" rig $dog --chain tail_1 -o "$scrat
 printf 'Kaydara FBX Binary' >"$scratch/a.FBX"
 for command in "rig" "check" "live --headless --frames 1"; do
     expect 1 "FBX, in wiggly $command" "$WIGGLY" $command "$scratch/a.FBX"
-    says "is told the way" "a.FBX: expected glTF, got FBX: import it in Blender and export glTF, or run blender -b " "$err"
-    says "with the file to make" "export_scene.gltf(filepath='$scratch/a.glb', use_selection=True)" "$err"
+    says "is told the way" "a.FBX: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it" "$err"
 done
 skeleton=/usr/share/assimp/models/FBX/animation_with_skeleton.fbx
 if [ -e $skeleton ] && command -v blender >/dev/null; then

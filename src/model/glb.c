@@ -58,10 +58,7 @@ static bool read_chunks(struct glb *glb, size_t size, struct error *error)
 static bool refuse_fbx(const char *path, struct error *error)
 {
     return fail(error, ERROR_INPUT,
-                "%s: expected glTF, got FBX: import it in Blender and export glTF, or run blender -b --python-expr "
-                "\"import bpy; bpy.ops.import_scene.fbx(filepath='%s'); "
-                "bpy.ops.export_scene.gltf(filepath='%.*s.glb', use_selection=True)\"",
-                path, path, (int)strlen(path) - 4, path);
+                "%s: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it", path);
 }
 
 bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error)
