@@ -226,7 +226,28 @@ static bool put_clips(struct export_range *range, const struct form *form, struc
     return done;
 }
 
-/// Hangs everything at a node that stands where the stage has the character.
+/// Places a scene's nodes under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
+/// validators warn of one that has a parent.
+static void place_nodes(struct original *o, json_t *scene, json_t *matrix)
+{
+    json_t *nodes = json_object_get(o->source.json, "nodes"), *number;
+    json_t *placed = json_array(), *roots = json_array();
+    size_t i;
+    json_array_foreach(json_object_get(scene, "nodes"), i, number)
+    {
+        const json_t *node = json_array_get(nodes, (size_t)json_integer_value(number));
+        const bool is_skinned = json_object_get(node, "skin") && !json_object_get(node, "children");
+        gltf_append(&o->file, is_skinned ? roots : placed, json_incref(number));
+    }
+    if (json_array_size(placed) > 0) {
+        json_t *shown = json_pack("{s:s, s:O, s:O}", "name", "as shown", "matrix", matrix, "children", placed);
+        gltf_append(&o->file, roots, json_integer(gltf_append(&o->file, nodes, shown)));
+        gltf_set(&o->file, scene, "nodes", json_incref(roots));
+    }
+    json_decref(placed);
+    json_decref(roots);
+}
+
 static void put_place(struct original *o, const float root[16])
 {
     json_t *matrix = json_array(), *scene, *nodes = json_object_get(o->source.json, "nodes");
