@@ -3,6 +3,7 @@
 #include "gltf_builder.h"
 #include "rig/chain_make.h"
 #include "rig/opened.h"
+#include "rig/posing_kind.h"
 
 enum { MOST_KEYS = 41, ARM = 0 };
 
@@ -18,7 +19,7 @@ enum { ACTIONS = sizeof actions / sizeof *actions };
 
 static double turn_at(const struct action *action, double frame)
 {
-    const double part = (frame - action->first) / (action->last - action->first);
+    const double part = (frame - action->first) / fmax(action->last - action->first, 1);
     return action->loops ? 0.4 * sin(2 * 3.14159265358979323846 * part) : 0.9 * part * part;
 }
 
@@ -136,5 +137,44 @@ TEST(all_clips_get_the_chains)
             assert_true(turned[a].loops ? end < 1e-5 : end > 1e-3);
         }
         gltf_free(&gltf);
+    }
+}
+
+/// A second clip of one name is told apart. A pose stays as it is.
+TEST(clips_of_one_name_and_poses_among_all_clips)
+{
+    static const struct action twins[] = {{"Walk", 1, 25, true}, {"Pose", 5, 5, true}, {"Walk", 0, 16, true}};
+    static const struct {
+        const char *name;
+        int channels, keys;
+    } expected[] = {{"Walk", 3, 25}, {"Pose", 1, 1}, {"Walk 3", 3, 17}};
+    struct gltf gltf;
+    export_actions(twins, 3, true, &gltf);
+    assert_int_equal(gltf.clip_count, 3);
+    for (int c = 0; c < 3; c++) {
+        assert_string_equal(gltf.clips[c].name, expected[c].name);
+        assert_int_equal(gltf.clips[c].channel_count, expected[c].channels);
+        assert_int_equal(gltf.clips[c].channels[0].key_count, expected[c].keys);
+    }
+    gltf_free(&gltf);
+}
+
+/// A scene may begin before its clip, as those of earlier versions do: the clip waits, unless it loops in the scene.
+TEST(a_clip_before_its_first_key)
+{
+    static const struct {
+        int first, last;
+        bool loops;
+        double frame; ///< of the clip, as the scene begins
+    } cases[] = {{0, 25, true, 1},  {0, 25, false, 1},   {0, 24, false, 1},
+                 {0, 24, true, 24}, {-24, 24, true, 24}, {1, 25, true, 1}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        const struct gltf_clip clip = {.first = 1 / 24.0, .last = 25 / 24.0, .loops = cases[c].loops};
+        struct document *document = document_create();
+        document->fps = 24;
+        document->first_frame = cases[c].first;
+        document->last_frame = cases[c].last;
+        assert_near(24 * posing_clip_time(document, 0, &clip), cases[c].frame, 1e-5);
+        document_destroy(document);
     }
 }

@@ -214,14 +214,14 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
     return done;
 }
 
-/// The clip that plays, and where all are asked for the others: of two with one name the first.
+/// Adds the clip that plays, and all others if all are wanted. Chains do not move in clips of a single pose.
 static bool put_clips(struct export_range *range, const struct form *form, struct original *o, struct error *error)
 {
     const struct model_body *body = form->owned;
     bool done = put_clip(range, form, o, error);
     for (int c = 0; done && range->options->all_clips && c < body->gltf->clip_count; c++) {
         const struct gltf_clip *clip = &body->gltf->clips[c];
-        if (clip != body->clip && gltf_find_clip(body->gltf, clip->name) == c) done = put_other(range, c, o, error);
+        if (clip != body->clip && clip->last > clip->first) done = put_other(range, c, o, error);
     }
     return done;
 }
@@ -250,17 +250,10 @@ static void place_nodes(struct original *o, json_t *scene, json_t *matrix)
 
 static void put_place(struct original *o, const float root[16])
 {
-    json_t *matrix = json_array(), *scene, *nodes = json_object_get(o->source.json, "nodes");
+    json_t *matrix = json_array(), *scene;
     size_t s;
     for (int i = 0; i < 16; i++) gltf_append(&o->file, matrix, json_real((double)root[i]));
-    json_array_foreach(json_object_get(o->source.json, "scenes"), s, scene)
-    {
-        json_t *roots = json_object_get(scene, "nodes");
-        if (json_array_size(roots) == 0) continue;
-        const json_int_t node = gltf_append(
-            &o->file, nodes, json_pack("{s:s, s:O, s:O}", "name", "as shown", "matrix", matrix, "children", roots));
-        gltf_set(&o->file, scene, "nodes", json_pack("[I]", node));
-    }
+    json_array_foreach(json_object_get(o->source.json, "scenes"), s, scene) place_nodes(o, scene, matrix);
     json_decref(matrix);
 }
 

@@ -34,7 +34,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
 {
     const struct model_rig *model = &posing->document->rigs[rig]->model;
     const struct gltf *gltf = &pose->model.imported->gltf;
-    const int clip = model->clip ? gltf_find_clip(gltf, model->clip) : -1;
+    const int clip = gltf_find_clip(gltf, model->clip);
     const size_t nodes = (size_t)gltf->node_count;
     struct model_body *body = form->owned = need_zeroed(1, sizeof *body);
     body->gltf = gltf;

@@ -25,7 +25,7 @@ int gltf_find_node(const struct gltf *gltf, const char *name)
 
 int gltf_find_clip(const struct gltf *gltf, const char *name)
 {
-    for (int i = 0; i < gltf->clip_count; i++) {
+    for (int i = 0; name && i < gltf->clip_count; i++) {
         if (strcmp(gltf->clips[i].name, name) == 0) return i;
     }
     return -1;

@@ -187,7 +187,7 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
 /// Finds each node's child and next from all parents.
 void gltf_link_nodes(struct gltf *gltf);
 
-/// The first node, or clip, with that name, or −1.
+/// The first node, or the clip, with that name, or −1. NULL is no clip's name.
 int gltf_find_node(const struct gltf *gltf, const char *name);
 int gltf_find_clip(const struct gltf *gltf, const char *name);
 

@@ -332,14 +332,25 @@ static bool read_channel(struct gltf_reader *r, const json_t *json, const json_t
     return true;
 }
 
+/// A clip's name in its file. Scenes find clips by name, so a second clip of the same name gets a number.
+static char *name_clip(struct gltf_reader *r, const json_t *json, size_t number)
+{
+    char *name = gltf_name(r, json, "clip", number), *longer;
+    for (; name && gltf_find_clip(r->gltf, name) >= 0; name = longer) {
+        if (asprintf(&longer, "%s %zu", name, number + 1) < 0) longer = NULL;
+        if (!longer) fail_no_memory(r->error, r->file.path);
+        free(name);
+    }
+    return name;
+}
+
 static bool read_clip(struct gltf_reader *r, const json_t *json, size_t number, struct gltf_clip *clip)
 {
     const json_t *channels = json_object_get(json, "channels"), *samplers = json_object_get(json, "samplers"),
                  *channel;
     size_t i;
     gltf_at(r, "animations[%zu]", number);
-    clip->name = gltf_name(r, json, "clip", number);
-    clip->channels = clip->name ? gltf_make(r, json_array_size(channels), sizeof *clip->channels) : NULL;
+    clip->channels = gltf_make(r, json_array_size(channels), sizeof *clip->channels);
     if (!clip->channels) return false;
     clip->first = INFINITY;
     clip->loops = true;
@@ -361,8 +372,9 @@ bool gltf_read_clips(struct gltf_reader *r)
     if (!r->gltf->clips) return false;
     json_array_foreach(clips, i, clip)
     {
-        r->gltf->clip_count++;
-        if (!read_clip(r, clip, i, &r->gltf->clips[i])) return false;
+        char *name = name_clip(r, clip, i);
+        r->gltf->clips[r->gltf->clip_count++].name = name;
+        if (!name || !read_clip(r, clip, i, &r->gltf->clips[i])) return false;
     }
     return true;
 }

@@ -1,5 +1,6 @@
 /// Makes chains with their own splines.
 #include "rig/chain_make.h"
+#include "rig/posing_kind.h"
 #include "rig/strand.h"
 #include "scene/edit.h"
 #include <ctype.h>
@@ -53,16 +54,6 @@ double chain_bend_a_metre(const struct imported *imported, const struct chain_bo
 {
     // A bend of g at each of n bones moves the tip by g · length · (n + 1) / 2.
     return DEGREES * 2 / (length_of(imported, bones, scale) * (bones->count + 1));
-}
-
-/// Whether the scene's range is one or several times the model's clip, and the clip loops.
-static bool is_loop(const struct document *document, const struct model_rig *model, const struct gltf *gltf)
-{
-    const int clip = model->clip ? gltf_find_clip(gltf, model->clip) : -1;
-    const double range = (document->last_frame - document->first_frame) / document->fps;
-    const double length = clip < 0 || !gltf->clips[clip].loops ? 0 : gltf->clips[clip].last - gltf->clips[clip].first;
-    const double times = length > 0 ? range / length : 0;
-    return times > 0.5 && fabs(times - round(times)) < 1e-3;
 }
 
 /// Properties shared by all splines of a new chain.
@@ -161,6 +152,7 @@ bool chain_make(struct document *document, const struct models *models, const st
     const char *to = wish->to ? wish->to : last < 0 ? wish->from : gltf->nodes[last].name;
     if (!chain_find(gltf, wish->from, to, &bones, error)) return false;
     name_chain(document, wish->from, name);
+    const int clip = gltf_find_clip(gltf, model->model.clip);
     const double length = length_of(imported, &bones, model->model.scale);
     const double frequency = fmin(fmax(USUAL_FREQUENCY * sqrt(USUAL_LENGTH / length), SLOWEST), FASTEST);
     const struct plan plan = {.document = document,
@@ -172,7 +164,8 @@ bool chain_make(struct document *document, const struct models *models, const st
                               .to = gltf->nodes[bones.node[bones.count - 1]].name,
                               .frequency = wish->frequency > 0 ? wish->frequency : round(10 * frequency) / 10,
                               .damping = wish->damping > 0 ? wish->damping : USUAL_DAMPING,
-                              .loops = document_loops(document) || is_loop(document, &model->model, gltf)};
+                              .loops = document_loops(document) ||
+                                       (clip >= 0 && posing_clip_loops(document, &gltf->clips[clip]))};
     struct chain chain = {.model = plan.model, .by_file = plan.by_file, .from = plan.from, .to = plan.to};
     const struct chain *twin = wish->own ? NULL : find_twin(document, wish);
     const double bend =

@@ -40,7 +40,7 @@ static bool find(const struct models *models, const struct document *document, c
     const struct imported *imported = models_imported(models, document, rig);
     if (!imported) return false;
     const struct model_rig *model = &document->rigs[rig]->model;
-    const int clip = model->clip ? gltf_find_clip(&imported->gltf, model->clip) : -1;
+    const int clip = gltf_find_clip(&imported->gltf, model->clip);
     *followed = (struct followed){.imported = imported,
                                   .pose = models_pose(models, document, rig, false),
                                   .node = gltf_find_node(&imported->gltf, motion->joint),
@@ -85,11 +85,13 @@ static double mean_of(struct followed *followed)
     return sum / MEAN_STEPS;
 }
 
-/// Number of samples after which the clip repeats exactly, or 0.
+/// Number of samples after which the clip repeats exactly, or 0. The scene may begin before the clip.
 static int period_of(const struct document *document, const struct gltf_clip *clip)
 {
     const double samples = length_of(clip) / document_step(document);
-    return samples >= 1 && samples < 1e6 && fabs(samples - round(samples)) < 1e-4 ? (int)round(samples) : 0;
+    const bool waits =
+        clip && document->first_frame / document->fps < clip->first - 1e-6 && !posing_clip_loops(document, clip);
+    return !waits && samples >= 1 && samples < 1e6 && fabs(samples - round(samples)) < 1e-4 ? (int)round(samples) : 0;
 }
 
 /// Samples a joint, averaged over a frame on either side: clips have keys on frames with straight lines between, and each corner would kick

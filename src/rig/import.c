@@ -3,6 +3,7 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "model/character.h"
+#include "rig/posing_kind.h"
 #include "scene/edit.h"
 #include "scene/pins.h"
 #include <fcntl.h>
@@ -91,8 +92,8 @@ static bool follows_clip(const struct spline *spline) { return spline->parameter
 static bool take_clip(struct document *document, const struct gltf_clip *clip, enum range_fit fit,
                       struct error *error)
 {
-    const struct param start = param_number(clip->loops ? WIGGLY_LOOP : WIGGLY_REST);
     if (!set_range(document, clip, fit, error)) return false;
+    const struct param start = param_number(posing_clip_loops(document, clip) ? WIGGLY_LOOP : WIGGLY_REST);
     for (int s = 0; s < document->spline_count; s++) {
         if (!follows_clip(document->splines[s])) continue;
         if (!edit_parameter(document, s, PARAMETER_START, &start, error)) return false;
@@ -192,7 +193,7 @@ static bool is_of_clip(const struct document *document)
 bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
                         struct error *error)
 {
-    const int found = clip ? gltf_find_clip(gltf, clip) : -1;
+    const int found = gltf_find_clip(gltf, clip);
     if (!set_clip(document, rig, clip, error)) return false;
     return found < 0 || !is_of_clip(document) || take_clip(document, &gltf->clips[found], RANGE_REFUSE, error);
 }

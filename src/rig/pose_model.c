@@ -7,11 +7,17 @@
 
 static const double ROUNDING = 1e-6; ///< of a clip's length: times of keys are single precision
 
+bool posing_clip_loops(const struct document *document, const struct gltf_clip *clip)
+{
+    const double times = (document->last_frame - document->first_frame) / document->fps / (clip->last - clip->first);
+    return clip->loops && times > 0.5 && fabs(times - round(times)) < 1e-3;
+}
+
 double posing_clip_time(const struct document *document, double position, const struct gltf_clip *clip)
 {
     const double frame = document->first_frame + position / document->substeps;
     const double length = clip->last - clip->first, into = frame / document->fps - clip->first;
-    if (!(length > 0)) return clip->first;
+    if (!(length > 0) || (into < 0 && !posing_clip_loops(document, clip))) return clip->first;
     double rounds = floor(into / length + ROUNDING), left = into - rounds * length;
     if (!clip->loops && rounds > 0 && left < ROUNDING * length) left = length; // its last pose is not its first
     return clip->first + left;
@@ -25,7 +31,7 @@ struct gltf_pose *posing_clip(const struct posing *posing, int rig, double posit
     struct gltf_pose *pose = models_pose(posing->models, document, rig, shown);
     const struct gltf *gltf = &imported->gltf;
     const char *name = document->rigs[rig]->kind == RIG_MODEL ? document->rigs[rig]->model.clip : NULL;
-    const int clip = name && !posing->at_rest ? gltf_find_clip(gltf, name) : -1;
+    const int clip = posing->at_rest ? -1 : gltf_find_clip(gltf, name);
     gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, &gltf->clips[clip]), pose);
     return pose;
 }

@@ -38,7 +38,7 @@ static void choose_clip(struct inspector *in, const struct dropdown *list)
     int count = 1;
     for (int c = 0; c < gltf->clip_count && c < MAX_CLIPS; c++)
         items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
-    const int picked = ui_popup_list(&in->ui, list->name, items, count, clip ? gltf_find_clip(gltf, clip) + 1 : 0);
+    const int picked = ui_popup_list(&in->ui, list->name, items, count, gltf_find_clip(gltf, clip) + 1);
     if (picked >= 0) bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
 }
 
