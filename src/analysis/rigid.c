@@ -15,11 +15,13 @@
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-static const double still = 1e-5;    ///< of the motion of the vertex that moves most: one that moves less rests
-static const double straight = 1e-6; ///< of its squared size: how much area a line has
-static const double nothing = 1e-6;  ///< of its size: a base that moves less rests; the rounding of float data
-static const double identity = 1e-7; ///< weight of no rotation
+static const double still = 1e-5;     ///< of the motion of the vertex that moves most: one that moves less rests
+static const double straight = 1e-6;  ///< of its squared size: how much area a line has
+static const double nothing = 1e-6;   ///< of its size: a base that moves less rests; the rounding of float data
+static const double least_slow = 0.2; ///< of what is fast in the motion of an unknown base: less that is slow stays
+static const double identity = 1e-7;  ///< weight of no rotation
 
 /// What a pass over the motion gives.
 struct survey {
@@ -92,20 +94,17 @@ static bool read_motion(struct survey *s, const struct motion *motion, struct er
     return slab_end(&slab);
 }
 
-/// Makes the vertices that rest the base; false, with all of them in it, if none does.
-static bool keep_still(struct survey *s)
+/// Whether vertices rest that hold the mesh: not only a point or a line, about which it may turn.
+static bool is_held(const struct survey *all)
 {
-    const int vertices = s->rest->vertex_count;
-    double largest = 0, least = INFINITY;
-    for (int v = 0; v < vertices; v++) {
-        if (!s->base[v]) continue;
-        largest = fmax(largest, s->extent[v]);
-        least = fmin(least, s->extent[v]);
-    }
-    const double most = still * still * largest;
-    for (int v = 0; v < vertices && least <= most; v++) s->base[v] &= s->extent[v] <= most;
-    measure_rest(s);
-    return least <= most;
+    const int vertices = all->rest->vertex_count;
+    struct survey s = {.rest = all->rest, .base = need((size_t)vertices + 1, sizeof *s.base)};
+    double largest = 0;
+    for (int v = 0; v < vertices; v++) largest = fmax(largest, all->base[v] ? all->extent[v] : 0);
+    for (int v = 0; v < vertices; v++) s.base[v] = all->base[v] && all->extent[v] <= still * still * largest;
+    measure_rest(&s);
+    free(s.base);
+    return s.count > 0 && !is_hinge(&s);
 }
 
 /// Horn's quaternion of a frame.
@@ -134,10 +133,12 @@ static void fill_turn(const double q[4], double r[3][3])
     }
 }
 
-/// Whether the motion of the base, as lengths in `rows` rows over the frames, is more a parabola than what is left of it.
-static bool travels(const double *path, int rows, int frames)
+enum { PATH = 7 }; ///< x̄ of a frame, and its quaternion times twice the reach, as lengths
+
+/// Fits a cubic to each row of the path: what is slow. Whether it matters beside what it leaves out.
+static bool smooth(double *path, int frames)
 {
-    enum { POWERS = 3 };
+    enum { POWERS = 4 };
     struct basis basis;
     double *power = need((size_t)frames, sizeof *power), along = 0, left = 0;
     basis_create(&basis, frames, POWERS);
@@ -145,47 +146,67 @@ static bool travels(const double *path, int rows, int frames)
         for (int t = 0; t < frames; t++) power[t] = pow((double)t / frames, k);
         basis_append(&basis, power);
     }
-    for (const double *row = path; row < path + (size_t)rows * (size_t)frames; row += frames) {
+    for (double *row = path; row < path + (size_t)PATH * (size_t)frames; row += frames) {
         left += basis_dot(row, row, frames);
+        memset(power, 0, (size_t)frames * sizeof *power);
         for (int k = 0; k < POWERS; k++) {
-            const double part = basis_dot(row, basis.q + (size_t)k * (size_t)frames, frames);
+            const double *q = basis.q + (size_t)k * (size_t)frames, part = basis_dot(row, q, frames);
+            for (int t = 0; t < frames; t++) power[t] += part * q[t];
             left -= part * part;
             if (k > 0) along += part * part;
         }
+        memcpy(row, power, (size_t)frames * sizeof *row);
     }
     basis_free(&basis);
     free(power);
-    return along > left;
+    return along > least_slow * left;
 }
 
-/// Fits all frames; an unknown base counts only if it travels.
-static void fit(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames, bool known)
+/// R and p of every frame from the path.
+static void follow(struct rigid *rigid, const struct survey *s, const double *path, double reach, int frames)
 {
-    enum { ROWS = 6 };
-    const double size = size_of(s), reach = sqrt(size / s->count);
-    double first[4], moved = 0, *path = need(ROWS * (size_t)frames, sizeof *path);
+    double moved = 0, first[4];
     rigid->turn = need((size_t)frames, sizeof *rigid->turn);
     rigid->place = need((size_t)frames, sizeof *rigid->place);
     for (int t = 0; t < frames; t++) {
-        double q[4], same = 0, travel = 0, away = 0;
-        fit_turn(lapack, (const double(*)[3])s->moment[t], identity * size, q);
-        for (int i = 0; i < 4; i++) first[i] = t == 0 ? q[i] : first[i];
-        for (int i = 0; i < 4; i++) same += q[i] * first[i];
+        double q[4], size = 0, same = 0, travel = 0, away = 0;
+        for (int i = 0; i < 4; i++) size += pow(path[(3 + i) * frames + t], 2);
+        for (int i = 0; i < 4; i++) {
+            q[i] = path[(3 + i) * frames + t] / sqrt(size);
+            first[i] = t == 0 ? q[i] : first[i];
+            same += q[i] * first[i];
+        }
         fill_turn(q, rigid->turn[t]);
         for (int a = 0; a < 3; a++) {
-            const double *r = rigid->turn[t][a];
-            rigid->place[t][a] = s->mean[t][a] - r[0] * s->centre[0] - r[1] * s->centre[1] - r[2] * s->centre[2];
-            travel += pow(s->mean[t][a] - s->mean[0][a], 2);
-            away += pow(s->mean[t][a] - s->centre[a], 2);
-            path[a * frames + t] = s->mean[t][a] - s->mean[0][a];
-            path[(3 + a) * frames + t] = 2 * reach * copysign(q[1 + a], q[1 + a] * same);
+            const double *r = rigid->turn[t][a], mean = path[a * frames + t];
+            rigid->place[t][a] = mean - r[0] * s->centre[0] - r[1] * s->centre[1] - r[2] * s->centre[2];
+            travel += pow(mean - path[a * frames], 2);
+            away += pow(mean - s->centre[a], 2);
         }
         rigid->travel = fmax(rigid->travel, sqrt(travel));
         rigid->angle = fmax(rigid->angle, 2 * acos(fmin(fabs(same), 1)) * 180 / M_PI);
         moved = fmax(moved, sqrt(away) + 2 * reach * sqrt(fmax(1 - q[0] * q[0], 0)));
     }
-    rigid->loose = !known && !travels(path, ROWS, frames);
-    rigid->frames = moved > nothing * reach && !rigid->loose ? frames : 0;
+    rigid->frames = moved > nothing * reach ? frames : 0;
+}
+
+/// Fits all frames. Of a base that is not known only what is slow counts, as the rest may be the swing.
+static void fit(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames, bool known)
+{
+    const double size = size_of(s), reach = sqrt(size / s->count);
+    double *path = need(PATH * (size_t)frames, sizeof *path), before[4] = {1};
+    for (int t = 0; t < frames; t++) {
+        double q[4], same = 0;
+        fit_turn(lapack, (const double(*)[3])s->moment[t], identity * size, q);
+        for (int i = 0; i < 4; i++) same += q[i] * before[i];
+        for (int i = 0; i < 4; i++) {
+            before[i] = copysign(1, same) * q[i];
+            path[(3 + i) * frames + t] = (reach > 0 ? 2 * reach : 1) * before[i];
+        }
+        for (int a = 0; a < 3; a++) path[a * frames + t] = s->mean[t][a];
+    }
+    rigid->loose = !known;
+    if (known || smooth(path, frames)) follow(rigid, s, path, reach, frames);
     free(path);
 }
 
@@ -207,8 +228,7 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
     }
     measure_rest(&s);
     const bool done = s.count == 0 || read_motion(&s, motion, error);
-    if (done && s.count > 0 && (base || !keep_still(&s))) fit(rigid, lapack, &s, motion->frames, base);
-    rigid->loose |= done && s.count > 0 && is_hinge(&s);
+    if (done && s.count > 0 && (base || !is_held(&s))) fit(rigid, lapack, &s, motion->frames, base);
     free(used);
     free(s.base);
     free(s.moment);

@@ -13,12 +13,13 @@ struct rigid {
     double (*turn)[3][3]; ///< R of every frame
     double (*place)[3];   ///< p of every frame, metres
     bool whole;           ///< the base is the whole mesh
-    bool loose;           ///< rigid motions of the mesh may be left: the base is a point, a line or not known
+    bool loose;           ///< the base is not known: a coordinate may have rigid motions of the mesh
     double travel, angle; ///< at most, from the first frame on: metres of the base's centre, degrees
 };
 
-/// Finds the motion of the vertices in `base`, one flag per vertex of `rest`. NULL: the base rests if any vertex does; else it is the
-/// whole mesh if that travels, more than it sways. Reads the motion once. Errors: a number that is not finite, a file that shrinks.
+/// Finds the motion of the vertices in `base`, one flag per vertex of `rest`. NULL: the base rests if vertices do that are more than a
+/// point or a line; else it is the whole mesh, of whose motion only the slow part counts: the rest may be the swing. Reads the motion once.
+/// Errors: a number that is not finite, a file that shrinks.
 bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct motion *motion,
                 const struct surface *rest, const bool *base, struct error *error);
 void rigid_free(struct rigid *rigid);
