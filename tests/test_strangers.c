@@ -202,9 +202,10 @@ SESSION_TEST(test_hover_names_the_chain_that_the_key_makes, open_written(s, writ
     assert_string_equal(s->document->rigs[1]->chain.to, "ear_L_2");
 }
 
-SESSION_TEST(test_only_joints_with_vertices_cast_shadows_once, open_written(s, write_rig))
+SESSION_TEST(test_joints_count_once_and_cast_shadows_if_vertices_follow, open_written(s, write_rig))
 {
     assert_int_equal(s->editor->stage->view.blob_count, 2); // the whole, and the foot
+    assert_int_equal(bones_character(&s->editor->core, 0)->skeleton.own, JOINTS);
 }
 
 static float size_of_ear(const struct session *s)

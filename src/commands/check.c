@@ -86,14 +86,13 @@ static int check_character(const char *path)
 {
     struct imported imported;
     struct error error;
-    int triangles = 0, joints = 0;
+    int triangles = 0;
     if (!imported_read(&imported, path, &error)) return options_end(false, &error);
     const struct gltf *gltf = &imported.gltf;
     for (int m = 0; m < gltf->mesh_count; m++) {
         for (int p = 0; p < gltf->meshes[m].part_count; p++) triangles += gltf->meshes[m].parts[p].index_count / 3;
     }
-    for (int b = 0; gltf->skin_count > 0 && b < imported.skeleton.count; b++)
-        joints += imported.skeleton.bones[b].from == imported.skeleton.bones[b].node;
+    const int joints = gltf->skin_count > 0 ? imported.skeleton.own : 0;
     print_line(stdout, "%s: a glTF character of %d triangle%s and %d joint%s", path, triangles,
                triangles == 1 ? "" : "s", joints, joints == 1 ? "" : "s");
     contents_print(&imported);

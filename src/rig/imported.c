@@ -87,18 +87,17 @@ static bool is_hidden(const struct gltf *gltf, const struct skeleton *skeleton, 
 static void list_bones(const struct imported *imported, const bool *is_bone, struct skeleton *skeleton)
 {
     const struct gltf *gltf = &imported->gltf;
-    int own = 0;
     for (int n = 0; n < gltf->node_count; n++) {
         if (!is_bone[n]) continue;
         const mat3s turn = mat3_inverse(glms_mat4_pick3(mat4_from(imported->rest.world[n])));
         const vec3s tip = glms_mat3_mulv(turn, way_on(imported, is_bone, n));
-        struct bone *bone = &skeleton->bones[own++];
+        struct bone *bone = &skeleton->bones[skeleton->own++];
         *bone = (struct bone){.node = n, .from = n, .hidden = is_hidden(gltf, skeleton, n)};
         bone->child = main_child(imported, skeleton, is_bone, n);
         memcpy(bone->tip, tip.raw, sizeof bone->tip);
     }
-    skeleton->count = own;
-    for (int b = 0; b < own; b++) {
+    skeleton->count = skeleton->own;
+    for (int b = 0; b < skeleton->own; b++) {
         const int parent = skeleton->bones[b].from, main = skeleton->bones[b].child;
         for (int c = gltf->nodes[parent].child; c >= 0; c = gltf->nodes[c].next) {
             const bool hidden = skeleton->bones[b].hidden || is_hidden(gltf, skeleton, c);

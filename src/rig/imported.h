@@ -19,10 +19,10 @@ struct bone {
 };
 
 struct skeleton {
-    struct bone *bones; ///< own parts first
-    int count;
-    bool *carries; ///< by node: whether vertices follow the bone; true for all bones of a file without meshes
-    bool *leads;   ///< whether it or a node below it carries
+    struct bone *bones; ///< own parts first, by node
+    int count, own;     ///< all parts, own parts
+    bool *carries;      ///< by node: whether vertices follow the bone; true for all bones of a file without meshes
+    bool *leads;        ///< whether it or a node below it carries
 };
 
 struct imported {

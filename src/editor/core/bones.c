@@ -98,19 +98,12 @@ static bool is_below(const struct gltf *gltf, int node, int top)
     return node == top;
 }
 
-static bool is_bone(const struct skeleton *skeleton, int node)
-{
-    for (int b = 0; b < skeleton->count; b++) {
-        if (skeleton->bones[b].node == node) return true;
-    }
-    return false;
-}
-
 int bones_below(const struct imported *character, int top, int *nodes, int most)
 {
     int count = 0;
-    for (int n = 0; n < character->gltf.node_count && count < most; n++) {
-        if (is_bone(&character->skeleton, n) && is_below(&character->gltf, n, top)) nodes[count++] = n;
+    for (int b = 0; b < character->skeleton.own && count < most; b++) {
+        const int node = character->skeleton.bones[b].node;
+        if (is_below(&character->gltf, node, top)) nodes[count++] = node;
     }
     return count;
 }

@@ -22,12 +22,11 @@ static void add_shadows(struct stage_view *view, const struct stage_model *shown
     stage_add_blob(view, 0.5f * (shown->lo[0] + shown->hi[0]), 0.5f * (shown->lo[2] + shown->hi[2]),
                    0.28f * (width + depth), BODY_STRENGTH);
     int feet = 0;
-    for (int b = 0; shown->gltf->skin_count > 0 && b < skeleton->count && feet < FEET; b++) {
-        const struct bone *bone = &skeleton->bones[b];
-        if (bone->from != bone->node || !skeleton->carries[bone->node]) continue;
-        const vec3s joint = glms_mat4_mulv3(root, vec3_from(shown->pose->world[bone->node] + 12), 1.0f);
+    for (int b = 0; shown->gltf->skin_count > 0 && b < skeleton->own && feet < FEET; b++) {
+        const int node = skeleton->bones[b].node;
+        const vec3s joint = glms_mat4_mulv3(root, vec3_from(shown->pose->world[node] + 12), 1.0f);
         const float near = 1.0f - (joint.y - shown->ground) / (FOOT_HEIGHT * height);
-        if (near <= 0.0f) continue;
+        if (near <= 0.0f || !skeleton->carries[node]) continue;
         stage_add_blob(view, joint.x, joint.z, FOOT_RADIUS * height, FOOT_STRENGTH * fminf(near, 1.0f));
         feet++;
     }
