@@ -181,7 +181,7 @@ static void dress(struct posed *mesh, const struct looks *looks)
         const struct looks_material *material = is_seen ? &looks->materials[part->material] : &none;
         memcpy(part->base, material->color, sizeof part->base);
         part->blended = part->base[3] < 1.0f;
-        part->program = material->image || part->blended ? PROGRAM_PICTURED : PROGRAM_PLAIN;
+        part->program = material->image || part->blended || part->both_sides ? PROGRAM_PICTURED : PROGRAM_PLAIN;
     }
 }
 
@@ -215,8 +215,11 @@ void posed_from_figure(struct posed *mesh, const struct figure *figure, bool coa
     for (int v = 0; v < c->vertex_count; v++) look_at(figure, -1, 0, v, &mesh->looks[v]);
     for (int m = 0; m < materials; m++) add_material(mesh, figure, coarse, m, materials);
     add_material(mesh, figure, coarse, -1, materials);
-    dress(mesh, &c->looks);
     find_neighbours(mesh, 0);
+    bool open = false; // then its back can be seen, as a flag's
+    for (int i = 0; i < mesh->index_count; i++) open = open || mesh->neighbours[i] == NEIGHBOUR_NONE;
+    for (int p = 0; p < mesh->part_count; p++) mesh->parts[p].both_sides = open;
+    dress(mesh, &c->looks);
 }
 
 bool posed_map_figure(struct posed *mesh, const struct stage_character *shown)

@@ -1,6 +1,7 @@
 /// Writes meshes, materials and pictures of glTF files.
 #include "model/gltf_shape.h"
 #include "base/need.h"
+#include "model/adjacency.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -42,6 +43,7 @@ static json_int_t add_material(struct gltf_looks *l, const struct looks_material
         gltf_set(l->file, base, "baseColorTexture", json_pack("{s:I}", "index", find_texture(l, material, kind)));
     json_t *json = json_pack("{s:s, s:o}", "name", material->name, "pbrMetallicRoughness", base);
     if (c[3] < 1) gltf_set(l->file, json, "alphaMode", json_string("BLEND"));
+    if (l->is_open) gltf_set(l->file, json, "doubleSided", json_true());
     return gltf_append(l->file, l->materials, json);
 }
 
@@ -49,9 +51,9 @@ static json_int_t plain_material(struct gltf_looks *l)
 {
     char name[] = "skin";
     const struct looks_material skin = {.name = name, .color = {1, 1, 1, 1}};
-    if (!l->has_plain) l->plain = add_material(l, &skin);
-    l->has_plain = true;
-    return l->plain;
+    if (!l->has_plain[l->is_open]) l->plain[l->is_open] = add_material(l, &skin);
+    l->has_plain[l->is_open] = true;
+    return l->plain[l->is_open];
 }
 
 // --- triangles
@@ -221,8 +223,27 @@ static json_t *make_extras(struct gltf_looks *l, const struct gltf_shape *shape)
     return json_pack("{s:o, s:{s:o}}", "targetNames", names, "wiggly", "coordinates", coordinates);
 }
 
+/// Whether the back of a shape can be seen, as a flag's: a triangle has none across an edge.
+static bool is_open(const struct gltf_shape *shape)
+{
+    const size_t count = (size_t)shape->index_count;
+    uint32_t *corners = need(count + 1, sizeof *corners), most = 0;
+    int *across = need(count + 1, sizeof *across);
+    bool open = false;
+    for (size_t i = 0; i < count; i++) {
+        corners[i] = shape->source ? shape->source[shape->indices[i]] : shape->indices[i];
+        most = corners[i] > most ? corners[i] : most;
+    }
+    neighbours_find(shape->position, (int)most + 1, corners, shape->index_count, across);
+    for (size_t i = 0; i < count; i++) open = open || across[i] == NEIGHBOUR_NONE;
+    free(corners);
+    free(across);
+    return open;
+}
+
 json_t *gltf_shape_json(struct gltf_looks *l, const struct gltf_shape *shape)
 {
+    l->is_open = is_open(shape);
     json_t *attributes = make_attributes(l, shape), *targets = make_targets(l, shape);
     json_t *mesh =
         json_pack("{s:s, s:o}", "name", shape->name, "primitives", make_primitives(l, shape, attributes, targets));

@@ -13,8 +13,9 @@ struct gltf_looks {
     struct gltf_file *file;
     json_t *materials, *textures, *images;
     struct gltf_picture *pictures; ///< of each texture: pictures that are the same are written once
-    bool has_plain, has_polygons;
-    json_int_t plain; ///< the material of parts that have none
+    bool is_open;                  ///< the shape at hand: its materials show on both sides
+    bool has_plain[2], has_polygons;
+    json_int_t plain[2]; ///< the materials of closed and open parts that have none
 };
 
 /// A morph target: `scale` times `position`, and `turn` times `normal`; NULL: it leaves normals as they are.
