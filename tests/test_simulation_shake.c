@@ -230,6 +230,36 @@ TEST(a_beam_is_monotone_under_refinement)
     assert_near(before, 1, is_thorough() ? 0.0155 : 0.075);
 }
 
+/// Wherever a box is held, its far end moves by the amplitude times its length that way.
+TEST(a_shake_grows_away_from_the_pinned_side)
+{
+    static const struct held {
+        const char *where;
+        int axis;
+        float far_end;
+    } sides[] = {{"0.1", 1, 1}, {"plane:0,0.9,0,0,-1,0", 1, 0}, {"plane:-0.4,0,0,1,0,0", 0, 0.5f}};
+    const struct shake shake = {.direction = {0, 0, 1}, .amplitude = 0.2};
+    for (const struct held *side = sides; side < sides + sizeof sides / sizeof *sides; side++) {
+        struct shaken s;
+        double most = 0;
+        box_open(&s, 1, 1, 300);
+        s.options.shake = &shake;
+        assert_true(region_parse(side->where, &s.options.pin));
+        soften(&s);
+        assert_true(s.soft.share > 0.5);
+        shake_by(&s, 0.01, 1e-6);
+        soft_shake(&s.soft, &shake, &s.integrator);
+        float place[8][3];
+        lattice_embed(&s.soft.lattice, (const double(*)[3])s.integrator.x, place);
+        for (int i = 0; i < 8; i++) {
+            const float *rest = s.box.surface.position[i];
+            if (rest[side->axis] == side->far_end) most = fmax(most, (double)(place[i][2] - rest[2]));
+        }
+        assert_near(most, 0.2, 0.05);
+        box_close(&s);
+    }
+}
+
 static int count_pinned(const char *where)
 {
     struct shaken s;

@@ -40,7 +40,7 @@ static bool start_drive(struct job *job, const struct soft *soft, struct error *
         return fail(error, ERROR_USAGE, "%s: --drive moves the pinned part, but --pin none pins nothing", job->mesh);
     if (drive->kind == DRIVE_NONE && !drive_read_track(drive, job->drive_text, error)) return false;
     memcpy(drive->direction, job->shake.shake.direction, sizeof drive->direction);
-    drive->size = drive->kind == DRIVE_TRACK ? 1 : job->shake.shake.amplitude * soft->height;
+    drive->size = drive->kind == DRIVE_TRACK ? 1 : job->shake.shake.amplitude * soft->size;
     drive->seconds = job->shake.seconds;
     if (drive->frequency == 0) drive->frequency = soft_frequency(soft);
     job->shake.loads.drive = drive;

@@ -28,17 +28,19 @@ static void measure(struct soft *soft, const struct surface *surface)
 static bool pin(struct soft *soft, const struct surface *surface, const struct region *region, const char *name,
                 struct error *error)
 {
-    bool *inside = need_zeroed((size_t)soft->body.node_count + 1, sizeof *inside);
+    const int most = soft->body.node_count > surface->vertex_count ? soft->body.node_count : surface->vertex_count;
+    bool *inside = need_zeroed((size_t)most + 1, sizeof *inside);
     bool good = region_nodes(region, &soft->lattice, surface, name, inside, error);
     for (int i = 0; good && i < soft->body.node_count; i++) {
         if (!inside[i]) continue;
         soft->body.pinned[i] = true;
         soft->pinned++;
     }
+    const bool whole = region_vertices(region, surface, inside) == surface->vertex_count; // a flag that lies
     free(inside);
     if (!good) return false;
-    if (soft->pinned == soft->body.node_count)
-        return fail(error, ERROR_INPUT, "%s: nothing can move: the whole lattice is in the region of --pin", name);
+    if (whole || soft->pinned == soft->body.node_count)
+        return fail(error, ERROR_INPUT, "%s: nothing can move: all of it is in the region of --pin", name);
     if (soft->pinned == 0 && region->kind != REGION_NONE)
         return fail(error, ERROR_INPUT,
                     "%s: the region of --pin holds nothing: it is off the mesh or smaller than a cell of %.3g m",
@@ -59,28 +61,49 @@ static void count_loose(struct soft *soft)
     free(held);
 }
 
-/// Heights of the lowest and highest pinned node; both the body's lowest if none is pinned.
-static void pinned_heights(const struct soft *soft, double range[2])
+/// The range of the pinned nodes along the shake's axis; the body's low end if none is pinned.
+static void pinned_range(const struct soft *soft, double range[2])
 {
     range[0] = INFINITY;
     range[1] = -INFINITY;
     for (int i = 0; i < soft->body.node_count; i++) {
         if (!soft->body.pinned[i]) continue;
-        range[0] = fmin(range[0], soft->body.rest[i][1]);
-        range[1] = fmax(range[1], soft->body.rest[i][1]);
+        range[0] = fmin(range[0], soft->body.rest[i][soft->axis]);
+        range[1] = fmax(range[1], soft->body.rest[i][soft->axis]);
     }
-    if (soft->pinned == 0) range[0] = range[1] = soft->bottom;
+    if (soft->pinned == 0) range[0] = range[1] = soft->low;
 }
 
-/// How far a shake moves a node, relative to its amplitude: with a driven base the same for all; else the square of the height above
-/// the pinned nodes, or of the depth below them.
+/// How far the surface reaches beyond the pinned nodes along the shake's axis.
+static double farthest_away(const struct soft *soft, const double pinned[2])
+{
+    return fmax(soft->low + soft->size - pinned[1], pinned[0] - soft->low);
+}
+
+static void choose_axis(struct soft *soft, const struct surface *surface)
+{
+    static const int order[] = {1, 0, 2, 1}; // y again if none is long enough
+    double lo[3], hi[3], pinned[2];
+    surface_bounds(surface, lo, hi);
+    const double long_enough = 0.1 * fmax(hi[0] - lo[0], fmax(hi[1] - lo[1], hi[2] - lo[2]));
+    for (int k = 0; k < 4; k++) {
+        soft->axis = order[k];
+        soft->low = lo[soft->axis];
+        soft->size = hi[soft->axis] - soft->low;
+        pinned_range(soft, pinned);
+        if (farthest_away(soft, pinned) > long_enough) return;
+    }
+}
+
+/// How far a shake moves a node, relative to its amplitude: with a driven base the same for all; else the square of the way from the
+/// pinned nodes.
 static double shaken_part(const struct soft *soft, const struct shake *shake, const double pinned[2], int node)
 {
     if (soft->body.pinned[node]) return 0;
     if (shake->driven) return 1;
-    double y = soft->body.rest[node][1], top = soft->bottom + soft->height;
-    double away = fmax(0, fmax(y - pinned[1], pinned[0] - y));
-    double farthest = fmax(fmax(top - pinned[1], pinned[0] - soft->bottom), 1e-30);
+    double at = soft->body.rest[node][soft->axis];
+    double away = fmax(0, fmax(at - pinned[1], pinned[0] - at));
+    double farthest = fmax(farthest_away(soft, pinned), 1e-30);
     return away / farthest * (away / farthest);
 }
 
@@ -101,7 +124,7 @@ static double mode_amplitude(const struct soft *soft, const struct shake *shake,
 {
     const struct body *body = &soft->body;
     double pinned[2], overlap = 0;
-    pinned_heights(soft, pinned);
+    pinned_range(soft, pinned);
     for (int i = 0; i < body->node_count; i++) {
         double along = 0;
         for (int c = 0; c < 3; c++) along += shape[i][c] * shake->direction[c];
@@ -163,6 +186,7 @@ static bool make(struct soft *soft, const struct surface *surface, const char *n
         !softness_apply(&options->softness, lattice, surface, name, &soft->body, error))
         return false;
     count_loose(soft);
+    choose_axis(soft, surface);
     tune(soft, options);
     return true;
 }
@@ -188,8 +212,8 @@ void soft_free(struct soft *soft)
 void soft_shake(const struct soft *soft, const struct shake *shake, struct integrator *integrator)
 {
     if (shake->driven) return;
-    double size = shake->amplitude * soft->height * (shake->impulse ? 2 * M_PI * soft_frequency(soft) : 1), pinned[2];
-    pinned_heights(soft, pinned);
+    double size = shake->amplitude * soft->size * (shake->impulse ? 2 * M_PI * soft_frequency(soft) : 1), pinned[2];
+    pinned_range(soft, pinned);
     for (int i = 0; i < soft->body.node_count; i++) {
         double part = shaken_part(soft, shake, pinned, i);
         for (int c = 0; c < 3; c++) {

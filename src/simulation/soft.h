@@ -12,14 +12,14 @@
 /// How a body is moved.
 struct shake {
     double direction[3]; ///< of length 1
-    double amplitude;    ///< how far the top moves, or the base, as a fraction of the height
+    double amplitude;    ///< how far the top moves, or the base, as a fraction of soft.size
     bool impulse; ///< starts undeformed, with the velocity that reaches the amplitude; else deformed and at rest
     bool driven;  ///< starts undeformed and at rest: the base moves
 };
 
 /// Start from soft_default_options().
 struct soft_options {
-    int tets; ///< about how many tetrahedra
+    int tets;         ///< about how many tetrahedra
     struct region pin;
     struct softness softness;
     const struct shake *shake; ///< what the frequency refers to; NULL: the lowest mode
@@ -39,6 +39,8 @@ struct soft {
     int seen;              ///< the mode in which the shake moves the surface most and longest
     double share;          ///< of what is seen of all modes, in that one, 0 … 1
     double bottom, height; ///< of the surface along y, m
+    int axis;              ///< along which a shake grows: y, unless the pinned nodes take the whole height
+    double low, size;      ///< of the surface along it, m
     double young;          ///< Pa
     double alpha, beta;    ///< Rayleigh's coefficients, 1/s and s
     int pinned;            ///< nodes
@@ -54,7 +56,7 @@ void soft_free(struct soft *soft);
 double soft_frequency(const struct soft *soft);
 
 /// Sets the initial state: the displacement, or the velocity, grows with the square of the height above the pinned nodes, or of the
-/// depth below them. Zero if the base moves.
+/// depth below them; in a flag at a pole, of how far from the pole. Zero if the base moves.
 void soft_shake(const struct soft *soft, const struct shake *shake, struct integrator *integrator);
 
 #endif
