@@ -37,12 +37,21 @@ says "is told how slowly it sways" "rod.obj: warning: the lowest mode, of 0." "$
 
 expect 0 "a mesh with a hole" "$WIGGLY" simulate "$scratch/open.obj" "${quick[@]}" -o "$scratch/open.npy"
 says "is told of" "open.obj: open at 3 edges: inside is where its winding number exceeds a half" "$out"
-{ echo "v 90 90 90" && awk '/^v/ { print $1, 1000 * $2, -1000 * $4, 1000 * $3; next } /^f/ { print $1, $2 + 1, $3 + 1, $4 + 1 }' \
+{ echo "v 90 90 90" && awk '/^v/ { print $1, 1000 * $2, -1000 * $4, 1000 * $3; next } /^f/ { print $1, $2 + 1, $3 + 1, $4 + 1, $5 + 1 }' \
     "$scratch/box.obj"; } >"$scratch/z.obj"
 expect 0 "a mesh in millimetres with z up" "$WIGGLY" simulate "$scratch/z.obj" --up z --scale 0.001 --shake side "${quick[@]}" -o "$scratch/z.npy"
 says "with a vertex too many" "z.obj: warning: 1 vertex is part of no triangle" "$err"
 tail -n +2 "$scratch/z.rest.obj" | sed -n '/^v/p' | sed 's/-0\b/0/g' | diff -q - <(sed -n '/^v/p' "$scratch/box.rest.obj") >/dev/null
 ok "stands as the box does" $?
+
+# A flag is a sheet from its mesh to the character, whose back is drawn, too.
+{ printf 'v %s\n' '0 0 0' '.5 0 0' '1 0 0' '0 1 0' '.5 1 0' '1 1 0' && printf 'f %s\n' '1 2 5 4' '2 3 6 5'; } >"$scratch/flag.obj"
+pole=(--thickness 0.1 --pin plane:.1,0,0,1,0,0 --shake front --amplitude 0.1)
+expect 0 "a flag at its pole" "$WIGGLY" simulate "$scratch/flag.obj" "${pole[@]}" "${quick[@]}" --seconds 2 -o "$scratch/flag.npy"
+says "is a sheet" "flag.obj: a sheet 0." "$out"
+expect 0 "becomes a character" "$WIGGLY" analyze "$scratch/flag.npy" -o "$scratch/flag.gltf"
+holds "that swings to the front" grep -q "along (-\?0.0., -\?0.0., -\?1.00)" <<<"$out"
+holds "and has a back" grep -q '"doubleSided": *true' "$scratch/flag.gltf"
 
 # An undamped body that is thrown far needs any number of steps. The two simulations that say how large the error is are made in any case.
 expect 0 "an accuracy that is out of reach" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 0.5 --damping 0 --amplitude 0.4 \
@@ -94,7 +103,8 @@ refused 1 "header.npy: expected a header of 128 bytes, got 23" "$scratch/box.obj
 refused 1 "tiny.npy: expected a .npy file" "$scratch/box.obj" --soft "$scratch/tiny.npy" "${o[@]}"
 refused 1 "box.obj: expected" "$scratch/box.obj" --soft "$scratch/box.obj" "${o[@]}"
 refused 1 "nowhere.npy: cannot be opened" "$scratch/box.obj" --soft "$scratch/nowhere.npy" "${o[@]}"
-refused 1 "flat.obj: the mesh encloses no volume" "$scratch/flat.obj" "${o[@]}"
+refused 1 "nothing can move: all of it is in the region of --pin" "$scratch/flag.obj" --up z --thickness 0.1 "${o[@]}"
+refused 1 "flat.obj: the mesh has no clear inside: --thickness 0.03 makes it a sheet of 0.03 m" "$scratch/flat.obj" "${o[@]}"
 refused 1 "nowhere.obj" "$scratch/nowhere.obj" "${o[@]}"
 refused 1 "nothing can move" "$scratch/box.obj" --tets 60 --pin 9 "${o[@]}"
 refused 2 "--up: expected x, y or z" "$scratch/box.obj" --up w "${o[@]}"

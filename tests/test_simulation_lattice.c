@@ -65,7 +65,7 @@ struct cut {
 
 static void cut_into(struct cut *cut, int target)
 {
-    assert_done(lattice_create(&cut->lattice, &cut->surface, target, NAN, "test", &error));
+    assert_done(lattice_create(&cut->lattice, &cut->surface, target, NAN, -1, "test", &error));
 }
 
 static void cut_sphere(struct cut *cut, int target)
@@ -85,7 +85,7 @@ static void cut_free(struct cut *cut)
 static struct solid solid_of(const struct surface *surface)
 {
     struct solid solid;
-    solid_create(&solid, surface);
+    solid_create(&solid, surface, 0);
     return solid;
 }
 
@@ -227,7 +227,7 @@ CUT_TEST(a_needle_is_cut_within_bounds,
     assert_true(cut->lattice.tet_count > 100);
     lattice_free(&cut->lattice);
     add_box(&hair, (const double[3]){0, 0, 0}, (const double[3]){1e-9, 2, 1e-9});
-    assert_false(lattice_create(&cut->lattice, &hair, 3000, NAN, "hair.obj", &error));
+    assert_false(lattice_create(&cut->lattice, &hair, 3000, NAN, -1, "hair.obj", &error));
     assert_string_equal(error.text, "hair.obj: the mesh is too thin for a lattice of 3000 tetrahedra");
     surface_free(&hair);
 }
@@ -335,6 +335,105 @@ CUT_TEST(a_hole_is_closed_by_winding_numbers, add_sphere(&cut->surface, 1))
     const double pi = acos(-1.0), height = 1 - cos(pi * 10 / 32), cap = pi * height * height * (3 - height) / 3;
     assert_near(filled_volume(&cut->lattice), 4 / 3.0 * pi - cap, 0.02 * 4 / 3.0 * pi);
     assert_non_null(strstr(cut->lattice.repair, "open at 64 edges"));
+}
+
+/// Appends a grid of ACROSS × UP squares over 0 ≤ u, v ≤ 1; places that meet are one vertex to the lattice.
+static void add_sheet(struct surface *surface, void (*place)(double u, double v, double at[3]))
+{
+    enum { ACROSS = 48, UP = 12 };
+    int first = surface->vertex_count;
+    for (int i = 0; i < (ACROSS + 1) * (UP + 1); i++) {
+        double at[3];
+        place((double)(i % (ACROSS + 1)) / ACROSS, (double)(i / (ACROSS + 1)) / UP, at);
+        add_vertex(surface, round(1e4 * at[0]) / 1e4, round(1e4 * at[1]) / 1e4, round(1e4 * at[2]) / 1e4);
+    }
+    for (int i = 0; i < ACROSS * UP; i++) {
+        int a = first + i / ACROSS * (ACROSS + 1) + i % ACROSS, d = a + ACROSS + 1;
+        add_triangle(surface, a, a + 1, d + 1);
+        add_triangle(surface, a, d + 1, d);
+    }
+}
+
+static void flag(double u, double v, double at[3])
+{
+    at[0] = 1.5 * u;
+    at[1] = v;
+    at[2] = 0.05 * sin(2 * M_PI * u);
+}
+
+static void skirt(double u, double v, double at[3])
+{
+    at[0] = (0.35 - 0.2 * v) * cos(2 * M_PI * u);
+    at[1] = 0.6 * v;
+    at[2] = (0.35 - 0.2 * v) * sin(2 * M_PI * u);
+}
+
+static void moebius(double u, double v, double at[3])
+{
+    const double away = 0.4 * v - 0.2, radius = 1 + away * cos(M_PI * u);
+    at[0] = radius * cos(2 * M_PI * u);
+    at[1] = radius * sin(2 * M_PI * u);
+    at[2] = away * sin(M_PI * u);
+}
+
+/// The bottle whose neck goes through its wall.
+static void klein(double u, double v, double at[3])
+{
+    const double along = 2 * M_PI * u, around = 2 * M_PI * v, radius = 0.2 - 0.1 * cos(along);
+    const bool outer = along < M_PI;
+    at[0] = 0.3 * cos(along) * (1 + sin(along)) + radius * (outer ? cos(along) * cos(around) : -cos(around));
+    at[1] = 0.8 * sin(along) + (outer ? radius * sin(along) * cos(around) : 0);
+    at[2] = radius * sin(around);
+}
+
+static void bowl(double u, double v, double at[3])
+{
+    const double polar = M_PI * (0.3 + 0.7 * v);
+    at[0] = sin(polar) * cos(2 * M_PI * u);
+    at[1] = cos(polar);
+    at[2] = sin(polar) * sin(2 * M_PI * u);
+}
+
+/// Sheets are refused without a thickness, with one that fits in the error; with it they are one part of their own volume, and every vertex
+/// is near its element.
+TEST(sheets_need_a_thickness_and_bodies_do_not)
+{
+    static const struct sheet {
+        void (*place)(double u, double v, double at[3]);
+        bool closable, body;
+        const char *thickness;
+    } sheets[] = {{flag, false, false, "0.05"},
+                  {moebius, false, false, "0.06"},
+                  {klein, false, false, "0.09"},
+                  {skirt, true, false, "0.04"},
+                  {bowl, true, true, "0.1"}};
+    for (const struct sheet *sheet = sheets; sheet < sheets + sizeof sheets / sizeof *sheets; sheet++) {
+        struct cut cut = {0};
+        struct error refusal = {0};
+        char offer[80];
+        add_sheet(&cut.surface, sheet->place);
+        const struct surface *s = &cut.surface;
+        snprintf(offer, sizeof offer, "x: the mesh has no clear inside: --thickness %s makes", sheet->thickness);
+        for (int closes = 0; closes < 2; closes++) {
+            const bool good = lattice_create(&cut.lattice, s, 300, NAN, closes ? 0 : -1, "x", &refusal);
+            assert_int_equal(good, closes ? sheet->closable : sheet->body);
+            if (!good) assert_ptr_equal(strstr(refusal.text, offer), refusal.text);
+            if (!good) assert_int_equal(strstr(refusal.text, "--thickness 0 closes") != NULL, sheet->closable);
+            lattice_free(&cut.lattice);
+        }
+        const double thickness = atof(sheet->thickness);
+        assert_done(lattice_create(&cut.lattice, s, 6000, NAN, thickness, "x", &error));
+        struct solid solid = solid_of(s);
+        print_message("%s: volume %.3f of the sheet's\n", cut.lattice.repair,
+                      filled_volume(&cut.lattice) / (solid.area * thickness));
+        assert_int_equal(cut.lattice.part_count, 1);
+        assert_near(filled_volume(&cut.lattice) / (solid.area * thickness), 1, 0.15);
+        for (int i = 0; i < s->vertex_count; i++) {
+            for (int a = 0; a < 4; a++) assert_true(cut.lattice.weight[i][a] > -0.5);
+        }
+        solid_free(&solid);
+        cut_free(&cut);
+    }
 }
 
 /// Vertices that no triangle has stay where they are, and do not widen the box.

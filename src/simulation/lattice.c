@@ -5,6 +5,7 @@
 #include "simulation/element.h"
 #include "simulation/linear.h"
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -13,8 +14,8 @@ static const double voxels_max = 3e7;
 
 enum { TELLING = 1 << 13 }; ///< vertices between two progress reports
 
-/// Volume inside, m³: the tetrahedra from the first vertex to each triangle. An open surface gives a guess, at least a hundredth of
-/// its box.
+/// Volume inside, m³: the tetrahedra from the first vertex to each triangle; a sheet's without its bends and rim. An open surface gives a
+/// guess, at least a hundredth of its box.
 static double solid_volume(const struct solid *solid)
 {
     const struct surface *surface = &solid->shape;
@@ -26,15 +27,16 @@ static double solid_volume(const struct solid *solid)
         vec3_cross(p[0], p[1], across);
         sum += vec3_dot(across, p[2]) / 6;
     }
+    if (solid->thickness > 0) return solid->area * solid->thickness;
     surface_bounds(surface, lo, hi);
     const double box = (hi[0] - lo[0]) * (hi[1] - lo[1]) * (hi[2] - lo[2]);
     return solid->open ? fmin(fmax(fabs(sum), 0.01 * box), box) : fabs(sum);
 }
 
 /// The smallest cube edge, at least `cell`, that keeps the voxels within bounds.
-static double coarse_enough(const struct surface *surface, double cell)
+static double coarse_enough(const struct solid *solid, double cell)
 {
-    while (tiling_voxels(surface, cell) > voxels_max) cell *= 1.1;
+    while (tiling_voxels(solid, cell) > voxels_max) cell *= 1.1;
     return cell;
 }
 
@@ -46,7 +48,7 @@ static void fit(struct tiling *best, const struct solid *solid, int target, doub
     *best = (struct tiling){0};
     for (int i = 0; i < TRIES && nearest > 0.03; i++) {
         struct tiling tiling;
-        double allowed = coarse_enough(&solid->shape, cell);
+        double allowed = coarse_enough(solid, cell);
         if (allowed > cell && i > 0) break; // no finer lattice is allowed
         cell = allowed;
         tiling_create(&tiling, solid, cell, layer);
@@ -81,7 +83,7 @@ static void fit_volume(struct tiling *best, const struct solid *solid, double la
     double away = log(swelling(best, volume));
     for (int i = 0; i < TRIES && fabs(away) > little; i++) {
         struct tiling tiling;
-        double tried = coarse_enough(&solid->shape, *cell * exp(-away / 3));
+        double tried = coarse_enough(solid, *cell * exp(-away / 3));
         tiling_create(&tiling, solid, tried, layer);
         double now = log(swelling(&tiling, volume));
         if (!(fabs(now) < progress * fabs(away))) {
@@ -219,21 +221,36 @@ static bool lattice_of(struct lattice *lattice, const struct surface *surface, c
         return fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);
     }
     // Where parts overlap, the mesh's volume counts the overlap twice.
-    if (!solid->open && !tiling.voxels.overlaps) fit_volume(&tiling, solid, layer, &lattice->cell);
+    const double thickness = sheet_thickness(solid, &tiling.voxels);
+    const bool exact = !solid->open && !tiling.voxels.overlaps && thickness == solid->thickness;
+    if (exact) fit_volume(&tiling, solid, layer, &lattice->cell);
+    if (thickness > 0)
+        snprintf(lattice->repair, sizeof lattice->repair, "a sheet %.3g m thick%s", thickness,
+                 exact ? "" : ", as thin as so few tetrahedra can be");
     build(lattice, &tiling, surface, solid);
     tiling_free(&tiling);
     return true;
 }
 
+/// Offers a thickness for a surface without a clear inside.
+static bool check_inside(const struct solid *solid, bool closes, const char *name, struct error *error)
+{
+    static const double SURE = 0.85, LEAST = 0.65;
+    const double certainty = solid_volume(solid) > 0 ? solid_certainty(solid) : 0, fitting = sqrt(solid->area) / 25;
+    if (certainty >= (closes ? LEAST : SURE)) return true;
+    return fail(error, ERROR_INPUT, "%s: the mesh has no clear inside: --thickness %.1g makes it a sheet of %.1g m%s",
+                name, fitting, fitting, certainty >= LEAST ? ", --thickness 0 closes its openings" : "");
+}
+
 bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
-                    const char *name, struct error *error)
+                    double thickness, const char *name, struct error *error)
 {
     struct solid solid;
     *lattice = (struct lattice){0};
-    solid_create(&solid, surface);
+    solid_create(&solid, surface, fmax(0, thickness));
     solid_describe(&solid, lattice->repair);
-    bool good = solid_volume(&solid) > 0 ? lattice_of(lattice, surface, &solid, target, layer, name, error)
-                                         : fail(error, ERROR_INPUT, "%s: the mesh encloses no volume", name);
+    bool good = check_inside(&solid, thickness >= 0, name, error) &&
+                lattice_of(lattice, surface, &solid, target, layer, name, error);
     solid_free(&solid);
     return good;
 }

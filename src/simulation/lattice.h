@@ -34,7 +34,7 @@ struct tiling {
 };
 
 /// How many voxels a tiling with cubes of edge `cell` has; as a double, because it may exceed any integer.
-double tiling_voxels(const struct surface *surface, double cell);
+double tiling_voxels(const struct solid *solid, double cell);
 
 /// Cuts the solid with cubes of edge `cell`; tiling_voxels() of it must fit an int. A layer of nodes lies at the height
 /// `layer` (y), unless that is NAN.
@@ -59,9 +59,10 @@ struct lattice {
 };
 
 /// The lattice with about `target` tetrahedra. A layer of nodes lies at the height `layer` unless that is NAN, so that the pinned
-/// region ends there at every resolution. Error: no volume. `name` is the surface's, for messages.
+/// region ends there at every resolution. `thickness` above 0 makes the surface a sheet; 0 closes its openings, however large; below 0
+/// only small ones are closed. Errors: no volume, a sheet without thickness. `name` is the surface's, for messages.
 bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
-                    const char *name, struct error *error);
+                    double thickness, const char *name, struct error *error);
 void lattice_free(struct lattice *lattice);
 
 /// Spreads a number per vertex to the nodes: the mean of the vertices around each node, elsewhere of the nodes nearby.

@@ -8,6 +8,7 @@
 struct soft_options soft_default_options(void)
 {
     return (struct soft_options){.tets = 3000,
+                                 .thickness = -1,
                                  .pin = {.kind = REGION_FOOT, .size = -1},
                                  .softness = {.times = 8},
                                  .frequency = 2,
@@ -177,7 +178,7 @@ static bool make(struct soft *soft, const struct surface *surface, const char *n
     const struct region *held = &options->pin;
     double foot = held->size < 0 ? 0.05 * soft->height : held->size;
     double layer = held->kind == REGION_FOOT ? soft->bottom + foot : NAN;
-    if (!lattice_create(lattice, surface, options->tets, layer, name, error)) return false;
+    if (!lattice_create(lattice, surface, options->tets, layer, options->thickness, name, error)) return false;
     bool whole = body_create(&soft->body, (const double(*)[3])lattice->node, lattice->node_count,
                              (const int(*)[4])lattice->tet, lattice->fraction, lattice->tet_count,
                              material_from(1, options->poisson), options->density);

@@ -20,6 +20,7 @@ struct shake {
 /// Start from soft_default_options().
 struct soft_options {
     int tets;         ///< about how many tetrahedra
+    double thickness; ///< as lattice_create() takes it
     struct region pin;
     struct softness softness;
     const struct shake *shake; ///< what the frequency refers to; NULL: the lowest mode

@@ -316,17 +316,18 @@ static void repair(struct solid *solid, struct repair *r)
     join_neighbours(r);
     tell(3);
     turn_patches(r);
-    solid->open = count_open(r);
+    solid->open = solid->thickness > 0 ? 0 : count_open(r);
     solid->turned = apply_turns(r);
     tell(4);
+    solid->area = whole_area(&solid->shape) / 2;
     if (solid->open > 0) winding_create(&solid->winding, &solid->shape);
     tell(5);
 }
 
-void solid_create(struct solid *solid, const struct surface *surface)
+void solid_create(struct solid *solid, const struct surface *surface, double thickness)
 {
     const size_t indices = (size_t)surface->index_count + 1;
-    *solid = (struct solid){.shape = *surface};
+    *solid = (struct solid){.shape = *surface, .thickness = thickness};
     solid->shape.indices = need(indices, sizeof *solid->shape.indices);
     struct repair r = {.shape = &solid->shape,
                        .name = need((size_t)surface->vertex_count + 1, sizeof *r.name),
@@ -343,6 +344,28 @@ void solid_create(struct solid *solid, const struct surface *surface)
     free(r.patch);
 }
 
+double solid_certainty(const struct solid *solid)
+{
+    enum { SAMPLES = 512 };
+    static const double BEHIND = 1e-4; // relative to the size
+    const struct surface *s = &solid->shape;
+    double passed = 0, sum = 0, normal[3], at[3];
+    int taken = 0;
+    if (solid->open == 0) return 1;
+    for (int t = 0; t < s->index_count / 3; t++) {
+        triangle_measure(s, t, normal, at);
+        const double length = vec3_length(normal);
+        passed += length / 2;
+        const int due =
+            (int)fmin(SAMPLES, SAMPLES * passed / solid->area) - taken; // so many samples are in this triangle
+        if (due <= 0) continue;
+        for (int c = 0; c < 3; c++) at[c] = at[c] / 3 - BEHIND * sqrt(solid->area) * normal[c] / length;
+        sum += due * fmin(1, fmax(0, winding_at(&solid->winding, at)));
+        taken += due;
+    }
+    return taken > 0 ? sum / taken : 0;
+}
+
 void solid_free(struct solid *solid)
 {
     winding_free(&solid->winding);
@@ -355,6 +378,7 @@ void solid_describe(const struct solid *solid, char text[160])
     const char *then = "";
     int at = 0;
     text[0] = '\0';
+    if (solid->thickness > 0) return;
     if (solid->duplicates > 0) {
         at += snprintf(text + at, (size_t)(160 - at), "%d duplicate triangles left out", solid->duplicates);
         then = ", ";

@@ -2,7 +2,8 @@
 ///
 /// Vertices at the same place count as one. Of triangles with the same corners one is kept. Neighbours are turned to face the same
 /// way, as most of the area of their patch does; a patch that is inside out is turned round. If every edge is then used once in each
-/// direction, the surface is closed. Otherwise generalised winding numbers decide what is inside.
+/// direction, the surface is closed. Otherwise generalised winding numbers decide what is inside. A surface with a thickness is a sheet:
+/// all points within half of it of a triangle, whichever way that faces.
 #ifndef SIMULATION_SOLID_H
 #define SIMULATION_SOLID_H
 
@@ -55,11 +56,17 @@ struct solid {
     int turned;             ///< triangles turned round
     int open;               ///< edges not used equally often in both directions; 0: closed
     struct winding winding; ///< of an open one
+    double area;            ///< m²
+    double thickness;       ///< of a sheet, m; 0: a body
 };
 
-/// The surface must outlive the solid.
-void solid_create(struct solid *solid, const struct surface *surface);
+/// The surface must outlive the solid. `thickness` 0: a body.
+void solid_create(struct solid *solid, const struct surface *surface, double thickness);
 void solid_free(struct solid *solid);
+
+/// How sure the inside is: the mean winding number, at most 1, just behind a surface. Near 1: closed but for holes; 1/2: a flat sheet, or
+/// one-sided.
+double solid_certainty(const struct solid *solid);
 
 /// One sentence, without a full stop, about what was repaired; "" if nothing was.
 void solid_describe(const struct solid *solid, char text[160]);
@@ -73,6 +80,13 @@ struct voxels {
     uint8_t *inside;           ///< 1 where the centre is inside
     bool overlaps;             ///< parts of a closed solid overlap
 };
+
+/// How thick a sheet is on the grid; 0: a body. Thinner than half a cell it would fall to pieces between the tetrahedra.
+static inline double sheet_thickness(const struct solid *solid, const struct voxels *voxels)
+{
+    const double least = 4 * voxels->spacing;
+    return solid->thickness > 0 && solid->thickness < least ? least : solid->thickness;
+}
 
 /// Fills `inside` for the given grid, which must contain the solid: 1 if the winding number is not 0 or, of an open surface, above ½.
 void voxels_fill(struct voxels *voxels, const struct solid *solid);

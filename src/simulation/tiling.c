@@ -35,23 +35,23 @@ static const int neighbours[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1,
 /// Cubes along a side of the surface's box, with a margin.
 static double cells_along(double side, double cell) { return ceil(side / cell) + 2; }
 
-double tiling_voxels(const struct surface *surface, double cell)
+double tiling_voxels(const struct solid *solid, double cell)
 {
     double lo[3], hi[3], count = 1;
-    surface_bounds(surface, lo, hi);
-    for (int c = 0; c < 3; c++) count *= cells_along(hi[c] - lo[c], cell) * VOXELS_A_CELL;
+    surface_bounds(&solid->shape, lo, hi);
+    for (int c = 0; c < 3; c++) count *= cells_along(hi[c] - lo[c] + solid->thickness, cell) * VOXELS_A_CELL;
     return count;
 }
 
 /// Voxels over the surface's box and margin, centred, so that a symmetric solid is cut symmetrically; then moved up or down by at
 /// most a quarter of a cell, so that a layer of nodes lies at `layer`.
-static void lay_out(struct voxels *voxels, const struct surface *surface, double cell, double layer)
+static void lay_out(struct voxels *voxels, const struct solid *solid, double cell, double layer)
 {
     double lo[3], hi[3];
-    surface_bounds(surface, lo, hi);
+    surface_bounds(&solid->shape, lo, hi);
     voxels->spacing = cell / VOXELS_A_CELL;
     for (int c = 0; c < 3; c++) {
-        int cells = (int)cells_along(hi[c] - lo[c], cell);
+        int cells = (int)cells_along(hi[c] - lo[c] + solid->thickness, cell);
         voxels->size[c] = cells * VOXELS_A_CELL;
         voxels->origin[c] = (lo[c] + hi[c] - cells * cell) / 2;
     }
@@ -256,7 +256,7 @@ static void cut(struct tiling *t, int *set, uint64_t *tetrahedron)
 void tiling_create(struct tiling *t, const struct solid *solid, double cell, double layer)
 {
     *t = (struct tiling){0};
-    lay_out(&t->voxels, &solid->shape, cell, layer);
+    lay_out(&t->voxels, solid, cell, layer);
     voxels_fill(&t->voxels, solid);
     size_t count = voxels_count(&t->voxels);
     int *set = need_zeroed(count, sizeof *set);

@@ -6,6 +6,7 @@
 /// both, and the winding number returns to 0 in every column.
 #include "base/need.h"
 #include "base/progress.h"
+#include "simulation/linear.h"
 #include "simulation/solid.h"
 #include <math.h>
 #include <stdlib.h>
@@ -233,10 +234,71 @@ static void fill_open(struct voxels *v, const struct solid *solid, const struct 
     free(c.crossed);
 }
 
+/// Squared distance of a point from a triangle: from its plane if it lies above it, else from its nearest edge.
+static double distance_squared(const double corner[3][3], const double at[3])
+{
+    double edge[3][3], away[3][3], normal[3], across[3], nearest = INFINITY;
+    for (int k = 0; k < 9; k++) {
+        edge[k / 3][k % 3] = corner[(k / 3 + 1) % 3][k % 3] - corner[k / 3][k % 3];
+        away[k / 3][k % 3] = at[k % 3] - corner[k / 3][k % 3];
+    }
+    vec3_cross(edge[0], edge[1], normal);
+    const double size = vec3_dot(normal, normal), height = vec3_dot(normal, away[0]);
+    bool above = size > 0;
+    for (int k = 0; k < 3; k++) {
+        const double length = fmax(vec3_dot(edge[k], edge[k]), 1e-300);
+        const double along = fmin(1, fmax(0, vec3_dot(edge[k], away[k]) / length));
+        vec3_cross(edge[k], away[k], across);
+        above = above && vec3_dot(across, normal) >= 0;
+        for (int c = 0; c < 3; c++) away[k][c] -= along * edge[k][c];
+        nearest = fmin(nearest, vec3_dot(away[k], away[k]));
+    }
+    return above ? height * height / size : nearest;
+}
+
+static void fill_near(struct voxels *v, const double corner[3][3], double reach)
+{
+    int lo[3], hi[3];
+    double at[3];
+    for (int c = 0; c < 3; c++) {
+        const double low = fmin(corner[0][c], fmin(corner[1][c], corner[2][c])) - reach - v->origin[c];
+        const double high = fmax(corner[0][c], fmax(corner[1][c], corner[2][c])) + reach - v->origin[c];
+        lo[c] = (int)ceil(low / v->spacing - 0.5);
+        hi[c] = (int)floor(high / v->spacing - 0.5);
+    }
+    for (int i = lo[0]; i <= hi[0]; i++) {
+        at[0] = v->origin[0] + (i + 0.5) * v->spacing;
+        for (int j = lo[1]; j <= hi[1]; j++) {
+            uint8_t *inside = v->inside + (size_t)(i * v->size[1] + j) * (size_t)v->size[2];
+            at[1] = v->origin[1] + (j + 0.5) * v->spacing;
+            for (int k = lo[2]; k <= hi[2]; k++) {
+                at[2] = v->origin[2] + (k + 0.5) * v->spacing;
+                if (!inside[k]) inside[k] = distance_squared(corner, at) <= reach * reach;
+            }
+        }
+    }
+}
+
+static void fill_sheet(struct voxels *voxels, const struct solid *solid)
+{
+    const double reach = (1 + 1e-6) * sheet_thickness(solid, voxels) / 2;
+    const int triangles = solid->shape.index_count / 3;
+    for (int t = 0; t < triangles; t++) {
+        double corner[3][3];
+        if (t % TELLING == 0) stage_tell("cutting the mesh into tetrahedra", t, triangles);
+        triangle_corners(&solid->shape, t, corner);
+        fill_near(voxels, (const double(*)[3])corner, reach);
+    }
+}
+
 void voxels_fill(struct voxels *voxels, const struct solid *solid)
 {
     struct crossings list = {0};
     voxels->inside = need_zeroed(voxels_count(voxels), 1);
+    if (solid->thickness > 0) {
+        fill_sheet(voxels, solid);
+        return;
+    }
     find_crossings(voxels, &solid->shape, &list);
     if (solid->open)
         fill_open(voxels, solid, &list);
