@@ -1,5 +1,5 @@
-/// Joints as .bvh. Metres, y up; a joint turns by R_y · R_x · R_z, so that a tail's side and up are the first two of its channels. A joint
-/// whose place in its parent changes has channels for that, too.
+/// Joints as .bvh, y up. A joint turns by R_y · R_x · R_z, so a tail's side and up are the first two of its channels. A joint that moves in its
+/// parent has channels for its place, too.
 #include "base/need.h"
 #include "export/form.h"
 #include "model/vector.h"
@@ -14,29 +14,25 @@ static void write_name(FILE *out, const char *name)
     for (const char *c = name; *c; c++) fputc(isspace((unsigned char)*c) ? '_' : *c, out);
 }
 
-static void write_offset(FILE *out, const float offset[3], float scale, int depth)
+static void write_offset(FILE *out, const float offset[3], int depth)
 {
-    fprintf(out, "%*sOFFSET %.9g %.9g %.9g\n", 2 * depth, "", (double)(scale * offset[0]),
-            (double)(scale * offset[1]), (double)(scale * offset[2]));
+    fprintf(out, "%*sOFFSET %.9g %.9g %.9g\n", 2 * depth, "", (double)offset[0], (double)offset[1],
+            (double)offset[2]);
 }
 
-static void write_end(FILE *out, const float tip[3], float scale, int depth)
+static void write_end(FILE *out, const float tip[3], int depth)
 {
     fprintf(out, "%*sEnd Site\n%*s{\n", 2 * depth, "", 2 * depth, "");
-    write_offset(out, tip, scale, depth + 1);
+    write_offset(out, tip, depth + 1);
     fprintf(out, "%*s}\n", 2 * depth, "");
 }
 
-/// What is written, and where it stands: its first joint is turned and moved by `root`, and all are scaled.
 struct bvh {
     FILE *out;
     const struct form *form;
     const struct keys *keys;
-    mat4s root;
-    versors turn;
-    float scale;
-    bool *has_place;   ///< of each joint: it has channels for that
-    double (*seen)[3]; ///< its angles at the key before, which go on past half a turn
+    bool *has_place;   ///< of each joint: whether it moves in its parent
+    double (*seen)[3]; ///< of each joint: its angles at the key before, so that turns continue past half a turn
 };
 
 static bool is_moved(const struct bvh *bvh, int j)
@@ -59,13 +55,13 @@ static int write_joint(const struct bvh *bvh, int j, int depth)
     fprintf(out, "%*s%s ", 2 * depth, "", is_root ? "ROOT" : "JOINT");
     write_name(out, joint->name);
     fprintf(out, "\n%*s{\n", 2 * depth, "");
-    write_offset(out, is_root ? none : joint->offset, bvh->scale, depth + 1);
+    write_offset(out, is_root ? none : joint->offset, depth + 1);
     fprintf(out, "%*sCHANNELS %s\n", 2 * depth + 2, "",
             bvh->has_place[j] ? "6 Xposition Yposition Zposition Yrotation Xrotation Zrotation"
                               : "3 Yrotation Xrotation Zrotation");
     while (next < bvh->form->joint_count && bvh->form->joints[next].parent == j)
         next = write_joint(bvh, next, depth + 1);
-    if (next == j + 1) write_end(out, joint->tip, bvh->scale, depth + 1);
+    if (next == j + 1) write_end(out, joint->tip, depth + 1);
     fprintf(out, "%*s}\n", 2 * depth, "");
     return next;
 }
@@ -92,14 +88,10 @@ static void write_key(const struct bvh *bvh, int key)
 {
     for (int j = bvh->form->first_bone; j < bvh->form->joint_count; j++) {
         const bool is_root = j == bvh->form->first_bone;
-        versors q;
+        const float *place = keys_at(bvh->keys, key, is_root ? 0 : keys_offset(bvh->keys, j));
         double angle[3];
-        memcpy(&q, keys_at(bvh->keys, key, keys_rotation(j)), sizeof q);
-        if (is_root) q = glms_quat_mul(bvh->turn, q);
-        to_angles(q.raw, angle);
-        vec3s place = vec3_from(keys_at(bvh->keys, key, is_root ? 0 : keys_offset(bvh->keys, j)));
-        place = is_root ? glms_mat4_mulv3(bvh->root, place, 1) : glms_vec3_scale(place, bvh->scale);
-        for (int k = 0; k < 3 && bvh->has_place[j]; k++) fprintf(bvh->out, " %.9g", (double)place.raw[k]);
+        to_angles(keys_at(bvh->keys, key, keys_rotation(j)), angle);
+        for (int k = 0; k < 3 && bvh->has_place[j]; k++) fprintf(bvh->out, " %.9g", (double)place[k]);
         for (int k = 0; k < 3; k++) {
             bvh->seen[j][k] = angle[k] + 360 * round((bvh->seen[j][k] - angle[k]) / 360);
             fprintf(bvh->out, " %.9g", bvh->seen[j][k]);
@@ -123,28 +115,40 @@ static void write_all(struct export_range *range, struct bvh *bvh)
     snprintf(range->summary, FORMAT_SUMMARY, "%d joints, %d frames", joints - bvh->form->first_bone, count);
 }
 
-/// Where it stands on the stage, if it is written so.
-static bool find_root(const struct export_range *range, struct bvh *bvh, struct error *error)
+/// Moves everything to where the stage has it.
+static void move(struct form *form, struct keys *keys, const float root[16])
 {
-    struct rig_pose pose;
-    if (!range_pose(range, range->rigs[0], 0, &pose, error)) return false;
-    const float *root = range_root(range, range->rigs[0], &pose);
-    bvh->root = root ? mat4_from(root) : glms_mat4_identity();
-    bvh->scale = glms_vec3_norm(vec3_from(bvh->root.raw[0]));
-    mat3s turned = glms_mat4_pick3(bvh->root);
+    mat4s matrix = mat4_from(root);
+    const float scale = glms_vec3_norm(vec3_from(root));
+    mat3s turned = glms_mat4_pick3(matrix);
     for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
-    bvh->turn = glms_mat3_quat(turned);
-    return true;
+    const versors turn = glms_mat3_quat(turned);
+    for (int j = 0; j < form->joint_count; j++) {
+        glm_vec3_scale(form->joints[j].offset, scale, form->joints[j].offset);
+        glm_vec3_scale(form->joints[j].tip, scale, form->joints[j].tip);
+    }
+    for (float *row = keys->rows; row < keys_at(keys, keys->count, 0); row += keys->width) {
+        versors q;
+        glm_mat4_mulv3(matrix.raw, row, 1, row);
+        memcpy(&q, row + keys_rotation(form->first_bone), sizeof q);
+        q = glms_quat_mul(turn, q);
+        memcpy(row + keys_rotation(form->first_bone), &q, sizeof q);
+        for (int j = 0; j < form->joint_count; j++)
+            glm_vec3_scale(row + keys_offset(keys, j), scale, row + keys_offset(keys, j));
+    }
 }
 
 bool bvh_write(struct export_range *range, FILE *out, struct error *error)
 {
+    struct rig_pose pose;
     struct form form;
     struct keys keys;
-    struct bvh bvh = {.out = out, .form = &form, .keys = &keys};
-    if (!find_root(range, &bvh, error) || !form_open(range, range->rigs[0], &form, error)) return false;
+    if (!range_pose(range, range->rigs[0], 0, &pose, error)) return false;
+    const float *root = range_root(range, range->rigs[0], &pose);
+    if (!form_open(range, range->rigs[0], &form, error)) return false;
     const bool done = keys_collect(range, range->rigs[0], &form, &keys, error);
-    if (done) write_all(range, &bvh);
+    if (done && root) move(&form, &keys, root);
+    if (done) write_all(range, &(struct bvh){.out = out, .form = &form, .keys = &keys});
     keys_free(&keys);
     form_close(&form);
     return done;

@@ -1,5 +1,5 @@
-/// The skeleton of an imported character as a form: every bone with its clip and its chains, turned against its rest in the
-/// character's own space, so that bones at rest are not turned.
+/// The skeleton of an imported character as a form: every bone with its clip and its chains, relative to its rest in the character's space,
+/// so that bones at rest are not turned. The first joint is the character's origin, and holds the bones that have none above them.
 #include "base/need.h"
 #include "export/form.h"
 #include "model/vector.h"
@@ -8,127 +8,107 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const float STILL = 1e-6f; ///< of the character's size: rounding
+enum { ORIGIN = 0, NO_JOINT = -1, TO_ADD = -2 };
 
-/// All zero but what it is made of.
+static const float STILL = 1e-6f; ///< rounding, as a share of the character's size
+
 struct source {
     const struct imported *imported;
-    int *node;     ///< of each joint; −1: it holds several skeletons together, and stands at the origin
-    versors *turn; ///< of each joint, at the key that is being made
-    float still;
+    int *joint_of; ///< of each node, or NO_JOINT
+    int *node;     ///< of each joint but the origin
+    versors *turn; ///< of each joint, at the key being made
+    float still;   ///< bones that move less do not move
 };
 
-static const float *rest_place(const struct source *source, int joint)
+static vec3s place_of(const struct source *source, const struct gltf_pose *pose, int joint)
 {
-    static const float origin[3];
-    const int node = source->node[joint];
-    return node < 0 ? origin : source->imported->rest.world[node] + 12;
+    return joint == ORIGIN ? glms_vec3_zero() : vec3_from(pose->world[source->node[joint]] + 12);
 }
 
-static void name_joint(struct form *form, int joint, const char *name)
+static bool is_named(const struct form *form, const char *name)
 {
-    char *own = form->joints[joint].name;
-    snprintf(own, FORM_NAME, "%.48s", name);
-    for (int j = 0, number = joint; j < joint; j++) {
-        if (strcmp(form->joints[j].name, own) != 0) continue;
-        snprintf(own, FORM_NAME, "%.48s_%d", name, number++);
-        j = -1;
-    }
+    for (int j = 0; j < form->joint_count; j++)
+        if (strcmp(form->joints[j].name, name) == 0) return true;
+    return false;
 }
 
-static void add_joint(struct form *form, int node, int parent)
+static int add_joint(struct form *form, int node, int parent)
 {
     struct source *source = form->owned;
-    const int j = form->joint_count++;
+    const struct gltf_pose *rest = &source->imported->rest;
+    const char *name = source->imported->gltf.nodes[node].name;
+    const int j = form->joint_count;
     struct form_joint *joint = &form->joints[j];
+    snprintf(joint->name, FORM_NAME, "%.48s", name);
+    for (int n = j; is_named(form, joint->name); n++) snprintf(joint->name, FORM_NAME, "%.48s_%d", name, n);
     source->node[j] = node;
+    source->joint_of[node] = j;
     joint->parent = parent;
-    name_joint(form, j, node < 0 ? form->name : source->imported->gltf.nodes[node].name);
-    for (int k = 0; k < 3 && parent >= 0; k++)
-        joint->offset[k] = rest_place(source, j)[k] - rest_place(source, parent)[k];
+    const vec3s offset = glms_vec3_sub(place_of(source, rest, j), place_of(source, rest, parent));
+    memcpy(joint->offset, offset.raw, sizeof joint->offset);
+    return form->joint_count++;
 }
 
-/// The node after this one in the order in which a file of joints nests them; −1: it is the last.
-static int next_node(const struct gltf *gltf, int node)
+/// Adds the bones among a node, those beside it, and all below.
+static void add_joints(struct form *form, int node, int above)
 {
-    if (gltf->nodes[node].child >= 0) return gltf->nodes[node].child;
-    while (node >= 0 && gltf->nodes[node].next < 0) node = gltf->nodes[node].parent;
-    return node < 0 ? -1 : gltf->nodes[node].next;
+    const struct source *source = form->owned;
+    for (; node >= 0; node = source->imported->gltf.nodes[node].next) {
+        const int joint = source->joint_of[node] == TO_ADD ? add_joint(form, node, above) : above;
+        add_joints(form, source->imported->gltf.nodes[node].child, joint);
+    }
 }
 
-/// The joint of the nearest bone above a node; −1: there is none.
-static int joint_above(const struct gltf *gltf, int node, const int *joint_of)
+static void add_skeleton(struct form *form)
 {
-    do node = gltf->nodes[node].parent;
-    while (node >= 0 && joint_of[node] < 0);
-    return node < 0 ? -1 : joint_of[node];
-}
-
-/// Marks bones by 0, all other nodes by −1. How many bones have none above them?
-static int mark_bones(const struct imported *imported, int *joint_of)
-{
-    const struct gltf *gltf = &imported->gltf;
+    const struct source *source = form->owned;
+    const struct gltf *gltf = &source->imported->gltf;
+    const struct skeleton *skeleton = &source->imported->skeleton;
+    float ends[2][3];
     int tops = 0;
-    for (int n = 0; n < gltf->node_count; n++) joint_of[n] = -1;
-    for (int b = 0; b < imported->skeleton.count; b++) {
-        const struct bone *bone = &imported->skeleton.bones[b];
-        joint_of[bone->node] = 0;
-        if (bone->child >= 0) joint_of[bone->child] = 0;
+    for (int n = 0; n < gltf->node_count; n++) source->joint_of[n] = NO_JOINT;
+    for (int b = 0; b < skeleton->count; b++) {
+        source->joint_of[skeleton->bones[b].node] = TO_ADD;
+        if (skeleton->bones[b].child >= 0) source->joint_of[skeleton->bones[b].child] = TO_ADD;
     }
-    for (int n = 0; n < gltf->node_count; n++) tops += joint_of[n] == 0 && joint_above(gltf, n, joint_of) < 0;
-    return tops;
-}
-
-static void add_joints(struct form *form, int *joint_of)
-{
-    const struct imported *imported = ((struct source *)form->owned)->imported;
-    const struct gltf *gltf = &imported->gltf;
-    if (mark_bones(imported, joint_of) > 1) add_joint(form, -1, -1);
-    const int top = form->joint_count - 1;
-    for (int root = 0; root < gltf->node_count; root++) {
-        if (gltf->nodes[root].parent >= 0) continue;
-        for (int n = root; n >= 0; n = next_node(gltf, n)) {
-            if (joint_of[n] < 0) continue;
-            const int above = joint_above(gltf, n, joint_of);
-            joint_of[n] = form->joint_count;
-            add_joint(form, n, above < 0 ? top : above);
-        }
-    }
-    for (int b = 0; b < imported->skeleton.count; b++) {
-        const struct bone *bone = &imported->skeleton.bones[b];
-        float ends[2][3];
-        if (bone->child >= 0) continue;
-        skeleton_ends(bone, &imported->rest, ends);
-        for (int k = 0; k < 3; k++) form->joints[joint_of[bone->node]].tip[k] = ends[1][k] - ends[0][k];
+    form->joints[ORIGIN].parent = -1;
+    snprintf(form->joints[ORIGIN].name, FORM_NAME, "%s", form->name);
+    form->joint_count = 1;
+    for (int n = 0; n < gltf->node_count; n++)
+        if (gltf->nodes[n].parent < 0) add_joints(form, n, ORIGIN);
+    for (int j = 1; j < form->joint_count; j++) tops += form->joints[j].parent == ORIGIN;
+    form->first_bone = tops == 1 ? 1 : ORIGIN; // a single one needs none to hold it
+    for (int b = 0; b < skeleton->count; b++) {
+        if (skeleton->bones[b].child >= 0) continue;
+        skeleton_ends(&skeleton->bones[b], &source->imported->rest, ends);
+        glm_vec3_sub(ends[1], ends[0], form->joints[source->joint_of[skeleton->bones[b].node]].tip);
     }
 }
 
 static bool open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error)
 {
-    const struct imported *imported = pose->model.imported;
-    const size_t most = (size_t)imported->gltf.node_count + 1;
+    const struct gltf *gltf = &pose->model.imported->gltf;
+    const size_t most = (size_t)gltf->node_count + 1;
     struct source *source = form->owned = need_zeroed(1, sizeof *source);
-    int *joint_of = need(most, sizeof *joint_of);
-    source->imported = imported;
-    source->node = need(most, sizeof *source->node);
-    source->turn = need(most, sizeof *source->turn);
-    for (int k = 0; k < 3; k++)
-        source->still = fmaxf(source->still, STILL * (imported->gltf.hi[k] - imported->gltf.lo[k]));
+    *source = (struct source){.imported = pose->model.imported,
+                              .joint_of = need(most, sizeof *source->joint_of),
+                              .node = need(most, sizeof *source->node),
+                              .turn = need(most, sizeof *source->turn)};
+    for (int k = 0; k < 3; k++) source->still = fmaxf(source->still, STILL * (gltf->hi[k] - gltf->lo[k]));
     form->joints = need_zeroed(most, sizeof *form->joints);
-    add_joints(form, joint_of);
-    free(joint_of);
-    return form->joint_count > 0 ||
+    add_skeleton(form);
+    return form->joint_count > 1 ||
            fail(error, ERROR_INPUT, "\"%s\" has no bones", rig_title(posing->document->rigs[rig]));
 }
 
 static void close(struct form *form)
 {
     struct source *source = form->owned;
-    if (source) {
-        free(source->node);
-        free(source->turn);
-    }
+    if (!source) return;
+    free(source->joint_of);
+    free(source->node);
+    free(source->turn);
     free(source);
     free(form->joints);
 }
@@ -136,7 +116,6 @@ static void close(struct form *form)
 /// How a bone is turned from its rest, in the character's space.
 static versors turn_of(const struct imported *imported, const struct gltf_pose *pose, int node)
 {
-    if (node < 0) return glms_quat_identity();
     const mat4s rest = mat4_from(imported->rest.world[node]), now = mat4_from(pose->world[node]);
     mat3s turned = glms_mat3_mul(glms_mat4_pick3(now), mat3_inverse(glms_mat4_pick3(rest)));
     for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
@@ -147,22 +126,18 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
 {
     const struct source *source = form->owned;
     const struct gltf_pose *now = pose->model.pose;
-    const float origin[3] = {0};
-    for (int j = 0; j < form->joint_count; j++) {
-        const int node = source->node[j], parent = form->joints[j].parent;
-        const int above = parent < 0 ? -1 : source->node[parent];
-        const versors back = parent < 0 ? glms_quat_identity() : glms_quat_inv(source->turn[parent]);
-        source->turn[j] = turn_of(source->imported, now, node);
+    source->turn[ORIGIN] = glms_quat_identity();
+    for (int j = ORIGIN; j < form->joint_count; j++) {
+        const int parent = j == ORIGIN ? ORIGIN : form->joints[j].parent;
+        const versors back = glms_quat_inv(source->turn[parent]);
+        if (j != ORIGIN) source->turn[j] = turn_of(source->imported, now, source->node[j]);
         const versors own = glms_quat_mul(back, source->turn[j]);
-        const vec3s from = vec3_from(above < 0 ? origin : now->world[above] + 12);
-        const vec3s place = vec3_from(node < 0 ? origin : now->world[node] + 12);
-        const vec3s offset = glms_quat_rotatev(back, glms_vec3_sub(place, from));
+        const vec3s place = place_of(source, now, j);
+        const vec3s offset = glms_quat_rotatev(back, glms_vec3_sub(place, place_of(source, now, parent)));
         memcpy(key->rotation[j], own.raw, sizeof key->rotation[j]);
-        if (parent < 0) {
-            memcpy(key->translation, place.raw, sizeof key->translation);
-        } else if (glms_vec3_distance(offset, vec3_from(form->joints[j].offset)) > source->still) {
+        if (j == form->first_bone) memcpy(key->translation, place.raw, sizeof key->translation);
+        if (glms_vec3_distance(offset, vec3_from(form->joints[j].offset)) > source->still)
             memcpy(key->offset[j], offset.raw, sizeof key->offset[j]);
-        }
     }
 }
 
