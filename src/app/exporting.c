@@ -56,8 +56,8 @@ static bool proceed(void *user, long done, long total)
 static struct export_options options_of(struct export_job *job)
 {
     const struct export_wish *wish = &job->request.wish;
-    const bool is_gltf = path_has_end(job->request.path, ".glb") || path_has_end(job->request.path, ".gltf");
-    const bool all_clips = is_gltf && wish->all_clips;
+    const char *path = job->request.path;
+    const bool all_clips = wish->all_clips && (path_has_end(path, ".glb") || path_has_end(path, ".gltf"));
     return (struct export_options){.rig = wish->rig[0] ? wish->rig : NULL,
                                    .rig_choice = "\"rig\"",
                                    .clip = wish->clip[0] && !all_clips ? wish->clip : NULL,

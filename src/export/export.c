@@ -122,7 +122,7 @@ static bool choose_rigs(struct export_range *range, struct export_report *report
                 range->rig_choice);
 }
 
-static bool choose_keys(struct export_range *range, struct export_report *report, struct error *error)
+bool range_choose_keys(struct export_range *range, struct export_report *report, struct error *error)
 {
     const struct export_options *options = range->options;
     const struct document *document = range->posing->document;
@@ -220,17 +220,8 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
     }
     if (options->all_clips && range.format->write != gltf_write)
         return fail(error, ERROR_USAGE, "%s: holds one clip: all clips need .glb or .gltf", path);
-    return choose_rigs(&range, report, error) && choose_keys(&range, report, error) &&
+    return choose_rigs(&range, report, error) && range_choose_keys(&range, report, error) &&
            write_file(&range, report, error);
-}
-
-bool range_take(struct export_range *range, const struct posing *posing, const struct export_options *options,
-                struct error *error)
-{
-    struct export_report report = {0};
-    range->posing = posing;
-    range->options = options;
-    return choose_keys(range, &report, error);
 }
 
 // --- the rigs at the times that are exported

@@ -76,9 +76,8 @@ bool usda_write(struct export_range *range, FILE *out, struct error *error);
 /// Writes a rig other than an imported character as a .glb of its own.
 bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error *error);
 
-/// Continues a range with the same rigs of another document.
-bool range_take(struct export_range *range, const struct posing *posing, const struct export_options *options,
-                struct error *error);
+/// Sets the keys, by the options and the document's range.
+bool range_choose_keys(struct export_range *range, struct export_report *report, struct error *error);
 
 /// A key's frame, and its time in seconds from the first.
 double range_frame(const struct export_range *range, double key);
@@ -88,8 +87,8 @@ double range_seconds(const struct export_range *range, double key);
 /// Returns false with an error message if the model is missing.
 bool range_pose(const struct export_range *range, int rig, double key, struct rig_pose *pose, struct error *error);
 
-/// Where a rig's form stands in the file, as a matrix: where the stage has it; NULL: at the origin, as in an imported character's own
-/// file.
+/// The matrix that places an imported character on the stage, if the file is to have it there; NULL: the character stays where its own file
+/// has it. Of all other rigs NULL: their forms are in the stage's space.
 const float *range_root(const struct export_range *range, int rig, const struct rig_pose *pose);
 
 /// A spline's value at a key.

@@ -186,31 +186,35 @@ static bool put_clip(struct export_range *range, const struct form *form, struct
     return true;
 }
 
-/// Adds the same chains' motion in another clip of the file.
+/// Adds what the chains make of another clip of the file.
 static bool put_other(struct export_range *range, int clip, struct original *o, struct error *error)
 {
-    const struct export_range first = *range;
-    const struct gltf *gltf = &models_imported(first.posing->models, first.posing->document, first.rigs[0])->gltf;
-    struct document *document = import_with_clip(first.posing->document, first.rigs[0], gltf, clip, error);
+    const struct posing *first = range->posing;
+    const struct export_options *wanted = range->options;
+    const int rig = range->rigs[0];
+    const struct gltf *gltf = &models_imported(first->models, first->document, rig)->gltf;
+    struct document *document = import_with_clip(first->document, rig, gltf, clip, error);
     if (!document) return false;
-    struct evaluation evaluation = {.solver = first.posing->evaluation->solver,
-                                    .models = first.posing->evaluation->models};
-    struct posing posing = *first.posing;
-    struct export_options options = *first.options;
+    struct evaluation evaluation = {.solver = first->evaluation->solver, .models = first->evaluation->models};
+    struct posing posing = *first;
+    struct export_options options = *wanted;
+    struct export_report report = {0};
     struct form form;
     evaluation_update(&evaluation, document, false);
     posing.document = document;
     posing.evaluation = &evaluation;
     options.has_frames = false;
-    bool done = range_take(range, &posing, &options, error) && form_open(range, range->rigs[0], &form, error);
+    range->posing = &posing;
+    range->options = &options;
+    bool done = range_choose_keys(range, &report, error) && form_open(range, rig, &form, error);
     if (done) {
         done = put_clip(range, &form, o, error);
         form_close(&form);
     }
     evaluation_free(&evaluation);
     document_destroy(document);
-    range->posing = first.posing;
-    range->options = first.options;
+    range->posing = first;
+    range->options = wanted;
     return done;
 }
 

@@ -1,10 +1,10 @@
-/// Decompresses meshes with Draco's library: the only C++ here.
+/// Decompresses meshes with Draco's library. The only C++ file.
 #include "model/draco.h"
 #include <draco/compression/decode.h>
 #include <new>
 
-// A file of a hundred bytes may claim a mesh of gigabytes, and the library believes it. The linker (-Wl,--wrap) sends its allocations
-// here: all that it makes of one mesh may take so many bytes together.
+// A file of a hundred bytes may claim a mesh of gigabytes, and Draco believes it. The linker (-Wl,--wrap) sends its allocations here, and
+// `left` limits their sum for one mesh.
 static const size_t unlimited = SIZE_MAX;
 static thread_local size_t left = unlimited;
 

@@ -44,8 +44,7 @@ bool glb_open(struct glb *glb, const char *path, struct error *error);
 bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error);
 void glb_close(struct glb *glb);
 
-/// The buffers that the JSON names: the chunk, files beside it and data URIs. Of a packed file, the JSON and the only buffer become
-/// those of a plain one.
+/// Reads the buffers that the JSON names: the chunk, files beside it and data URIs. Decompresses meshes: the JSON then has one plain buffer.
 bool glb_read_buffers(struct glb *glb, struct error *error);
 
 /// The bytes of a data URI, or of a file named relative to ours; the caller frees `owned`. The error does not name our file.
@@ -57,21 +56,23 @@ int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise);
 /// Whether the file has some of an accessor's numbers; otherwise all are zero.
 bool glb_is_stored(const struct glb *glb, int64_t accessor);
 
-/// The bytes of a buffer view, by its number or as JSON; false where there are none.
+/// The bytes of a buffer view, by its number or as JSON; false if there are none.
 bool glb_view(const struct glb *glb, int64_t index, struct glb_bytes *bytes);
 bool glb_bytes(const struct glb *glb, const json_t *view, struct glb_bytes *bytes);
 
-/// The size of an accessor's elements, in bytes; 0 where it has no known ones.
+/// The size of an accessor's elements, in bytes; 0 if their type is unknown.
 size_t glb_element(const json_t *accessor, int *type, int *components);
 
 // Compressed meshes (glb_unpack.c).
 
-/// The package that this program was built without, and would decompress meshes of this extension ("": there is none); NULL of all
-/// other extensions.
+/// For an extension that compresses meshes and that this program cannot read: the package that it was built without, "" if none helps. NULL for
+/// all other extensions.
 const char *glb_missing_codec(const char *extension);
 
-/// Whether the file has compressed meshes that glb_read_buffers() decompresses, or no buffer for some that it need not read.
+/// Whether the file has compressed meshes that glb_read_buffers() decompresses.
 bool glb_is_packed(const struct glb *glb);
+
+/// Whether a buffer only holds the place of decompressed bytes. It may have none.
 bool glb_is_fallback(const json_t *buffer);
 bool glb_unpack(struct glb *glb, struct error *error);
 

@@ -1,5 +1,5 @@
 /// Decompresses meshes as soon as a file is read, in its JSON and its bytes: KHR_draco_mesh_compression and EXT_meshopt_compression.
-/// Whoever reads the file, or adds to it and writes it, finds a plain one.
+/// All other code reads and writes plain files.
 #include "base/npy.h"
 #include "model/draco.h"
 #include "model/glb.h"
@@ -10,8 +10,8 @@
 #include <meshoptimizer.h>
 #endif
 
-/// Bytes that each of a file may become, that Draco's library may allocate for each of those in all, and that may be made of it then;
-/// and how many attributes a mesh may have, with its corners.
+/// Limits: decompressed bytes per byte of the file, bytes that Draco allocates and bytes that a reader makes per decompressed byte, and
+/// attributes of a mesh with its corners.
 enum { MOST_BYTES = 128, DRACO_WORK = 8, UNPACKED_GROWTH = 8, PARTS = 32 };
 
 static const char draco[] = "KHR_draco_mesh_compression", meshopt[] = "EXT_meshopt_compression";
@@ -24,24 +24,26 @@ const char *glb_missing_codec(const char *extension)
 #ifndef WITH_MESHOPT
     if (strcmp(extension, meshopt) == 0) return "libmeshoptimizer-dev";
 #endif
-    return strcmp(extension, "KHR_meshopt_compression") == 0
-               ? ""
-               : NULL; // its format is newer than the libraries that are about
+    return strcmp(extension, "KHR_meshopt_compression") == 0 ? "" : NULL; // newer than the library
 }
 
-/// A file that becomes a plain one.
+static bool can_unpack(const char *extension)
+{
+    return (strcmp(extension, draco) == 0 || strcmp(extension, meshopt) == 0) && !glb_missing_codec(extension);
+}
+
 struct unpacking {
     struct glb *glb;
-    size_t room;            ///< bytes that may still be made
-    struct gltf_file plain; ///< its views and accessors, and all its bytes
-    size_t view_count;      ///< of the file as it was
-    bool *is_spent;         ///< its views that only compressed meshes used
+    size_t room;            ///< bytes that may still be allocated
+    struct gltf_file plain; ///< the views, accessors and bytes of the plain file
+    size_t view_count;      ///< of the compressed file
+    bool *is_spent;         ///< of each of its views: whether it held a Draco mesh
     struct error *error;
 };
 
 static json_t *extension_of(const json_t *object, const char *name)
 {
-    return glb_missing_codec(name) ? NULL : json_object_get(json_object_get(object, "extensions"), name);
+    return can_unpack(name) ? json_object_get(json_object_get(object, "extensions"), name) : NULL;
 }
 
 static void drop_extension(json_t *object, const char *name)
@@ -56,22 +58,19 @@ bool glb_is_fallback(const json_t *buffer)
     return json_is_true(json_object_get(extension_of(buffer, meshopt), "fallback"));
 }
 
-static bool is_codec(const char *name) { return strcmp(name, draco) == 0 || strcmp(name, meshopt) == 0; }
-
 bool glb_is_packed(const struct glb *glb)
 {
     size_t i;
     json_t *name;
     json_array_foreach(json_object_get(glb->json, "extensionsUsed"), i, name)
     {
-        const char *text = json_is_string(name) ? json_string_value(name) : "";
-        if (is_codec(text) && !glb_missing_codec(text)) return true;
+        if (json_is_string(name) && can_unpack(json_string_value(name))) return true;
     }
     return false;
 }
 
-/// Zeroed memory; NULL where a file of this size is not to have so much.
-static void *make(void *user, size_t count, size_t size)
+/// Zeroed memory; NULL if it is too much for a file of this size.
+static void *allocate(void *user, size_t count, size_t size)
 {
     struct unpacking *u = user;
     if (count > u->room / size) return NULL;
@@ -92,7 +91,7 @@ bool draco_decode(const void *data, size_t size, size_t room, struct draco_part 
 }
 #endif
 
-/// What an accessor wants of a mesh. False where that is nothing that Draco has.
+/// Describes the elements of an accessor. False if Draco cannot have them.
 static bool describe(const json_t *accessor, int64_t attribute, struct draco_part *part)
 {
     const size_t size = glb_element(accessor, &part->type, &part->components);
@@ -101,7 +100,7 @@ static bool describe(const json_t *accessor, int64_t attribute, struct draco_par
     return size > 0 && part->components <= 4 && attribute >= 0;
 }
 
-/// Gives an accessor its elements, in a view of their own.
+/// Gives an accessor its elements in a new view.
 static void put(struct unpacking *u, json_t *accessor, const struct draco_part *part)
 {
     const json_int_t view = gltf_file_add_bytes(&u->plain, part->values, part->count * part->stride);
@@ -113,7 +112,7 @@ static void put(struct unpacking *u, json_t *accessor, const struct draco_part *
     gltf_set(&u->plain, accessor, "componentType", json_integer(part->type));
     json_object_del(accessor, "byteOffset");
     const bool bounded = part->type == NUMBER_FLOAT32 && json_object_get(accessor, "min");
-    json_object_del(accessor, "min"); // Draco has moved vertices a little, and put them in another order
+    json_object_del(accessor, "min"); // Draco moves vertices a little
     json_object_del(accessor, "max");
     if (bounded)
         gltf_file_bound(&u->plain, accessor, (const float *)(const void *)part->values, part->count,
@@ -140,8 +139,8 @@ static bool unpack_primitive(struct unpacking *u, const json_t *primitive, const
         count++;
     }
     if (done && json_object_get(accessors[1 % count], "bufferView"))
-        return true; // a mesh before has the same; or it is there as it was
-    done = done && draco_decode(bytes.at, bytes.size, DRACO_WORK * u->room, parts, count, make, u);
+        return true; // an earlier mesh shares them, or the file also has them uncompressed
+    done = done && draco_decode(bytes.at, bytes.size, DRACO_WORK * u->room, parts, count, allocate, u);
     for (int i = 0; i < count; i++) {
         if (done) put(u, accessors[i], &parts[i]);
         free(parts[i].values);
@@ -204,7 +203,7 @@ static bool decode(const json_t *packed, struct glb_bytes from, size_t count, si
 }
 #endif
 
-/// The bytes of a view as they are meant, which the caller frees; NULL where there are none.
+/// The decompressed bytes of a view, which the caller frees; NULL if there are none.
 static void *bytes_of(struct unpacking *u, const json_t *view, size_t *size)
 {
     const json_t *packed = extension_of(view, meshopt);
@@ -212,7 +211,7 @@ static void *bytes_of(struct unpacking *u, const json_t *view, size_t *size)
     struct glb_bytes from;
     if (!glb_bytes(u->glb, packed ? packed : view, &from) || (packed && (count < 1 || stride < 1))) return NULL;
     *size = packed ? (size_t)(count * stride) : from.size;
-    void *bytes = make(u, *size, 1);
+    void *bytes = allocate(u, *size, 1);
     if (bytes && !packed) return memcpy(bytes, from.at, *size);
     if (bytes && decode(packed, from, (size_t)count, (size_t)stride, bytes)) return bytes;
     free(bytes);
@@ -231,7 +230,7 @@ static bool unpack_views(struct unpacking *u)
                      json_integer((json_int_t)gltf_file_append(&u->plain, bytes, size)));
             gltf_set(&u->plain, view, "byteLength", json_integer((json_int_t)size));
             drop_extension(view, meshopt);
-        } else if (u->is_spent[i]) { // views are counted: another stands in for it
+        } else if (u->is_spent[i]) { // keep its number: repeat another view in its place
             json_array_set_new(u->plain.views, i, json_deep_copy(json_array_get(u->plain.views, u->view_count)));
         } else {
             return fail(u->error, ERROR_INPUT,
@@ -251,12 +250,12 @@ static void drop_names(json_t *root, const char *array)
     json_t *names = json_object_get(root, array);
     for (size_t i = json_array_size(names); i-- > 0;) {
         const char *name = json_string_value(json_array_get(names, i));
-        if (name && is_codec(name) && !glb_missing_codec(name)) json_array_remove(names, i);
+        if (name && can_unpack(name)) json_array_remove(names, i);
     }
     if (json_array_size(names) == 0) json_object_del(root, array);
 }
 
-/// The file has one buffer from now on.
+/// Makes the decompressed bytes the only buffer.
 static void replace_buffers(struct unpacking *u)
 {
     struct glb *glb = u->glb;

@@ -71,9 +71,8 @@ static double scale_of(const struct gltf *gltf)
     return round(scale / digit) * digit;
 }
 
-/// Frame rate and range of a document become those of a clip: from its first key to its last. NULL: there is no clip.
-static bool set_range(struct document *document, const struct gltf_clip *clip, enum range_fit fit,
-                      struct error *error)
+/// Gives a document the frame rate and the range of a clip, from its first key to its last. NULL: there is no clip.
+static bool set_range(struct document *document, const struct gltf_clip *clip, struct error *error)
 {
     const double fps = frame_rate(clip);
     double first = 0, frames = STANDARD_FRAMES;
@@ -83,16 +82,15 @@ static bool set_range(struct document *document, const struct gltf_clip *clip, e
         frames = fmin(fmax(frames, LEAST_FRAMES), MOST_FRAMES);
     }
     return edit_fps(document, fps, false, error) &&
-           edit_range(document, (int)first, (int)(first + frames), fit, error);
+           edit_range(document, (int)first, (int)(first + frames), RANGE_TRIM, error);
 }
 
 static bool follows_clip(const struct spline *spline) { return spline->parameter[PARAMETER_EQUILIBRIUM].motion; }
 
-/// Has the scene take a clip's frames, and splines that follow it loop where it does.
-static bool take_clip(struct document *document, const struct gltf_clip *clip, enum range_fit fit,
-                      struct error *error)
+/// Gives a document a clip's range. Splines that follow the clip loop if it does.
+static bool fit_to_clip(struct document *document, const struct gltf_clip *clip, struct error *error)
 {
-    if (!set_range(document, clip, fit, error)) return false;
+    if (!set_range(document, clip, error)) return false;
     const struct param start = param_number(posing_clip_loops(document, clip) ? WIGGLY_LOOP : WIGGLY_REST);
     for (int s = 0; s < document->spline_count; s++) {
         if (!follows_clip(document->splines[s])) continue;
@@ -139,7 +137,7 @@ static bool add_imported(struct document *document, char *file, const struct glt
     const struct rig rig = {.kind = RIG_MODEL,
                             .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = scale_of(gltf)}};
     if (document->spline_count == 0 && document->rig_count == 0) {
-        if (!set_range(document, clip, RANGE_REFUSE, error)) return false;
+        if (!set_range(document, clip, error)) return false;
     }
     return edit_rig_add(document, &rig, error);
 }
@@ -179,7 +177,7 @@ static bool set_clip(struct document *document, int rig, const char *clip, struc
     return done;
 }
 
-/// Whether the scene has only what a clip moves: nothing in it was set for its frames.
+/// Whether nothing in the scene belongs to a frame: there are no knots or pins, and no splines or some that follow the clip.
 static bool is_of_clip(const struct document *document)
 {
     bool follows = document->spline_count == 0;
@@ -195,10 +193,10 @@ bool import_choose_clip(struct document *document, int rig, const struct gltf *g
 {
     const int found = gltf_find_clip(gltf, clip);
     if (!set_clip(document, rig, clip, error)) return false;
-    return found < 0 || !is_of_clip(document) || take_clip(document, &gltf->clips[found], RANGE_REFUSE, error);
+    return found < 0 || !is_of_clip(document) || fit_to_clip(document, &gltf->clips[found], error);
 }
 
-/// Removes what was keyed on another clip.
+/// Removes knots and pins that were set for another clip.
 static bool remove_keys(struct document *document, struct error *error)
 {
     for (int s = 0; s < document->spline_count; s++) {
@@ -217,7 +215,7 @@ struct document *import_with_clip(const struct document *document, int rig, cons
 {
     struct document *copy = document_copy(document);
     if (remove_keys(copy, error) && set_clip(copy, rig, gltf->clips[clip].name, error) &&
-        take_clip(copy, &gltf->clips[clip], RANGE_TRIM, error))
+        fit_to_clip(copy, &gltf->clips[clip], error))
         return copy;
     document_destroy(copy);
     return NULL;

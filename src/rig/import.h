@@ -21,8 +21,8 @@ bool import_add(struct document *document, const char *path, int spline, struct 
 bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
                         struct error *error);
 
-/// A copy of a document in which a model rig plays another clip, by its index, in that clip's frames. Splines that follow the clip have
-/// no knots there, chains no pins: they were set for the clip before. NULL with a sentence.
+/// A copy of a document in which a model rig plays another clip, by its index, in that clip's frames. It has no pins of chains and no knots of
+/// splines that follow the clip, because those were set for the first clip. NULL with a sentence.
 struct document *import_with_clip(const struct document *document, int rig, const struct gltf *gltf, int clip,
                                   struct error *error);
 
