@@ -38,9 +38,6 @@ struct survey {
 /// Centre and spread of the base at rest.
 static void measure_rest(struct survey *s)
 {
-    s->count = 0;
-    for (int c = 0; c < 3; c++) s->centre[c] = 0;
-    for (int n = 0; n < 9; n++) s->spread[n / 3][n % 3] = 0;
     for (int v = 0; v < s->rest->vertex_count; v++) s->count += s->base[v];
     for (int n = 0; n < 3 * s->rest->vertex_count; n++) {
         if (s->base[n / 3]) s->centre[n % 3] += (double)s->rest->position[n / 3][n % 3] / s->count;
@@ -255,55 +252,44 @@ void rigid_undo(const struct rigid *rigid, double *numbers, int columns)
     }
 }
 
-/// bᵀ A⁻¹ b for a symmetric positive A, by Cholesky's factor of it; a direction without a pivot counts nothing.
-static double inverse_square(double a[3][3], double b[3])
+/// An orthonormal basis of the small rigid motions of all vertices that faces use: translations, and turns e × r.
+static void create_motions(struct basis *basis, const struct surface *rest, const uint8_t *used)
 {
-    double sum = 0;
-    for (int i = 0; i < 3; i++) {
-        const double whole = a[i][i];
-        for (int k = 0; k < i; k++) {
-            a[i][i] -= a[i][k] * a[i][k];
-            b[i] -= a[i][k] * b[k];
+    enum { TURN = 3, MOTIONS = 6 };
+    const int columns = 3 * rest->vertex_count;
+    double *motion = need((size_t)columns, sizeof *motion);
+    basis_create(basis, columns, MOTIONS);
+    for (int m = 0; m < MOTIONS; m++) {
+        const int a = m % 3, b = (a + 1) % 3, c = (a + 2) % 3;
+        for (int v = 0; v < rest->vertex_count; v++) {
+            const float *r = rest->position[v];
+            motion[3 * v + a] = used[v] && m < TURN;
+            motion[3 * v + b] = used[v] && m >= TURN ? -(double)r[c] : 0;
+            motion[3 * v + c] = used[v] && m >= TURN ? (double)r[b] : 0;
         }
-        const double pivot = a[i][i] > straight * whole ? sqrt(a[i][i]) : INFINITY;
-        b[i] /= pivot;
-        sum += b[i] * b[i];
-        for (int j = i + 1; j < 3; j++) {
-            for (int k = 0; k < i; k++) a[j][i] -= a[j][k] * a[i][k];
-            a[j][i] /= pivot;
-        }
+        basis_append(basis, motion);
     }
-    return sum;
-}
-
-/// Of one displacement per vertex: what its translation m and its turn explain, |m|² n + Lᵀ I⁻¹ L with L = Σ (r − r̄) × u and the
-/// inertia I; its own power goes to `whole`.
-static double rigid_power(const struct survey *s, const double complex (*shape)[3], bool imaginary, double *whole)
-{
-    double sum[3] = {0}, swing[3] = {0}, inertia[3][3];
-    for (int v = 0; v < s->rest->vertex_count; v++) {
-        double u[3], r[3];
-        for (int c = 0; c < 3; c++) {
-            u[c] = !s->base[v] ? 0 : imaginary ? cimag(shape[v][c]) : creal(shape[v][c]);
-            r[c] = (double)s->rest->position[v][c] - s->centre[c];
-            sum[c] += u[c];
-            *whole += u[c] * u[c];
-        }
-        for (int c = 0; c < 3; c++) swing[c] += r[(c + 1) % 3] * u[(c + 2) % 3] - r[(c + 2) % 3] * u[(c + 1) % 3];
-    }
-    for (int n = 0; n < 9; n++) inertia[n / 3][n % 3] = (n / 3 == n % 3 ? size_of(s) : 0) - s->spread[n / 3][n % 3];
-    return (sum[0] * sum[0] + sum[1] * sum[1] + sum[2] * sum[2]) / s->count + inverse_square(inertia, swing);
+    free(motion);
 }
 
 double rigid_share(const double complex (*shape)[3], const struct surface *rest)
 {
-    struct survey s = {.rest = rest, .base = need((size_t)rest->vertex_count + 1, sizeof *s.base)};
+    const int columns = 3 * rest->vertex_count;
     uint8_t *used = surface_used_vertices(rest);
-    double whole = 0;
-    for (int v = 0; v < rest->vertex_count; v++) s.base[v] = used[v];
-    measure_rest(&s);
-    double part = s.count > 0 ? rigid_power(&s, shape, false, &whole) + rigid_power(&s, shape, true, &whole) : 0;
+    double *part = need((size_t)columns, sizeof *part), whole = 0, rigid = 0;
+    struct basis basis;
+    create_motions(&basis, rest, used);
+    for (int imaginary = 0; imaginary < 2; imaginary++) {
+        for (int n = 0; n < columns; n++) {
+            const double complex u = used[n / 3] ? shape[n / 3][n % 3] : 0;
+            part[n] = imaginary ? cimag(u) : creal(u);
+        }
+        whole += basis_dot(part, part, columns);
+        for (int k = 0; k < basis.count; k++)
+            rigid += pow(basis_dot(part, basis.q + (size_t)k * (size_t)columns, columns), 2);
+    }
+    basis_free(&basis);
+    free(part);
     free(used);
-    free(s.base);
-    return whole > 0 ? part / whole : 0;
+    return whole > 0 ? rigid / whole : 0;
 }

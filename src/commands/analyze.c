@@ -183,10 +183,9 @@ static void warn_of_cancelling(const struct motion *motion, const struct analysi
 }
 
 /// Of a mesh that is not known to be held, a coordinate may be a rigid motion.
-static void warn_of_rigid(const struct job *job, const struct input *in, const struct analysis *a,
-                          const struct surface *rest)
+static void warn_of_rigid(const struct input *in, const struct analysis *a, const struct surface *rest)
 {
-    for (int k = 0; !job->pin && in->base.loose && k < a->count; k++) {
+    for (int k = 0; in->base.loose && k < a->count; k++) {
         const double share = rigid_share((const double complex(*)[3])a->components[k].shape, rest);
         if (share < rigid_warning) continue;
         print_line(
@@ -314,7 +313,7 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
         warn_of_distance(&in.motion, &analysis, &result->character);
         warn_of_speed(&in.motion, &analysis, in.fps);
         warn_of_cancelling(&in.motion, &analysis);
-        warn_of_rigid(job, &in, &analysis, &rest);
+        warn_of_rigid(&in, &analysis, &rest);
         report_motion(job, &in, &analysis);
         keep_all(job, &analysis, &in.motion, in.fps, result);
     }
