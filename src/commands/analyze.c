@@ -297,12 +297,12 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
     struct analysis analysis = {0};
     bool done = open_input(job, file, &rest, lapack, &in, error);
     const bool directed = job->direction_count > 0;
-    const double from = method_of(job) == ANALYSIS_CPCA ? 0 : job->from >= 0 ? job->from : in.made.from;
+    const double driven = job->from >= 0 ? job->from * in.fps : in.made.from * in.made.fps; // frames
     const struct analysis_plan plan = {
         .method = method_of(job),
         .fps = in.fps,
         .modes = job->modes,
-        .first = (int)fmin(ceil(from * in.fps), ANALYSIS_FRAMES_MAX),
+        .first = method_of(job) == ANALYSIS_CPCA ? 0 : (int)fmin(ceil(driven), ANALYSIS_FRAMES_MAX),
         .direction = directed             ? job->directions[job->direction_count > 1 ? file : 0]
                      : in.made.frames > 0 ? in.made.shake
                                           : NULL,

@@ -51,7 +51,7 @@ static bool parse(const char *path, const char *text, size_t size, struct compan
     if (!done)
         fail(error, ERROR_INPUT, "%s: expected what wiggly simulate writes: %s", path, wrong.text);
     else if (!is_sound(c) || strlen(pin) >= sizeof c->pin)
-        done = fail(error, ERROR_INPUT, "%s: expected what wiggly simulate writes, got numbers that are none", path);
+        done = fail(error, ERROR_INPUT, "%s: expected what wiggly simulate writes, got a number out of range", path);
     else
         strcpy(c->pin, pin);
     c->world = world;
@@ -69,7 +69,7 @@ bool companion_read(const char *motion, int frames, int vertices, struct compani
     const bool done = parse(path, text, size, c, error);
     free(text);
     if (done && (c->frames != frames || c->vertices != vertices)) {
-        print_line(stderr, "%s: warning: is of another motion (%d frames of %d vertices) and is left out", path,
+        print_line(stderr, "%s: warning: ignored, as it describes another motion (%d frames of %d vertices)", path,
                    c->frames, c->vertices);
         *c = (struct companion){0};
     }
