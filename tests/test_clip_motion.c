@@ -45,7 +45,7 @@ static void read_motion(struct scene *scene, char *joint, enum motion_of of)
 static double height_at(const struct scene *scene, int sample)
 {
     const struct imported *imported = models_imported(scene->models, scene->document, 0);
-    struct gltf_pose *pose = models_pose(scene->models, scene->document, 0, false);
+    struct gltf_pose *pose = models_pose(scene->models, scene->document, 0, POSE_UNSEEN);
     const double time = fmod(sample * document_step(scene->document), imported->gltf.clips[0].last);
     gltf_pose_clip(&imported->gltf, 0, time, pose);
     gltf_pose_world(&imported->gltf, pose);

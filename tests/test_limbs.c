@@ -109,7 +109,7 @@ TEST(bounds_hold_the_skin)
     };
     open_scene("assets/scenes/tail.json");
     const struct rig_pose fox = fox_at(0);
-    struct gltf_pose *moved = models_pose(scene.models, scene.document, 0, false);
+    struct gltf_pose *moved = models_pose(scene.models, scene.document, 0, POSE_UNSEEN);
     const struct gltf *gltf = &fox.model.imported->gltf;
     const struct gltf_part *coat = &gltf->meshes->parts[0], *face = coat + 1;
     for (size_t w = 0; w < sizeof wild / sizeof *wild; w++) {

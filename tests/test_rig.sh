@@ -49,6 +49,7 @@ says "with their names and lengths" "  Walk (1 s)
   Trot (0.583 s)
   Idle (5 s)" "$out"
 expect 2 "all clips in a scene" "$WIGGLY" rig $dog --chain tail_1 --all-clips -o "$scratch/no.json"
+expect 2 "all clips and some frames" "$WIGGLY" export assets/scenes/dog.json --all-clips --frames 1:9 -o "$scratch/no.glb"
 expect 2 "all clips in a format of one" "$WIGGLY" rig $dog --chain tail_1 --all-clips -o "$scratch/no.usda"
 says "says which hold them" "no.usda: holds one clip: all clips need .glb or .gltf" "$err"
 expect 0 "a clip of its own for knots alone" "$WIGGLY" rig $dog --chain tail_1 --plain -o "$scratch/plain.json"

@@ -62,7 +62,7 @@ static struct export_options options_of(struct export_job *job)
                                    .rig_choice = "\"rig\"",
                                    .clip = wish->clip[0] && !all_clips ? wish->clip : NULL,
                                    .all_clips = all_clips,
-                                   .has_frames = wish->part,
+                                   .has_frames = wish->part && !all_clips,
                                    .first = wish->first,
                                    .last = wish->last,
                                    .substeps = wish->keys,

@@ -98,8 +98,9 @@ static enum options_result check(const struct usage *usage, struct job *job)
         return options_wrong(usage, "--paint: expected an output that ends in .npy, got '%s'", job->output);
     if (job->frames && !read_frames(job->frames, &job->options))
         return options_wrong(usage, "--frames: expected FIRST:LAST, such as 0:48, got '%s'", job->frames);
-    if (job->options.all_clips && job->options.clip)
-        return options_wrong(usage, "--clip and --all-clips: clips keep their names where all are exported");
+    if (job->options.all_clips && (job->options.clip || job->frames))
+        return options_wrong(usage,
+                             "--all-clips keeps names and frames of clips: give it without --clip and --frames");
     if (job->options.rate > 0 && job->options.substeps > 0)
         return options_wrong(usage, "--fps and --substeps both set the number of keys: give one");
     job->options.is_cubic = job->keys == CUBIC;

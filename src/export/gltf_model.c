@@ -48,7 +48,7 @@ static bool gather_buffers(struct original *o)
     return done;
 }
 
-/// What kind of picture the bytes are; NULL: of none that is known.
+/// The type of a picture; NULL: unknown.
 static const char *kind_of(struct glb_bytes bytes)
 {
     static const struct {
@@ -63,7 +63,7 @@ static const char *kind_of(struct glb_bytes bytes)
     return webp ? "image/webp" : NULL;
 }
 
-/// A picture that cannot be read, which is not shown either, keeps its address. False if memory is short.
+/// A picture that cannot be read keeps its address. False if memory is short.
 static bool gather_image(struct original *o, json_t *image)
 {
     const char *uri = json_string_value(json_object_get(image, "uri"));
@@ -190,22 +190,18 @@ static bool put_clip(struct export_range *range, const struct form *form, struct
 static bool put_other(struct export_range *range, int clip, struct original *o, struct error *error)
 {
     const struct posing *first = range->posing;
-    const struct export_options *wanted = range->options;
     const int rig = range->rigs[0];
     const struct gltf *gltf = &models_imported(first->models, first->document, rig)->gltf;
     struct document *document = import_with_clip(first->document, rig, gltf, clip, error);
     if (!document) return false;
     struct evaluation evaluation = {.solver = first->evaluation->solver, .models = first->evaluation->models};
     struct posing posing = *first;
-    struct export_options options = *wanted;
     struct export_report report = {0};
     struct form form;
     evaluation_update(&evaluation, document, false);
     posing.document = document;
     posing.evaluation = &evaluation;
-    options.has_frames = false;
     range->posing = &posing;
-    range->options = &options;
     bool done = range_choose_keys(range, &report, error) && form_open(range, rig, &form, error);
     if (done) {
         done = put_clip(range, &form, o, error);
@@ -214,7 +210,6 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
     evaluation_free(&evaluation);
     document_destroy(document);
     range->posing = first;
-    range->options = wanted;
     return done;
 }
 

@@ -290,7 +290,7 @@ static bool find_target(const struct gltf *gltf, const char *path, struct gltf_c
     return false;
 }
 
-/// Whether the last key is the first again, but for a tenth of the way between them or a hundredth of the channel's size.
+/// Whether the last key is like the first: within a tenth of the channel's range and a hundredth of its largest value.
 static bool is_closed(const struct gltf_channel *channel)
 {
     const int width = channel->components, stride = width * (channel->interpolation == GLTF_CUBIC ? 3 : 1);

@@ -42,7 +42,7 @@ static bool find(const struct models *models, const struct document *document, c
     const struct model_rig *model = &document->rigs[rig]->model;
     const int clip = gltf_find_clip(&imported->gltf, model->clip);
     *followed = (struct followed){.imported = imported,
-                                  .pose = models_pose(models, document, rig, false),
+                                  .pose = models_pose(models, document, rig, POSE_UNSEEN),
                                   .node = gltf_find_node(&imported->gltf, motion->joint),
                                   .clip = clip < 0 ? NULL : &imported->gltf.clips[clip],
                                   .of = motion->of,

@@ -8,8 +8,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { POSES = 3 }; ///< of an imported character at once
-
 enum model_kind { MODEL_FIGURE, MODEL_IMPORTED };
 
 /// A file that was read, and its state at that time.
@@ -129,7 +127,7 @@ struct placed_model {
     int level, joints; ///< of a fox
     struct imported *fox;
     const struct imported *imported; ///< NULL: it could not be read
-    struct gltf_pose pose[POSES];    ///< but for [0] they are shown
+    struct gltf_pose pose[POSE_MEMORIES];
 };
 
 struct models {
@@ -163,7 +161,7 @@ static void drop_characters(struct models *models)
 
 static void free_placed(struct placed_model *placed)
 {
-    for (int k = 0; k < POSES; k++) gltf_pose_free(&placed->pose[k]);
+    for (int k = 0; k < POSE_MEMORIES; k++) gltf_pose_free(&placed->pose[k]);
     if (placed->fox) imported_free(placed->fox);
     free(placed->fox);
     free(placed->path);
@@ -281,7 +279,7 @@ static bool check_clip(const struct model_rig *rig, const struct gltf *gltf, str
 static bool make_poses(struct placed_model *placed, const struct imported *imported)
 {
     placed->imported = imported;
-    for (int k = 0; k < POSES; k++)
+    for (int k = 0; k < POSE_MEMORIES; k++)
         if (!gltf_pose_create(&imported->gltf, &placed->pose[k])) return false;
     return true;
 }
@@ -414,8 +412,9 @@ const struct imported *models_imported(const struct models *models, const struct
     return placed ? placed->imported : NULL;
 }
 
-struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig, int shown)
+struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig,
+                              enum pose_memory memory)
 {
     struct placed_model *placed = find_placed(models, document, rig);
-    return placed && placed->imported ? &placed->pose[shown] : NULL;
+    return placed && placed->imported ? &placed->pose[memory] : NULL;
 }

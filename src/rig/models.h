@@ -44,7 +44,11 @@ void models_grow(struct models *models, const struct document *document, const s
 /// The meadow as it was last solved; NULL: none. `models` may be NULL.
 const struct meadow *models_meadow(const struct models *models);
 
-/// Memory for its pose: 1 for the shown pose, 2 for one shown beside it, 0 for all others. NULL if models_imported() is.
-struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig, int shown);
+/// An imported character's poses: the shown one, one shown beside it, and any other.
+enum pose_memory { POSE_UNSEEN, POSE_SHOWN, POSE_BESIDE, POSE_MEMORIES };
+
+/// Memory for a pose. NULL if models_imported() is.
+struct gltf_pose *models_pose(const struct models *models, const struct document *document, int rig,
+                              enum pose_memory memory);
 
 #endif

@@ -23,12 +23,12 @@ double posing_clip_time(const struct document *document, double position, const 
     return clip->first + left;
 }
 
-struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, int shown)
+struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, enum pose_memory memory)
 {
     const struct document *document = posing->document;
     const struct imported *imported = models_imported(posing->models, document, rig);
     if (!imported) return NULL;
-    struct gltf_pose *pose = models_pose(posing->models, document, rig, shown);
+    struct gltf_pose *pose = models_pose(posing->models, document, rig, memory);
     const struct gltf *gltf = &imported->gltf;
     const char *name = document->rigs[rig]->kind == RIG_MODEL ? document->rigs[rig]->model.clip : NULL;
     const int clip = posing->at_rest ? -1 : gltf_find_clip(gltf, name);
@@ -72,7 +72,7 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
     const struct document *document = posing->document;
     const bool is_tail = document->rigs[rig]->kind == RIG_TAIL;
     if (!is_tail && document->rigs[rig]->kind != RIG_MODEL) return rig_pose(posing, rig, position, by_hand, posed);
-    struct gltf_pose *pose = posing_clip(posing, rig, position, posing->shown);
+    struct gltf_pose *pose = posing_clip(posing, rig, position, posing->memory);
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;
     double root[12];

@@ -22,8 +22,8 @@ struct posing {
     const struct evaluation *evaluation; ///< NULL: all splines are 0
     const struct models *models;         ///< the characters' models; NULL: none
     enum look look;
-    bool at_rest; ///< clips do not play
-    int shown;    ///< which memory of models_pose() takes an imported character's pose, until the next one there
+    bool at_rest;            ///< clips do not play
+    enum pose_memory memory; ///< that takes an imported character's pose, until the next one there
     /// Adds a rig's motion by hand to `hand`; NULL: there is none.
     void (*move)(const void *context, int rig, struct by_hand *hand);
     const void *context; ///< for `move`

@@ -24,9 +24,8 @@ struct posing_functions {
     const struct pinning_functions *pins;                                  ///< NULL: it has no pins
 };
 
-/// The places of its bones in its clip alone, or at rest, in the models' memory for what is shown or that for all else; NULL where there is no
-/// model.
-struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, int shown);
+/// The places of its bones in its clip alone, or at rest, in the given memory; NULL if there is no model.
+struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, enum pose_memory memory);
 
 /// The place of an imported character: columns and place of its space in the world.
 void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);

@@ -319,7 +319,7 @@ bool path_find(const struct posing *posing, int rig, double position, const stru
     const struct document *document = posing->document;
     const int body = rig_body(document, rig);
     const bool is_tail = body == rig;
-    const struct gltf_pose *pose = is_tail ? NULL : posing_clip(posing, body, position, false);
+    const struct gltf_pose *pose = is_tail ? NULL : posing_clip(posing, body, position, POSE_UNSEEN);
     double root[12] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;

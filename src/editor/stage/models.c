@@ -36,7 +36,7 @@ struct stage_model *models_show(struct stage *stage, const struct core *core, in
 {
     struct stage_view *view = &stage->view;
     struct posing posing = stage_posing_by_hand(stage);
-    posing.shown = 1;
+    posing.memory = POSE_SHOWN;
     if (view->model_count == STAGE_MAX_MODELS) return NULL;
     if (!rig_pose_body(&posing, rig, core->playback.position, NULL, posed)) return NULL;
     struct stage_model *shown = &view->models[view->model_count++];
@@ -47,7 +47,7 @@ struct stage_model *models_show(struct stage *stage, const struct core *core, in
     return shown;
 }
 
-/// How far beside it the clip alone stands.
+/// The distance between a character and its clip alone.
 static float aside(const struct core *core, int n)
 {
     const int rig = document_find_rig(core->document, RIG_MODEL, n);
@@ -57,12 +57,12 @@ static float aside(const struct core *core, int n)
     return ASIDE * (float)core->document->rigs[rig]->model.scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
 }
 
-/// The clip alone, without what bends it, beside the model that was shown last.
+/// Adds the clip without its chains, beside the model that was added last.
 static void add_original(struct stage *stage, const struct core *core, int rig, float by)
 {
     struct stage_view *view = &stage->view;
     struct rig_pose posed;
-    const struct posing posing = {.document = core->document, .models = core->models, .shown = 2};
+    const struct posing posing = {.document = core->document, .models = core->models, .memory = POSE_BESIDE};
     if (view->model_count == STAGE_MAX_MODELS) return;
     if (!rig_pose_body(&posing, rig, core->playback.position, NULL, &posed)) return;
     struct stage_model *shown = &view->models[view->model_count++];
