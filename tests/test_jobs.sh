@@ -1,5 +1,5 @@
-# Two jobs of an animator, done by events in the real app: an ear flicks once in an idle whose tail hits a pose, and a tail is held up and
-# let go. What counts is the motion: degrees of every joint, a row a frame.
+# Jobs of an animator, done by events in the real app: an ear flicks once in an idle whose tail hits a pose, a tail is held up and let go, a
+# walk and then a whole pack of clips get follow-through. What counts is the motion: degrees of every joint, a row a frame.
 . tests/check.sh
 unset DISPLAY WAYLAND_DISPLAY
 : >"$scratch/none.csv"
@@ -7,7 +7,7 @@ unset DISPLAY WAYLAND_DISPLAY
 play() { # <job> <name> [option]...
     local job=$1 name=$2
     shift 2
-    "$WIGGLY" live --no-draw --replay tests/replays/$job.replay --result "$scratch/$name.json" "$@" tests/replays/$job.json &&
+    "$WIGGLY" live --no-draw --replay tests/replays/$job.replay --result "$scratch/$name.json" "$@" "${scene:-tests/replays/$job.json}" &&
         motion "$name"
 }
 motion() { "$WIGGLY" export "$scratch/$1.json" -o "$scratch/$1.csv"; } # <name>
@@ -57,6 +57,35 @@ holds "then it falls" above "$(off held tail. 60 60 held 0)" 3
 holds "beyond its rest" awk -F, '$1 == 60 { exit !($2 < -0.4) }' "$scratch/held.csv"
 holds "swings less each time" below "$(off held tail.up. 100 144)" 1
 holds "and settles" below "$(off held tail.up. 126 144)" 0.3
+
+# --- a walk, and the other clips of its file
+
+scene=assets/models/dog.glb
+expect 0 "a walk gets follow-through" play walk walk
+holds "in ten actions or fewer" [ "$(grep -cE '^[0-9]+ (key|press) ' tests/replays/walk.replay)" -le 10 ]
+for chain in tail ear_1_L; do
+    holds "$chain swings" above "$(off walk $chain. 0 24)" 2
+    holds "and its loop closes" below "$(off walk $chain. 0 0 walk 24)" 1e-9
+done
+expect 0 "and so do all clips of the file" "$WIGGLY" export "$scratch/walk.json" --all-clips -o "$scratch/pack.glb"
+says "which are there" "  Walk (1 s)
+  Trot (0.583 s)
+  Idle (5 s)" "$("$WIGGLY" rig "$scratch/pack.glb")"
+vertices() { "$WIGGLY" rig "$1" --chain tail_1 --plain --clip "$2" -o "$scratch/$3.pc2"; } # <file> <clip> <name>
+numbers() { od -An -v -tf4 -w4; }
+# The largest distance along an axis between the first and the last frame.
+open_by() { # <name>
+    local frame=$((12 * $(od -An -tu4 -j16 -N4 "$scratch/$1.pc2")))
+    paste <(tail -c +33 "$scratch/$1.pc2" | head -c $frame | numbers) <(tail -c $frame "$scratch/$1.pc2" | numbers) |
+        awk '{ d = $1 - $2; d = d < 0 ? -d : d; most = d > most ? d : most } END { print NR ? most + 0 : "nothing" }'
+}
+for clip in Walk Trot Idle; do
+    expect 0 "$clip as it was" vertices $scene $clip before
+    expect 0 "and as it is" vertices "$scratch/pack.glb" $clip after
+    holds "are as long" [ "$(stat -c %s "$scratch/before.pc2")" = "$(stat -c %s "$scratch/after.pc2")" ]
+    holds "and not the same" not cmp -s "$scratch/before.pc2" "$scratch/after.pc2"
+    holds "the loop closes" below "$(open_by after)" 1e-5
+done
 
 if "$WIGGLY" live --headless --frames 1 >/dev/null 2>&1; then
     picture() { "$WIGGLY" export "$scratch/held.json" -o "$scratch/$1.png" --frames "$1:$1" --size 160x90 --quiet; } # <frame>
