@@ -1,15 +1,16 @@
 #!/bin/bash
 # Exports scenes and has programs of others evaluate every file: three.js under Node, Blender without a window (bpy) and usd-core, each
 # against our own vertices (.pc2), to 1e-5 of the size. They are fetched into the build folder at pinned versions; a step whose program
-# cannot be had is skipped with a word. Usage: tests/others/proof.sh, with B (build folder) and WIGGLY (the program).
+# cannot be had is skipped with a word. Prints the table of docs/export.md as it is measured; an error on the page that is smaller fails.
+# Usage: tests/others/proof.sh, with B (build folder) and WIGGLY (the program).
 . tests/check.sh
 here=tests/others
 place=$B/proof
 mkdir -p "$place"
 
 have_three() {
-    [ -e "$place/node_modules/three/package.json" ] ||
-        timeout 120 npm install --silent --no-audit --no-fund --no-save --prefix "$place" three@0.187.0
+    [ -e "$place/node_modules/three/package.json" ] && [ -e "$place/node_modules/gltf-validator/package.json" ] ||
+        timeout 120 npm install --silent --no-audit --no-fund --no-save --prefix "$place" three@0.187.0 gltf-validator@2.0.0-dev.3.10
 }
 have_python() { # <module> <package>
     [ -x "$place/venv/bin/python" ] || python3 -m venv "$place/venv" || return 1
@@ -29,13 +30,19 @@ export_to() { # <scene> <file> <option>...
     shift 2
     "$WIGGLY" export "$scene" -o "$scratch/$file" --quiet "$@" || ok "export of $file" 1
 }
-compares() { # <what> <command>...
+compares() { # <who: file> <command>...
     expect 0 "$@"
     tail -n 1 <<<"$out" | sed 's/^/  /'
+    local ending=.${1##*.}
+    case $out in *"scaled bones"*) ending+=", scaled bones" ;; esac
+    sed -n "\$s/.* \([^ ]*\) of the size/$ending|${1%%:*}|\1/p" <<<"$out" >>"$scratch/measured"
 }
 
+# in the units of its file, not as large as on the stage
+sed "s|\.\./models|$PWD/assets/models|; s/\"scale\": 1,/\"scale\": 0.3,/; s/\"position\": \[0, 0, 0\]/\"position\": [1, 2, 3]/; s/\"turn\": 0/\"turn\": 40/" \
+    assets/scenes/dog.json >"$scratch/small.json"
 # scene, and the rigs that it has
-scenes="tail:tail follow:tail character:character figure7:character compositing:nodder,swayer dog:dog"
+scenes="tail:tail follow:tail character:character figure7:character compositing:nodder,swayer dog:dog small:dog"
 others= # made of .gltf files of Debian's assimp-testmodels: morph targets; bones with a scale that no half has, without normals
 models=/usr/share/assimp/models/glTF2
 if [ -d $models ]; then
@@ -58,9 +65,13 @@ for entry in $scenes $others; do
     export_to "$scene" "$scene.usda" --substeps 1
     for rig in ${rigs//,/ }; do export_to "$scene" "$scene-$rig.pc2" --rig "$rig" --substeps 1; done
 done
+# a file with all of its clips
+clips="Walk Trot Idle"
+"$WIGGLY" rig assets/models/dog.glb --chain tail_1 --all-clips -o "$scratch/packed.glb" >"$scratch/rig" 2>&1 || ok "all clips of the dog" 1
+for clip in $clips; do "$WIGGLY" rig assets/models/dog.glb --chain tail_1 --clip "$clip" -o "$scratch/packed-$clip.pc2" >"$scratch/rig"; done
 export_to dog turned.gltf --substeps 1 --keys cubic
 cp "$scratch/dog-dog.pc2" "$scratch/turned-dog.pc2"
-for scene in tail follow dog; do export_to $scene $scene.bvh --substeps 1; done
+for scene in tail follow dog small; do export_to $scene $scene.bvh --substeps 1; done
 
 # shellcheck disable=SC2046 # the caches are split on purpose
 each_scene() { # <who> <ending> <scenes> <command>...
@@ -71,13 +82,31 @@ each_scene() { # <who> <ending> <scenes> <command>...
         compares "$who: ${entry%%:*}.$ending" "$@" "$scratch/${entry%%:*}.$ending" $(caches "${entry%%:*}" "${entry#*:}")
     done
 }
-if fetched three.js have_three; then each_scene three.js glb "$scenes" node $here/three.mjs "$place"; fi
+if fetched three.js have_three; then
+    each_scene three.js glb "$scenes" node $here/three.mjs "$place"
+    for clip in $clips; do
+        export CLIP=$clip
+        compares "three.js: $clip of packed.glb" node $here/three.mjs "$place" "$scratch/packed.glb" "$scratch/packed-$clip.pc2"
+    done
+    expect 0 "the validator reads all of them" node $here/validate.js "$place" "$scratch"/*.gl*
+    holds "without an error" [ "$(grep -c ': 0 errors' <<<"$out")" -eq "$(ls "$scratch"/*.gl* | wc -l)" ]
+fi
 if fetched usd-core have_python pxr usd-core==26.11; then each_scene usd-core usda "$scenes $others" "$place/venv/bin/python" $here/usd.py; fi
 if fetched bpy have_python bpy bpy==4.5.15; then
     each_scene Blender glb "$scenes" "$place/venv/bin/python" $here/blender.py
     each_scene Blender gltf turned:dog "$place/venv/bin/python" $here/blender.py
-    for scene in tail follow dog; do
-        if [ $scene = dog ]; then export CLIP=Walk; else unset CLIP; fi
+    for scene in tail follow dog small; do
+        if [ $scene = dog ] || [ $scene = small ]; then export CLIP=Walk; else unset CLIP; fi
         compares "Blender: $scene.bvh" "$place/venv/bin/python" $here/blender.py "$scratch/$scene.bvh" "$scratch/$scene.glb"
     done
 fi
+
+# --- the table of docs/export.md, as measured; no error on the page may be smaller
+
+sed -n 's/^| `\(\.[^|]*\) | \([^|]*\) | \([0-9.e-]*\) |$/\1|\2|\3/p' docs/export.md | tr -d '`' >"$scratch/promised"
+awk -F'|' 'NR == FNR { most[$1 "|" $2] = $3; next } { who = $1 "|" $2; files[who]++; if ($3 + 0 > largest[who] + 0) largest[who] = $3 }
+    END { for (who in files) { split(who, part, "|"); kept = largest[who] + 0 <= most[who] + 0; bad += !kept
+        printf "| `%s` | %s | %s of the size in %d files |%s\n", part[1], part[2], largest[who], files[who], kept ? "" : " docs/export.md says " most[who] }
+        exit bad > 0 }' "$scratch/promised" "$scratch/measured" >"$scratch/table"
+ok "docs/export.md has no smaller errors" $?
+LC_ALL=C sort "$scratch/table"

@@ -39,5 +39,5 @@ for key in ten_of(len(caches[0])):
     assert points.shape == expected.shape, f'expected {len(expected)} vertices, got {len(points)}'
     off = max(off, float(np.linalg.norm(points - expected, axis=1).max()))
 print(f'UsdGeom says: {UsdGeom.GetStageUpAxis(stage)} up, {UsdGeom.GetStageMetersPerUnit(stage)} m a unit;', len(textures), 'textures')
-sys.exit(len(complaints) > 0 or judge('usd-core ' + '.'.join(str(n) for n in Usd.GetVersion()), off, caches[0],
-                                        2.0**-11 if scaled else 1e-5))
+who = 'usd-core ' + '.'.join(str(n) for n in Usd.GetVersion()) + (', scaled bones' if scaled else '')
+sys.exit(len(complaints) > 0 or judge(who, off, caches[0], 2.0**-11 if scaled else 1e-5))
