@@ -7,7 +7,7 @@
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
 #   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
-#   make proof    has three.js, Blender and usd-core evaluate what wiggly exports
+#   make proof    has three.js, Blender and usd-core evaluate what wiggly exports, and takes in files of others
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
 #   make feel     how curves answer to a knot that moves, and how far they overshoot, as a table; fails where poses change too much
@@ -162,7 +162,7 @@ $(B)/models/%.glb: $(B)/%_glb
 
 # Programs of others evaluate every file that wiggly writes; fetched into the build folder.
 proof: $(B)/wiggly
-	$(Q)B=$(B) WIGGLY=$(B)/wiggly tests/others/proof.sh
+	$(Q)B=$(B) WIGGLY=$(B)/wiggly tests/others/proof.sh && B=$(B) WIGGLY=$(B)/wiggly tests/others/strangers.sh
 
 check: | packages
 	$(Q)tools/check.sh
