@@ -15,15 +15,14 @@
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-static const double still = 1e-5;     ///< of the motion of the vertex that moves most: one that moves less rests
-static const double straight = 1e-6;  ///< of its squared size: how much area a line has
-static const double nothing = 1e-6;   ///< of its size: a base that moves less rests; the rounding of float data
-static const double least_slow = 0.2; ///< of what is fast in the motion of an unknown base: less that is slow stays
+static const double still = 1e-5;     ///< share of the largest motion of a vertex; a vertex that moves less rests
+static const double straight = 1e-6;  ///< share of the squared size; a base with less area is a line
+static const double nothing = 1e-6;   ///< share of the base's size; a base that moves less rests, up to rounding
+static const double least_slow = 0.2; ///< ratio of slow to fast motion of an unknown base; less is not removed
 static const double identity = 1e-7;  ///< weight of no rotation
 
-/// What a pass over the motion gives.
+/// Sums over the base's vertices, from the mesh at rest and from one pass over the motion.
 struct survey {
     const struct surface *rest;
     bool *base;             ///< per vertex
@@ -91,7 +90,7 @@ static bool read_motion(struct survey *s, const struct motion *motion, struct er
     return slab_end(&slab);
 }
 
-/// Whether vertices rest that hold the mesh: not only a point or a line, about which it may turn.
+/// Whether resting vertices hold the mesh. It can still turn about a point or a line.
 static bool is_held(const struct survey *all)
 {
     const int vertices = all->rest->vertex_count;
@@ -132,7 +131,7 @@ static void fill_turn(const double q[4], double r[3][3])
 
 enum { PATH = 7 }; ///< x̄ of a frame, and its quaternion times twice the reach, as lengths
 
-/// Fits a cubic to each row of the path: what is slow. Whether it matters beside what it leaves out.
+/// Replaces each row of the path by its least-squares cubic: the slow part. False if that is small beside the rest.
 static bool smooth(double *path, int frames)
 {
     enum { POWERS = 4 };
@@ -144,15 +143,17 @@ static bool smooth(double *path, int frames)
         basis_append(&basis, power);
     }
     for (double *row = path; row < path + (size_t)PATH * (size_t)frames; row += frames) {
+        double part[POWERS];
         left += basis_dot(row, row, frames);
-        memset(power, 0, (size_t)frames * sizeof *power);
         for (int k = 0; k < POWERS; k++) {
-            const double *q = basis.q + (size_t)k * (size_t)frames, part = basis_dot(row, q, frames);
-            for (int t = 0; t < frames; t++) power[t] += part * q[t];
-            left -= part * part;
-            if (k > 0) along += part * part;
+            part[k] = basis_dot(row, basis.q + (size_t)k * (size_t)frames, frames);
+            left -= part[k] * part[k];
+            along += k > 0 ? part[k] * part[k] : 0;
         }
-        memcpy(row, power, (size_t)frames * sizeof *row);
+        for (int t = 0; t < frames; t++) {
+            row[t] = 0;
+            for (int k = 0; k < POWERS; k++) row[t] += part[k] * basis.q[k * frames + t];
+        }
     }
     basis_free(&basis);
     free(power);
@@ -187,7 +188,7 @@ static void follow(struct rigid *rigid, const struct survey *s, const double *pa
     rigid->frames = moved > nothing * reach ? frames : 0;
 }
 
-/// Fits all frames. Of a base that is not known only what is slow counts, as the rest may be the swing.
+/// Fits all frames. Of an unknown base, only the slow part counts: the rest may be the swing.
 static void fit(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames, bool known)
 {
     const double size = size_of(s), reach = sqrt(size / s->count);

@@ -1,4 +1,4 @@
-/// The rigid motion of what carries a body, its base: a motion is analysed as seen from there.
+/// The rigid motion of a body's base, which is removed before the analysis.
 #ifndef ANALYSIS_RIGID_H
 #define ANALYSIS_RIGID_H
 
@@ -17,8 +17,8 @@ struct rigid {
     double travel, angle; ///< at most, from the first frame on: metres of the base's centre, degrees
 };
 
-/// Finds the motion of the vertices in `base`, one flag per vertex of `rest`. NULL: the base rests if vertices do that are more than a
-/// point or a line; else it is the whole mesh, of whose motion only the slow part counts: the rest may be the swing. Reads the motion once.
+/// Finds the motion of the vertices in `base`, one flag per vertex of `rest`. If it is NULL, resting vertices are the base, unless they lie
+/// on a line. Without any, the base is the whole mesh, and only the slow part of its motion counts. Reads the motion once.
 /// Errors: a number that is not finite, a file that shrinks.
 bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct motion *motion,
                 const struct surface *rest, const bool *base, struct error *error);

@@ -72,18 +72,31 @@ static bool is_hidden(const struct core *core, const struct shown_bone *bone)
     return bone->part.hidden && !(core->mods & MOD_ALT);
 }
 
-/// False where it is hidden or out of reach. A bone without vertices counts as farther.
+/// An edit in the same frame may have removed the bone.
+static bool exists(const struct document *document, const struct shown_bone *bone)
+{
+    const bool is_there = bone->model < document->rig_count && document->rigs[bone->model]->kind == RIG_MODEL;
+    return is_there && (bone->chain < 0 || tail_drag_holds(document, bone->chain, bone->joint));
+}
+
+static bool project_bone(const struct stage *stage, const struct core *core, const struct shown_bone *bone,
+                         float ends[2][2])
+{
+    return stage_project_point(stage, core->layout.stage, bone->ends[0], ends[0]) &&
+           stage_project_point(stage, core->layout.stage, bone->ends[1], ends[1]);
+}
+
+/// False if the bone is hidden or out of reach. A bone without vertices counts as farther.
 static bool measure(const struct stage *stage, const struct core *core, int bone, const float p[2],
                     struct candidate *found)
 {
     const struct shown_bone *shown = &stage->bones[bone];
-    float a[2], b[2];
-    if (is_hidden(core, shown) || !stage_project_point(stage, core->layout.stage, shown->ends[0], a) ||
-        !stage_project_point(stage, core->layout.stage, shown->ends[1], b))
+    float ends[2][2];
+    if (!exists(core->document, shown) || is_hidden(core, shown) || !project_bone(stage, core, shown, ends))
         return false;
     found->bone = bone;
-    found->fraction = segment_nearest(a, b, p);
-    for (int k = 0; k < 2; k++) found->xy[k] = a[k] + (b[k] - a[k]) * found->fraction;
+    found->fraction = segment_nearest(ends[0], ends[1], p);
+    for (int k = 0; k < 2; k++) found->xy[k] = ends[0][k] + (ends[1][k] - ends[0][k]) * found->fraction;
     found->distance = hypotf(p[0] - found->xy[0], p[1] - found->xy[1]) + (shown->carries ? 0 : OVERLAP);
     const vec3s at = glms_vec3_lerp(vec3_from(shown->ends[0]), vec3_from(shown->ends[1]), found->fraction);
     found->depth = camera_depth(stage->view.view, stage->view.eye, at.raw);
@@ -99,13 +112,6 @@ static bool is_better(const struct candidate *a, const struct candidate *best)
     return a->fraction < best->fraction;
 }
 
-/// An edit in the same frame may have removed the bone.
-static bool exists(const struct document *document, const struct shown_bone *bone)
-{
-    const bool is_there = bone->model < document->rig_count && document->rigs[bone->model]->kind == RIG_MODEL;
-    return is_there && (bone->chain < 0 || tail_drag_holds(document, bone->chain, bone->joint));
-}
-
 struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     const float p[2] = {x, y};
@@ -115,8 +121,8 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
         if (measure(stage, core, b, p, &candidate)) nearest = fminf(nearest, candidate.distance);
     }
     for (int b = 0; b < stage->bone_count && !core->brush.on; b++) {
-        if (exists(core->document, &stage->bones[b]) && measure(stage, core, b, p, &candidate) &&
-            candidate.distance < nearest + OVERLAP && is_better(&candidate, &best))
+        if (measure(stage, core, b, p, &candidate) && candidate.distance < nearest + OVERLAP &&
+            is_better(&candidate, &best))
             best = candidate;
     }
     if (best.bone < 0) return (struct hover){.kind = HOVER_NONE};
@@ -225,12 +231,12 @@ static void show_name(struct core *core, const char *name)
                       theme()->text, name);
 }
 
-/// A bone and the tip of the chain that it would make; −1: none.
+/// The bones from a node down to a tip, which a new chain would bend; −1: none.
 struct way {
     int model, node, tip;
 };
 
-/// What to show in this frame: character, and the ways from the selected bone and from the one under the pointer.
+/// Shown in this frame: a character's bones, and the ways from the selected bone and from the one under the pointer.
 struct showing {
     bool all; ///< for picking a bone
     int model;
@@ -268,7 +274,7 @@ static float opacity_of(const struct showing *showing, const struct core *core, 
     if (model == showing->chosen.model && node == showing->chosen.node) return CHOSEN;
     if (model == showing->meant.model && node == showing->meant.node) return MEANT;
     const bool ahead =
-        way_count(core, &showing->chosen, model, node) + way_count(core, &showing->meant, model, node) > 0;
+        way_count(core, &showing->chosen, model, node) > 0 || way_count(core, &showing->meant, model, node) > 0;
     return ahead ? MEANT : PLAIN;
 }
 
@@ -279,10 +285,7 @@ static void show_all(const struct stage *stage, struct core *core, const struct 
         float ends[2][2];
         if (bone->model != showing->model && bone->model != showing->chosen.model && !showing->all) continue;
         const float opacity = opacity_of(showing, core, bone);
-        if (is_hidden(core, bone) && opacity == PLAIN) continue;
-        if (!stage_project_point(stage, core->layout.stage, bone->ends[0], ends[0]) ||
-            !stage_project_point(stage, core->layout.stage, bone->ends[1], ends[1]))
-            continue;
+        if ((is_hidden(core, bone) && opacity == PLAIN) || !project_bone(stage, core, bone, ends)) continue;
         const uint32_t color = bone->chain >= 0 && bone->color ? bone->color : theme()->playhead;
         if (bone->part.node != bone->part.from) {
             drawlist_line(&core->list, ends[0], 2, 1.25f, theme_fade(color, opacity));
