@@ -172,19 +172,9 @@ static const float PLAIN = 0.3f, MEANT = 0.6f, CHOSEN = 0.85f; ///< opacity of t
 /// Whether the pointer is over a character's bounding box on the screen.
 static bool is_over(const struct stage *stage, const struct core *core, const struct stage_model *model)
 {
-    float lo[2] = {INFINITY, INFINITY}, hi[2] = {-INFINITY, -INFINITY};
-    for (int c = 0; c < 8; c++) {
-        const float corner[3] = {c & 1 ? model->hi[0] : model->lo[0], c & 2 ? model->hi[1] : model->lo[1],
-                                 c & 4 ? model->hi[2] : model->lo[2]};
-        float xy[2];
-        if (!stage_project_point(stage, core->layout.stage, corner, xy)) return true;
-        for (int k = 0; k < 2; k++) {
-            lo[k] = fminf(lo[k], xy[k]);
-            hi[k] = fmaxf(hi[k], xy[k]);
-        }
-    }
-    const struct rect box = {lo[0], lo[1], hi[0] - lo[0], hi[1] - lo[1]};
-    return rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y);
+    struct rect box;
+    return !stage_project_box(stage, core->layout.stage, model->lo, model->hi, &box) ||
+           rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y);
 }
 
 /// The rig whose bones show because the pointer is over its character, or −1.

@@ -28,6 +28,9 @@ RIG_KIND_LIST(STAGE_KIND)
 struct posing stage_posing(const struct core *core);
 /// Projects a point to the stage's rectangle `r`; false if it is behind the eye.
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
+/// The rectangle around the corners of a box that are in front of the eye; false if some are not.
+bool stage_project_box(const struct stage *stage, struct rect r, const float lo[3], const float hi[3],
+                       struct rect *around);
 
 /// Dims the stage below texts, so that they are legible over any character.
 void stage_scrim(struct core *core, struct rect box);

@@ -192,6 +192,24 @@ bool stage_project_point(const struct stage *stage, struct rect r, const float p
     return camera_project(stage->view.view, stage->view.projection, viewport, point, xy);
 }
 
+bool stage_project_box(const struct stage *stage, struct rect r, const float lo[3], const float hi[3],
+                       struct rect *around)
+{
+    float least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY}, xy[2];
+    bool all = true;
+    for (int corner = 0; corner < 8; corner++) {
+        const float point[3] = {(corner & 1 ? hi : lo)[0], (corner & 2 ? hi : lo)[1], (corner & 4 ? hi : lo)[2]};
+        const bool seen = stage_project_point(stage, r, point, xy);
+        all &= seen;
+        for (int k = 0; k < 2 && seen; k++) {
+            least[k] = fminf(least[k], xy[k]);
+            most[k] = fmaxf(most[k], xy[k]);
+        }
+    }
+    *around = (struct rect){least[0], least[1], most[0] - least[0], most[1] - least[1]};
+    return all;
+}
+
 double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3])
 {
     const float depth = camera_depth(stage->view.view, stage->view.eye, place);
@@ -257,18 +275,8 @@ static void note_figure(struct stage *stage, struct rect place, const float lo[3
 {
     const struct rect unit = {-0.5f * place.w / place.h, -0.5f, place.w / place.h, 1};
     struct stage_view *view = &stage->view;
-    float least[2] = {INFINITY, INFINITY}, most[2] = {-INFINITY, -INFINITY};
     camera_matrices(&stage->camera, unit.w, view->view, view->projection, view->eye);
-    for (int corner = 0; corner < 8; corner++) {
-        const float point[3] = {(corner & 1 ? hi : lo)[0], (corner & 2 ? hi : lo)[1], (corner & 4 ? hi : lo)[2]};
-        float xy[2];
-        if (!stage_project_point(stage, unit, point, xy)) continue;
-        for (int k = 0; k < 2; k++) {
-            least[k] = fminf(least[k], xy[k]);
-            most[k] = fmaxf(most[k], xy[k]);
-        }
-    }
-    stage->figure = (struct rect){least[0], least[1], most[0] - least[0], most[1] - least[1]};
+    stage_project_box(stage, unit, lo, hi, &stage->figure);
 }
 
 struct rect stage_figure(const struct stage *stage, const struct core *core)
