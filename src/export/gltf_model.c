@@ -252,7 +252,7 @@ static void put_place(struct original *o, const float root[16])
     json_t *matrix = json_array(), *scene;
     size_t s;
     for (int i = 0; i < 16; i++) gltf_append(&o->file, matrix, json_real((double)root[i]));
-    json_array_foreach(json_object_get(o->source.json, "scenes"), s, scene) place_nodes(o, scene, matrix);
+    json_array_foreach(json_object_get(o->source.json, "scenes"), s, scene) { place_nodes(o, scene, matrix); }
     json_decref(matrix);
 }
 
