@@ -304,23 +304,24 @@ static double settling(int i, int j, void *user)
 TEST(what_cannot_be_analysed_gets_one_sentence)
 {
     const struct {
-        int frames;
+        int frames, first;
         sample *at;
         const char *says;
     } cases[] = {
-        {20, still, "expected a motion, but nothing moves"},
-        {20, drifting, "expected an oscillation, got none; --method cpca takes any motion"},
-        {40, settling, "expected an oscillation, got none; --method cpca takes any motion"},
-        {7, ringing, "expected 8 to 4096 frames, got 7"},
-        {1, ringing, "expected 8 to 4096 frames, got 1"},
-        {4097, still, "expected 8 to 4096 frames, got 4097"},
+        {20, 0, still, "expected a motion, but nothing moves"},
+        {20, 0, drifting, "expected an oscillation, got none; --method cpca takes any motion"},
+        {40, 0, settling, "expected an oscillation, got none; --method cpca takes any motion"},
+        {40, 25, settling, "expected an oscillation in the 15 frames after the drive, got none; simulate for longer"},
+        {7, 0, ringing, "expected 8 to 4096 frames, got 7"},
+        {1, 0, ringing, "expected 8 to 4096 frames, got 1"},
+        {4097, 0, still, "expected 8 to 4096 frames, got 4097"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct ringing r = {0, 24};
         struct motion motion;
         struct analysis analysis;
         make_motion(&motion, cases[i].frames, 2, cases[i].at, &r);
-        const struct analysis_plan plan = {ANALYSIS_POLES, 24, 1, NULL, NULL, 0};
+        const struct analysis_plan plan = {ANALYSIS_POLES, 24, 1, NULL, NULL, cases[i].first};
         assert_refusal(analysis_create(&analysis, &lapack, &motion, &plan, &error), cases[i].says);
         motion_close(&motion);
     }

@@ -266,6 +266,11 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
     bool done = find_poles(w, &basis, error);
     basis_free(&basis);
     if (!done) return false;
+    if (w->pole_count == 0 && w->plan->first > 0)
+        return fail(error, ERROR_INPUT,
+                    "%s: expected an oscillation in the %d frames after the drive, got none; simulate for longer, or "
+                    "use --method cpca",
+                    w->motion->path, frames - w->plan->first);
     if (w->plan->method == ANALYSIS_POLES && w->pole_count == 0)
         return fail(error, ERROR_INPUT, "%s: expected an oscillation, got none; --method cpca takes any motion",
                     w->motion->path);
