@@ -295,7 +295,8 @@ $(B)/adversary: $(B)/obj/tools/adversary.o $(patsubst %.c,$(B)/obj/%.o,$(wildcar
 # Of the sources only what readers and exports need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
     $(addprefix src/app/,replay.c settings.c) $(addprefix src/timing/,readlog.c columns.c) \
-    $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/posed.c $(addprefix src/simulation/,\
+    $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/posed.c src/commands/companion.c \
+    $(addprefix src/simulation/,\
     drive.c region.c lattice.c tiling.c voxels.c solid.c winding.c element.c eigen.c)
 fuzzers: $(FUZZERS:%=$(B)/%)
 $(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)

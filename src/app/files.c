@@ -379,8 +379,7 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
         char path[PATH_LIMIT + 256];
         struct stat status;
         snprintf(path, sizeof path, "%s/%s", folder[0] ? folder : ".", entry->d_name);
-        const bool hidden = entry->d_name[0] == '.' && strcmp(entry->d_name, "..") != 0;
-        if (hidden || strlen(entry->d_name) > 254 || stat(path, &status) != 0) continue;
+        if (entry->d_name[0] == '.' || strlen(entry->d_name) > 254 || stat(path, &status) != 0) continue;
         bool is_folder = S_ISDIR(status.st_mode);
         if (is_folder || is_scene_name(entry->d_name)) {
             snprintf(names[count++], 256, "%.254s%s", entry->d_name, is_folder ? "/" : "");

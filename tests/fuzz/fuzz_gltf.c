@@ -40,7 +40,7 @@ static void import(const char *path)
     fuzz_expect(good == (error.kind == ERROR_NONE), "a model is refused with a sentence");
     if (!good) return;
     for (int clip = -1; clip < imported.gltf.clip_count && clip < 3; clip++)
-        pose_at(&imported, clip, clip < 0 ? 0 : 0.6 * imported.gltf.clips[clip].duration, &imported.rest);
+        pose_at(&imported, clip, clip < 0 ? 0 : 0.6 * imported.gltf.clips[clip].last, &imported.rest);
     draw(&imported);
     imported_free(&imported);
 }
