@@ -29,6 +29,9 @@ WORLD_TEST(test_a_new_spline, world_open(world))
     const struct knot outside = {.frame = 49};
     assert_refused(world, edit_spline_add(world_edit(world), -1, NULL, &outside, &world->error),
                    "frame 49 is outside 0 to 48");
+    const struct knot last = {.frame = 48, .value = 0.5}; // of a loop, whose first frame it repeats
+    world_must(world, edit_spline_add(world_edit(world), -1, NULL, &last, &world->error));
+    assert_near(world->document->splines[5]->knots[0].frame, 0, 0);
 }
 
 WORLD_TEST(test_a_copy, world_open(world))

@@ -105,6 +105,8 @@ bool edit_spline_add(struct document *document, int at, const char *name, const 
         spline->knot_count = 1;
         spline->knots[0] = (struct knot){
             .frame = first->frame + 0.0, .value = first->value + 0.0, .stiffness = KNOT_DEFAULT_STIFFNESS};
+        if (document_sample(document, first->frame) > document_last_knot_sample(document, spline))
+            spline->knots[0].frame = document->first_frame; // the last frame of a loop repeats the first
     }
     return add(document, at < 0 || at > count ? count : at, spline, error);
 }
