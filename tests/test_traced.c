@@ -39,7 +39,7 @@ static const char *work(const char *name)
     static char paths[4][192];
     static int next;
     next = (next + 1) % 4;
-    snprintf(paths[next], sizeof paths[next], "%s/work/%s", folder, name);
+    snprintf(paths[next], sizeof paths[next], "%s/new/%s", folder, name);
     return paths[next];
 }
 
@@ -92,7 +92,7 @@ static void save_next(void)
     assert_done(scene_save(document, document->path, &error));
     document_destroy(document);
     assert_int_equal(saved_version(), NEXT);
-    command("test $(ls -A %s/work | wc -l) = 1 || { ls -A %s/work >&2; false; }");
+    command("test $(ls -A %s/new | wc -l) = 1 || { ls -A %s/new >&2; false; }");
 }
 
 /// Of hundreds of writes of one large file those in the middle differ in nothing: some of them are tried, and all with TRACE_ALL. `make test`
@@ -113,7 +113,7 @@ static void torment(const char *what, struct job *job)
     int runs = 0;
     for (int e = 0; e < 4; e++) {
         int count = 0;
-        command("rm -rf %s/work && cp -r %s/old %s/work");
+        command("rm -rf %s/new && cp -r %s/old %s/new");
         assert_int_equal(job->version(), OLD);
         assert_int_equal(trace(job->run, job, (struct trouble){-1, errors[e]}, &count), 0);
         assert_int_equal(job->version(), NEW);
@@ -121,7 +121,7 @@ static void torment(const char *what, struct job *job)
         for (int n = 0; n < count; n++) {
             if (is_one_of_many(n + e, count)) continue;
             runs++;
-            command("rm -rf %s/work && cp -r %s/old %s/work");
+            command("rm -rf %s/new && cp -r %s/old %s/new");
             const int status = trace(job->run, job, (struct trouble){n, errors[e]}, NULL), version = job->version();
             const bool good = version == NEW || (version == OLD && status != 0);
             if (!good || status > 3)
@@ -135,14 +135,14 @@ static void torment(const char *what, struct job *job)
 
 static struct document *painted_scene(void)
 {
-    command("rm -rf %s/old %s/work && mkdir %s/work");
+    command("rm -rf %s/old %s/new && mkdir %s/new");
     struct document *document = document_of_text(scene);
     document->folder = strdup(work("x"));
     *strrchr(document->folder, '/') = '\0';
     document_set_path(document, work("walk.json"));
     mark(document, OLD);
     assert_done(scene_save(document, document->path, &error));
-    command("cp -r %s/work %s/old");
+    command("cp -r %s/new %s/old");
     mark(document, NEW);
     return document;
 }
@@ -180,9 +180,9 @@ TEST(unsaved_work)
     snprintf(job.slot.path, sizeof job.slot.path, "%s", work("recovery-1"));
     command("rm -rf %s/old/*");
     job.document->fps = OLD;
-    command("rm -rf %s/work && mkdir %s/work");
+    command("rm -rf %s/new && mkdir %s/new");
     assert_int_equal(autosave(&job), 0);
-    command("cp %s/work/recovery-1 %s/old");
+    command("cp %s/new/recovery-1 %s/old");
     job.document->fps = NEW;
     torment("unsaved work", &job);
     document_destroy(job.document);
@@ -272,9 +272,9 @@ TEST(exports)
         if (output->film == &film_ffmpeg && !has_ffmpeg) continue;
         if (output->is_like_another && !getenv("TRACE_ALL")) continue;
         if (output->film && !is_thorough()) continue;
-        command("rm -rf %s/old %s/work && mkdir %s/work");
+        command("rm -rf %s/old %s/new && mkdir %s/new");
         assert_int_equal(trace(export_it, NULL, (struct trouble){-1, 0}, NULL), 0);
-        command("cp -r %s/work %s/old");
+        command("cp -r %s/new %s/old");
         for (int i = 0; i < MOST_FILES && output->files[i]; i++) {
             char path[192];
             assert_done(file_read(work(output->files[i]), 1 << 24, &expected[i].data, &expected[i].size, &error));
@@ -301,13 +301,13 @@ static int write_one(void *user)
 TEST(a_command_that_is_told_to_end_leaves_no_temporary_file)
 {
     int count = 0;
-    command("rm -rf %s/work && mkdir %s/work");
+    command("rm -rf %s/new && mkdir %s/new");
     assert_int_equal(trace(write_one, NULL, (struct trouble){-1, -SIGTERM}, &count), 0);
     for (int n = 0; n < count; n++) {
-        command("rm -f %s/work/one");
+        command("rm -f %s/new/one");
         const int status = trace(write_one, NULL, (struct trouble){n, -SIGTERM}, NULL);
         assert_true(status == 3 || n == count - 1);
-        command("test -z \"$(find %s/work -name '.wiggly*')\"");
+        command("test -z \"$(find %s/new -name '.wiggly*')\"");
     }
 }
 #endif
