@@ -163,7 +163,7 @@ static void report(const struct shake_job *job, const struct soft *soft, const s
         printf("  %d steps a frame; error of the motion %.2g %%\n", record->substeps, 100 * left);
     }
     if (job->loads.drive && drive_end(job->loads.drive) < job->seconds)
-        printf("  the drive stops at %.4g s: what follows is its free swing\n", drive_end(job->loads.drive));
+        printf("  the drive stops at %.4g s; then the body swings freely\n", drive_end(job->loads.drive));
     if (left > job->accuracy) {
         fflush(stdout);
         print_line(
