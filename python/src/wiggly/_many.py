@@ -1,0 +1,114 @@
+"""Many splines in arrays, over threads, without a loop in Python."""
+
+from __future__ import annotations
+
+import os
+from ctypes import addressof, sizeof
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._library import CMany, CRows, Handle, Status, lib, report
+from ._spline import Spline, nearest_samples
+
+
+class Many(NamedTuple):
+    """What `solve_many` returns; rows that you did not ask for are None."""
+
+    total: NDArray[np.float64] | None
+    """shape (count, n)"""
+    y: NDArray[np.float64] | None
+    re: NDArray[np.float64] | None
+    im: NDArray[np.float64] | None
+    status: NDArray[np.intc]
+    """One `Status` a spline, shape (count,)."""
+
+
+def _numbers(array: ArrayLike | None, shape: tuple[int, int]) -> tuple[CRows, NDArray[np.float64] | None]:
+    """Broadcast by strides, not copied."""
+    if array is None:
+        return CRows(), None
+    wide = np.broadcast_to(np.asarray(array, dtype=float), shape)
+    if any(stride % 8 for stride in wide.strides):
+        wide = np.ascontiguousarray(wide)
+    return CRows(wide.ctypes.data, wide.strides[0] // 8, wide.strides[1] // 8), wide
+
+
+def solve_many(
+    spline: Spline,
+    times: ArrayLike,
+    values: ArrayLike,
+    n: int,
+    fps: float = 24,
+    *,
+    slopes: ArrayLike | None = None,
+    stiffnesses: ArrayLike | None = None,
+    phases: ArrayLike | None = None,
+    still: ArrayLike | None = None,
+    parts: tuple[str, ...] = ("total",),
+    threads: int | None = None,
+    check: bool = True,
+) -> Many:
+    """Solves many splines that differ only in their knots: the same bits as one by one.
+
+    Parameters
+    ----------
+    spline : Spline
+        The parameters of all; its own knots are not read.
+    times, values : array_like, broadcast to (count, k)
+        Seconds, and values. A time of NaN is no knot, so that splines may have fewer than k.
+    n, fps : int, float
+        Samples of each, and samples per second.
+    slopes, stiffnesses, phases, still : array_like, broadcast to (count, k), optional
+        As in `Knot`; NaN: no slope, a free phase. `still` above 0: a still knot.
+    parts : tuple of {"total", "y", "re", "im"}
+        Which arrays to fill.
+    threads : int, optional
+        1 to 256; the number of processors by default.
+    check : bool
+        Whether the first spline with an error raises it. If not, its rows are NaN and its status says why.
+
+    Returns
+    -------
+    Many
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> values = np.random.default_rng(1).normal(size=(1000, 3))
+    >>> many = solve_many(Spline(frequency=1.5, damping=0.1), [0, 1, 2], values, 97)
+    >>> many.total.shape
+    (1000, 97)
+    >>> bool((many.total[:, 48] == values[:, 2]).all())
+    True
+    """
+    given = [a for a in (times, values, slopes, stiffnesses, phases, still) if a is not None]
+    shape = np.broadcast_shapes((1, 1), *(np.shape(a) for a in given))
+    if len(shape) != 2:
+        raise ValueError(f"times, values: expected arrays that broadcast to (count, knots), got {shape}")
+    count, k = shape
+    desc, _knots = spline._describe(n, fps, np.zeros(len(spline.times)))
+    many, keep = CMany(size=sizeof(CMany), count=count, knot_count=k), []
+    inputs = (nearest_samples(np.asarray(times, dtype=float), fps), values, slopes, stiffnesses, phases, still)
+    for name, array in zip(("sample", "value", "slope", "stiffness", "phase", "still"), inputs):
+        rows, held = _numbers(array, (count, k))
+        setattr(many, name, rows)
+        keep.append(held)
+    rows_of = {part: np.empty((count, n)) for part in parts}
+    for part, out in rows_of.items():
+        if part not in Many._fields[:4]:
+            raise ValueError(f"parts: expected total, y, re, im, got {part!r}")
+        setattr(many, part, CRows(out.ctypes.data, n, 1))
+    status, knot = np.zeros(count, np.intc), np.full(count, -1, np.intc)
+    many.status, many.knot = status.ctypes.data, knot.ctypes.data
+    room = k + (n if desc.has_low or desc.has_high else 0)
+    batch = Handle("batch_create", max(n, 1), room, min(threads or os.cpu_count() or 1, 256))
+    worst = lib.wiggly_batch_solve_many(batch.at, addressof(desc), addressof(many))
+    wrong = status >= Status.ARGUMENT
+    if worst >= Status.ARGUMENT and (check or not wrong.any()):
+        first = int(wrong.argmax()) if wrong.any() else None
+        report(worst if first is None else status[first], -1 if first is None else knot[first], first)
+    for out in rows_of.values():
+        out[wrong] = np.nan
+    return Many(rows_of.get("total"), rows_of.get("y"), rows_of.get("re"), rows_of.get("im"), status)

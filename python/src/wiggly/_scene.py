@@ -1,0 +1,143 @@
+"""Scene files of the app."""
+
+from __future__ import annotations
+
+import csv
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from ._curve import Curve
+from ._library import Error, shared_solver, warn
+from ._spline import Knot, Spline, from_spring, solve_into
+
+PARAMETERS = ("frequency", "damping", "bandwidth", "equilibrium")
+PLAIN = (*PARAMETERS, "calm", "mode", "start", "passive", "limits")
+
+
+class Scene:
+    """A scene file: splines, and the rigs that they move.
+
+    Attributes
+    ----------
+    path : Path
+    data : dict
+        The file's JSON.
+    n, fps : int, float
+        Samples of each curve, and samples per second.
+
+    Examples
+    --------
+    >>> scene = Scene.load("assets/scenes/figure5.json")
+    >>> curves = scene.solve()
+    >>> sorted(curves), len(curves["edited"])
+    (['edited', 'equilibrium', 'free'], 193)
+    """
+
+    def __init__(self, path: str | os.PathLike[str], data: dict[str, Any]) -> None:
+        self.path, self.data = Path(path), data
+        try:
+            self._substeps = data.get("substeps", 1)
+            self._first, last = data["frames"]
+            self.n = (last - self._first) * self._substeps + 1
+            self.fps = data.get("fps", 24) * self._substeps
+            self._splines = {spline["name"]: spline for spline in data.get("splines", [])}
+        except (KeyError, TypeError, ValueError, AttributeError) as error:
+            raise Error(f"{path}: not a scene: {error!r}; `wiggly check` says more") from None
+
+    @classmethod
+    def load(cls, path: str | os.PathLike[str]) -> Scene:
+        """Reads a file."""
+        return cls(path, json.loads(Path(path).read_text(encoding="utf-8")))
+
+    @property
+    def needs_rig(self) -> bool:
+        """Whether its splines need what only the program has: pins, a floor, or the motion of a clip."""
+        rigs = self.data.get("rigs", [])
+        follows = (isinstance(s.get("equilibrium"), dict) and "model" in s["equilibrium"] for s in self._splines.values())
+        return any(rig.get("pins") or "floor" in rig for rig in rigs) or any(follows)
+
+    def solve(self, solver: str = "chain") -> dict[str, Curve]:
+        """All curves, by name: the same bits as `wiggly solve --solver chain`.
+
+        Splines that need a rig are solved by the program `wiggly`: that of the environment variable WIGGLY, else on the path,
+        else in the tree's build folder.
+        """
+        if self.needs_rig:
+            return self._solve_by_program(solver)
+        curves: dict[str, Curve] = {}
+        for name in self._splines:
+            self._solve_one(name, solver, curves, [])
+        return {name: curves[name] for name in self._splines}
+
+    def export(self, path: str | os.PathLike[str], *options: str) -> None:
+        """Writes what `wiggly export` writes: .glb, .usda, .csv and others, by the ending of the file."""
+        self._run("export", str(self.path), "-o", str(path), "--quiet", *options)
+
+    def _solve_one(self, name: str, solver: str, curves: dict[str, Curve], followers: list[str]) -> Curve:
+        if name in curves:
+            return curves[name]
+        if name in followers:
+            raise Error(f"{self.path}: splines follow each other in a circle: {' → '.join([*followers, name])}")
+        if name not in self._splines:
+            raise Error(f"{self.path}: expected the name of a spline, got {name!r}")
+        source = self._splines[name]
+        tracks = {
+            key: self._solve_one(source[key]["spline"], solver, curves, [*followers, name]).total
+            for key in PARAMETERS
+            if isinstance(source.get(key), dict) and "spline" in source[key]
+        }
+        try:
+            curves[name] = self._solve_spline(source, tracks, solver)
+        except (KeyError, TypeError, ValueError) as error:
+            if isinstance(error, Error):
+                raise Error(f"{self.path}: {name}: {error}", error.status, error.knot) from None
+            raise Error(f"{self.path}: {name}: {error!r}; `wiggly check` says more") from None
+        return curves[name]
+
+    def _solve_spline(self, source: dict[str, Any], tracks: dict[str, Any], solver: str, knotless: bool = False) -> Curve:
+        settings = {"frequency": 0, **{key: source[key] for key in PLAIN if key in source}, **tracks}
+        if "spring" in source or "friction" in source:
+            settings["frequency"], settings["damping"] = from_spring(source.get("spring", 0), source.get("friction", 0))
+        if "variation" in source:
+            settings["variation"], settings["seed"] = source["variation"]["amount"], source["variation"]["seed"]
+        keys = [] if knotless else source.get("knots", [])
+        knots = [
+            Knot(k["frame"], 0, still=True) if k.get("still") else
+            Knot(k["frame"], k["value"], k.get("slope"), k.get("stiffness"), k.get("im")) for k in keys
+        ]  # fmt: skip
+        spline, curve = Spline(knots, **settings), Curve(self.n, 1 / self.fps)
+        samples = np.floor((spline.times - self._first) * self._substeps + 0.5)
+        desc, _knots = spline._describe(self.n, self.fps, samples)
+        solve_into(shared_solver(self.n, spline._room(self.n)), desc, curve, solver)
+        return curve
+
+    def _run(self, *arguments: str) -> str:
+        tree = Path(__file__).resolve().parents[3] / "build" / "wiggly"
+        program = os.environ.get("WIGGLY") or shutil.which("wiggly") or (str(tree) if tree.exists() else None)
+        if not program or not shutil.which(program):
+            raise Error(f"{self.path}: this needs the program wiggly: build it with make, and set WIGGLY to its path")
+        done = subprocess.run([program, *arguments], capture_output=True, encoding="utf-8")
+        if done.returncode:
+            raise Error(done.stderr.strip().removeprefix("wiggly: "))
+        for line in done.stderr.splitlines():
+            if ": warning: " in line:
+                warn(line)
+        return done.stdout
+
+    def _solve_by_program(self, solver: str) -> dict[str, Curve]:
+        rows = list(csv.reader(self._run("solve", str(self.path), "--solver", solver).splitlines()))
+        table = np.array(rows[1:], dtype=float).T[1:]
+        curves = {}
+        for i, (name, source) in enumerate(self._splines.items()):
+            still = {key: value for key, value in source.items() if not isinstance(value, dict)}
+            curve = self._solve_spline(still, {}, solver, knotless=True)
+            curve.total[:], curve.re[:], curve.im[:] = table[3 * i : 3 * i + 3]
+            curve.y[:] = curve.total - curve.re
+            curves[name] = curve
+        return curves

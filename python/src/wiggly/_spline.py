@@ -1,0 +1,313 @@
+"""Knots and parameters, and how they are solved."""
+
+from __future__ import annotations
+
+from ctypes import addressof, byref, c_double, sizeof
+from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from ._curve import Curve
+from ._library import (KNOT, MODES, PASSIVES, SOLVERS, STARTS, CDesc, CExplanation, CParam, Error, Handle, Status, lib, report,
+                       shared_solver)  # fmt: skip
+
+Param = Union[float, NDArray[np.float64], Sequence[float]]
+Limits = tuple[Optional[float], Optional[float]]
+
+
+class Knot(NamedTuple):
+    """What the curve goes through. A pair (time, value) is a knot, too."""
+
+    time: float
+    """Seconds."""
+    value: float = 0
+    """Of the total; ignored at a still knot."""
+    slope: float | None = None
+    """Value per second; None: free."""
+    stiffness: float | None = None
+    """1/s, the cost of missing the slope; None: 1000, which is firm."""
+    phase: float | None = None
+    """Im x, which makes the knot a pose that holds lagging parts, too; None: free."""
+    still: bool = False
+    """The motion comes to rest and begins again from rest."""
+
+
+def read_knots(knots: Iterable[Any] | NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[Any]]:
+    """Times in seconds, and the library's knots without their samples."""
+    if isinstance(knots, np.ndarray) and knots.dtype != object:
+        if knots.ndim != 2 or knots.shape[1] != 2:
+            raise ValueError(f"knots: expected an array of shape (n, 2), got {knots.shape}")
+        native = np.zeros(len(knots), KNOT)
+        native["value"] = knots[:, 1]
+        return knots[:, 0].astype(float), native
+    times, rows = [], []
+    for knot in knots:
+        time, value, slope, stiffness, phase, still = knot if type(knot) is Knot else Knot(*knot)
+        times.append(time)
+        rows.append((0, slope is not None, phase is not None, still, value, slope or 0, stiffness or 0, phase or 0))
+    return np.array(times, dtype=float), np.array(rows, KNOT)
+
+
+def nearest_samples(times: NDArray[np.float64], fps: float) -> NDArray[np.float64]:
+    """The sample nearest to each time; of two, the later one."""
+    return np.asarray(np.floor(times * fps + 0.5))
+
+
+def word(name: str, value: str, words: dict[str, int]) -> int:
+    """The number of a word."""
+    if value not in words:
+        raise ValueError(f"{name}: expected {', '.join(words)}, got {value!r}")
+    return words[value]
+
+
+class Spline:
+    """Knots and how the curve between them swings.
+
+    Parameters
+    ----------
+    knots : iterable of Knot or (time, value), or array_like of shape (k, 2)
+        Times in seconds. A knot sits on the sample nearest to its time, floor(time * fps + 1/2); two on one sample are an error.
+    frequency : float or array_like of shape (n,)
+        Hz, undamped; 0: no swing. An array is a track, one number a sample.
+    damping : float or array_like of shape (n,)
+        Ratio: 0 swings on, 1 is critical, more (in real mode only) creeps.
+    bandwidth : float or array_like of shape (n,)
+        How far the frequency may shift between knots, as a fraction of it, 0 to 1; complex mode only.
+    calm : float
+        The cost of a swing at the start, 0 to 1; 0 is the paper's formula.
+    equilibrium : float or array_like of shape (n,)
+        What the curve swings about, a value.
+    mode : {"complex", "real", "cubic"}
+        Swings with a free phase; as a damped spring; or not at all, the classical cubic spline.
+    start : {"free", "rest", "loop"}
+        Mid-swing; at rest on the first sample; or round, where the last sample is the first one again.
+    passive : {"oscillator", "filter"}
+        How it moves by itself: as a damped spring, or as the paper's filter.
+    limits : (low, high), optional
+        The total stays between them; None: no limit on that side.
+    variation, seed : float, int
+        Another motion through the same knots, which strays by `variation` times the farthest knot; the seed chooses it.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> sway = Spline([(0, 0), (1, 1)], frequency=1.5, damping=0.1, start="rest")
+    >>> curve = sway.solve(97, fps=24)
+    >>> float(curve.total[24])
+    1.0
+
+    Without knots it follows through on something that moves:
+
+    >>> walk = np.clip(np.arange(97) / 24, 0, 1)
+    >>> tail = Spline(frequency=1.5, damping=0.1, equilibrium=walk).solve(97)
+    >>> bool(tail.total.max() > 1)
+    True
+    """
+
+    def __init__(
+        self,
+        knots: Iterable[Any] | NDArray[np.float64] = (),
+        *,
+        frequency: Param = 0,
+        damping: Param = 0,
+        bandwidth: Param = 0.1,
+        calm: float = 1,
+        equilibrium: Param = 0,
+        mode: str = "complex",
+        start: str = "free",
+        passive: str = "oscillator",
+        limits: Limits | None = None,
+        variation: float = 0,
+        seed: int = 0,
+    ) -> None:
+        self.times, self._knots = read_knots(knots)
+        self._tracks: list[NDArray[np.float64]] = []
+        self._desc = desc = CDesc(size=sizeof(CDesc), knot_count=len(self._knots), calm=calm, has_calm=True)
+        desc.mode, desc.start, desc.passive = word("mode", mode, MODES), word("start", start, STARTS), word("passive", passive, PASSIVES)
+        desc.variation, desc.variation_seed = variation, seed
+        if limits is not None:
+            low, high = limits
+            desc.low, desc.has_low = low or 0, low is not None
+            desc.high, desc.has_high = high or 0, high is not None
+        desc.frequency, desc.damping = self._param(frequency), self._param(damping)
+        desc.bandwidth, desc.equilibrium = self._param(bandwidth), self._param(equilibrium)
+
+    def _param(self, number: Param) -> CParam:
+        if isinstance(number, (int, float)):
+            return CParam(number)
+        track = np.ascontiguousarray(number, dtype=float)
+        if track.ndim == 0:
+            return CParam(float(track))
+        self._tracks.append(track)
+        return CParam(0, track.ctypes.data)
+
+    def _describe(self, n: int, fps: float, samples: NDArray[Any] | None = None) -> tuple[CDesc, NDArray[Any]]:
+        """The library's description at a rate, and the knots that it points to."""
+        for track in self._tracks:
+            if track.shape != (n,):
+                raise ValueError(f"a track: expected an array of shape ({n},), one number a sample, got {track.shape}")
+        if not fps > 0:
+            raise ValueError(f"fps: expected a number above 0, got {fps!r}")
+        knots = self._knots.copy()
+        if samples is None:
+            samples = nearest_samples(self.times, fps)
+        wrong = ~(np.abs(samples) < 2**31)
+        if wrong.any():
+            knot = int(wrong.argmax())
+            raise Error(f"knot {knot}: {Status.KNOT_OUTSIDE.sentence}", Status.KNOT_OUTSIDE, knot)
+        knots["sample"] = samples
+        desc = CDesc.from_buffer_copy(self._desc)
+        desc.knots, desc.samples, desc.step = knots.ctypes.data, n, 1 / fps
+        return desc, knots
+
+    def _room(self, n: int) -> int:
+        return len(self._knots) + (n if self._desc.has_low or self._desc.has_high else 0)
+
+    def solve(self, n: int, fps: float = 24, *, solver: str = "chain") -> Curve:
+        """The curve of `n` samples.
+
+        Parameters
+        ----------
+        n : int
+            Samples; the last is at (n - 1) / fps seconds.
+        fps : float
+            Samples per second.
+        solver : {"chain", "band"}
+            From knot to knot, fast; or the band of all samples, as in the paper. They differ only by rounding.
+
+        Returns
+        -------
+        Curve
+
+        Raises
+        ------
+        Error
+            With the library's sentence and the knot's index.
+
+        Warns
+        -----
+        WigglyWarning
+            If the curve was solved, but not as it was described.
+        """
+        curve = Curve(n, 1 / fps if fps > 0 else 0)
+        desc, _knots = self._describe(n, fps)
+        solve_into(shared_solver(n, self._room(n)), desc, curve, solver)
+        return curve
+
+    def prepare(self, n: int, fps: float = 24) -> Solver:
+        """A solver with its own memory, for solving again and again while knots move."""
+        return Solver(self, n, fps)
+
+    def poles(self, fps: float = 24, sample: int = 0) -> Poles:
+        """The two poles of the filter at a sample (sections 4 and 5 of the paper).
+
+        >>> Spline(frequency=1, damping=0.5, mode="real").poles().s.real.round(3).tolist()
+        [-3.142, -3.142]
+        """
+        desc, _knots = self._describe(len(self._tracks[0]) if self._tracks else sample + 1, fps, np.zeros(len(self._knots)))
+        desc.knot_count = 0
+        poles = lib.wiggly_poles_at(addressof(desc), sample)
+        return Poles(*(np.array(pair, dtype=float).view(complex)[:, 0] for pair in (poles.s, poles.z)))
+
+
+def solve_into(solver: int | None, desc: CDesc, curve: Curve, method: str = "chain") -> None:
+    """Solves with a solver's address; warns or raises."""
+    lib.wiggly_set_method(solver, word("solver", method, SOLVERS))
+    code = lib.wiggly_solve(solver, addressof(desc), curve._at)
+    if code:
+        report(code, curve._struct.knot)
+        curve.status = Status(code)
+
+
+class Solver:
+    """A prepared spline whose knots change in place: nothing is allocated in `solve`.
+
+    Attributes
+    ----------
+    knots : structured ndarray, shape (k,)
+        The library's own knots. Write to them: `knots["value"][1] = 0.7`; also "sample", "slope", "phase" and the flags
+        "has_slope", "has_phase", "still".
+    curve : Curve
+        What `solve` fills. Its arrays are the same at every solve; copy what you keep.
+
+    Examples
+    --------
+    >>> solver = Spline([(0, 0), (1, 1)], frequency=2).prepare(73)
+    >>> value = solver.knots["value"]
+    >>> value[1] = 0.7
+    >>> float(solver.solve().total[24])
+    0.7
+    """
+
+    def __init__(self, spline: Spline, n: int, fps: float = 24) -> None:
+        self.curve = Curve(n, 1 / fps if fps > 0 else 0)
+        self._spline = spline  # holds the tracks
+        self._desc, self.knots = spline._describe(n, fps)
+        self._handle = Handle("create", max(n, 1), spline._room(n))
+        self._call = lib.wiggly_solve
+        self._arguments = (self._handle.at, addressof(self._desc), self.curve._at)
+
+    def solve(self) -> Curve:
+        """Solves the knots as they are now into `curve`, and returns it."""
+        code = self._call(*self._arguments)
+        curve = self.curve
+        if code or curve.status:
+            report(code, curve._struct.knot)
+            curve.status = Status(code)
+        return curve
+
+
+class Poles(NamedTuple):
+    """The two poles of a filter."""
+
+    s: NDArray[np.complex128]
+    """Continuous, 1/s, shape (2,)."""
+    z: NDArray[np.complex128]
+    """Discrete, exp(s / fps), shape (2,)."""
+
+
+class Explanation(NamedTuple):
+    """An oscillation that may explain knots."""
+
+    frequency: float
+    """Hz."""
+    damping: float
+    """Ratio."""
+    cost: float
+    """The lower the better; a difference of 1 is e times less likely."""
+
+
+def explain(knots: Iterable[Any] | NDArray[np.float64], *, fps: float = 24, mode: str = "complex", equilibrium: float = 0) -> list[Explanation]:
+    """The frequency and damping that explain knots best, and the runner-up.
+
+    Returns
+    -------
+    list of Explanation
+        At most two, the best first; none where there are fewer than four knots.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> t = np.arange(8) / 6
+    >>> best = explain(np.column_stack([t, np.exp(-0.3 * t) * np.cos(2 * np.pi * 1.5 * t)]))[0]
+    >>> round(best.frequency, 2)
+    1.5
+    """
+    spline = Spline(knots, mode=mode, equilibrium=equilibrium)
+    last = int(nearest_samples(spline.times, fps).max()) if len(spline.times) else 0
+    desc, _knots = spline._describe(max(last, 0) + 1, fps)
+    best = (CExplanation * 2)()
+    return [Explanation(e.frequency, e.damping, e.cost) for e in best[: lib.wiggly_explain(addressof(desc), addressof(best))]]
+
+
+def from_spring(k: float, gamma: float) -> tuple[float, float]:
+    """Frequency (Hz) and damping ratio of a spring k (1/s²) and a friction gamma (1/s).
+
+    >>> frequency, damping = from_spring(39.5, 1.2)
+    >>> round(frequency, 3), round(damping, 3)
+    (1.0, 0.095)
+    """
+    frequency, damping = c_double(), c_double()
+    lib.wiggly_from_spring(k, gamma, byref(frequency), byref(damping))
+    return frequency.value, damping.value

@@ -1,0 +1,272 @@
+"""The package against the program `wiggly`, and each promise of its pages."""
+
+import copy
+import csv
+import doctest
+import json
+import os
+import pickle
+import subprocess
+import sys
+import tempfile
+import threading
+import unittest
+import warnings
+from pathlib import Path
+
+import numpy as np
+
+import wiggly
+from wiggly import Bound, Group, Knot, Pin, Scene, Spline, Status, solve_many
+
+TREE = Path(__file__).resolve().parents[2]
+PROGRAM = os.environ.get("WIGGLY", str(TREE / "build" / "wiggly"))
+KNOTS = [(0, 0), (1, 1), (2.5, -0.4), (3, 0.2)]
+
+
+def load_tests(loader, tests, pattern):
+    for name in sorted(name for name in sys.modules if name.split(".")[0] == "wiggly"):
+        tests.addTests(doctest.DocTestSuite(sys.modules[name]))
+    return tests
+
+
+def solved_by_program(path, solver):
+    """The columns of `wiggly solve`: total, Re x, Im x of each spline."""
+    out = subprocess.run([PROGRAM, "solve", str(path), "--solver", solver], capture_output=True, encoding="utf-8", check=True).stdout
+    return np.array(list(csv.reader(out.splitlines()))[1:], dtype=float).T[1:]
+
+
+class Scenes(unittest.TestCase):
+    def compare(self, path, solver="chain"):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", wiggly.WigglyWarning)
+            curves = Scene.load(path).solve(solver)
+        rows = [row for curve in curves.values() for row in (curve.total, curve.re, curve.im)]
+        np.testing.assert_array_equal(rows, solved_by_program(path, solver), err_msg=str(path))
+
+    def test_every_committed_scene_has_the_bits_of_the_program(self):
+        scenes = sorted((TREE / "assets" / "scenes").glob("*.json"))
+        self.assertGreater(len(scenes), 10)
+        for path in scenes:
+            self.compare(path)
+
+    def test_vectors_have_the_bits_of_the_program_by_both_solvers(self):
+        # tracks, spring and friction, substeps, poses, stills, loops
+        for name in ("track_uses_total", "spring_friction", "complex_substeps", "keys_pose_loop", "keys_two_stills", "loop_resonant"):
+            for solver in ("chain", "band"):
+                self.compare(TREE / "tests" / "vectors" / f"{name}.json", solver)
+
+    def test_limits_variation_and_a_first_frame(self):
+        scene = {"wiggly": 1, "fps": 30, "substeps": 3, "frames": [10, 70], "splines": [
+            {"name": "a", "frequency": 1.3, "limits": [None, 1.1], "variation": {"seed": 7, "amount": 0.3},
+             "knots": [{"frame": 60.2, "value": 1}, {"frame": 12.5, "value": 0.3, "slope": 2}]}]}  # fmt: skip
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "scene.json"
+            path.write_text(json.dumps(scene))
+            self.compare(path)
+
+    def test_a_scene_with_a_rig_says_what_it_needs(self):
+        path = TREE / "assets" / "scenes" / "hands.json"
+        before = os.environ.copy()
+        os.environ["WIGGLY"] = "/nowhere/wiggly"
+        try:
+            with self.assertRaisesRegex(wiggly.Error, "WIGGLY"):
+                Scene.load(path).solve()
+        finally:
+            os.environ.clear()
+            os.environ.update(before)
+
+    def test_export_writes_the_programs_file(self):
+        with tempfile.TemporaryDirectory() as folder:
+            scene = TREE / "assets" / "scenes" / "tail.json"
+            Scene.load(scene).export(Path(folder) / "a.csv")
+            subprocess.run([PROGRAM, "export", str(scene), "-o", str(Path(folder) / "b.csv"), "--quiet"], check=True)
+            self.assertEqual((Path(folder) / "a.csv").read_bytes(), (Path(folder) / "b.csv").read_bytes())
+
+    def test_faults_of_scenes_are_sentences(self):
+        for splines, fragment in (
+            ([{"name": "a", "frequency": {"spline": "a"}}], "circle: a → a"),
+            ([{"name": "a", "frequency": {"spline": "b"}}], "'b'"),
+            ([{"name": "a", "knots": [{"frame": 1}]}], "wiggly check"),
+            ([{"name": "a", "knots": [{"frame": 500, "value": 1}]}], "outside"),
+        ):
+            with self.assertRaisesRegex(wiggly.Error, f"mine.json: .*{fragment}"):
+                Scene("mine.json", {"frames": [0, 24], "splines": splines}).solve()
+
+
+class Splines(unittest.TestCase):
+    def test_every_knot_is_hit_exactly_whatever_its_form(self):
+        for knots in (KNOTS, np.array(KNOTS), [Knot(*knot) for knot in KNOTS], iter(KNOTS)):
+            curve = Spline(knots, frequency=1, damping=0.1).solve(97)
+            self.assertEqual(curve.total[[0, 24, 60, 72]].tolist(), [0, 1, -0.4, 0.2])
+
+    def test_a_time_becomes_the_nearest_sample(self):
+        curve = Spline([(0.49 / 24, 1), (1.5 / 24, 2)], mode="cubic").solve(5, fps=24)
+        self.assertEqual(curve.total[[0, 2]].tolist(), [1, 2])
+
+    def test_errors_name_the_knot_and_are_the_librarys_sentences(self):
+        for knots, status, index in (
+            ([(0, 0), (1, 1), (1.01, 2)], Status.KNOT_TWICE, 2),
+            ([(0, 0), (9, 1)], Status.KNOT_OUTSIDE, 1),
+            ([(0, 0), (float("nan"), 1)], Status.KNOT_OUTSIDE, 1),
+            ([(0, float("inf"))], Status.KNOT_NUMBER, 0),
+            ([(0, 0), Knot(1, 0, slope=1, still=True)], Status.KNOT_STILL, 1),
+        ):
+            with self.assertRaises(ValueError) as caught:
+                Spline(knots, frequency=1).solve(97)
+            self.assertEqual((caught.exception.status, caught.exception.knot), (status, index))
+            self.assertEqual(str(caught.exception), f"knot {index}: {status.sentence}")
+            self.assertEqual(pickle.loads(pickle.dumps(caught.exception)).knot, index)
+
+    def test_wrong_arguments_are_errors_in_words(self):
+        for wrong, fragment in (
+            (lambda: Spline(mode="Complex"), "mode: expected complex, real, cubic, got 'Complex'"),
+            (lambda: Spline(np.zeros((3, 3))), r"knots: .* \(n, 2\), got \(3, 3\)"),
+            (lambda: Spline(frequency=np.ones(5)).solve(6), r"track: .* \(6,\), .* got \(5,\)"),
+            (lambda: Spline().solve(0, fps=0), "fps"),
+            (lambda: Spline(calm=2).solve(5), "calm 0 to 1"),
+        ):
+            with self.assertRaisesRegex(ValueError, fragment):
+                wrong()
+
+    def test_a_curve_that_is_not_as_described_warns(self):
+        path = TREE / "tests" / "vectors" / "loop_resonant.json"
+        with self.assertWarnsRegex(wiggly.WigglyWarning, "calm 0.05") as caught:
+            curves = Scene.load(path).solve()
+        self.assertEqual(caught.filename, __file__)
+        self.assertEqual(curves["x"].status, Status.CALMED)
+
+    def test_limits_hold(self):
+        free = Spline(KNOTS, frequency=0.7).solve(97)
+        held = Spline(KNOTS, frequency=0.7, limits=(-0.5, None)).solve(97)
+        self.assertLess(free.total.min(), -0.6)
+        self.assertGreaterEqual(held.total.min(), -0.5)
+
+    def test_lagged_is_the_equation(self):
+        curve = Spline(KNOTS, frequency=1, equilibrium=0.3).solve(97)
+        angles = np.linspace(0, 6, 5)
+        rows = curve.lagged(angles)
+        np.testing.assert_allclose(rows, [curve.y + (np.exp(-1j * angle) * curve.x).real for angle in angles], rtol=0, atol=1e-14)
+        np.testing.assert_array_equal(curve.lagged(angles[2]), rows[2])
+        self.assertEqual(curve(1.5, lag=angles[1]), rows[1, 36])
+
+    def test_a_curve_between_samples(self):
+        curve = Spline(KNOTS, frequency=1, start="loop").solve(97)
+        t = np.array([[0.51, 1.013], [2.2, 3.9]])
+        step = 1e-5
+        np.testing.assert_allclose(curve.derivative(t), (curve(t + step) - curve(t - step)) / (2 * step), rtol=1e-6)
+        self.assertAlmostEqual(curve(0.51 + 4), curve(0.51), 12)
+        self.assertIsInstance(curve(0.51), float)
+        np.testing.assert_allclose(curve(curve.times), curve.total, atol=1e-15)
+
+    def test_a_prepared_solver_has_the_same_bits(self):
+        solver = Spline(KNOTS, frequency=1, damping=0.1, limits=(-2, 2)).prepare(97)
+        for value in (0.5, -1, 1.9):
+            solver.knots["value"][1] = value
+            knots = [KNOTS[0], (1, value), *KNOTS[2:]]
+            expected = Spline(knots, frequency=1, damping=0.1, limits=(-2, 2)).solve(97)
+            np.testing.assert_array_equal(solver.solve()._block, expected._block)
+        solver.knots["sample"][1] = 60
+        with self.assertRaises(wiggly.Error) as caught:
+            solver.solve()
+        self.assertEqual(caught.exception.status, Status.KNOT_TWICE)
+
+    def test_curves_can_be_copied_and_pickled(self):
+        curve = Spline(KNOTS, frequency=1).solve(97)
+        for other in (pickle.loads(pickle.dumps(curve)), copy.deepcopy(curve)):
+            np.testing.assert_array_equal(other._block, curve._block)
+            self.assertEqual(other(0.51), curve(0.51))
+            other.total[0] = 9
+            self.assertEqual(curve.total[0], 0)
+
+    def test_threads_have_the_same_bits(self):
+        expected, wrong = Spline(KNOTS, frequency=1).solve(97).total, []
+
+        def work():
+            for i in range(50):
+                Spline(KNOTS, frequency=2).solve(97 + i)
+                if not np.array_equal(Spline(KNOTS, frequency=1).solve(97).total, expected):
+                    wrong.append(i)
+
+        threads = [threading.Thread(target=work) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        self.assertEqual(wrong, [])
+
+    def test_explanation_and_poles(self):
+        self.assertEqual(wiggly.explain(KNOTS[:3]), [])
+        poles = Spline(frequency=2, damping=0.1, mode="real").poles(fps=30)
+        omega = 4 * np.pi
+        np.testing.assert_allclose(sorted(poles.s.imag), [-omega * np.sqrt(0.99), omega * np.sqrt(0.99)])
+        np.testing.assert_allclose(poles.z, np.exp(poles.s / 30))
+
+
+class Crowds(unittest.TestCase):
+    def test_many_have_the_bits_of_one_by_one(self):
+        random = np.random.default_rng(3)
+        spline = Spline(frequency=1.5, damping=0.1, equilibrium=0.2)
+        times = np.sort(random.choice(96, (40, 4)) + np.arange(4) * 100, axis=1) / 24
+        times[7, 2:] = np.nan
+        values, slopes = random.normal(size=(4, 40)).T, np.where(random.random((40, 4)) < 0.3, 1.0, np.nan)
+        many = solve_many(spline, times, values, 401, slopes=slopes, parts=("total", "y", "re", "im"), threads=3)
+        for i in range(40):
+            knots = [Knot(t, v, None if np.isnan(s) else s) for t, v, s in zip(times[i], values[i], slopes[i]) if not np.isnan(t)]
+            one = Spline(knots, frequency=1.5, damping=0.1, equilibrium=0.2).solve(401)
+            for part in ("total", "y", "re", "im"):
+                np.testing.assert_array_equal(getattr(many, part)[i], getattr(one, part))
+
+    def test_the_first_wrong_spline_is_named(self):
+        times = np.array([[0, 1], [0, 0], [0, 9]])
+        with self.assertRaises(wiggly.Error) as caught:
+            solve_many(Spline(frequency=1), times, [0, 1], 97)
+        self.assertEqual((caught.exception.spline, caught.exception.knot), (1, 1))
+        many = solve_many(Spline(frequency=1), times, [0, 1], 97, check=False)
+        self.assertEqual(many.status.tolist(), [0, Status.KNOT_TWICE, Status.KNOT_OUTSIDE])
+        self.assertTrue(np.isnan(many.total[1:]).all() and np.isfinite(many.total[0]).all())
+
+
+class Groups(unittest.TestCase):
+    def test_pins_have_the_exact_answers(self):
+        for name in ("one_hand", "loop", "two_points_in_one_frame"):
+            path = TREE / "tests" / "vectors" / "pins" / name
+            case = json.loads(path.with_suffix(".json").read_text())
+            scene = Scene(path, case["scene"])
+            table = np.loadtxt(path.with_suffix(".csv"), delimiter=",", skiprows=1).T
+            sources = {source["name"]: source for source in case["scene"]["splines"]}
+            splines = []
+            for member in case["group"]:
+                source = dict(sources[member])
+                del source["name"]
+                knots = [(k["frame"] / 24, k["value"]) for k in source.pop("knots", [])]
+                splines.append(Spline(knots, **source))
+            pins = [
+                Pin(p["sample"] / scene.fps, {case["group"].index(s): np.array(c) @ [1, 1j] for s, c in p["pulls"].items()}, p["to"])
+                for p in case["pins"]
+            ]
+            together = Group(splines, [case["weight"][member] for member in case["group"]]).solve(scene.n, scene.fps, pins=pins)
+            for member, curve in zip(case["group"], together.curves):
+                column = 1 + 3 * list(sources).index(member)
+                np.testing.assert_allclose([curve.total, curve.re, curve.im], table[column : column + 3], rtol=0, atol=1e-8)
+                self.assertAlmostEqual(curve(0.51), np.interp(0.51 * scene.fps, np.arange(scene.n), curve.total), 1)
+            np.testing.assert_allclose(together.left, case["left"], rtol=0, atol=1e-9)
+
+    def test_a_bound_keeps_a_point_on_its_side(self):
+        spline = Spline(KNOTS, frequency=2)
+        free = spline.solve(97)
+        lowest = int(free.total.argmin())
+        bound = Bound(lowest / 24, [1], free.total[lowest] + 0.1)
+        held = Group([spline]).solve(97, bounds=[bound])
+        self.assertAlmostEqual(held.curves[0].total[lowest], bound.least, 8)
+        self.assertGreater(held.push[0], 0)
+        self.assertLess(held.missing[0], 1e-8)
+
+    def test_errors_name_spline_and_knot(self):
+        with self.assertRaises(wiggly.Error) as caught:
+            Group([Spline(KNOTS, frequency=1), Spline([(0, 0), (9, 0)], frequency=1)]).solve(97)
+        self.assertEqual((caught.exception.spline, caught.exception.knot), (1, 1))
+
+
+if __name__ == "__main__":
+    unittest.main()
