@@ -7,6 +7,7 @@
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
 #   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
+#   make blender    the extension for Blender, a .zip in the build folder
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports, and takes in files of others
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
@@ -119,7 +120,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test test-all bench feel adversary proof models check figures regress fuzz fuzzers install clean help packages \
+.PHONY: all library run test test-all bench feel adversary blender proof models check figures regress fuzz fuzzers install clean help packages \
     compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
@@ -159,6 +160,9 @@ $(B)/models/%.obj: $(B)/%_obj
 $(B)/models/%.glb: $(B)/%_glb
 	@mkdir -p $(@D)
 	$(Q)$< $@
+
+blender:
+	$(Q)tools/pack-blender.sh $(B) $(VERSION)
 
 # Programs of others evaluate every file that wiggly writes; fetched into the build folder.
 proof: $(B)/wiggly
@@ -220,7 +224,7 @@ clean:
 # --- what must be installed first --------------------------------------------------------------------------------------
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
 
-SETS := $(if $(filter-out check clean help library %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
+SETS := $(if $(filter-out check clean help library blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
 SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS))
 packages:
 	$(Q)tools/install-missing.sh $(SETS)

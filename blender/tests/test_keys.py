@@ -1,0 +1,109 @@
+"""Keys that hold more, loops, follow-through, and what each operator says."""
+from common import *
+
+
+def channel(rig, name, frame):
+    return curves.find(rig, curves.path_of(name)).evaluate(frame)
+
+
+def slopes():
+    rig = fresh()
+    add(rig, follow=False)
+    curve = key(rig, 'tail side', (10, 1), (40, 0))
+    before = channel(rig, 'tail side re', 11) - channel(rig, 'tail side re', 9)
+    point = curve.keyframe_points[0]
+    point.handle_left_type = point.handle_right_type = 'FREE'
+    point.handle_right = point.co[0] + 3, point.co[1] + 0.6
+    curve.update()
+    bpy.context.view_layer.update()
+    slope = (channel(rig, 'tail side re', 11) - channel(rig, 'tail side re', 9)) / 2
+    ok('a free handle is a slope', abs(slope - 0.2) < 0.02 and abs(before / 2 - 0.2) > 0.02, slope, before / 2)
+    ok('the key is still hit', abs(channel(rig, 'tail side re', 10) - 1) < 1e-6)
+
+
+def poses_and_still_keys():
+    rig = fresh()
+    add(rig, follow=False)
+    curve = key(rig, 'tail side', (10, 1), (24, -0.7), (40, 0))
+    held = channel(rig, 'tail side im', 24)
+    curve.keyframe_points[1].type = 'EXTREME'
+    curve.update()
+    bpy.context.view_layer.update()
+    ok('an extreme holds the phase that is seen', abs(channel(rig, 'tail side im', 24) - held) < 1e-6)
+    rig.wiggly.splines['tail side'].frequency *= 1.3
+    key(rig, 'tail side', (50, 0.4))
+    ok('whatever changes', abs(channel(rig, 'tail side im', 24) - held) < 1e-6 and abs(held) > 0.1, held)
+    curve.keyframe_points[1].co[0] = 27
+    curve.update()
+    bpy.context.view_layer.update()
+    ok('and takes it along', abs(channel(rig, 'tail side im', 27) - held) < 1e-6)
+    curve.keyframe_points[1].type = 'KEYFRAME'
+    curve.update()
+    bpy.context.view_layer.update()
+    ok('until it is none any more', abs(channel(rig, 'tail side im', 27) - held) > 1e-3)
+    curve.keyframe_points[1].type = 'MOVING_HOLD'
+    curve.update()
+    bpy.context.view_layer.update()
+    ok('a moving hold is still', all(abs(channel(rig, f'tail side {part}', 27)) < 1e-6 for part in ('re', 'im')))
+    bpy.context.scene.frame_set(18)
+    was = bend(rig, 'tail_3')
+    bpy.ops.wiggly.key(kind='EXTREME')
+    bpy.context.view_layer.update()
+    ok('Insert Key keeps what is seen', max(abs(a - b) for a, b in zip(bend(rig, 'tail_3'), was)) < 1e-3, bend(rig, 'tail_3'), was)
+
+
+def loops():
+    rig = fresh(frames=(1, 49))
+    add(rig, follow=False, loop=True)
+    key(rig, 'tail side', (10, 1), (30, -1))
+    found = poses(rig, [1, 49, 0, 48, 1.5, 49.5])
+    ok('the last frame is the first one', apart({1: found[1]}, {1: found[49]}) < 1e-6)
+    ok('and goes on', apart({1: found[0]}, {1: found[48]}) < 1e-6 and apart({1: found[1.5]}, {1: found[49.5]}) < 1e-6)
+    ok('it moves', apart({1: found[1]}, {1: found[48]}) > 1e-3)
+
+
+def follow_through():
+    rig = fresh()
+    for frame, x in ((1, 0), (20, 0), (26, 1), (60, 1)):
+        rig.pose.bones['root'].location.x = x
+        rig.pose.bones['root'].keyframe_insert('location', index=0, frame=frame)
+    chain = add(rig)
+    ok('the motion of the body is read', abs(channel(rig, 'tail side y', 26) - channel(rig, 'tail side y', 20)) > 0.9)
+    bpy.context.scene.frame_set(10)
+    ok('it rests before', abs(bend(rig, 'tail_1')[2]) < 0.1, bend(rig, 'tail_1'))
+    bpy.context.scene.frame_set(25)
+    turned = bend(rig, 'tail_1')[2]
+    ok('it stays behind', turned > 5, turned)
+    from wiggly_blender import base
+    ok('what is read is fresh', not base.stale(rig, bpy.context.scene))
+    rig.pose.bones['root'].location.x = 2
+    rig.pose.bones['root'].keyframe_insert('location', index=0, frame=26)
+    ok('and stale once the action is edited', base.stale(rig, bpy.context.scene))
+    bpy.ops.wiggly.refresh()
+    bpy.context.scene.frame_set(25)
+    ok('until it is refreshed', not base.stale(rig, bpy.context.scene) and bend(rig, 'tail_1')[2] > 1.5 * turned)
+    key(rig, 'tail side', (40, 0.8))
+    bpy.context.scene.frame_set(40)
+    want = chain.channels[0].gain * (0.8 - channel(rig, 'tail side y', 40))
+    ok('keys say where the chain is over the motion', abs(bend(rig, 'tail_1')[2] - want) < 1e-4, bend(rig, 'tail_1'), want)
+
+
+def says():
+    def fails(words, call, *arguments, **options):
+        try:
+            call(*arguments, **options)
+        except RuntimeError as problem:
+            return ok(f'says: {words}', words in str(problem), problem)
+        ok(f'says: {words}', False)
+
+    rig = fresh()
+    select(rig)
+    fails('Select the first bone', bpy.ops.wiggly.add)
+    fails('has no chain', bpy.ops.wiggly.remove)
+    add(rig, follow=False)
+    select(rig, 'tail_2')
+    fails('already wiggles', bpy.ops.wiggly.add)
+    ok('nothing was added', len(rig.wiggly.chains) == 1 and len(rig.wiggly.splines) == 2)
+
+
+main(slopes, poses_and_still_keys, loops, follow_through, says)

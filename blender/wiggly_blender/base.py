@@ -1,0 +1,73 @@
+"""The motion that a chain follows: that of a bone as the action alone moves it."""
+import hashlib
+import math
+from . import chain as chains, curves
+
+
+def stamp(owner, scene):
+    """Differs once the action or the frames do."""
+    text = hashlib.sha1(f'{scene.frame_start} {scene.frame_end}'.encode())
+    for curve in curves.list_of(owner) or ():
+        if curve.data_path.startswith('pose.') or not curve.data_path.startswith('['):
+            text.update(curve.data_path.encode() + bytes([curve.array_index]) + curves.read(curve))
+    return text.hexdigest()
+
+
+def stale(owner, scene):
+    """Whether a followed motion is not the one of now."""
+    now = stamp(owner, scene) if any(spline.follow != 'none' for spline in owner.wiggly.splines) else ''
+    return any(spline.follow != 'none' and spline.stamp != now for spline in owner.wiggly.splines)
+
+
+def refresh(context, owner):
+    """Reads what the owner's splines follow, by playing the scene once with the wiggle muted."""
+    scene = context.scene
+    wanted = []
+    for spline in owner.wiggly.splines:
+        if spline.follow == 'none':
+            continue
+        chain = next((each for each in owner.wiggly.chains if any(c.spline == spline.name for c in each.channels)), None)
+        bones = chain and chains.bones_of(owner, chain)
+        bone = owner.pose.bones.get(spline.joint) if spline.joint else bones and bones[-1]
+        if not bones or not bone:
+            raise ValueError(f'"{spline.name}" follows the bone "{spline.joint}", which is not there')
+        wanted.append((spline, bone.name, chains.axes_at_rest(owner, chain, bones), []))
+    muted = [con for bone in owner.pose.bones for con in bone.constraints if con.name.startswith('Wiggle ') and not con.mute]
+    frame, subframe = scene.frame_current, scene.frame_subframe
+    for con in muted:
+        con.mute = True
+    try:
+        for at in range(scene.frame_start, scene.frame_end + 1):
+            scene.frame_set(at)
+            seen = owner.evaluated_get(context.evaluated_depsgraph_get())
+            for spline, name, axes, motion in wanted:
+                motion.append(sample(seen, name, spline.follow, axes, motion))
+    finally:
+        for con in muted:
+            con.mute = False
+        scene.frame_set(frame, subframe=subframe)
+    now = stamp(owner, scene)
+    for spline, _, _, motion in wanted:
+        mean = sum(value for value, _ in motion) / len(motion)
+        curves.write_samples(owner, spline.name + ' y', scene.frame_start, [spline.follow_gain * (value - mean) for value, _ in motion])
+        spline.stamp = now
+    chains_now = {c.name for c in owner.wiggly.chains}
+    for name in chains_now:
+        chains.drive(owner, owner.wiggly.chains[name])
+
+
+def sample(seen, name, of, axes, motion):
+    """Value and state at a frame. A place is summed up along the object's axes as they turn with it."""
+    bone = seen.pose.bones[name]
+    if of == 'turn':
+        side, along = axes.col[2], axes.col[1]
+        after = bone.matrix.to_3x3() @ bone.bone.matrix_local.to_3x3().inverted() @ along
+        across = side.cross(along)
+        turn = math.degrees(math.atan2(after.dot(across), after.dot(along)))
+        last = motion[-1][0] if motion else 0.0
+        return turn + 360 * round((last - turn) / 360), None
+    way = axes.col[2] if of == 'up' else axes.col[2].cross(axes.col[1])
+    way = seen.matrix_world.to_3x3().normalized() @ way
+    place = seen.matrix_world @ bone.head
+    value, before = motion[-1] if motion else (0.0, place)
+    return value + way.dot(place - before), place

@@ -1,0 +1,241 @@
+"""Chains: constraints that bend bones on top of their own action, and the drivers of these constraints.
+
+Bone n turns by q · C · Rz(side) · Rx(up) · Ry(twist) · C⁻¹, where q is what the action and earlier constraints say and C takes the
+chain's axes into the bone. Each angle is gain · (y + Re(e^(-j·n·lag) x)).
+"""
+import json
+import math
+import bpy
+from mathutils import Matrix, Vector
+from . import curves
+
+AXES = {'side': 'z', 'up': 'x', 'twist': 'y'}
+USUAL_LENGTH, USUAL_FREQUENCY, SLOWEST, FASTEST = 0.5, 1.5, 0.8, 3.5  # longer chains swing slower, like a pendulum
+SOLVED = {'frequency', 'damping', 'bandwidth', 'calm', 'start'}
+SHARED = SOLVED | {'lag', 'gain'}
+WHOLE = 110  # degrees: lag from the first bone to the tip, and the bend for a value of 1
+
+
+def constraint_name(chain, end=''):
+    return f'Wiggle {chain.name}{end}'
+
+
+def bones_of(owner, chain):
+    """The chain's bones, from the first to the last."""
+    name = constraint_name(chain)
+    return sorted((bone for bone in owner.pose.bones if name in bone.constraints), key=lambda bone: len(bone.parent_recursive))
+
+
+def from_bone(bone):
+    """The bone and those after it, to the tip or the first fork."""
+    row = [bone]
+    while len(row[-1].children) == 1:
+        row.append(row[-1].children[0])
+    return row
+
+
+def of_selection(context):
+    """The selected bones as rows; a bone selected alone is the first of its row."""
+    selected = list(context.selected_pose_bones or ())
+    if not selected:
+        raise ValueError('Select the first bone of a chain, or all its bones')
+    heads = [bone for bone in selected if bone.parent not in selected]
+    rows = []
+    for head in heads:
+        row = [head]
+        while True:
+            after = [bone for bone in row[-1].children if bone in selected]
+            if len(after) > 1:
+                raise ValueError(f'"{row[-1].name}" has several selected children: select one row of bones')
+            if not after:
+                break
+            row += after
+        rows.append(from_bone(head) if len(row) == 1 else row)
+    return rows
+
+
+def axes_at_rest(owner, chain, bones):
+    """Columns up, along, side in the armature's space."""
+    world = owner.matrix_world.to_3x3().normalized().inverted_safe()
+    along = bones[-1].bone.tail_local - bones[0].bone.head_local
+    along = along.normalized() if along.length > 0 else Vector((0, 1, 0))
+    up, front = world @ Vector((0, 0, 1)), world @ Vector((0, -1, 0))
+    side = front if abs(along.dot(up)) > 0.98 else up
+    side = (side - side.dot(along) * along).normalized()
+    side = Matrix.Rotation(math.radians(chain.turn), 3, along) @ side
+    return Matrix((along.cross(side), along, side)).transposed()
+
+
+def target_for(owner, first):
+    """What the constraints of a chain name as target: they need one, but do not read it. It must not follow the chain."""
+    above = first.parent_recursive
+    if above:
+        return owner, above[-1].name
+    other = next((bone for bone in owner.pose.bones if not bone.parent and bone != first), None)
+    if other:
+        return owner, other.name
+    others = [owner.parent] + [each for each in bpy.context.scene.objects if each.parent_type != 'BONE' and not each.constraints]
+    found = next((each for each in others if each and each != owner), None)
+    if not found:
+        raise ValueError(f'"{first.name}" has no parent: add any object to the scene, or a bone above the chain')
+    return found, ''
+
+
+def constrain(owner, chain, bones):
+    target, subtarget = target_for(owner, bones[0])
+    axes = axes_at_rest(owner, chain, bones)
+    for bone in bones:
+        into = (bone.bone.matrix_local.to_3x3().inverted() @ axes).to_quaternion()
+        ends = ('',) if into.angle < 1e-4 else (' <', '', ' >')
+        for end in ends:
+            con = bone.constraints.new('TRANSFORM')
+            con.name = constraint_name(chain, end)
+            con.target, con.subtarget = target, subtarget
+            con.owner_space, con.target_space = 'LOCAL', 'WORLD'
+            con.map_to, con.mix_mode_rot, con.to_euler_order, con.show_expanded = 'ROTATION', 'AFTER', 'YXZ', False
+            if end:
+                turn = (into if end == ' <' else into.inverted()).to_euler('YXZ')
+                con.to_min_x_rot, con.to_min_y_rot, con.to_min_z_rot = turn
+
+
+def each_of(value, n, count):
+    """A number, array or ramp at a bone."""
+    if isinstance(value, list):
+        return value[min(n, len(value) - 1)]
+    if isinstance(value, dict):
+        places, at = value['ramp'], n / max(count - 1, 1)
+        for (a, low), (b, high) in zip(places, places[1:]):
+            if at <= b:
+                return low if at <= a else low + (high - low) * (at - a) / (b - a)
+        return places[-1][1]
+    return value
+
+
+def weights(channel, n, count):
+    """Gain, times cos and sin of the lag, in radians at bone n."""
+    ramps = json.loads(channel.ramps) if channel.ramps else {}
+    lag = each_of(ramps['lag'], n, count) if 'lag' in ramps else n * channel.lag
+    gain = math.radians(each_of(ramps.get('gain', channel.gain), n, count))
+    return gain, gain * math.cos(math.radians(lag)), gain * math.sin(math.radians(lag))
+
+
+def drive(owner, chain):
+    """Writes the drivers of a chain anew."""
+    bones = bones_of(owner, chain)
+    for n, bone in enumerate(bones):
+        con = bone.constraints[constraint_name(chain)]
+        for axis, letter in AXES.items():
+            channels = [channel for channel in chain.channels if channel.axis == axis]
+            undrive(owner, con, letter)
+            if channels:
+                sign = -1 if chain.mirror and axis != 'up' else 1
+                drive_axis(owner, con, letter, [(channel, [sign * w for w in weights(channel, n, len(bones))]) for channel in channels])
+        for each in constraints_of(bone, chain):
+            each.mute = chain.mute
+
+
+def drive_axis(owner, con, letter, parts):
+    driver = con.driver_add(f'to_min_{letter}_rot').driver
+    terms = []
+
+    def variable(name):
+        new = driver.variables.new()
+        new.name = f'v{len(driver.variables)}'
+        new.targets[0].id = owner
+        new.targets[0].data_path = curves.path_of(name)
+        return new.name
+
+    for channel, (gain, real, imaginary) in parts:
+        spline = owner.wiggly.splines[channel.spline]
+        terms.append(f'{real:.9g}*{variable(spline.name + " re")}')
+        if imaginary:
+            terms.append(f'{imaginary:.9g}*{variable(spline.name + " im")}')
+        if channel.of == 'total' and spline.follow != 'none':
+            terms.append(f'{gain:.9g}*{variable(spline.name + " y")}')
+        elif channel.of == 'total' and spline.equilibrium:
+            terms.append(f'{gain * spline.equilibrium:.9g}')
+    driver.expression = '+'.join(terms).replace('+-', '-')
+
+
+def undrive(owner, con, letter):
+    if owner.animation_data and owner.animation_data.drivers.find(con.path_from_id(f'to_min_{letter}_rot')):
+        con.driver_remove(f'to_min_{letter}_rot')
+
+
+def constraints_of(bone, chain):
+    return [con for con in (bone.constraints.get(constraint_name(chain, end)) for end in (' <', '', ' >')) if con]
+
+
+def unique(name, taken):
+    return next(each for each in (name if n == 1 else f'{name} {n}' for n in range(1, len(taken) + 2)) if each not in taken)
+
+
+def make(owner, bones, follow, loop=False):
+    """Adds a chain with a spline for each of two axes."""
+    for bone in bones:
+        if any(con.name.startswith('Wiggle ') for con in bone.constraints):
+            raise ValueError(f'"{bone.name}" already wiggles: remove that first')
+    target_for(owner, bones[0])
+    wiggly = owner.wiggly
+    name = bones[0].name
+    bare = name.rstrip('0123456789').rstrip('_-. ')
+    chain = wiggly.chains.add()
+    chain.name = unique(bare or name, set(wiggly.chains.keys()) | {s.name[:-5] for s in wiggly.splines if s.name.endswith(' side')})
+    points = [bone.bone.head_local for bone in bones] + [bones[-1].bone.tail_local]
+    length = max(sum((b - a).length for a, b in zip(points, points[1:])) * owner.matrix_world.median_scale, 1e-3)
+    count = len(bones)
+    constrain(owner, chain, bones)
+    for axis in ('side', 'up'):
+        spline = wiggly.splines.add()
+        spline.name = f'{chain.name} {axis}'
+        owner[spline.name] = 0.0
+        spline.frequency = round(min(max(USUAL_FREQUENCY * math.sqrt(USUAL_LENGTH / length), SLOWEST), FASTEST), 1)
+        spline.start = 'loop' if loop else 'rest'
+        spline.follow = ('across' if axis == 'side' else 'up') if follow else 'none'
+        channel = chain.channels.add()
+        channel.spline, channel.axis, channel.of = spline.name, axis, 'displacement' if follow else 'total'
+        channel.lag = round(WHOLE / count)
+        channel.gain = round(math.degrees(2 / (length * (count + 1))) if follow else WHOLE / count, 1)
+    wiggly.active = len(wiggly.chains) - 1
+    drive(owner, chain)
+    return chain
+
+
+def remove(owner, chain):
+    """Takes a chain away, with all that it added."""
+    for bone in bones_of(owner, chain):
+        con = bone.constraints[constraint_name(chain)]
+        for letter in AXES.values():
+            undrive(owner, con, letter)
+        for con in constraints_of(bone, chain):
+            bone.constraints.remove(con)
+    wiggly = owner.wiggly
+    wiggly.active = max(0, min(wiggly.active, len(wiggly.chains) - 2))
+    names = {channel.spline for channel in chain.channels}
+    wiggly.chains.remove(wiggly.chains.find(chain.name))
+    for name in names - {channel.spline for each in wiggly.chains for channel in each.channels}:
+        remove_spline(owner, name)
+
+
+def remove_spline(owner, name):
+    for part in ('', ' re', ' im', ' y'):
+        curves.drop(owner, curves.path_of(name + part))
+        if name + part in owner:
+            del owner[name + part]
+    owner.wiggly.splines.remove(owner.wiggly.splines.find(name))
+    if not owner.wiggly.splines:
+        owner.property_unset('wiggly')
+
+
+def settings_changed(setting, context, name):
+    """After an edit in the panel: the chain's other axes get the same, and the drivers follow."""
+    owner = setting.id_data
+    for chain in owner.wiggly.chains if getattr(owner, 'pose', None) else ():
+        splines = [owner.wiggly.splines[channel.spline] for channel in chain.channels if channel.spline in owner.wiggly.splines]
+        for row in (chain.channels, splines):
+            if chain.alike and name in SHARED and any(setting == each for each in row):
+                for each in row:
+                    if getattr(each, name) != getattr(setting, name):
+                        setattr(each, name, getattr(setting, name))
+        if name not in SOLVED:
+            drive(owner, chain)

@@ -1,0 +1,106 @@
+"""F-Curves of any ID, in Blender 4.2 to 5.x."""
+from array import array
+import bpy
+
+LAYERED = bpy.app.version >= (4, 4, 0)
+HELD = 240000.0  # in a keyframe's unused `period`: its `back` holds the phase of a pose
+
+
+def path_of(name):
+    return f'["{bpy.utils.escape_identifier(name)}"]'
+
+
+def action_of(owner):
+    return owner.animation_data.action if owner.animation_data else None
+
+
+def list_of(owner, make=False):
+    """The F-Curves of an ID in its action, or None."""
+    if make:
+        animation = owner.animation_data_create()
+        if not animation.action:
+            animation.action = bpy.data.actions.new(owner.name + ' action')
+        if LAYERED and not animation.action_slot:
+            suitable = animation.action_suitable_slots
+            animation.action_slot = suitable[0] if suitable else animation.action.slots.new(owner.id_type, owner.name)
+    action = action_of(owner)
+    if not action or not LAYERED:
+        return action and action.fcurves
+    slot = owner.animation_data.action_slot
+    if not slot:
+        return None
+    if make:
+        layer = action.layers[0] if action.layers else action.layers.new('Layer')
+        strip = layer.strips[0] if layer.strips else layer.strips.new(type='KEYFRAME')
+        return strip.channelbag(slot, ensure=True).fcurves
+    bag = action.layers[0].strips[0].channelbag(slot) if action.layers and action.layers[0].strips else None
+    return bag and bag.fcurves
+
+
+def find(owner, path, index=0):
+    curves = list_of(owner)
+    return curves.find(path, index=index) if curves else None
+
+
+def ensure(owner, path, index=0):
+    return find(owner, path, index) or list_of(owner, make=True).new(path, index=index)
+
+
+def drop(owner, path, index=0):
+    curve = find(owner, path, index)
+    if curve:
+        list_of(owner).remove(curve)
+
+
+def read(curve):
+    """The keys as bytes: equal bytes are equal keys."""
+    points = curve.keyframe_points if curve else ()
+    parts = []
+    for name, code, size in (('co', 'f', 2), ('handle_left', 'f', 2), ('handle_right', 'f', 2), ('back', 'f', 1), ('period', 'f', 1),
+                             ('type', 'i', 1), ('handle_left_type', 'i', 1), ('handle_right_type', 'i', 1)):
+        values = array(code, bytes(4 * size * len(points)))
+        if points:
+            points.foreach_get(name, values)
+        parts.append(values.tobytes())
+    return b'|'.join(parts)
+
+
+def slope(point):
+    """Value per frame where a handle was set by hand, else None."""
+    for kind, handle in ((point.handle_right_type, point.handle_right), (point.handle_left_type, point.handle_left)):
+        if kind in {'FREE', 'ALIGNED'} and handle[0] != point.co[0]:
+            return (handle[1] - point.co[1]) / (handle[0] - point.co[0])
+    return None
+
+
+def samples(curve):
+    """First frame and values of a sampled curve."""
+    points = curve.sampled_points if curve else ()
+    flat = array('f', bytes(8 * len(points)))
+    if points:
+        points.foreach_get('co', flat)
+    return (round(flat[0]) if points else 0), flat[1::2]
+
+
+def write_samples(owner, name, first, values):
+    """Makes a curve of one value per frame; `values` has at least two."""
+    path = path_of(name)
+    if name not in owner:
+        owner[name] = 0.0
+    curve = ensure(owner, path)
+    old_first, old = samples(curve)
+    if len(old) != len(values) or old_first != first:
+        if old:
+            list_of(owner).remove(curve)
+            curve = ensure(owner, path)
+        for frame in (first, first + 1):
+            curve.keyframe_points.insert(frame, 0, options={'FAST'})
+        curve.convert_to_samples(first, first + len(values))
+        curve.lock = curve.hide = True
+        old = None
+    flat = array('f', bytes(8 * len(values)))
+    flat[0::2] = array('f', range(first, first + len(values)))
+    flat[1::2] = array('f', values)
+    if old is None or flat[1::2] != old:
+        curve.sampled_points.foreach_set('co', flat)
+        curve.update()

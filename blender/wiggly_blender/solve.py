@@ -1,0 +1,153 @@
+"""Solves splines whose inputs differ, and writes their samples into the action."""
+import math
+import bpy
+import wiggly
+from bpy.app.handlers import persistent
+from . import curves, settings as stored
+
+solved = {}  # (type, library, ID, spline) → the inputs solved last
+cached = [None, []]  # how many IDs there were, and which have splines
+KINDS = ('objects', 'shape_keys', 'materials', 'node_groups', 'lights', 'cameras', 'worlds')
+
+
+def fps_of(scene):
+    return scene.render.fps / scene.render.fps_base
+
+
+def owners():
+    """All IDs with splines."""
+    count = tuple(len(getattr(bpy.data, kind)) for kind in KINDS)
+    if cached[0] != count:
+        cached[:] = count, [each for kind in KINDS for each in getattr(bpy.data, kind) if stored.of(each)]
+    return cached[1]
+
+
+def forget():
+    solved.clear()
+    cached[0] = None
+
+
+def range_of(owner, spline, scene, curve):
+    """First and last frame; a loop's last frame repeats its first."""
+    first, last = scene.frame_start, scene.frame_end
+    action = curves.action_of(owner)
+    if spline.start == 'loop':
+        if action and action.use_frame_range:
+            first, last = map(round, action.frame_range)
+    elif curve and len(curve.keyframe_points):
+        first = min(first, math.floor(curve.keyframe_points[0].co[0]))
+        last = max(last, math.ceil(curve.keyframe_points[-1].co[0]))
+    return first, max(last, first + 3)
+
+
+def knots_of(curve, spline, first, last, fps, im):
+    """A knot for each sample that has a key."""
+    found = {}
+    for point in curve.keyframe_points if curve else ():
+        sample = math.floor(point.co[0] - first + 0.5)
+        if spline.start == 'loop':
+            sample %= last - first
+        if point.type != 'EXTREME':
+            if point.period == curves.HELD:
+                point.period = point.back = 0
+        elif point.period != curves.HELD:  # it has just become a pose: the phase that is seen now
+            point.period, point.back = curves.HELD, im.evaluate(point.co[0]) if im else 0
+        if point.type == 'MOVING_HOLD':
+            found[sample] = wiggly.Knot(sample / fps, still=True)
+            continue
+        slope = curves.slope(point)
+        found[sample] = wiggly.Knot(sample / fps, point.co[1], slope=None if slope is None else slope * fps,
+                                    phase=point.back if point.type == 'EXTREME' else None)
+    return list(found.values())
+
+
+def equilibrium(owner, spline, first, last):
+    """A number, or one for each frame."""
+    start, values = curves.samples(curves.find(owner, curves.path_of(spline.name + ' y'))) if spline.follow != 'none' else (0, ())
+    if not len(values):
+        return spline.equilibrium
+    return [values[min(max(frame - start, 0), len(values) - 1)] for frame in range(first, last + 1)]
+
+
+def solve(owner, spline, scene):
+    """Solves a spline if its inputs differ from those solved last."""
+    curve = curves.find(owner, curves.path_of(spline.name))
+    im = curves.find(owner, curves.path_of(spline.name + ' im'))
+    first, last = range_of(owner, spline, scene, curve)
+    fps = fps_of(scene)
+    action = curves.action_of(owner)
+    y = equilibrium(owner, spline, first, last)
+    settings = (spline.frequency, spline.damping, spline.bandwidth, spline.calm, spline.start)
+
+    def inputs():
+        return curves.read(curve), settings, first, last, scene.frame_start, scene.frame_end, fps, y, action and action.name_full
+
+    key = owner.id_type, owner.library and owner.library.name, owner.name, spline.name
+    if im and solved.get(key) == inputs():
+        return
+    knots = knots_of(curve, spline, first, last, fps, im)
+    problem = wiggly.Spline(knots, frequency=spline.frequency, damping=spline.damping, bandwidth=spline.bandwidth,
+                            calm=spline.calm, equilibrium=y, start=spline.start)
+    answer = problem.solve(last - first + 1, fps)
+    for part, values in (('re', answer.re), ('im', answer.im)):
+        start, values = first, list(values)
+        if spline.start == 'loop':  # through the scene's frames, and one more on either side for motion blur
+            start = min(first, scene.frame_start) - 1
+            values = [values[(frame - first) % (last - first)] for frame in range(start, max(last, scene.frame_end) + 2)]
+        curves.write_samples(owner, f'{spline.name} {part}', start, values)
+    action = curves.action_of(owner)
+    solved[key] = inputs()
+
+
+def insert(owner, spline, frame, kind):
+    """A key at the value that the curve has there."""
+    total = sum(curve.evaluate(frame) for curve in (curves.find(owner, curves.path_of(f'{spline.name} {part}')) for part in ('re', 'y')) if curve)
+    if spline.follow == 'none':
+        total += spline.equilibrium
+    if spline.name not in owner:
+        owner[spline.name] = 0.0
+    curve = curves.ensure(owner, curves.path_of(spline.name))
+    point = curve.keyframe_points.insert(frame, total)
+    point.type = kind
+    curve.update()
+
+
+def solve_all(scene):
+    for owner in owners():
+        action = curves.action_of(owner)
+        if owner.is_editable and (not action or action.is_editable):
+            for spline in owner.wiggly.splines:
+                solve(owner, spline, scene)
+
+
+@persistent
+def guard(scene, depsgraph):
+    """After each edit: solves what it changed."""
+    if bpy.app.is_job_running('RENDER') or not any(
+            isinstance(update.id, (bpy.types.Action, bpy.types.Object, bpy.types.Scene, bpy.types.Key)) for update in depsgraph.updates):
+        return
+    try:
+        solve_all(scene)
+    except ReferenceError:  # an ID has gone
+        forget()
+        solve_all(scene)
+
+
+@persistent
+def start_over(*_):
+    forget()
+
+
+def handlers():
+    app = bpy.app.handlers
+    return (app.depsgraph_update_post, guard), (app.load_post, start_over), (app.undo_post, start_over), (app.redo_post, start_over)
+
+
+def register():
+    for where, what in handlers():
+        where.append(what)
+
+
+def unregister():
+    for where, what in handlers():
+        where.remove(what)

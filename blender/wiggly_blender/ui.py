@@ -1,0 +1,156 @@
+"""Operators, the panel, and menus."""
+import bpy
+from bpy.props import BoolProperty, EnumProperty
+from . import base, chain as chains, curves, settings, solve
+
+PRESETS = {'tail': ('Tail', 1.5, 0.12), 'ear': ('Ear', 3, 0.25), 'hair': ('Hair', 2, 0.2), 'rope': ('Rope', 1, 0.05),
+           'antenna': ('Antenna', 5, 0.06), 'belly': ('Belly', 3, 0.35)}
+
+
+class Operator(bpy.types.Operator):
+    """Reports what run() raises as one sentence."""
+    bl_options = {'REGISTER', 'UNDO'}
+
+    @classmethod
+    def poll(cls, context):
+        return context.object and context.object.type == 'ARMATURE' and context.object.is_editable
+
+    def execute(self, context):
+        try:
+            self.run(context, context.object)
+        except ValueError as problem:
+            self.report({'ERROR'}, str(problem))
+            return {'CANCELLED'}
+        solve.forget()
+        solve.solve_all(context.scene)
+        return {'FINISHED'}
+
+
+def active(owner):
+    wiggly = settings.of(owner)
+    if not wiggly or not wiggly.chains:
+        raise ValueError(f'"{owner.name}" has no chain: select its first bone and choose Add Wiggle')
+    return wiggly.chains[min(wiggly.active, len(wiggly.chains) - 1)]
+
+
+class WIGGLY_OT_add(Operator):
+    """Makes the selected bones swing. Select the first bone of a chain, or all its bones"""
+    bl_idname, bl_label = 'wiggly.add', 'Add Wiggle'
+    follow: BoolProperty(name='Follow Through', description='Lag behind the motion of the body and overshoot', default=True)
+    loop: BoolProperty(name='Loop', description='The last frame repeats the first')
+
+    @classmethod
+    def poll(cls, context):
+        return super().poll(context) and context.mode == 'POSE'
+
+    def run(self, context, owner):
+        for bones in chains.of_selection(context):
+            chains.make(owner, bones, self.follow, self.loop)
+        curves.list_of(owner, make=True)
+        if self.follow:
+            base.refresh(context, owner)
+
+
+class WIGGLY_OT_remove(Operator):
+    """Takes the wiggle away. Bones and their keyframes stay as they were"""
+    bl_idname, bl_label = 'wiggly.remove', 'Remove Wiggle'
+
+    def run(self, context, owner):
+        chains.remove(owner, active(owner))
+
+
+class WIGGLY_OT_refresh(Operator):
+    """Reads the motion of the body again"""
+    bl_idname, bl_label = 'wiggly.refresh', 'Refresh'
+
+    def run(self, context, owner):
+        active(owner)
+        base.refresh(context, owner)
+
+
+class WIGGLY_OT_key(Operator):
+    """Sets keys of the active chain at this frame, as the chain is now. Edit them in the Graph Editor or Dope Sheet"""
+    bl_idname, bl_label = 'wiggly.key', 'Insert Key'
+    kind: EnumProperty(name='Kind', items=(
+        ('KEYFRAME', 'Value', 'The first bone is where the key says'), ('EXTREME', 'Pose', 'All bones are where they are now'),
+        ('MOVING_HOLD', 'Still', 'Comes to rest, and starts from rest')))
+
+    def run(self, context, owner):
+        frame = context.scene.frame_current
+        for channel in active(owner).channels:
+            solve.insert(owner, owner.wiggly.splines[channel.spline], frame, self.kind)
+
+
+class WIGGLY_OT_preset(Operator):
+    """Sets frequency and damping of the active chain"""
+    bl_idname, bl_label = 'wiggly.preset', 'Preset'
+    preset: EnumProperty(name='Preset', items=[(key, name, f'{f:g} Hz, damping {d:g}') for key, (name, f, d) in PRESETS.items()])
+
+    def run(self, context, owner):
+        for channel in active(owner).channels:
+            spline = owner.wiggly.splines[channel.spline]
+            spline.frequency, spline.damping = PRESETS[self.preset][1:]
+
+
+class WIGGLY_UL_chains(bpy.types.UIList):
+    def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
+        layout.label(text=item.name, icon='CON_TRANSFORM')
+        layout.prop(item, 'mute', text='', emboss=False, icon='HIDE_ON' if item.mute else 'HIDE_OFF')
+
+
+class WIGGLY_PT_panel(bpy.types.Panel):
+    bl_label, bl_category, bl_space_type, bl_region_type = 'Wiggle', 'Wiggle', 'VIEW_3D', 'UI'
+
+    @classmethod
+    def poll(cls, context):
+        return context.object and context.object.type == 'ARMATURE'
+
+    def draw(self, context):
+        layout, owner = self.layout, context.object
+        wiggly = settings.of(owner)
+        row = layout.row(align=True)
+        row.operator('wiggly.add', icon='ADD')
+        row.operator('wiggly.remove', text='', icon='REMOVE')
+        if not wiggly or not wiggly.chains:
+            layout.label(text='Select the first bone of a chain in Pose Mode')
+            return
+        layout.template_list('WIGGLY_UL_chains', '', wiggly, 'chains', wiggly, 'active', rows=2)
+        chain = active(owner)
+        if base.stale(owner, context.scene):
+            layout.operator('wiggly.refresh', text='The Body Has Changed: Refresh', icon='ERROR')
+        layout.operator_menu_enum('wiggly.key', 'kind', icon='KEY_HLT')
+        layout.operator_menu_enum('wiggly.preset', 'preset', icon='PRESET')
+        layout.prop(chain, 'alike')
+        layout.use_property_split = True
+        for channel in list(chain.channels)[:1 if chain.alike else None]:
+            spline = wiggly.splines.get(channel.spline)
+            if not spline:
+                continue
+            column = layout.column(align=True)
+            if not chain.alike:
+                column.label(text=spline.name)
+            for name in ('frequency', 'damping', 'bandwidth', 'calm', 'start'):
+                column.prop(spline, name)
+            column.separator()
+            for name in ('lag', 'gain'):
+                column.prop(channel, name)
+
+
+def pose_menu(self, context):
+    self.layout.separator()
+    self.layout.operator('wiggly.add')
+
+
+classes = (WIGGLY_OT_add, WIGGLY_OT_remove, WIGGLY_OT_refresh, WIGGLY_OT_key, WIGGLY_OT_preset, WIGGLY_UL_chains, WIGGLY_PT_panel)
+
+
+def register():
+    for each in classes:
+        bpy.utils.register_class(each)
+    bpy.types.VIEW3D_MT_pose.append(pose_menu)
+
+
+def unregister():
+    bpy.types.VIEW3D_MT_pose.remove(pose_menu)
+    for each in reversed(classes):
+        bpy.utils.unregister_class(each)

@@ -1,0 +1,24 @@
+# The Blender extension, in every Blender there is as a Python module (bpy): those of $BLENDER_PYTHON, Pythons that have it, or of `make proof`.
+# It is fetched, 350 MB, only by `make test-all`.
+. tests/check.sh
+[ -z "${SANITIZE:-}" ] || { echo "skip - Blender loads no sanitized library"; exit 0; }
+place=$B/proof/venv
+has_bpy() { "$1" -c "import importlib.util as u, sys; sys.exit(u.find_spec('bpy') is None)" 2>/dev/null; }
+pythons=${BLENDER_PYTHON:-$place/bin/python}
+if [ -z "${BLENDER_PYTHON:-}" ] && ! has_bpy "$place/bin/python"; then
+    thorough || { echo "skip - there is no bpy: name a Python that has it in BLENDER_PYTHON, or run make proof"; exit 0; }
+    { [ -x "$place/bin/python" ] || python3 -m venv "$place"; } >"$scratch/fetch" 2>&1 &&
+        timeout 900 "$place/bin/pip" install --quiet --retries 0 numpy bpy==4.5.15 >"$scratch/fetch" 2>&1 ||
+        { echo "skip - bpy could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
+fi
+export PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1 TMPDIR=$scratch
+WIGGLY_LIBRARY=$PWD/$(ls "$B"/libwiggly.so.* | head -n 1)
+[ "${B#/}" = "$B" ] || WIGGLY_LIBRARY=$(ls "$B"/libwiggly.so.* | head -n 1)
+export WIGGLY_LIBRARY
+for python in $pythons; do
+    for test in blender/tests/test_*.py; do
+        expect 0 "$test" "$python" "$test"
+        grep -E '^(not )?ok - |^skip - ' <<<"$out" | sed "s/^\(not ok\|ok\|skip\) - /&$(basename "$test" .py): /"
+        tail -n 1 <<<"$out"
+    done
+done
