@@ -3,11 +3,9 @@
 #include "app/state.h"
 #include "base/need.h"
 #include "rig/opened.h"
-#include "scene/load.h"
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <threads.h>
 
 enum { WIDTH = 1280, HEIGHT = 720, SMALL_WIDTH = 640, SMALL_HEIGHT = 360 };

@@ -3,7 +3,6 @@
 #include "base/progress.h"
 #include "rig/posing.h"
 #include "scene/load.h"
-#include <stdlib.h>
 
 static double since(double start) { return 1e6 * (clock_now() - start); }
 

@@ -1,6 +1,5 @@
 /// The monotonic clock, and progress reports of long work.
 #include "base/progress.h"
-#include <stddef.h>
 #include <time.h>
 
 double clock_now(void)

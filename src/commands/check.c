@@ -1,6 +1,5 @@
 /// `wiggly check`: reports every problem of a scene, its solution and its models, and what a character holds.
 #include "base/error.h"
-#include "base/file.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/report.h"

@@ -12,7 +12,6 @@
 #include "scene/paint.h"
 #include "ui/theme.h"
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LINEAR = 1, CUBIC };

@@ -1,7 +1,6 @@
 /// Draws a meadow: one triangle strip, instanced per reed. Reeds are about one pixel wide, so they are sorted far to near and blended by
 /// coverage.
 #include "draw/stage.h"
-#include <string.h>
 
 enum { RINGS = 5, CORNERS = 2 * RINGS, INDICES = 6 * (RINGS - 1) };
 enum { DEPTHS = 2048 }; ///< depth classes for sorting

@@ -3,7 +3,6 @@
 #include "editor/core/bones.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
-#include "editor/core/drag.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
 #include "editor/core/selection.h"

@@ -6,10 +6,7 @@
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
 #include "ui/theme.h"
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
 

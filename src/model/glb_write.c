@@ -3,7 +3,6 @@
 #include "base/need.h"
 #include "model/figure.h"
 #include "model/gltf_shape.h"
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /// Assembles glTF files.
 #include "model/gltf_file.h"
 #include "base/base64.h"
-#include "base/json.h"
 #include "base/npy.h"
 #include "model/glb.h"
 #include <math.h>

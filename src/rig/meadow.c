@@ -4,7 +4,6 @@
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { ROWS = 4 }; ///< of a reed's curve: re, im, y, omega
 

@@ -3,7 +3,6 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "model/fox.h"
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

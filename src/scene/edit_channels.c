@@ -2,7 +2,6 @@
 #include "base/need.h"
 #include "scene/editing.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /// The channel at a place; NULL and an error if there is none.

@@ -4,7 +4,6 @@
 #include "scene/editing.h"
 #include "scene/pins.h"
 #include "scene/rig_kind.h"
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

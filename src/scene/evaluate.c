@@ -7,7 +7,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { FIRST_KNOTS = 256, ROWS = 5 }; ///< rows of each curve: total, y, re, im, omega
 

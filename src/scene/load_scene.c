@@ -8,7 +8,6 @@
 #include "scene/reader.h"
 #include "scene/warnings.h"
 #include <limits.h>
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,7 +1,6 @@
 /// The joint that a spline follows: { "model": "walk", "joint": "hips", "of": "turn", "gain": 1 }.
 #include "base/need.h"
 #include "scene/fields.h"
-#include <math.h>
 #include <stdlib.h>
 
 const char *const motion_words[] = {

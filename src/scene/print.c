@@ -6,7 +6,6 @@
 #include "scene/text.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
 static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }

@@ -6,7 +6,6 @@
 #include "spline/bound_tail.h"
 #include "spline/oscillator.h"
 #include <math.h>
-#include <string.h>
 
 bound_tail bound_tail_of(const problem *p, double weight)
 {

@@ -2,7 +2,6 @@
 /// and the driver call the C library directly.
 #include "timing/framelog.h"
 #include <stdatomic.h>
-#include <stdlib.h>
 
 static atomic_long count;
 

@@ -4,7 +4,6 @@
 #include "timing/columns.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { BAR = 50, SLOWEST = 5, LOW_NEEDS_FRAMES = 1000 };
 

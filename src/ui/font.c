@@ -5,7 +5,6 @@
 #include "ui/theme.h"
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 // The library does not compile with our warnings.
 #pragma GCC diagnostic push

@@ -2,7 +2,6 @@
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { POPUP_PAD = 4, MAX_ROWS = 10, ROW_NAME = 96 }; ///< padding; visible rows
 

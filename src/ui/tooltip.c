@@ -4,7 +4,6 @@
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { WIDTH = 260, LINE = 16, PAD_X = 8, PAD_Y = 5, BELOW = 6, MARGIN = 4 };
 

@@ -2,7 +2,6 @@
 #include "ui/widgets.h"
 #include "ui/widgets_internal.h"
 #include <math.h>
-#include <string.h>
 
 static void begin(struct ui *ui, enum ui_pass pass, struct rect area)
 {

@@ -2,7 +2,6 @@
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 struct rect ui_field_of(struct rect row) { return (struct rect){row.x, row.y + 2, row.w, row.h - 4}; }
 

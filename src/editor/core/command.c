@@ -6,7 +6,6 @@
 #include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include <stdio.h>
-#include <string.h>
 
 const char *const about_titles[ABOUT_COUNT] = {
     [ABOUT_KNOTS] = "Knots",         [ABOUT_DRAG] = "While dragging", [ABOUT_SLOPES] = "Slopes and poses",

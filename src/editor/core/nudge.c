@@ -3,7 +3,6 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -6,7 +6,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 static const double APART = 1.25; ///< distance between rigs, in widths
 static const double ROOM = 1.2;   ///< metres, if a width is unknown

@@ -3,7 +3,6 @@
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
-#include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
 

@@ -2,11 +2,9 @@
 #include "scene/warnings.h"
 #include "base/hash.h"
 #include "editor/core/core.h"
-#include "editor/core/knots.h"
 #include "editor/curves/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"
-#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 

@@ -5,7 +5,6 @@
 #include "ui/theme.h"
 #include "ui/widgets.h"
 #include <math.h>
-#include <string.h>
 
 enum { WIDTH = 640, ROW = 26, ROWS = 12, FIELD = 34, PAD = 12, GAP = 16 };
 

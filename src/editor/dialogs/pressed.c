@@ -1,6 +1,5 @@
 /// Shows an audience the pressed keys and buttons in a fading pill. A demo also shows a pointer and captions.
 #include "editor/core/command.h"
-#include "editor/core/core.h"
 #include "editor/dialogs/state.h"
 #include "ui/font.h"
 #include "ui/theme.h"

@@ -6,8 +6,6 @@
 #include "editor/inspector/parts.h"
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
-#include <string.h>
 
 enum { SWITCH = 24, MOST_REACH = 1024 }; ///< pixels: width of a form button
 

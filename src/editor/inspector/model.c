@@ -1,10 +1,8 @@
 /// The inspector's section on imported characters: file, clip, place, selected bone.
 #include "base/file.h"
 #include "editor/core/bones.h"
-#include "editor/core/core.h"
 #include "editor/inspector/parts.h"
 #include <stdio.h>
-#include <string.h>
 
 enum { MAX_CLIPS = 256 }; ///< in the clip list
 

@@ -1,6 +1,5 @@
 /// The inspector's view of the active spline's poles: draggable in an inset, on the unit circle, and their response.
 #include "editor/core/core.h"
-#include "editor/core/knots.h"
 #include "editor/inspector/parts.h"
 #include "ui/font.h"
 #include "ui/theme.h"

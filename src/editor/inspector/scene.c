@@ -2,7 +2,6 @@
 #include "editor/core/core.h"
 #include "editor/inspector/parts.h"
 #include <math.h>
-#include <stdio.h>
 
 enum { ROW_RATE, ROW_FIRST, ROW_LAST, ROW_SUBSTEPS, ROWS };
 

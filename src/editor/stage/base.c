@@ -6,7 +6,6 @@
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "model/fox.h"
-#include "scene/order.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -8,7 +8,6 @@
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum { AXIS_X, AXIS_Y, AXIS_Z };
 

@@ -3,7 +3,6 @@
 #include "base/hash.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
-#include "rig/camera.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -1,7 +1,6 @@
 /// Follow-through of tails and chains while you move their body. It is not part of the document's solution but added to it.
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
-#include <math.h>
 #include <string.h>
 
 /// A spline's filter at the playhead, with parameters that follow splines evaluated there.

@@ -3,15 +3,12 @@
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
 #include "editor/stage/parts.h"
-#include "editor/stage/stage.h"
 #include "model/fox.h"
 #include "model/reach.h"
 #include "model/vector.h"
-#include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum {

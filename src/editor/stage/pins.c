@@ -7,7 +7,6 @@
 #include "editor/stage/stage.h"
 #include "model/vector.h"
 #include "scene/pins.h"
-#include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>

@@ -1,7 +1,6 @@
 /// Motion arcs: the path of a tip, a character's vertex or a held point, with one mark per frame, fading away from the playhead.
 #include "base/hash.h"
 #include "editor/core/bones.h"
-#include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "model/vector.h"

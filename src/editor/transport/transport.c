@@ -1,14 +1,12 @@
 /// The status line: playback controls, the last message, and performance figures.
 #include "editor/transport/transport.h"
 #include "editor/core/core.h"
-#include "editor/core/drag.h"
 #include "editor/core/rigs.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
-#include <string.h>
 
 enum {
     MARGIN = 6,
