@@ -3,7 +3,7 @@
 # name is there. Options are listed by --help, and not here again.
 #
 # Blocks of code are fenced, with a language and, for a file, its name: sh, c NAME, json NAME, json or csv (the clipboard), text (what
-# the commands above put out); math and mermaid are for the renderer. They are taken in order, in a folder that looks like the root of
+# the commands above put out); math and mermaid are for the renderer, and test_python.sh runs python. They are taken in order, in a folder that looks like the root of
 # a tree that was built. A function named in the text, `like_this()`, is one of src or of the library.
 . tests/check.sh
 root=$PWD
@@ -116,7 +116,7 @@ block() { # <where> <language> <name> <text>
         ;;
     "json " | "csv ") paste "$1" "$4" ;;
     "text ") shown "$1" "$4" ;;
-    "math " | "mermaid ") ;;
+    "math " | "mermaid " | "python ") ;;
     *) ok "$1: a block of a language that is tested ($2 $3)" 1 ;;
     esac
 }
@@ -177,7 +177,7 @@ for document in $documents CHANGELOG.md {assets,src/*,tests,tools}/README.md; do
             while read -r path; do [ -e "$path" ] || echo "$path"; done
         grep -oE '`test_[a-z0-9_]+`' "$document" | tr -d '`' | while read -r test; do [ -e "tests/$test.c" ] || echo "$test"; done
         grep -oE '[a-z_]+[a-z0-9_]*\(\)' "$document" | sort -u | tr -d '()' |
-            while read -r name; do grep -qrE "\b$name\(" src include tests || echo "$name()"; done
+            while read -r name; do grep -qrE "\b$name\(" src include tests python/src || echo "$name()"; done
     )
     [ -z "$missing" ] || echo "  not there:" $missing
     holds "$document: files and links are there" [ -z "$missing" ]

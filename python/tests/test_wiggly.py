@@ -6,6 +6,7 @@ import doctest
 import json
 import os
 import pickle
+import re
 import subprocess
 import sys
 import tempfile
@@ -34,6 +35,31 @@ def solved_by_program(path, solver):
     """The columns of `wiggly solve`: total, Re x, Im x of each spline."""
     out = subprocess.run([PROGRAM, "solve", str(path), "--solver", solver], capture_output=True, encoding="utf-8", check=True).stdout
     return np.array(list(csv.reader(out.splitlines()))[1:], dtype=float).T[1:]
+
+
+class Pages(unittest.TestCase):
+    def test_their_programs_run(self):
+        for page in ("docs/python.md", "python/README.md"):
+            blocks = re.findall(r"^```python\n(.*?)^```$", (TREE / page).read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
+            self.assertTrue(blocks)
+            exec(compile("".join(blocks), page, "exec"), {})
+
+    def test_the_notebook_runs_and_holds_no_output(self):
+        cells = json.loads((TREE / "python/examples/figures.ipynb").read_text(encoding="utf-8"))["cells"]
+        self.assertTrue(all(not cell.get("outputs") for cell in cells))
+        try:
+            import matplotlib
+        except ImportError:
+            self.skipTest("Matplotlib is not installed")
+        matplotlib.use("agg")
+        names = {}
+        for cell in cells:
+            if cell["cell_type"] == "code":
+                exec("".join(cell["source"]), names)
+        self.assertEqual(len(names["plt"].get_fignums()), 6)
+
+    def test_the_package_has_the_librarys_version(self):
+        self.assertEqual(wiggly.__version__, wiggly.version())
 
 
 class Scenes(unittest.TestCase):
