@@ -6,6 +6,7 @@
 #   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
+#   make wheel    the Python package for every platform, in build/python/wheels (PLATFORMS="win_amd64" for one); fetches zig
 #   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
 #   make blender    the extension for Blender, a .zip in the build folder
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports, and takes in files of others
@@ -120,12 +121,15 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test test-all bench feel adversary blender proof models check figures regress fuzz fuzzers install clean help packages \
+.PHONY: all library run test test-all bench feel adversary wheel blender proof models check figures regress fuzz fuzzers install clean help packages \
     compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
 
 library: $(LIBRARIES)
+
+wheel:
+	$(Q)python/wheels.sh $(B)/python $(PLATFORMS)
 
 # The app itself finds out whether it has a display; however it ran, it leaves its log and its last picture.
 LIVE_OUT ?= $(B)
@@ -224,7 +228,7 @@ clean:
 # --- what must be installed first --------------------------------------------------------------------------------------
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
 
-SETS := $(if $(filter-out check clean help library blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
+SETS := $(if $(filter-out check clean help library wheel blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
 SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS))
 packages:
 	$(Q)tools/install-missing.sh $(SETS)

@@ -1,0 +1,34 @@
+"""Compiles the C library into the wheel, with CC (cc).
+
+WIGGLY_PLATFORM names the platform of the wheel where CC compiles for another machine, as `make wheel` does.
+"""
+
+import os
+import shlex
+import subprocess
+import sysconfig
+import tempfile
+from pathlib import Path
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+# as in the Makefile: no fused multiply-add, so that every machine has the same bits
+FLAGS = "-O3 -std=c11 -fPIC -ffp-contract=off -fno-math-errno -fno-trapping-math -fvisibility=hidden -D_GNU_SOURCE"
+
+
+class LibraryHook(BuildHookInterface):
+    def initialize(self, version, build_data):
+        if version == "editable":  # finds the library in the tree's build folder
+            return
+        here = Path(self.root)
+        tree = here / "c" if (here / "c").exists() else here.parent  # an sdist, or a clone
+        platform = os.environ.get("WIGGLY_PLATFORM") or sysconfig.get_platform().replace("-", "_").replace(".", "_")
+        name = "wiggly.dll" if platform.startswith("win") else "libwiggly.dylib" if platform.startswith("macosx") else "libwiggly.so"
+        self.folder = tempfile.TemporaryDirectory()
+        library = Path(self.folder.name) / name
+        sources = [*sorted((tree / "src" / "spline").glob("*.c")), tree / "src" / "base" / "status.c"]
+        subprocess.run(
+            [*shlex.split(os.environ.get("CC", "cc")), *FLAGS.split(), "-include", here / "exports.h", "-I", tree / "include", "-I", tree / "src",
+             "-shared", "-s", *sources, "-o", library, "-lm", *([] if platform.startswith("win") else ["-lpthread"])], check=True)  # fmt: skip
+        build_data["force_include"] = {str(library): f"wiggly/{name}", str(tree / "LICENSE"): "wiggly/LICENSE"}
+        build_data["pure_python"], build_data["tag"] = False, f"py3-none-{platform}"
