@@ -34,7 +34,7 @@ int fox_level(int animals)
     return level;
 }
 
-static struct gltf asset; ///< read once, never freed
+static struct gltf asset; ///< read once and never freed, so that foxes share its vertices
 
 static void read_asset(void)
 {
@@ -86,45 +86,40 @@ void fox_hang(struct gltf_part *part, int joints)
     }
 }
 
-static void *copy_of(const void *block, int count, size_t size)
+static void *copy_of(struct gltf *fox, const void *block, int count, size_t size)
 {
-    void *copy = need((size_t)count + 1, size);
-    return memcpy(copy, block, (size_t)count * size);
+    return memcpy(pool_take(&fox->pool, (size_t)count, size), block, (size_t)count * size);
 }
 
-static void copy_part(const struct gltf_part *from, int joints, struct gltf_part *part)
+static void copy_part(struct gltf *fox, const struct gltf_part *from, int joints, struct gltf_part *part)
 {
     const int count = from->vertex_count;
     *part = *from;
-    part->position = copy_of(from->position, count, sizeof *part->position);
-    part->normal = copy_of(from->normal, count, sizeof *part->normal);
-    part->color = copy_of(from->color, count, sizeof *part->color);
-    part->mark = copy_of(from->mark, count, sizeof *part->mark);
-    part->fur = copy_of(from->fur, count, sizeof *part->fur);
-    part->joints = copy_of(from->joints, count, sizeof *part->joints);
-    part->weights = copy_of(from->weights, count, sizeof *part->weights);
-    part->indices = copy_of(from->indices, from->index_count, sizeof *part->indices);
-    part->along = need_zeroed((size_t)count + 1, sizeof *part->along);
-    part->targets = need_zeroed(1, sizeof *part->targets);
+    part->joints = copy_of(fox, from->joints, count, sizeof *part->joints);
+    part->weights = copy_of(fox, from->weights, count, sizeof *part->weights);
+    part->along = pool_take(&fox->pool, (size_t)count, sizeof *part->along);
+    part->targets = pool_take(&fox->pool, 1, sizeof *part->targets);
     fox_hang(part, joints);
 }
 
-static void copy_mesh(const struct gltf_mesh *from, int joints, struct gltf_mesh *mesh)
+static void copy_mesh(struct gltf *fox, const struct gltf_mesh *from, int joints)
 {
-    *mesh = (struct gltf_mesh){.name = need_text(from->name), .part_count = from->part_count, .target_count = 1};
-    mesh->parts = need((size_t)from->part_count, sizeof *mesh->parts);
-    mesh->weights = need_zeroed(1, sizeof *mesh->weights);
-    for (int p = 0; p < from->part_count; p++) copy_part(&from->parts[p], joints, &mesh->parts[p]);
+    struct gltf_mesh *mesh = fox->meshes = pool_take(&fox->pool, 1, sizeof *mesh);
+    fox->mesh_count = 1;
+    *mesh = (struct gltf_mesh){.name = from->name, .part_count = from->part_count, .target_count = 1};
+    mesh->parts = pool_take(&fox->pool, (size_t)from->part_count, sizeof *mesh->parts);
+    mesh->weights = pool_take(&fox->pool, 1, sizeof *mesh->weights);
+    for (int p = 0; p < from->part_count; p++) copy_part(fox, &from->parts[p], joints, &mesh->parts[p]);
 }
 
 /// A node of the tail is a child of the node before, or of the fox.
-static struct gltf_node make_joint(int n, int joints)
+static struct gltf_node make_joint(struct gltf *fox, int n, int joints)
 {
     char name[32];
+    const int length = snprintf(name, sizeof name, "tail_%d", n);
     struct gltf_node node = {.parent = n > 0 ? FOX_FIRST_JOINT + n - 1 : 0,
                              .place = {.rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}}};
-    snprintf(name, sizeof name, "tail_%d", n);
-    node.name = need_text(name);
+    node.name = copy_of(fox, name, length + 1, 1);
     node.mesh = node.skin = -1;
     if (n > 0) node.place.translation[2] = FOX_TAIL_LENGTH / (float)joints;
     return node;
@@ -134,24 +129,19 @@ static struct gltf_node make_joint(int n, int joints)
 static void make_skeleton(struct gltf *fox, int joints)
 {
     const int bones = FOX_FIRST_JOINT + joints;
-    struct gltf_skin *skin = fox->skins = need_zeroed(1, sizeof *skin);
+    struct gltf_skin *skin = fox->skins = pool_take(&fox->pool, 1, sizeof *skin);
     fox->skin_count = 1;
     fox->joint_count = skin->joint_count = bones - FOX_FIRST_LIMB;
-    skin->joints = need((size_t)skin->joint_count, sizeof *skin->joints);
-    skin->inverse_bind = need((size_t)skin->joint_count, sizeof *skin->inverse_bind);
+    skin->joints = pool_take(&fox->pool, (size_t)skin->joint_count, sizeof *skin->joints);
+    skin->inverse_bind = pool_take(&fox->pool, (size_t)skin->joint_count, sizeof *skin->inverse_bind);
     fox->node_count = bones + 1;
-    fox->nodes = need_zeroed((size_t)fox->node_count, sizeof *fox->nodes);
-    fox->order = need((size_t)fox->node_count, sizeof *fox->order);
+    fox->nodes = pool_take(&fox->pool, (size_t)fox->node_count, sizeof *fox->nodes);
+    fox->order = pool_take(&fox->pool, (size_t)fox->node_count, sizeof *fox->order);
     for (int n = 0; n < fox->node_count; n++) {
         const struct gltf_node *own = &asset.nodes[n < bones ? n : asset.node_count - 1];
         const int joint = n - FOX_FIRST_LIMB, tail = n - FOX_FIRST_JOINT;
         fox->order[n] = n;
-        if (tail >= 0 && n < bones) {
-            fox->nodes[n] = make_joint(tail, joints);
-        } else {
-            fox->nodes[n] = *own;
-            fox->nodes[n].name = need_text(own->name);
-        }
+        fox->nodes[n] = tail >= 0 && n < bones ? make_joint(fox, tail, joints) : *own;
         if (joint < 0 || n == bones) continue;
         const vec3s back = {{0, 0, -FOX_TAIL_LENGTH * (float)tail / (float)joints}};
         const mat4s matrix = tail < 0 ? mat4_from(asset.skins->inverse_bind[joint]) : glms_translate_make(back);
@@ -165,13 +155,11 @@ void fox_create(int level, int joints, struct gltf *fox)
 {
     static pthread_once_t once = PTHREAD_ONCE_INIT;
     pthread_once(&once, read_asset);
-    *fox = (struct gltf){.path = need_text(asset.path), .id = gltf_new_id(), .mesh_count = 1, .weight_count = 1};
-    fox->meshes = need_zeroed(1, sizeof *fox->meshes);
-    fox->weights = need_zeroed(1, sizeof *fox->weights);
-    copy_mesh(&asset.meshes[level], joints, fox->meshes);
+    *fox = (struct gltf){.path = asset.path, .id = gltf_new_id(), .weight_count = 1};
+    fox->weights = pool_take(&fox->pool, 1, sizeof *fox->weights);
+    copy_mesh(fox, &asset.meshes[level], joints);
     fox->material_count = asset.material_count;
-    fox->materials = copy_of(asset.materials, asset.material_count, sizeof *fox->materials);
-    for (int m = 0; m < fox->material_count; m++) fox->materials[m].name = need_text(asset.materials[m].name);
+    fox->materials = asset.materials;
     make_skeleton(fox, joints);
 }
 

@@ -44,72 +44,14 @@ int gltf_vertex_count(const struct gltf *gltf, int node)
     return count;
 }
 
-static void free_vertices(struct gltf_part *part, int targets)
-{
-    for (int i = 0; part->targets && i < targets; i++) {
-        free(part->targets[i].position);
-        free(part->targets[i].normal);
-    }
-    free(part->targets);
-    free(part->position);
-    free(part->normal);
-    free(part->color);
-    free(part->joints);
-    free(part->weights);
-    free(part->along);
-    free(part->mark);
-    free(part->fur);
-}
-
-static void free_mesh(struct gltf_mesh *mesh)
-{
-    for (int i = 0; i < mesh->part_count; i++) {
-        if (!mesh->parts[i].shared) free_vertices(&mesh->parts[i], mesh->target_count);
-        if (i == 0 || mesh->parts[i].uv != mesh->parts[0].uv) free(mesh->parts[i].uv);
-        free(mesh->parts[i].indices);
-    }
-    json_decref(mesh->extras);
-    free(mesh->parts);
-    free(mesh->weights);
-    free(mesh->name);
-}
-
-static void free_clips(struct gltf *gltf)
-{
-    for (int i = 0; i < gltf->clip_count; i++) {
-        for (int c = 0; c < gltf->clips[i].channel_count; c++) {
-            free(gltf->clips[i].channels[c].times);
-            free(gltf->clips[i].channels[c].values);
-        }
-        free(gltf->clips[i].name);
-        free(gltf->clips[i].channels);
-    }
-    free(gltf->clips);
-}
-
 void gltf_free(struct gltf *gltf)
 {
-    for (int i = 0; i < gltf->node_count; i++) free(gltf->nodes[i].name);
-    for (int i = 0; i < gltf->mesh_count; i++) free_mesh(&gltf->meshes[i]);
+    for (int i = 0; i < gltf->mesh_count; i++) json_decref(gltf->meshes[i].extras);
     for (int i = 0; i < gltf->image_count; i++) {
-        free(gltf->images[i].name);
         free(gltf->images[i].bytes);
         free(gltf->images[i].pixels);
     }
-    for (int i = 0; i < gltf->skin_count; i++) {
-        free(gltf->skins[i].joints);
-        free(gltf->skins[i].inverse_bind);
-    }
-    free_clips(gltf);
-    free(gltf->nodes);
-    free(gltf->order);
-    free(gltf->skins);
-    free(gltf->meshes);
-    for (int i = 0; i < gltf->material_count; i++) free(gltf->materials[i].name);
-    free(gltf->materials);
-    free(gltf->images);
-    free(gltf->weights);
     free(gltf->not_shown);
-    free(gltf->path);
+    pool_free(&gltf->pool);
     *gltf = (struct gltf){0};
 }

@@ -4,6 +4,7 @@
 #ifndef MODEL_GLTF_H
 #define MODEL_GLTF_H
 
+#include "base/pool.h"
 #include "model/surface.h"
 #include <stdbool.h>
 #include <stddef.h>
@@ -136,6 +137,7 @@ struct gltf_clip {
 };
 
 struct gltf {
+    struct pool pool; ///< where all of it is but `extras`, the bytes of images, and `not_shown`
     char *path;
     struct gltf_node *nodes;
     int *order; ///< all nodes, parents before children

@@ -167,13 +167,12 @@ static bool read_picture(struct gltf_reader *r, const json_t *json, struct gltf_
     }
     if (!bytes.owned) r->file.room -= size;
     image->bytes = bytes.owned ? bytes.owned : malloc(size + 1);
-    image->name = name && name[0] ? strdup(name) : NULL;
+    image->name = name && name[0] ? gltf_text(r, name) : NULL;
     image->size = size;
     if (image->bytes && !bytes.owned) memcpy(image->bytes, bytes.bytes.at, size);
     if (image->bytes && (image->name || !name || !name[0])) return true;
     free(image->pixels);
     free(image->bytes);
-    free(image->name);
     return fail_starved(why);
 }
 

@@ -193,7 +193,7 @@ static bool read_corners(struct gltf_reader *r, const json_t *primitive, int ver
     return good;
 }
 
-/// The triangles of strips and fans, oriented as glTF requires; `corners` is freed.
+/// The triangles of strips and fans, oriented as glTF requires.
 static bool make_triangles(struct gltf_reader *r, int mode, uint32_t *corners, int count, struct gltf_part *part)
 {
     part->indices = corners;
@@ -207,7 +207,6 @@ static bool make_triangles(struct gltf_reader *r, int mode, uint32_t *corners, i
         indices[3 * i + 1] = corners[second];
         indices[3 * i + 2] = corners[third];
     }
-    free(corners);
     part->indices = indices;
     part->index_count = 3 * triangles;
     return indices;
@@ -276,21 +275,26 @@ static bool spread(struct gltf_reader *r, const struct gltf_part *part, void *ar
     if (!rows) return false;
     for (int i = 0; i < part->index_count; i++) memcpy(rows + (size_t)i * size, old + part->indices[i] * size, size);
     memcpy(array, &rows, sizeof rows);
-    free(old);
     return true;
 }
 
 /// Without normals glTF requires flat triangles, each with its own vertices.
 static bool flatten(struct gltf_reader *r, int targets, struct gltf_part *part)
 {
+    const struct gltf_target *read = part->targets;
+    r->into = &r->gltf->pool;
     bool done = spread(r, part, &part->position, sizeof *part->position) &&
                 spread(r, part, &part->uv, sizeof *part->uv) && spread(r, part, &part->color, sizeof *part->color) &&
                 spread(r, part, &part->joints, sizeof *part->joints) &&
                 spread(r, part, &part->weights, sizeof *part->weights) &&
                 spread(r, part, &part->mark, sizeof *part->mark) && spread(r, part, &part->fur, sizeof *part->fur);
-    for (int t = 0; done && t < targets; t++)
+    part->targets = done ? gltf_make(r, (size_t)targets, sizeof *part->targets) : NULL;
+    for (int t = 0; part->targets && done && t < targets; t++) {
+        part->targets[t] = read[t];
         done = spread(r, part, &part->targets[t].position, sizeof *part->position);
-    part->normal = done ? gltf_make(r, (size_t)part->index_count, sizeof *part->normal) : NULL;
+    }
+    part->normal = part->targets && done ? gltf_make(r, (size_t)part->index_count, sizeof *part->normal) : NULL;
+    pool_free(&r->indexed);
     if (!part->normal) return false;
     part->vertex_count = part->index_count;
     for (int i = 0; i < part->index_count; i++) {
@@ -313,10 +317,7 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, const json
     int count;
     if (!count_in_file(r, attributes, &part->vertex_count)) return false;
     if (!gltf_index(r, primitive, "material", r->gltf->material_count, &part->material)) return false;
-    if (!read_corners(r, primitive, part->vertex_count, &corners, &count)) {
-        free(corners);
-        return false;
-    }
+    if (!read_corners(r, primitive, part->vertex_count, &corners, &count)) return false;
     if (!make_triangles(r, (int)glb_integer(primitive, "mode", TRIANGLES), corners, count, part)) return false;
     drop_repeats(part);
     if (part->index_count == 0) return gltf_not_shown(r, "triangles without area");
@@ -325,6 +326,7 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, const json
         share(r, part, mesh->parts);
     } else {
         int *joints = &r->joints_of[mesh - r->gltf->meshes];
+        if (is_flat) r->into = &r->indexed;
         if (!read_vertices(r, primitive, mesh->target_count, part)) return false;
         for (int n = 0; part->joints && n < part->vertex_count * GLTF_INFLUENCES; n++) {
             const int joint = part->joints[n / GLTF_INFLUENCES][n % GLTF_INFLUENCES];
@@ -370,13 +372,9 @@ static bool read_mesh(struct gltf_reader *r, const json_t *json, size_t number)
         gltf_at(r, "meshes[%zu].primitives[%zu]", number, i);
         if (!has_triangles(r, primitive, &shown)) return false;
         if (!shown) continue;
-        struct gltf_part *part = &mesh->parts[mesh->part_count++];
+        struct gltf_part *part = &mesh->parts[mesh->part_count];
         if (!read_part(r, primitive, first, mesh, part)) return false;
-        if (!first && part->index_count > 0) first = primitive;
-        if (part->index_count > 0) continue;
-        free(part->indices);
-        part->indices = NULL;
-        mesh->part_count--;
+        if (part->index_count > 0 && mesh->part_count++ == 0) first = primitive;
     }
     gltf_at(r, "meshes[%zu]", number);
     mesh->extras = json_incref(json_object_get(json, "extras"));

@@ -107,7 +107,6 @@ static bool choose_scene(struct gltf_reader *r)
         node->mesh = -1;
         done = gltf_not_shown(r, "other scenes");
     }
-    free(shown);
     return done;
 }
 
@@ -335,11 +334,13 @@ static bool read_channel(struct gltf_reader *r, const json_t *json, const json_t
 /// A clip's name in its file. Scenes find clips by name, so a second clip of the same name gets a number.
 static char *name_clip(struct gltf_reader *r, const json_t *json, size_t number)
 {
-    char *name = gltf_name(r, json, "clip", number), *longer;
-    for (; name && gltf_find_clip(r->gltf, name) >= 0; name = longer) {
+    char *name = gltf_name(r, json, "clip", number);
+    while (name && gltf_find_clip(r->gltf, name) >= 0) {
+        char *longer;
         if (asprintf(&longer, "%s %zu", name, number + 1) < 0) longer = NULL;
+        name = longer ? gltf_text(r, longer) : NULL;
         if (!longer) fail_no_memory(r->error, r->file.path);
-        free(name);
+        free(longer);
     }
     return name;
 }

@@ -35,7 +35,7 @@ void *gltf_make(struct gltf_reader *r, size_t count, size_t size)
         return NULL;
     }
     r->file.room -= count * size;
-    void *memory = calloc(count + 1, size);
+    void *memory = pool_try(r->into, count, size);
     if (!memory) fail_no_memory(r->error, r->file.path);
     return memory;
 }
@@ -72,14 +72,19 @@ bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, fl
     return true;
 }
 
+char *gltf_text(struct gltf_reader *r, const char *text)
+{
+    char *copy = pool_try(&r->gltf->pool, strlen(text) + 1, 1);
+    if (!copy) fail_no_memory(r->error, r->file.path);
+    return copy ? strcpy(copy, text) : NULL;
+}
+
 char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n)
 {
     char made[64];
     const char *name = json_string_value(json_object_get(object, "name"));
     snprintf(made, sizeof made, "%s %zu", kind, n);
-    char *copy = strdup(name && name[0] ? name : made);
-    if (!copy) fail_no_memory(r->error, r->file.path);
-    return copy;
+    return gltf_text(r, name && name[0] ? name : made);
 }
 
 const json_t *gltf_array(const struct gltf_reader *r, const char *key) { return json_object_get(r->file.json, key); }
@@ -236,22 +241,20 @@ static bool read_all(struct gltf_reader *r)
     if (!check_version(r) || !check_arrays(r) || !check_required(r)) return false;
     if (!glb_read_buffers(&r->file, r->error) || !check_used(r)) return false;
     r->pixel_room = PIXEL_ROOM + r->file.room;
-    r->gltf->path = strdup(r->file.path);
+    r->gltf->path = gltf_text(r, r->file.path);
     r->gltf->id = gltf_new_id();
-    if (!r->gltf->path) return fail_no_memory(r->error, r->file.path);
-    return gltf_read_materials(r) && gltf_read_meshes(r) && gltf_read_nodes(r) && check_vertices(r) &&
-           gltf_read_skins(r) && gltf_read_clips(r) && measure(r);
+    return r->gltf->path && gltf_read_materials(r) && gltf_read_meshes(r) && gltf_read_nodes(r) &&
+           check_vertices(r) && gltf_read_skins(r) && gltf_read_clips(r) && measure(r);
 }
 
 /// Reads the opened file, if it is open, and closes it.
 static bool read_open(struct gltf_reader *r, bool is_open)
 {
     *r->gltf = (struct gltf){0};
+    r->into = &r->gltf->pool;
     const bool done = is_open && read_all(r);
     r->gltf->room = r->file.room;
-    free(r->uvs);
-    free(r->joints_of);
-    free(r->image_of);
+    pool_free(&r->indexed);
     glb_close(&r->file);
     if (!done) gltf_free(r->gltf);
     return done;

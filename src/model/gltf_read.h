@@ -16,6 +16,8 @@ struct gltf_reader {
     struct glb file;
     struct gltf *gltf;
     struct error *error;
+    struct pool *into;    ///< where gltf_make() takes memory from: usually the character's
+    struct pool indexed;  ///< the vertices of a flat part as the file has them
     bool stored;          ///< gltf_read_stored()
     char place[96];       ///< in the JSON, for messages
     struct gltf_uv *uvs;  ///< of each material
@@ -31,7 +33,7 @@ void gltf_at(struct gltf_reader *r, const char *format, ...) __attribute__((form
 /// Fails with "file: place" and then the text, which begins with ".member: " or ": ".
 bool gltf_bad(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
-/// Zeroed memory if the file is large enough to justify so much; else NULL and an error.
+/// Zeroed memory that is freed with the character, if the file is large enough to justify so much; else NULL and an error.
 void *gltf_make(struct gltf_reader *r, size_t count, size_t size);
 
 /// A member that is an index into an array of `limit` things; −1 if it is missing.
@@ -40,7 +42,8 @@ bool gltf_index(struct gltf_reader *r, const json_t *object, const char *key, in
 /// A member that is an array of `count` numbers; unchanged if it is missing.
 bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, float *numbers, size_t count);
 
-/// The name of a thing, or "kind n".
+/// A copy that stays with the character. And the name of a thing, or "kind n".
+char *gltf_text(struct gltf_reader *r, const char *text);
 char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n);
 
 /// An array of the file's root; NULL if there is none.

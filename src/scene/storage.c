@@ -1,22 +1,7 @@
 /// An evaluation's memory, and the solver's description of a spline.
 #include "scene/storage.h"
-#include "base/need.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-void *pool_take(struct pool *pool, size_t count, size_t size)
-{
-    pool->blocks = need_more(pool->blocks, pool->count + 1, sizeof *pool->blocks);
-    return pool->blocks[pool->count++] = need_zeroed(count, size);
-}
-
-void pool_free(struct pool *pool)
-{
-    for (size_t i = 0; i < pool->count; i++) free(pool->blocks[i]);
-    free(pool->blocks);
-    *pool = (struct pool){0};
-}
 
 /// What a parameter of a spline follows, sample by sample; NULL: a constant, or a motion that is not read yet.
 static const double *track_of(const struct evaluation *evaluation, const struct document *document, int spline,

@@ -3,16 +3,9 @@
 #ifndef SCENE_STORAGE_H
 #define SCENE_STORAGE_H
 
+#include "base/pool.h"
 #include "scene/evaluate.h"
 #include "scene/order.h"
-
-/// Memory that is freed together. Starts as zeros.
-struct pool {
-    void **blocks;
-    size_t count;
-};
-void *pool_take(struct pool *pool, size_t count, size_t size);
-void pool_free(struct pool *pool);
 
 /// The motion of a joint that a spline's equilibrium follows, read for every sample.
 struct baked {
