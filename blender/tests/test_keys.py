@@ -3,7 +3,8 @@ from common import *
 
 
 def channel(rig, name, frame):
-    return curves.find(rig, curves.path_of(name)).evaluate(frame)
+    name, part = name.rsplit(' ', 1)
+    return curves.part(rig, rig.wiggly.splines[name], part).evaluate(frame)
 
 
 def slopes():

@@ -49,7 +49,7 @@ def refresh(context, owner):
     now = stamp(owner, scene)
     for spline, _, _, motion in wanted:
         mean = sum(value for value, _ in motion) / len(motion)
-        curves.write_samples(owner, spline.name + ' y', scene.frame_start, [spline.follow_gain * (value - mean) for value, _ in motion])
+        curves.write(owner, spline, 'y', scene.frame_start, [spline.follow_gain * (value - mean) for value, _ in motion])
         spline.stamp = now
     chains_now = {c.name for c in owner.wiggly.chains}
     for name in chains_now:

@@ -138,20 +138,21 @@ def drive_axis(owner, con, letter, parts):
     driver = con.driver_add(f'to_min_{letter}_rot').driver
     terms = []
 
-    def variable(name):
+    def variable(spline, part):
         new = driver.variables.new()
         new.name = f'v{len(driver.variables)}'
         new.targets[0].id = owner
-        new.targets[0].data_path = curves.path_of(name)
+        path, index = curves.slot_path(spline, part)
+        new.targets[0].data_path = f'{path}[{index}]'
         return new.name
 
     for channel, (gain, real, imaginary) in parts:
         spline = owner.wiggly.splines[channel.spline]
-        terms.append(f'{real:.9g}*{variable(spline.name + " re")}')
+        terms.append(f'{real:.9g}*{variable(spline, "re")}')
         if imaginary:
-            terms.append(f'{imaginary:.9g}*{variable(spline.name + " im")}')
+            terms.append(f'{imaginary:.9g}*{variable(spline, "im")}')
         if channel.of == 'total' and spline.follow != 'none':
-            terms.append(f'{gain:.9g}*{variable(spline.name + " y")}')
+            terms.append(f'{gain:.9g}*{variable(spline, "y")}')
         elif channel.of == 'total' and spline.equilibrium:
             terms.append(f'{gain * spline.equilibrium:.9g}')
     driver.expression = '+'.join(terms).replace('+-', '-')
@@ -184,11 +185,8 @@ def make(owner, bones, follow, loop=False):
     points = [bone.bone.head_local for bone in bones] + [bones[-1].bone.tail_local]
     length = max(sum((b - a).length for a, b in zip(points, points[1:])) * owner.matrix_world.median_scale, 1e-3)
     count = len(bones)
-    constrain(owner, chain, bones)
     for axis in ('side', 'up'):
-        spline = wiggly.splines.add()
-        spline.name = f'{chain.name} {axis}'
-        owner[spline.name] = 0.0
+        spline = add_spline(owner, f'{chain.name} {axis}')
         spline.frequency = round(min(max(USUAL_FREQUENCY * math.sqrt(USUAL_LENGTH / length), SLOWEST), FASTEST), 1)
         spline.start = 'loop' if loop else 'rest'
         spline.follow = ('across' if axis == 'side' else 'up') if follow else 'none'
@@ -197,6 +195,7 @@ def make(owner, bones, follow, loop=False):
         channel.lag = round(WHOLE / count)
         channel.gain = round(math.degrees(2 / (length * (count + 1))) if follow else WHOLE / count, 1)
     wiggly.active = len(wiggly.chains) - 1
+    constrain(owner, chain, bones)
     drive(owner, chain)
     return chain
 
@@ -217,25 +216,42 @@ def remove(owner, chain):
         remove_spline(owner, name)
 
 
+def add_spline(owner, name):
+    splines = owner.wiggly.splines
+    slot = unique_slot(splines)
+    spline = splines.add()
+    spline.name, spline.slot = name, slot
+    owner[name] = 0.0
+    curves.make_room(owner, spline)
+    return spline
+
+
+def unique_slot(splines):
+    taken = {spline.slot for spline in splines}
+    return next(slot for slot in range(len(taken) + 1) if slot not in taken)
+
+
 def remove_spline(owner, name):
-    for part in ('', ' re', ' im', ' y'):
-        curves.drop(owner, curves.path_of(name + part))
-        if name + part in owner:
-            del owner[name + part]
+    spline = owner.wiggly.splines[name]
+    curves.drop(owner, curves.path_of(name))
+    curves.drop_samples(owner, spline)
+    if name in owner:
+        del owner[name]
     owner.wiggly.splines.remove(owner.wiggly.splines.find(name))
     if not owner.wiggly.splines:
+        del owner[curves.SAMPLES]
         owner.property_unset('wiggly')
 
 
-def settings_changed(setting, context, name):
+def settings_changed(setting, name):
     """After an edit in the panel: the chain's other axes get the same, and the drivers follow."""
     owner = setting.id_data
     for chain in owner.wiggly.chains if getattr(owner, 'pose', None) else ():
-        splines = [owner.wiggly.splines[channel.spline] for channel in chain.channels if channel.spline in owner.wiggly.splines]
-        for row in (chain.channels, splines):
-            if chain.alike and name in SHARED and any(setting == each for each in row):
-                for each in row:
-                    if getattr(each, name) != getattr(setting, name):
-                        setattr(each, name, getattr(setting, name))
-        if name not in SOLVED:
+        channels = list(chain.channels)
+        rows = [chain], channels, [owner.wiggly.splines[channel.spline] for channel in channels if channel.spline in owner.wiggly.splines]
+        row = next((row for row in rows if setting in row), ())
+        if row and name not in SOLVED:
             drive(owner, chain)
+        for each in row if chain.alike and name in SHARED else ():
+            if getattr(each, name) != getattr(setting, name):
+                setattr(each, name, getattr(setting, name))

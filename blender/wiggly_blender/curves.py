@@ -3,6 +3,7 @@ from array import array
 import bpy
 
 LAYERED = bpy.app.version >= (4, 4, 0)
+SAMPLES, PARTS = 'wiggle samples', ('re', 'im', 'y')
 HELD = 240000.0  # in a keyframe's unused `period`: its `back` holds the phase of a pose
 
 
@@ -82,21 +83,53 @@ def samples(curve):
     return (round(flat[0]) if points else 0), flat[1::2]
 
 
-def write_samples(owner, name, first, values):
-    """Makes a curve of one value per frame; `values` has at least two."""
-    path = path_of(name)
-    if name not in owner:
-        owner[name] = 0.0
-    curve = ensure(owner, path)
+def slot_path(spline, part):
+    """Where the samples of a spline are: one property holds those of all, because drivers look properties up one by one."""
+    return path_of(SAMPLES), 3 * spline.slot + PARTS.index(part)
+
+
+def part(owner, spline, name):
+    """The sampled curve of Re x ('re'), Im x ('im') or the equilibrium ('y')."""
+    return find(owner, *slot_path(spline, name))
+
+
+def drop_samples(owner, spline):
+    for name in PARTS:
+        drop(owner, *slot_path(spline, name))
+    curves = list_of(owner)
+    if curves is not None and not any(curve.data_path == path_of(SAMPLES) for curve in curves):
+        groups = groups_of(owner)
+        if SAMPLES in groups:
+            groups.remove(groups[SAMPLES])
+
+
+def groups_of(owner):
+    action = action_of(owner)
+    return action.layers[0].strips[0].channelbag(owner.animation_data.action_slot).groups if LAYERED else action.groups
+
+
+def make_room(owner, spline):
+    old = list(owner.get(SAMPLES, ()))
+    if len(old) < 3 * spline.slot + 3:
+        owner[SAMPLES] = old + [0.0] * (3 * spline.slot + 3 - len(old))
+
+
+def write(owner, spline, name, first, values):
+    """Samples of a spline, one per frame and at least two."""
+    path, index = slot_path(spline, name)
+    make_room(owner, spline)
+    curve = ensure(owner, path, index)
     old_first, old = samples(curve)
     if len(old) != len(values) or old_first != first:
         if old:
             list_of(owner).remove(curve)
-            curve = ensure(owner, path)
+            curve = ensure(owner, path, index)
         for frame in (first, first + 1):
             curve.keyframe_points.insert(frame, 0, options={'FAST'})
         curve.convert_to_samples(first, first + len(values))
         curve.lock = curve.hide = True
+        groups = groups_of(owner)
+        curve.group = groups.get(SAMPLES) or groups.new(SAMPLES)
         old = None
     flat = array('f', bytes(8 * len(values)))
     flat[0::2] = array('f', range(first, first + len(values)))

@@ -10,7 +10,7 @@ MANY = {'LIBRARY_OVERRIDABLE', 'USE_INSERTION'}
 def changed(name):
     def update(self, context):
         from . import chain
-        chain.settings_changed(self, context, name)
+        chain.settings_changed(self, name)
     return update
 
 
@@ -36,6 +36,7 @@ class Spline(bpy.types.PropertyGroup):
         ('up', 'Up', 'Follows the motion up and down'), ('turn', 'Turn', 'Follows the turning')))
     joint: StringProperty(name='Bone', description='The bone it follows; empty is the last one of the chain', override=SAME)
     follow_gain: FloatProperty(name='Strength', default=1, override=SAME)
+    slot: IntProperty(override=SAME)  # of its samples
     stamp: StringProperty(override=SAME)  # of the motion that was read
     path: StringProperty(override=SAME)  # of a property that it moves
     index: IntProperty(override=SAME)

@@ -63,7 +63,7 @@ def knots_of(curve, spline, first, last, fps, im):
 
 def equilibrium(owner, spline, first, last):
     """A number, or one for each frame."""
-    start, values = curves.samples(curves.find(owner, curves.path_of(spline.name + ' y'))) if spline.follow != 'none' else (0, ())
+    start, values = curves.samples(curves.part(owner, spline, 'y')) if spline.follow != 'none' else (0, ())
     if not len(values):
         return spline.equilibrium
     return [values[min(max(frame - start, 0), len(values) - 1)] for frame in range(first, last + 1)]
@@ -72,7 +72,7 @@ def equilibrium(owner, spline, first, last):
 def solve(owner, spline, scene):
     """Solves a spline if its inputs differ from those solved last."""
     curve = curves.find(owner, curves.path_of(spline.name))
-    im = curves.find(owner, curves.path_of(spline.name + ' im'))
+    im = curves.part(owner, spline, 'im')
     first, last = range_of(owner, spline, scene, curve)
     fps = fps_of(scene)
     action = curves.action_of(owner)
@@ -94,14 +94,14 @@ def solve(owner, spline, scene):
         if spline.start == 'loop':  # through the scene's frames, and one more on either side for motion blur
             start = min(first, scene.frame_start) - 1
             values = [values[(frame - first) % (last - first)] for frame in range(start, max(last, scene.frame_end) + 2)]
-        curves.write_samples(owner, f'{spline.name} {part}', start, values)
+        curves.write(owner, spline, part, start, values)
     action = curves.action_of(owner)
     solved[key] = inputs()
 
 
 def insert(owner, spline, frame, kind):
     """A key at the value that the curve has there."""
-    total = sum(curve.evaluate(frame) for curve in (curves.find(owner, curves.path_of(f'{spline.name} {part}')) for part in ('re', 'y')) if curve)
+    total = sum(curve.evaluate(frame) for curve in (curves.part(owner, spline, part) for part in ('re', 'y')) if curve)
     if spline.follow == 'none':
         total += spline.equilibrium
     if spline.name not in owner:
