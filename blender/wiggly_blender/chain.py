@@ -7,7 +7,7 @@ import json
 import math
 import bpy
 from mathutils import Matrix, Vector
-from . import curves
+from . import curves, solve
 
 AXES = {'side': 'z', 'up': 'x', 'twist': 'y'}
 USUAL_LENGTH, USUAL_FREQUENCY, SLOWEST, FASTEST = 0.5, 1.5, 0.8, 3.5  # longer chains swing slower, like a pendulum
@@ -135,27 +135,30 @@ def drive(owner, chain):
 
 
 def drive_axis(owner, con, letter, parts):
-    driver = con.driver_add(f'to_min_{letter}_rot').driver
-    terms = []
-
-    def variable(spline, part):
-        new = driver.variables.new()
-        new.name = f'v{len(driver.variables)}'
-        new.targets[0].id = owner
-        path, index = curves.slot_path(spline, part)
-        new.targets[0].data_path = f'{path}[{index}]'
-        return new.name
-
+    terms, rest = [], 0
     for channel, (gain, real, imaginary) in parts:
         spline = owner.wiggly.splines[channel.spline]
-        terms.append(f'{real:.9g}*{variable(spline, "re")}')
-        if imaginary:
-            terms.append(f'{imaginary:.9g}*{variable(spline, "im")}')
+        terms += [(spline, 're', real), (spline, 'im', imaginary)]
         if channel.of == 'total' and spline.follow != 'none':
-            terms.append(f'{gain:.9g}*{variable(spline, "y")}')
-        elif channel.of == 'total' and spline.equilibrium:
-            terms.append(f'{gain * spline.equilibrium:.9g}')
-    driver.expression = '+'.join(terms).replace('+-', '-')
+            terms.append((spline, 'y', gain))
+        elif channel.of == 'total':
+            rest += gain * spline.equilibrium
+    say(con.driver_add(f'to_min_{letter}_rot').driver, owner, terms, rest)
+
+
+def say(driver, owner, terms, rest):
+    """Makes a driver a sum: of parts of splines, each with its weight, and a number."""
+    words = [f'{rest:.9g}'] if rest else []
+    for spline, part, weight in terms:
+        if weight:
+            variable = driver.variables.new()
+            variable.name = f'v{len(driver.variables)}'
+            target = variable.targets[0]
+            target.id_type, target.id = owner.id_type, owner
+            path, index = curves.slot_path(spline, part)
+            target.data_path = f'{path}[{index}]'
+            words.append(f'{weight:.9g}*{variable.name}')
+    driver.expression = '+'.join(words or ['0']).replace('+-', '-')
 
 
 def undrive(owner, con, letter):
@@ -223,6 +226,7 @@ def add_spline(owner, name):
     spline.name, spline.slot = name, slot
     owner[name] = 0.0
     curves.make_room(owner, spline)
+    solve.forget()
     return spline
 
 

@@ -40,6 +40,8 @@ class Spline(bpy.types.PropertyGroup):
     stamp: StringProperty(override=SAME)  # of the motion that was read
     path: StringProperty(override=SAME)  # of a property that it moves
     index: IntProperty(override=SAME)
+    before: FloatProperty()  # its value before that
+    made: BoolProperty()  # its keys were made for the spline
 
 
 class Channel(bpy.types.PropertyGroup):

@@ -7,7 +7,7 @@ from . import curves, settings as stored
 
 solved = {}  # (type, library, ID, spline) → the inputs solved last
 cached = [None, []]  # how many IDs there were, and which have splines
-KINDS = ('objects', 'shape_keys', 'materials', 'node_groups', 'lights', 'cameras', 'worlds')
+KINDS = ('objects', 'shape_keys', 'materials', 'node_groups', 'lights', 'cameras', 'worlds', 'scenes')
 
 
 def fps_of(scene):
@@ -115,9 +115,11 @@ def insert(owner, spline, frame, kind):
 def solve_all(scene):
     for owner in owners():
         action = curves.action_of(owner)
-        if owner.is_editable and (not action or action.is_editable):
+        if stored.of(owner) and owner.is_editable and (not action or action.is_editable):
+            muted = {channel.spline for chain in owner.wiggly.chains if chain.mute for channel in chain.channels}
             for spline in owner.wiggly.splines:
-                solve(owner, spline, scene)
+                if spline.name not in muted:
+                    solve(owner, spline, scene)
 
 
 @persistent

@@ -1,7 +1,7 @@
 """Operators, the panel, and menus."""
 import bpy
 from bpy.props import BoolProperty, EnumProperty
-from . import base, chain as chains, curves, settings, solve
+from . import bake, base, chain as chains, curves, prop, settings, solve
 
 PRESETS = {'tail': ('Tail', 1.5, 0.12), 'ear': ('Ear', 3, 0.25), 'hair': ('Hair', 2, 0.2), 'rope': ('Rope', 1, 0.05),
            'antenna': ('Antenna', 5, 0.06), 'belly': ('Belly', 3, 0.35)}
@@ -21,7 +21,6 @@ class Operator(bpy.types.Operator):
         except ValueError as problem:
             self.report({'ERROR'}, str(problem))
             return {'CANCELLED'}
-        solve.forget()
         solve.solve_all(context.scene)
         return {'FINISHED'}
 
@@ -81,6 +80,36 @@ class WIGGLY_OT_key(Operator):
             solve.insert(owner, owner.wiggly.splines[channel.spline], frame, self.kind)
 
 
+class WIGGLY_OT_bake(Operator):
+    """Makes keyframes of the active chain in a copy of the action, one a frame, and mutes the chain. The action stays"""
+    bl_idname, bl_label = 'wiggly.bake', 'Bake'
+
+    def run(self, context, owner):
+        bake.bake(context, owner, active(owner))
+
+
+class Property(Operator):
+    @classmethod
+    def poll(cls, context):
+        return getattr(context, 'property', None) and context.property[0].is_editable
+
+    def run(self, context, _):
+        owner, path, index = context.property
+        self.change(owner, path, max(index, 0))
+
+
+class WIGGLY_OT_property(Property):
+    """Lets this property swing through its keyframes"""
+    bl_idname, bl_label = 'wiggly.property', 'Wiggle This Property'
+    change = staticmethod(prop.add)
+
+
+class WIGGLY_OT_property_remove(Property):
+    """Gives this property its keyframes back"""
+    bl_idname, bl_label = 'wiggly.property_remove', 'Remove Wiggle'
+    change = staticmethod(prop.remove)
+
+
 class WIGGLY_OT_preset(Operator):
     """Sets frequency and damping of the active chain"""
     bl_idname, bl_label = 'wiggly.preset', 'Preset'
@@ -120,6 +149,7 @@ class WIGGLY_PT_panel(bpy.types.Panel):
             layout.operator('wiggly.refresh', text='The Body Has Changed: Refresh', icon='ERROR')
         layout.operator_menu_enum('wiggly.key', 'kind', icon='KEY_HLT')
         layout.operator_menu_enum('wiggly.preset', 'preset', icon='PRESET')
+        layout.operator('wiggly.bake', icon='RENDER_ANIMATION')
         layout.prop(chain, 'alike')
         layout.use_property_split = True
         for channel in list(chain.channels)[:1 if chain.alike else None]:
@@ -136,21 +166,31 @@ class WIGGLY_PT_panel(bpy.types.Panel):
                 column.prop(channel, name)
 
 
+def button_menu(self, context):
+    if getattr(context, 'property', None):
+        owner, path, index = context.property
+        self.layout.separator()
+        self.layout.operator('wiggly.property_remove' if prop.found(owner, path, max(index, 0)) else 'wiggly.property')
+
+
 def pose_menu(self, context):
     self.layout.separator()
     self.layout.operator('wiggly.add')
 
 
-classes = (WIGGLY_OT_add, WIGGLY_OT_remove, WIGGLY_OT_refresh, WIGGLY_OT_key, WIGGLY_OT_preset, WIGGLY_UL_chains, WIGGLY_PT_panel)
+classes = (WIGGLY_OT_add, WIGGLY_OT_remove, WIGGLY_OT_refresh, WIGGLY_OT_key, WIGGLY_OT_preset, WIGGLY_OT_bake, WIGGLY_OT_property,
+           WIGGLY_OT_property_remove, WIGGLY_UL_chains, WIGGLY_PT_panel)
 
 
 def register():
     for each in classes:
         bpy.utils.register_class(each)
     bpy.types.VIEW3D_MT_pose.append(pose_menu)
+    bpy.types.UI_MT_button_context_menu.append(button_menu)
 
 
 def unregister():
+    bpy.types.UI_MT_button_context_menu.remove(button_menu)
     bpy.types.VIEW3D_MT_pose.remove(pose_menu)
     for each in reversed(classes):
         bpy.utils.unregister_class(each)

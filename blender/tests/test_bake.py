@@ -1,0 +1,82 @@
+"""Bake makes what is seen; any property can swing."""
+from common import *
+
+
+def baked(what, prepare=lambda rig: None):
+    rig = fresh(bend=0.2)
+    rig.pose.bones['tail_1'].rotation_mode = 'QUATERNION'
+    rig.pose.bones['tail_2'].rotation_mode = 'ZXY'
+    rig.pose.bones['tail_3'].rotation_mode = 'AXIS_ANGLE'
+    for frame, angle in ((1, 0), (30, 1), (60, -2)):
+        rig.pose.bones['tail_2'].rotation_euler = angle, angle / 2, 0.1
+        rig.pose.bones['tail_2'].keyframe_insert('rotation_euler', frame=frame)
+    prepare(rig)
+    mine = rig.animation_data.action
+    chain = add(rig, follow=False)
+    key(rig, 'tail side', (10, 1), (30, -0.5))
+    key(rig, 'tail up', (20, 2))
+    frames = range(1, 61)
+    live = poses(rig, frames)
+    bpy.ops.wiggly.bake()
+    bpy.context.view_layer.update()
+    after = poses(rig, frames)
+    ok(f'{what}: baked is live', apart(live, after) < 2e-6, apart(live, after))
+    ok(f'{what}: the action stays', rig.animation_data.action != mine and curves.LAYERED or len(mine.fcurves) > 3)
+    ok(f'{what}: the chain is muted', chain.mute)
+    bpy.ops.wiggly.remove()
+    ok(f'{what}: Remove leaves the keys', apart(live, poses(rig, frames)) < 2e-6, apart(live, poses(rig, frames)))
+    if not any(c.name.startswith('Baked') for bone in rig.pose.bones for c in bone.constraints):
+        ok(f'{what}: and nothing else', not any('onstraint' in c.data_path or 'wiggle' in c.data_path for c in curves.list_of(rig)))
+
+
+def bones():
+    baked('bones')
+
+
+def constrained():
+    def prepare(rig):
+        con = rig.pose.bones['tail_3'].constraints.new('COPY_ROTATION')
+        con.target, con.subtarget = rig, 'root'
+        con.influence = 0.5
+    baked('a constraint', prepare)
+
+
+def swings(what, owner, path, index, read, keys=((1, 0.0), (20, 1.0))):
+    def value(frame):
+        bpy.context.scene.frame_set(frame)
+        return read(owner.evaluated_get(bpy.context.evaluated_depsgraph_get()))
+
+    curve = curves.ensure(owner, path, index)
+    for frame, number in keys:
+        curve.keyframe_points.insert(frame, number)
+    curve.update()
+    before, still = curves.read(curve), [value(frame) for frame in range(1, 40)]
+    from wiggly_blender import prop
+    spline = prop.add(owner, path, index)
+    bpy.context.view_layer.update()
+    moved = [value(frame) for frame in range(1, 40)]
+    ok(f'{what}: hits its keys', all(abs(moved[frame - 1] - number) < 1e-5 for frame, number in keys), moved)
+    ok(f'{what}: swings', max(abs(a - b) for a, b in zip(moved, still)) > 0.05)
+    prop.remove(owner, path, index)
+    bpy.context.view_layer.update()
+    ok(f'{what}: Remove gives the keys back', curves.read(curves.find(owner, path, index)) == before)
+    ok(f'{what}: and the motion', [value(frame) for frame in range(1, 40)] == still)
+    ok(f'{what}: and leaves nothing', not list(owner.keys()) and not owner.animation_data.drivers and len(curves.list_of(owner)) == 1)
+
+
+def properties():
+    fresh()
+    bpy.ops.object.mode_set(mode='OBJECT')
+    bpy.ops.mesh.primitive_cube_add()
+    cube = bpy.context.object
+    swings('location', cube, 'location', 1, lambda seen: seen.location[1])
+    cube.shape_key_add(name='Basis')
+    cube.shape_key_add(name='fat')
+    keys = cube.data.shape_keys
+    swings('a shape key', keys, 'key_blocks["fat"].value', 0, lambda seen: seen.key_blocks['fat'].value, ((1, 0.2), (20, 0.6)))
+    light = bpy.data.lights.new('light', 'POINT')
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new('light', light))
+    swings('a light', light, 'energy', 0, lambda seen: seen.energy, ((1, 40.0), (20, 60.0)))
+
+
+main(bones, constrained, properties)

@@ -1,0 +1,64 @@
+"""Any property that has one number: its own keyframes become the knots, and a driver moves it."""
+import bpy
+from . import chain as chains, curves, settings, solve
+
+
+def found(owner, path, index):
+    wiggly = settings.of(owner)
+    return next((spline for spline in wiggly.splines if (spline.path, spline.index) == (path, index)), None) if wiggly else None
+
+
+def resolve(owner, path, index):
+    value = owner.path_resolve(path)
+    return value[index] if hasattr(value, '__len__') else value
+
+
+def add(owner, path, index):
+    """`index` is that of an array, else 0."""
+    if not any(owner == each for kind in solve.KINDS for each in getattr(bpy.data, kind)):
+        raise ValueError(f'"{path}" belongs to a {owner.id_type.lower()} inside of another datablock, which cannot wiggle')
+    if found(owner, path, index):
+        raise ValueError(f'"{path}" already wiggles')
+    value = resolve(owner, path, index)
+    if not isinstance(value, float):
+        raise ValueError(f'"{path}" is not a decimal number')
+    if owner.animation_data and owner.animation_data.drivers.find(path, index=index):
+        raise ValueError(f'"{path}" has a driver')
+    name = path.rpartition('.')[2] if not path.startswith('[') else path[2:-2]
+    if path.startswith('key_blocks['):
+        name = path.split('"')[1]
+    array = hasattr(owner.path_resolve(path), '__len__')
+    spline = chains.add_spline(owner, chains.unique(f'wiggle {name}' + (f' {"XYZW"[index]}' if array and index < 4 else ''), set(owner.keys())))
+    spline.path, spline.index, spline.before, spline.equilibrium, spline.start = path, index, value, value, 'free'
+    curve = curves.find(owner, path, index)
+    if curve:
+        curve.data_path, curve.array_index = curves.path_of(spline.name), 0
+        curve.update()
+    else:
+        curves.list_of(owner, make=True)
+        solve.insert(owner, spline, bpy.context.scene.frame_current, 'KEYFRAME')
+    spline.made = not curve
+    driver = (owner.driver_add(path, index) if array else owner.driver_add(path)).driver
+    chains.say(driver, owner, [(spline, 're', 1.0)], spline.equilibrium)
+    return spline
+
+
+def remove(owner, path, index):
+    spline = found(owner, path, index)
+    if not spline:
+        raise ValueError(f'"{path}" does not wiggle')
+    array = hasattr(owner.path_resolve(path), '__len__')
+    owner.driver_remove(path, index) if array else owner.driver_remove(path)
+    curve = curves.find(owner, curves.path_of(spline.name))
+    if curve and not spline.made:
+        curve.data_path, curve.array_index = path, index
+    if array:
+        owner.path_resolve(path)[index] = spline.before
+    else:
+        target, _, name = path.rpartition('.')
+        target = owner.path_resolve(target) if target else owner
+        if name.startswith('['):
+            target[name[2:-2]] = spline.before
+        else:
+            setattr(target, name, spline.before)
+    chains.remove_spline(owner, spline.name)
