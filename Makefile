@@ -6,7 +6,7 @@
 #   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
-#   make wheel    the Python package for every platform, in build/python/wheels (PLATFORMS="win_amd64" for one); fetches zig
+#   make wheel    the Python package for every platform, in build/wheels (PLATFORMS="win_amd64" for one); fetches zig
 #   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
 #   make blender    the extension for Blender, a .zip in the build folder
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports, and takes in files of others
@@ -129,7 +129,7 @@ all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
 library: $(LIBRARIES)
 
 wheel:
-	$(Q)python/wheels.sh $(B)/python $(PLATFORMS)
+	$(Q)python/wheels.sh $(B) $(PLATFORMS)
 
 # The app itself finds out whether it has a display; however it ran, it leaves its log and its last picture.
 LIVE_OUT ?= $(B)

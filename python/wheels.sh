@@ -1,8 +1,9 @@
 #!/bin/bash
-# Builds wheels of the Python package with PyPI's zig, which compiles for all platforms: wheels.sh FOLDER [PLATFORM]...
-# Zig and its cache are in FOLDER, too; the wheels in FOLDER/wheels. The first Windows wheel takes minutes.
+# Builds wheels of the Python package with PyPI's zig, which compiles for all platforms: wheels.sh BUILD [PLATFORM]...
+# They come to BUILD/wheels, zig and its cache to BUILD/python. The first Windows wheel takes minutes.
 set -eu
-folder=$(mkdir -p "$1" && realpath "$1")
+build=$(mkdir -p "$1" && realpath "$1")
+folder=$build/python
 shift
 declare -A targets=(
     [manylinux_2_17_x86_64]=x86_64-linux-gnu.2.17
@@ -21,5 +22,5 @@ cd "$(dirname "$0")"
 [ $# -gt 0 ] || set -- "${!targets[@]}"
 for platform; do
     WIGGLY_PLATFORM=$platform CC="'$python' -m ziglang cc -target ${targets[$platform]}" \
-        "$python" -m hatchling build -t wheel -d "$folder/wheels"
+        "$python" -m hatchling build -t wheel -d "$build/wheels"
 done

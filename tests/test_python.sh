@@ -19,11 +19,11 @@ thorough || exit 0
 
 # --- wheels: what is in them, what leaves their library, what they need
 
-rm -rf "$place/wheels"
+rm -rf "$B/wheels"
 [ -x "$place/bin/python" ] || python3 -m venv "$place" >/dev/null
 "$place/bin/pip" install --quiet --retries 0 hatchling ziglang numpy auditwheel 2>"$scratch/fetch" ||
     { echo "skip - the wheels, because zig could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
-expect 0 "wheels for every platform" python/wheels.sh "$place"
+expect 0 "wheels for every platform" python/wheels.sh "$B"
 exports() { # <library>: the names that leave it, but for the C runtime's of Windows
     case $1 in
     *.so) nm -D --defined-only "$1" | awk '{ print $3 }' ;;
@@ -32,7 +32,7 @@ exports() { # <library>: the names that leave it, but for the C runtime's of Win
     esac | sort
 }
 sed -nE 's/^[a-z].*[ *](wiggly_[a-z_]+)\(.*/\1/p' include/wiggly/*.h | sort >"$scratch/promised"
-for wheel in "$place"/wheels/*.whl; do
+for wheel in "$B"/wheels/*.whl; do
     platform=${wheel##*-none-}
     holds "$platform has at most 300 KB" [ "$(stat -c %s "$wheel")" -le 300000 ]
     rm -rf "$scratch/wheel" && "$python" -m zipfile -e "$wheel" "$scratch/wheel"
@@ -43,7 +43,7 @@ for wheel in "$place"/wheels/*.whl; do
     holds "and only the headers' names leave its library" diff "$scratch/promised" "$scratch/names"
 done
 for platform in manylinux_2_17_x86_64 manylinux_2_17_aarch64; do
-    expect 0 "auditwheel looks into $platform" "$place/bin/auditwheel" show "$place/wheels/"*-$platform.whl
+    expect 0 "auditwheel looks into $platform" "$place/bin/auditwheel" show "$B/wheels/"*-$platform.whl
     says "which is what it says" "\"$platform\"" "$out"
 done
 
@@ -52,7 +52,7 @@ done
 unset WIGGLY_LIBRARY PYTHONPATH
 python3 -m venv "$scratch/venv" >/dev/null
 case $(uname -m) in x86_64 | aarch64) ;; *) exit 0 ;; esac
-expect 0 "it installs" "$scratch/venv/bin/pip" install --quiet numpy "$place/wheels/"*-manylinux_2_17_"$(uname -m)".whl
+expect 0 "it installs" "$scratch/venv/bin/pip" install --quiet numpy "$B/wheels/"*-manylinux_2_17_"$(uname -m)".whl
 expect 0 "and does the same" "$scratch/venv/bin/python" -m unittest discover -s python/tests
 expect 0 "a source distribution is made" bash -c "cd python && '$place/bin/python' -m hatchling build -t sdist -d '$scratch'"
 expect 0 "and installs with a C compiler" "$scratch/venv/bin/pip" install --quiet --force-reinstall --no-deps "$scratch"/wiggly-*.tar.gz

@@ -10,8 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._library import CCurve, CValue, Status, lib
 
-ROWS = ("total", "y", "re", "im", "omega")
-
 
 class Curve:
     """A solved spline: arrays of one number a sample, and the curve in between.
@@ -48,14 +46,14 @@ class Curve:
     omega: NDArray[np.float64]
 
     def __init__(self, n: int, step: float) -> None:
-        self._hold(np.zeros((5, n)), CCurve(size=sizeof(CCurve), samples=n, step=step))
+        self._hold(np.zeros((5, n)), CCurve(sizeof(CCurve), samples=n, step=step))
         self.status = Status.OK
 
     def _hold(self, block: NDArray[np.float64], struct: CCurve) -> None:
         self._block, self._struct = block, struct
-        at, row = block.ctypes.data, block.strides[0]
+        at, row = block.ctypes.data, 8 * block.shape[1]
         self.total, self.y, self.re, self.im, self.omega = block
-        struct.total, struct.y, struct.re, struct.im, struct.omega = range(at, at + 5 * row, row) if row else [at] * 5
+        struct.total, struct.y, struct.re, struct.im, struct.omega = at, at + row, at + 2 * row, at + 3 * row, at + 4 * row
         self._at = addressof(struct)
 
     def __getstate__(self) -> tuple[NDArray[np.float64], bytes, Status]:

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._curve import Curve
-from ._library import (KNOT, MODES, PASSIVES, SOLVERS, STARTS, CDesc, CExplanation, CParam, Error, Handle, Status, lib, report,
-                       shared_solver)  # fmt: skip
+from ._library import (KNOT, MODES, PASSIVES, SOLVERS, STARTS, CDesc, CExplanation, CParam, Error, Handle, Status, lib,
+                       report, shared_solver)  # fmt: skip
 
 Param = Union[float, NDArray[np.float64], Sequence[float]]
 Limits = tuple[Optional[float], Optional[float]]
@@ -46,7 +46,7 @@ def read_knots(knots: Iterable[Any] | NDArray[np.float64]) -> tuple[NDArray[np.f
         time, value, slope, stiffness, phase, still = knot if type(knot) is Knot else Knot(*knot)
         times.append(time)
         rows.append((0, slope is not None, phase is not None, still, value, slope or 0, stiffness or 0, phase or 0))
-    return np.array(times, dtype=float), np.array(rows, KNOT)
+    return np.array(times, float), np.array(rows, KNOT)
 
 
 def nearest_samples(times: NDArray[np.float64], fps: float) -> NDArray[np.float64]:
@@ -123,7 +123,7 @@ class Spline:
     ) -> None:
         self.times, self._knots = read_knots(knots)
         self._tracks: list[NDArray[np.float64]] = []
-        self._desc = desc = CDesc(size=sizeof(CDesc), knot_count=len(self._knots), calm=calm, has_calm=True)
+        self._desc = desc = CDesc(sizeof(CDesc), knot_count=len(self._knots), calm=calm, has_calm=True)
         desc.mode, desc.start, desc.passive = word("mode", mode, MODES), word("start", start, STARTS), word("passive", passive, PASSIVES)
         desc.variation, desc.variation_seed = variation, seed
         if limits is not None:
@@ -152,9 +152,8 @@ class Spline:
         knots = self._knots.copy()
         if samples is None:
             samples = nearest_samples(self.times, fps)
-        wrong = ~(np.abs(samples) < 2**31)
-        if wrong.any():
-            knot = int(wrong.argmax())
+        if not samples @ samples < 2.0**62:  # quickly: none is NaN or beyond the library's int
+            knot = int((~(np.abs(samples) < 2**31)).argmax())
             raise Error(f"knot {knot}: {Status.KNOT_OUTSIDE.sentence}", Status.KNOT_OUTSIDE, knot)
         knots["sample"] = samples
         desc = CDesc.from_buffer_copy(self._desc)
