@@ -2,7 +2,8 @@
 . tests/check.sh
 [ -z "${SANITIZE:-}" ] || { echo "skip - Python loads no sanitized library"; exit 0; }
 command -v python3 >/dev/null || { echo "skip - python3 is not installed"; exit 0; }
-place=$B/python
+place=$PWD/$B/python
+case $B in /*) place=$B/python ;; esac
 python=python3
 if ! python3 -c 'import numpy' 2>/dev/null; then
     python=$place/bin/python
@@ -24,12 +25,12 @@ rm -rf "$B/wheels"
 "$place/bin/pip" install --quiet --retries 0 hatchling ziglang numpy auditwheel 2>"$scratch/fetch" ||
     { echo "skip - the wheels, because zig could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
 expect 0 "wheels for every platform" python/wheels.sh "$B"
-exports() { # <library>: the names that leave it, but for the C runtime's of Windows
+exports() { # <library>: the names that leave it, but for the runtimes'
     case $1 in
     *.so) nm -D --defined-only "$1" | awk '{ print $3 }' ;;
-    *.dll) objdump -p "$1" | awk '/Ordinal\/Name/ { on = 1; next } on && NF == 0 { exit } on { print $NF }' | grep '^wiggly_\|[a-z]_[a-z]*_solve' ;;
+    *.dll) objdump -p "$1" | awk '/Ordinal\/Name/ { on = 1; next } on && NF == 0 { exit } on { print $NF }' ;;
     *.dylib) llvm-nm -g --defined-only "$1" | sed 's/.* _//' ;;
-    esac | sort
+    esac | grep -v '^_\|^atexit$' | sort
 }
 sed -nE 's/^[a-z].*[ *](wiggly_[a-z_]+)\(.*/\1/p' include/wiggly/*.h | sort >"$scratch/promised"
 for wheel in "$B"/wheels/*.whl; do

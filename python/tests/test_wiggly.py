@@ -110,6 +110,11 @@ class Scenes(unittest.TestCase):
             self.assertEqual((Path(folder) / "a.csv").read_bytes(), (Path(folder) / "b.csv").read_bytes())
 
     def test_faults_of_scenes_are_sentences(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "mine.json"
+            path.write_text('{"frames": [0, 24}')
+            with self.assertRaisesRegex(wiggly.Error, "mine.json: .*line 1"):
+                Scene.load(path)
         for splines, fragment in (
             ([{"name": "a", "frequency": {"spline": "a"}}], "circle: a → a"),
             ([{"name": "a", "frequency": {"spline": "b"}}], "'b'"),
@@ -161,6 +166,11 @@ class Splines(unittest.TestCase):
             curves = Scene.load(path).solve()
         self.assertEqual(caught.filename, __file__)
         self.assertEqual(curves["x"].status, Status.CALMED)
+
+    def test_a_number_of_numpy_is_a_number(self):
+        expected = Spline(KNOTS, frequency=2, damping=0.5).solve(97).total
+        for number in (np.int64(2), np.float32(2), np.array(2.0)):
+            np.testing.assert_array_equal(Spline(KNOTS, frequency=number, damping=np.float32(0.5)).solve(97).total, expected)
 
     def test_limits_hold(self):
         free = Spline(KNOTS, frequency=0.7).solve(97)

@@ -77,7 +77,7 @@ def report(code: int, knot: int = -1, spline: int | None = None) -> None:
     if spline is not None:
         text = f"spline {spline}, {text}" if knot >= 0 else f"spline {spline}: {text}"
     if status >= Status.ARGUMENT:
-        raise Error(text, status, int(knot) if knot >= 0 else None, spline)
+        raise Error(text, status, knot if knot >= 0 else None, spline)
     if status:
         warn(text)
 

@@ -65,7 +65,7 @@ def solve_many(
     parts : tuple of {"total", "y", "re", "im"}
         Which arrays to fill.
     threads : int, optional
-        1 to 256; the number of processors by default.
+        1 to 256; by default one a processor.
     check : bool
         Whether the first spline with an error raises it. If not, its rows are NaN and its status says why.
 
@@ -105,10 +105,11 @@ def solve_many(
     room = k + (n if desc.has_low or desc.has_high else 0)
     batch = Handle("batch_create", max(n, 1), room, min(threads or os.cpu_count() or 1, 256))
     worst = lib.wiggly_batch_solve_many(batch.at, addressof(desc), addressof(many))
-    wrong = status >= Status.ARGUMENT
-    if worst >= Status.ARGUMENT and (check or not wrong.any()):
-        first = int(wrong.argmax()) if wrong.any() else None
-        report(worst if first is None else status[first], -1 if first is None else knot[first], first)
+    wrong = np.flatnonzero(status >= Status.ARGUMENT)
+    if worst >= Status.ARGUMENT and not len(wrong):  # of what they share
+        report(worst)
+    if check and len(wrong):
+        report(int(status[wrong[0]]), int(knot[wrong[0]]), int(wrong[0]))
     for out in rows_of.values():
         out[wrong] = np.nan
     return Many(rows_of.get("total"), rows_of.get("y"), rows_of.get("re"), rows_of.get("im"), status)

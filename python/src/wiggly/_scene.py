@@ -29,7 +29,7 @@ class Scene:
     data : dict
         The file's JSON.
     n, fps : int, float
-        Samples of each curve, and samples per second.
+        Samples of each curve, and samples per second. A curve's second 0 is the first frame.
 
     Examples
     --------
@@ -53,7 +53,10 @@ class Scene:
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
         """Reads a file."""
-        return cls(path, json.loads(Path(path).read_text(encoding="utf-8")))
+        try:
+            return cls(path, json.loads(Path(path).read_text(encoding="utf-8")))
+        except (json.JSONDecodeError, UnicodeDecodeError) as error:
+            raise Error(f"{path}: {error}") from None
 
     @property
     def needs_rig(self) -> bool:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._curve import Curve
-from ._library import (KNOT, MODES, PASSIVES, SOLVERS, STARTS, CDesc, CExplanation, CParam, Error, Handle, Status, lib,
+from ._library import (KNOT, MODES, PASSIVES, SOLVERS, STARTS, CDesc, CExplanation, CParam, Handle, Status, lib,
                        report, shared_solver)  # fmt: skip
 
 Param = Union[float, NDArray[np.float64], Sequence[float]]
@@ -136,7 +136,7 @@ class Spline:
     def _param(self, number: Param) -> CParam:
         if isinstance(number, (int, float)):
             return CParam(number)
-        track = np.ascontiguousarray(number, dtype=float)
+        track = np.asarray(number, dtype=float, order="C")
         if track.ndim == 0:
             return CParam(float(track))
         self._tracks.append(track)
@@ -153,8 +153,8 @@ class Spline:
         if samples is None:
             samples = nearest_samples(self.times, fps)
         if not samples @ samples < 2.0**62:  # quickly: none is NaN or beyond the library's int
-            knot = int((~(np.abs(samples) < 2**31)).argmax())
-            raise Error(f"knot {knot}: {Status.KNOT_OUTSIDE.sentence}", Status.KNOT_OUTSIDE, knot)
+            for knot in np.flatnonzero(~(np.abs(samples) < 2**31)):
+                report(Status.KNOT_OUTSIDE, int(knot))
         knots["sample"] = samples
         desc = CDesc.from_buffer_copy(self._desc)
         desc.knots, desc.samples, desc.step = knots.ctypes.data, n, 1 / fps
