@@ -12,7 +12,7 @@ simulate() { # <name> <options>...
     expect 0 "simulate $name" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 2 --fps 30 --substeps 2 "$@" \
         -o "$scratch/$name"
 }
-simulate up.npy --shake up --frequency 7
+simulate up.npy --shake up --drive none --frequency 7
 simulate side.pc2 --shake side --impulse
 [ "$(od -An -tf4 -j20 -N8 "$scratch/side.pc2" | xargs)" = "0 1" ]
 ok "a .pc2 begins at frame 0 and has a sample a frame" $?
@@ -72,6 +72,25 @@ ok "the table has a row a frame" $?
 tr , ' ' <"$scratch/side.csv" | paste -d ' ' - "$scratch/solved" |
     awk 'NR > 1 { d = $4 - $7; e = $5 - $9; if (d * d + e * e > 1e-12 || NF != 9) bad = 1 } END { exit bad || NR != 61 }'
 ok "and its fit is what the scene solves to" $?
+
+# Parts of a character follow one after another without an option, and not if it swings freely.
+"$B/creature_obj" "$scratch/creature.obj" >/dev/null
+creature() { # <name> <options>...
+    local name=$1
+    shift
+    expect 0 "the creature's $name" "$WIGGLY" simulate "$scratch/creature.obj" --tets 1500 --substeps 1 "$@" -o "$scratch/$name.npy"
+}
+spread() { # <degrees>...: lags from the least to the most, in order of the motions
+    printf '%s\n' "$out" | awk -v wanted="$*" 'BEGIN { count = split(wanted, least) }
+        /lag over/ { n++; all += $8 - $6 > least[n] } END { exit all != count }'
+}
+creature rises
+creature sways --shake side
+analyze 0 "both" "$scratch/rises.npy" "$scratch/sways.npy" -o "$scratch/creature.glb"
+holds "have lags" spread 40 20
+creature free --shake side --drive none
+analyze 0 "a free swing" "$scratch/free.npy" -o "$scratch/creature.glb"
+holds "has none" not spread 5
 
 expect 0 "a driven base" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 3 --fps 48 --substeps 4 --drive burst \
     --drive-frequency 2.75 --damping 0.1 --shake side -o "$scratch/burst.npy"

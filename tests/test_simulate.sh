@@ -18,6 +18,37 @@ expect 0 "again" "$WIGGLY" simulate "$scratch/box.obj" --shake side "${quick[@]}
 holds "the same command gives the same bytes" [ "$first" = "$(cat "$scratch/box.npy" | cksum)" ]
 says "--verbose tells how far it is" "frame 6 of 6" "$err"
 
+# Without options a burst shakes the base, and the motion lasts as long as the body needs. Where it cannot, the body swings freely.
+short=(--tets 60 --substeps 1)
+swings() { # <what> <what is said> <what is not> <arguments>...
+    local what=$1 said=$2 other=$3
+    shift 3
+    expect 0 "$what" "$WIGGLY" simulate "$scratch/box.obj" "${short[@]}" "$@" -o "$scratch/swing.npy"
+    says "says so" "$said" "$out$err"
+    holds "and nothing else" not grep -q "$other" <<<"$out$err"
+}
+burst="the drive stops at" free="swings freely, because"
+swings "a burst by default" "$burst 1.091 s; then the body swings freely" "because" --seconds 2
+mv "$scratch/swing.npy" "$scratch/burst.npy"
+swings "the same with what help calls its defaults" "$burst" "because" --seconds 2 --drive burst --drive-frequency 2.75 \
+    --amplitude 0.05 --damping 0.2 --soft distance
+holds "is the same motion" cmp "$scratch/swing.npy" "$scratch/burst.npy"
+swings "no drive" "swing.npy: 48 frames" "$burst\|because" --drive none --seconds 2
+mv "$scratch/swing.npy" "$scratch/free.npy"
+swings "the same with its defaults" "swing.npy: 48 frames" "$burst" --drive none --seconds 2 --amplitude 0.2 --damping 0.03 --softness 1
+holds "is the same motion" cmp "$scratch/swing.npy" "$scratch/free.npy"
+swings "a push" "$free of --impulse" "$burst" --impulse --seconds 1
+swings "a body that nothing holds" "$free of --pin none" "$burst" --pin none --seconds 1
+swings "a time too short" "$free a burst of 1.091 s and a period of 0.5 s do not fit into 1 s" "$burst" --seconds 1
+swings "a body too slow for it" "do not fit into 1 s" "$burst" --seconds 1 --young 1e4
+swings "a burst that is asked for, however short the time" "swing.npy: 24 frames" "because" --seconds 1 --drive burst
+swings "eight periods of a slow body" "swing.npy: 384 frames" "because" --frequency 0.5
+swings "the same by its material" "then the body swings freely" "because" --young 1e4
+swings "a thousand frames a second" "swing.npy: 4000 frames" "because" --fps 1000
+swings "more than fits into as many frames as analyze takes" "do not fit into 4.096 s" "$burst" --fps 1000 --frequency 0.7
+swings "a slow burst" "swing.npy: 192 frames" "because" --drive-frequency 0.5
+swings "a body of sixteen minutes a swing" "show less than a period of 1000 s, so it cannot find the frequency" "$burst" --frequency 0.001
+
 expect 0 "PC2, a push along a vector" "$WIGGLY" simulate "$scratch/box.obj" --shake 1,0,1 --impulse "${quick[@]}" -o "$scratch/box.pc2"
 holds "is PC2" [ "$(head -c 11 "$scratch/box.pc2")" = POINTCACHE2 ]
 expect 0 "normal modes" "$WIGGLY" simulate "$scratch/box.obj" --modal 3 --tets 60 --frequency 1.5 -o "$scratch/modes.npy"
@@ -113,6 +144,10 @@ refused 2 "--poisson" "$scratch/box.obj" --poisson 0.5 "${o[@]}"
 refused 2 "--shake: expected up, side, front or a vector x,y,z" "$scratch/box.obj" --shake 0,0,0 "${o[@]}"
 refused 2 "--young and --frequency both set the stiffness" "$scratch/box.obj" --young 1e6 --frequency 2 "${o[@]}"
 refused 2 "--density needs --young" "$scratch/box.obj" --density 500 "${o[@]}"
+refused 2 "--drive-frequency and --world need a drive, got none" "$scratch/box.obj" --drive none --world "${o[@]}"
+refused 2 "--impulse and a drive both start the motion" "$scratch/box.obj" --drive sine --impulse "${o[@]}"
+refused 2 "--drive moves the pinned part, but --pin none pins nothing" "$scratch/box.obj" --drive sine --pin none "${o[@]}"
+refused 2 "--drive: expected burst, sine, sweep, a track's FILE.csv or none" "$scratch/box.obj" --drive bursts "${o[@]}"
 refused 2 "-o FILE is missing" "$scratch/box.obj"
 refused 2 "expected a name ending in .npy or .pc2" "$scratch/box.obj" -o "$scratch/box.abc"
 refused 2 "expected a name ending in .npy for --modal" "$scratch/box.obj" --modal 2 -o "$scratch/box.pc2"

@@ -1,4 +1,5 @@
 /// `wiggly simulate`: shakes a mesh as a soft body, or finds its normal modes.
+#include "analysis/analysis.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/need.h"
@@ -17,13 +18,15 @@
 #include <string.h>
 
 static const double slow_warning = 1 / 8.0; ///< of the frequency asked for: a lowest mode below it causes a warning
+static const double drive_ratio = 1.375;    ///< of drive and body by default: parts follow one after another
 
 struct job {
     const char *mesh, *output;
     struct mesh_options opening;
     char rest[COMPANION_PATH]; ///< path of the rest mesh beside the output
-    const char *shake_text, *drive_text, *pin_text;
-    double budget; ///< millions of element-steps
+    const char *shake_text, *drive_text, *pin_text, *soft_text;
+    double amplitude, damping, seconds; ///< NAN: by default
+    double budget;                      ///< millions of element-steps
     struct shake_job shake;
     struct drive drive;
     struct soft_options soft;
@@ -31,20 +34,54 @@ struct job {
     bool modal;
 };
 
-/// Moves the base along the shake, by default at the frequency of the mode that is seen most.
-static bool start_drive(struct job *job, const struct soft *soft, struct error *error)
+/// Drives the base, or lets the body swing freely; each has defaults of its own.
+static void set_swing(struct job *job, enum drive_kind kind)
+{
+    struct shake *shake = &job->shake.shake;
+    job->drive.kind = kind;
+    shake->driven = kind != DRIVE_NONE;
+    shake->amplitude = isfinite(job->amplitude) ? job->amplitude : shake->driven ? 0.05 : 0.2;
+    job->soft.damping = isfinite(job->damping) ? job->damping : shake->driven ? 0.2 : 0.03;
+    job->soft.softness.from = job->soft_text ? job->soft_text : shake->driven ? "distance" : NULL;
+}
+
+/// Sets how fast the drive is and how long the motion: by default 4 s or more, 8 periods, and 4 after the drive, but no longer than
+/// analyze takes. Returns whether a burst ends in time for analyze: a period before the end.
+static bool set_times(struct job *job, const struct soft *soft)
 {
     struct drive *drive = &job->drive;
-    if (!job->drive_text) return true;
-    if (soft->pinned == 0)
-        return fail(error, ERROR_USAGE, "%s: --drive moves the pinned part, but --pin none pins nothing", job->mesh);
-    if (drive->kind == DRIVE_NONE && !drive_read_track(drive, job->drive_text, error)) return false;
+    struct shake_job *shake = &job->shake;
+    const double period = 1 / soft_frequency(soft);
+    if (drive->frequency == 0) drive->frequency = drive_ratio / period;
+    const double end = isfinite(drive_end(drive)) ? drive_end(drive) : 0;
+    shake->seconds = isfinite(job->seconds)
+                         ? job->seconds
+                         : fmin(fmax(fmax(4, 8 * period), end + 4 * period), ANALYSIS_FRAMES_MAX / shake->fps);
+    return end + fmax(period, ANALYSIS_FRAMES_MIN / shake->fps) <= shake->seconds;
+}
+
+/// Makes the body, tuned to what moves it. The burst that nobody asked for gives way to a free swing where time is too short.
+static bool make_body(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
+{
+    if (!soft_create(soft, surface, job->mesh, &job->soft, error)) return false;
+    const bool fits = set_times(job, soft);
+    if (fits || job->drive_text || job->drive.kind == DRIVE_NONE) return true;
+    print_line(stdout, "%s: swings freely, because a burst of %.4g s and a period of %.4g s do not fit into %.4g s",
+               job->mesh, drive_end(&job->drive), 1 / soft_frequency(soft), job->shake.seconds);
+    soft_free(soft);
+    set_swing(job, DRIVE_NONE);
+    return make_body(job, soft, surface, error);
+}
+
+/// Moves the base along the shake.
+static void start_drive(struct job *job, const struct soft *soft)
+{
+    struct drive *drive = &job->drive;
+    if (drive->kind == DRIVE_NONE) return;
     memcpy(drive->direction, job->shake.shake.direction, sizeof drive->direction);
     drive->size = drive->kind == DRIVE_TRACK ? 1 : job->shake.shake.amplitude * soft->size;
     drive->seconds = job->shake.seconds;
-    if (drive->frequency == 0) drive->frequency = soft_frequency(soft);
     job->shake.loads.drive = drive;
-    return true;
 }
 
 /// What analyze needs to know of the motion.
@@ -67,14 +104,13 @@ static bool write_companion(const struct job *job, const struct soft *soft, cons
 static bool shake(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
 {
     struct floor floor = {0};
-    bool good = start_drive(job, soft, error);
-    if (good && job->floor >= 0) {
+    start_drive(job, soft);
+    if (job->floor >= 0) {
         floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young, job->soft.density);
         job->shake.loads.floor = &floor;
     }
-    good = good && simulate_shake(&job->shake, soft, surface, error) && write_companion(job, soft, surface, error);
+    const bool good = simulate_shake(&job->shake, soft, surface, error) && write_companion(job, soft, surface, error);
     floor_free(&floor);
-    drive_free(&job->drive);
     return good;
 }
 
@@ -115,10 +151,19 @@ static void report_body(const struct job *job, const struct soft *soft)
     if (!job->modal) {
         printf("  seen most: mode %d, %.4g Hz, with %.0f %% of the motion\n", soft->seen + 1, soft_frequency(soft),
                100 * soft->share);
+        if (!job->drive_text && (job->shake.shake.impulse || soft->pinned == 0))
+            printf("  swings freely, because of %s\n", job->shake.shake.impulse ? "--impulse" : "--pin none");
     }
     if (soft->lattice.repair[0]) print_line(stdout, "%s: %s", job->mesh, soft->lattice.repair);
     fflush(stdout);
-    const double lowest = soft->modes.count ? soft->modes.frequency[0] : 0;
+    const double lowest = soft->modes.count ? soft->modes.frequency[0] : 0, period = 1 / soft_frequency(soft);
+    if (!job->modal && !isfinite(job->seconds) && period > job->shake.seconds) {
+        print_line(
+            stderr,
+            "%s: warning: %.4g s, the most that analyze takes, show less than a period of %.4g s, so it cannot "
+            "find the frequency; choose a lower --fps or a stiffer body",
+            job->mesh, job->shake.seconds, period);
+    }
     if (!job->modal && lowest < slow_warning * soft_frequency(soft)) {
         print_line(
             stderr,
@@ -138,8 +183,8 @@ static bool run(struct job *job, struct error *error)
     struct soft soft;
     progress_end_when_interrupted();
     progress_show_stages(job->shake.verbose);
-    if (!open_mesh(job->mesh, &job->opening, &surface, error)) return false;
-    bool good = soft_create(&soft, &surface, job->mesh, &job->soft, error);
+    if (job->drive.kind == DRIVE_TRACK && !drive_read_track(&job->drive, job->drive_text, error)) return false;
+    bool good = open_mesh(job->mesh, &job->opening, &surface, error) && make_body(job, &soft, &surface, error);
     if (good) {
         report_body(job, &soft);
         good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &surface, error);
@@ -148,6 +193,7 @@ static bool run(struct job *job, struct error *error)
         soft_free(&soft);
     }
     surface_free(&surface);
+    drive_free(&job->drive);
     return good;
 }
 
@@ -167,20 +213,20 @@ static const char *set_material(struct soft_options *soft)
 /// Parses --drive; an unknown name is a file. NULL or an error text.
 static const char *set_drive(struct job *job)
 {
-    static const char *const kinds[] = {[DRIVE_SINE] = "sine", [DRIVE_BURST] = "burst", [DRIVE_SWEEP] = "sweep"};
-    struct shake *shake = &job->shake.shake;
-    shake->driven = job->drive_text != NULL;
-    bool amplitude_given = isfinite(shake->amplitude);
-    if (!amplitude_given) shake->amplitude = shake->driven ? 0.05 : 0.2;
-    if (!shake->driven)
-        return job->drive.frequency > 0 || job->shake.world ? "--drive-frequency and --world need --drive" : NULL;
-    if (shake->impulse) return "--impulse and --drive both start the motion: give one";
-    for (enum drive_kind kind = DRIVE_SINE; kind < DRIVE_TRACK; kind++) {
-        if (strcmp(job->drive_text, kinds[kind]) == 0) job->drive.kind = kind;
-    }
-    if (job->drive.kind != DRIVE_NONE) return NULL;
-    if (!path_has_end(job->drive_text, ".csv")) return "--drive: expected sine, burst, sweep or a track's FILE.csv";
-    if (amplitude_given || job->drive.frequency > 0)
+    static const char *const kinds[] = {"none", "sine", "burst", "sweep"}; // as in enum drive_kind
+    const bool impulse = job->shake.shake.impulse, loose = job->soft.pin.kind == REGION_NONE;
+    const bool adjusted = job->drive.frequency > 0 || job->shake.world;
+    enum drive_kind kind = DRIVE_NONE;
+    if (!job->drive_text && adjusted) job->drive_text = "burst";
+    const char *text = job->drive_text ? job->drive_text : impulse || loose ? "none" : "burst";
+    while (kind < DRIVE_TRACK && strcmp(text, kinds[kind]) != 0) kind++;
+    set_swing(job, kind);
+    if (kind == DRIVE_NONE) return adjusted ? "--drive-frequency and --world need a drive, got none" : NULL;
+    if (impulse) return "--impulse and a drive both start the motion: give one";
+    if (loose) return "--drive moves the pinned part, but --pin none pins nothing";
+    if (kind != DRIVE_TRACK) return NULL;
+    if (!path_has_end(text, ".csv")) return "--drive: expected burst, sine, sweep, a track's FILE.csv or none";
+    if (isfinite(job->amplitude) || job->drive.frequency > 0)
         return "--drive: a track has its own size in metres and time: leave out --amplitude and --drive-frequency";
     return NULL;
 }
@@ -200,23 +246,29 @@ static const char *check(struct job *job)
     job->shake.mesh = job->mesh;
     job->shake.output = job->output;
     job->shake.budget = 1e6 * job->budget;
-    const char *wrong = set_drive(job);
+    set_swing(job, DRIVE_NONE);
+    const char *wrong = job->modal ? NULL : set_drive(job);
     return wrong ? wrong : set_material(&job->soft);
 }
 
 /// Modes among which the one that is seen most is found.
 enum { MODES_SEARCHED = 24 };
 
+static const struct job start = {.opening = {.scale = 1},
+                                 .amplitude = NAN,
+                                 .damping = NAN,
+                                 .seconds = NAN,
+                                 .shake = {.fps = 24, .accuracy = 0.02},
+                                 .budget = 20,
+                                 .shake_text = "up",
+                                 .floor = -1};
+
 int command_simulate(int argc, char **argv)
 {
-    struct job job = {.soft = soft_default_options(),
-                      .opening = {.scale = 1},
-                      .shake = {.shake = {.amplitude = NAN}, .seconds = 4, .fps = 24, .accuracy = 0.02},
-                      .budget = 20,
-                      .shake_text = "up",
-                      .floor = -1};
+    struct job job = start;
     struct shake_job *shake = &job.shake;
     int modes = 0;
+    job.soft = soft_default_options();
     job.soft.frequency = job.soft.density = 0;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE",
@@ -225,17 +277,19 @@ int command_simulate(int argc, char **argv)
         MESH_OPTIONS(&job.opening),
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (up)", OPTION_TEXT, &job.shake_text, 0, 0},
         {"--amplitude", NULL, "A",
-         "how far the top moves, relative to the height (0.2); with --drive the base (0.05)", OPTION_REAL,
-         &shake->shake.amplitude, -2, 2},
-        {"--impulse", NULL, NULL, "start with a push, not deformed", OPTION_FLAG, &shake->shake.impulse, 0, 0},
+         "how far the base moves, relative to the height (0.05); swinging freely, how far the top moves (0.2)",
+         OPTION_REAL, &job.amplitude, -2, 2},
+        {"--impulse", NULL, NULL, "swing freely from a push, not deformed", OPTION_FLAG, &shake->shake.impulse, 0, 0},
         {"--drive", NULL, "WHAT",
-         "shake the pinned base instead: sine, burst, sweep, or a track of seconds,metres in FILE.csv", OPTION_TEXT,
-         &job.drive_text, 0, 0},
-        {"--drive-frequency", NULL, "HZ", "frequency of sine, burst or mid-sweep (that of the body)", OPTION_REAL,
-         &job.drive.frequency, 1e-3, 1e3},
+         "what shakes the pinned base: burst (default), sine, sweep, a track of seconds,metres in FILE.csv, or none: "
+         "swing freely",
+         OPTION_TEXT, &job.drive_text, 0, 0},
+        {"--drive-frequency", NULL, "HZ", "frequency of burst, sine or mid-sweep (1.375 times that of the body)",
+         OPTION_REAL, &job.drive.frequency, 1e-3, 1e3},
         {"--world", NULL, NULL, "write the motion as seen from outside, not from the base", OPTION_FLAG,
          &shake->world, 0, 0},
-        {"--seconds", NULL, "S", "duration in seconds (4)", OPTION_REAL, &shake->seconds, 1e-3, 3600},
+        {"--seconds", NULL, "S", "duration in seconds (4, or 8 periods of the body)", OPTION_REAL, &job.seconds, 1e-3,
+         3600},
         {"--fps", NULL, "N", "frames per second (24)", OPTION_REAL, &shake->fps, 1, 1000},
         {"--accuracy", NULL, "E", "allowed error, relative to the size of the motion; sets the steps (0.02)",
          OPTION_REAL, &shake->accuracy, 1e-4, 1},
@@ -254,14 +308,16 @@ int command_simulate(int argc, char **argv)
         {"--young", NULL, "E", "Young's modulus in Pa, instead of --frequency", OPTION_REAL, &job.soft.young, 1e-6,
          1e15},
         {"--soft", NULL, "MAP",
-         "soften by distance (from the pin), color (brightness) or FILE.npy (0 to 1 per vertex)", OPTION_TEXT,
-         &job.soft.softness.from, 0, 0},
+         "soften by distance (from the pin, the default with a drive), color (brightness) or FILE.npy (0 to 1 per "
+         "vertex)",
+         OPTION_TEXT, &job.soft_text, 0, 0},
         {"--softness", NULL, "N", "how many times softer where the map is 1 (8)", OPTION_REAL,
          &job.soft.softness.times, 1e-3, 1e3},
         {"--poisson", NULL, "NU", "Poisson's ratio (0.35)", OPTION_REAL, &job.soft.poisson, 0, 0.49},
         {"--density", NULL, "RHO", "density in kg/m^3, only with --young (1000)", OPTION_REAL, &job.soft.density,
          1e-6, 1e9},
-        {"--damping", NULL, "Z", "damping ratio of that mode (0.03)", OPTION_REAL, &job.soft.damping, 0, 1},
+        {"--damping", NULL, "Z", "damping ratio of that mode (0.2; swinging freely 0.03)", OPTION_REAL, &job.damping,
+         0, 1},
         {"--gravity", NULL, "G", "gravity in m/s^2 (0); a pinned body starts at rest under it", OPTION_REAL,
          &shake->loads.gravity, 0, 1e4},
         {"--floor", NULL, "H", "a smooth floor at H above the lowest point", OPTION_REAL, &job.floor, 0, 1e6},

@@ -142,7 +142,11 @@ static bool weigh_distance(const struct lattice *lattice, const struct body *bod
                            struct error *error)
 {
     double longest = 0;
-    for (int i = 0; i < lattice->node_count; i++) node[i] = body->pinned[i] ? 0 : INFINITY;
+    bool any = false;
+    for (int i = 0; i < lattice->node_count; i++) {
+        node[i] = body->pinned[i] ? 0 : INFINITY;
+        any |= body->pinned[i];
+    }
     for (bool changed = true; changed;) {
         changed = false;
         for (int e = 0; e < lattice->tet_count; e++) {
@@ -158,8 +162,8 @@ static bool weigh_distance(const struct lattice *lattice, const struct body *bod
         }
     }
     for (int i = 0; i < lattice->node_count; i++) longest = isfinite(node[i]) ? fmax(longest, node[i]) : longest;
-    for (int i = 0; i < lattice->node_count; i++) node[i] = fmin(1, node[i] / longest);
-    return longest > 0 || fail(error, ERROR_INPUT, "%s: --soft distance: expected a pinned region, got none", name);
+    for (int i = 0; i < lattice->node_count; i++) node[i] = fmin(1, node[i] / fmax(longest, 1e-300));
+    return any || fail(error, ERROR_INPUT, "%s: --soft distance: expected a pinned region, got none", name);
 }
 
 static bool weigh_color(const struct surface *surface, const char *name, double *vertex, struct error *error)
