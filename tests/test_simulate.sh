@@ -148,6 +148,7 @@ refused 2 "--drive-frequency and --world need a drive, got none" "$scratch/box.o
 refused 2 "--impulse and a drive both start the motion" "$scratch/box.obj" --drive sine --impulse "${o[@]}"
 refused 2 "--drive moves the pinned part, but --pin none pins nothing" "$scratch/box.obj" --drive sine --pin none "${o[@]}"
 refused 2 "--drive: expected burst, sine, sweep, a track's FILE.csv or none" "$scratch/box.obj" --drive bursts "${o[@]}"
+refused 2 "--pin: expected fewer than 128 characters" "$scratch/box.obj" --pin "$(printf '0.%0130d' 1)" "${o[@]}"
 refused 2 "-o FILE is missing" "$scratch/box.obj"
 refused 2 "expected a name ending in .npy or .pc2" "$scratch/box.obj" -o "$scratch/box.abc"
 refused 2 "expected a name ending in .npy for --modal" "$scratch/box.obj" --modal 2 -o "$scratch/box.pc2"

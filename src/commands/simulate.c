@@ -243,6 +243,7 @@ static const char *check(struct job *job)
     if (!options_direction(job->shake_text, job->shake.shake.direction))
         return "--shake: expected up, side, front or a vector x,y,z";
     if (job->pin_text && !region_parse(job->pin_text, &job->soft.pin)) return "--pin: expected " REGION_FORMS;
+    if (job->pin_text && strlen(job->pin_text) >= COMPANION_PIN) return "--pin: expected fewer than 128 characters";
     job->shake.mesh = job->mesh;
     job->shake.output = job->output;
     job->shake.budget = 1e6 * job->budget;
