@@ -379,7 +379,8 @@ TEST(distances_follow_the_surface)
     struct character ball = puppet_character(0.05f, 0);
     struct figure figure = puppet_figure(&ball);
     struct reach reach;
-    reach_create(&reach, figure.character.vertex_count);
+    struct pool pool = {0};
+    reach_create(&reach, &pool, figure.character.vertex_count);
     const uint32_t *corner = figure.character.indices;
     const struct surface_spot spot = {{corner[0], corner[1], corner[2]}, {1, 0, 0}};
     for (int round = 0; round < 2; round++) { // nothing is left of the first one
@@ -397,7 +398,7 @@ TEST(distances_follow_the_surface)
         assert_int_equal(within, reach.count);
         assert_true(round == 1 || within == figure.character.vertex_count);
     }
-    reach_free(&reach);
+    pool_free(&pool);
     figure_free(&figure);
 }
 

@@ -6,25 +6,19 @@
 
 static void allocate(struct posed *mesh, size_t vertices, size_t indices, size_t parts)
 {
-    *mesh = (struct posed){.indices = need(indices + 1, sizeof *mesh->indices),
-                           .neighbours = need(indices + 1, sizeof *mesh->neighbours),
-                           .place = need(vertices + 1, sizeof *mesh->place),
-                           .normal = need(vertices + 1, sizeof *mesh->normal),
-                           .looks = need_zeroed(vertices + 1, sizeof *mesh->looks),
-                           .front = need(indices / 3 + 1, sizeof *mesh->front),
-                           .parts = need(parts + 1, sizeof *mesh->parts),
-                           .map_coordinate = -1};
+    *mesh = (struct posed){.map_coordinate = -1};
+    mesh->indices = pool_take(&mesh->pool, indices, sizeof *mesh->indices);
+    mesh->neighbours = pool_take(&mesh->pool, indices, sizeof *mesh->neighbours);
+    mesh->place = pool_take(&mesh->pool, vertices, sizeof *mesh->place);
+    mesh->normal = pool_take(&mesh->pool, vertices, sizeof *mesh->normal);
+    mesh->looks = pool_take(&mesh->pool, vertices, sizeof *mesh->looks);
+    mesh->front = pool_take(&mesh->pool, indices / 3, sizeof *mesh->front);
+    mesh->parts = pool_take(&mesh->pool, parts, sizeof *mesh->parts);
 }
 
 void posed_free(struct posed *mesh)
 {
-    free(mesh->indices);
-    free(mesh->neighbours);
-    free(mesh->place);
-    free(mesh->normal);
-    free(mesh->looks);
-    free(mesh->front);
-    free(mesh->parts);
+    pool_free(&mesh->pool);
     *mesh = (struct posed){0};
 }
 

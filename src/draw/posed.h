@@ -4,6 +4,7 @@
 #ifndef DRAW_POSED_H
 #define DRAW_POSED_H
 
+#include "base/pool.h"
 #include "draw/stage.h"
 #include <stdbool.h>
 #include <stdint.h>
@@ -29,6 +30,7 @@ struct posed_part {
 
 /// All zero: none.
 struct posed {
+    struct pool pool;
     uint32_t *indices;
     int *neighbours; ///< model/adjacency.h
     float (*place)[3], (*normal)[3];

@@ -71,7 +71,7 @@ long posed_upload_gltf_pictures(struct posed *mesh, const struct gltf *gltf)
     long bytes = 0;
     mesh->picture_count = gltf->image_count;
     mesh->sampler_count = gltf->material_count;
-    mesh->pictures = need_zeroed((size_t)gltf->image_count + 1, sizeof *mesh->pictures);
+    mesh->pictures = pool_take(&mesh->pool, (size_t)gltf->image_count, sizeof *mesh->pictures);
     mesh->samplers = need((size_t)gltf->material_count + 1, sizeof *mesh->samplers);
     for (int i = 0; i < gltf->image_count; i++) bytes += upload_picture(&mesh->pictures[i], &gltf->images[i]);
     for (int m = 0; m < gltf->material_count; m++) mesh->samplers[m] = sampler_of(&gltf->materials[m].sampler);
@@ -100,7 +100,7 @@ long posed_upload_figure_pictures(struct posed *mesh, const struct looks *looks)
     size_t room = PIXEL_ROOM;
     long bytes = 0;
     mesh->picture_count = looks->material_count;
-    mesh->pictures = need_zeroed((size_t)looks->material_count + 1, sizeof *mesh->pictures);
+    mesh->pictures = pool_take(&mesh->pool, (size_t)looks->material_count, sizeof *mesh->pictures);
     for (int p = 0; p < mesh->part_count; p++) {
         struct posed_part *part = &mesh->parts[p];
         if (part->material < 0 || !looks->materials[part->material].image) continue;
@@ -123,7 +123,5 @@ void posed_delete(struct posed *mesh)
     glDeleteBuffers(3, (const GLuint[]){mesh->moving_buffer, mesh->look_buffer, mesh->index_buffer});
     glDeleteTextures(mesh->picture_count, mesh->pictures);
     glDeleteSamplers(mesh->sampler_count, mesh->samplers);
-    free(mesh->pictures);
-    free(mesh->samplers);
     posed_free(mesh);
 }

@@ -149,7 +149,6 @@ bool bvh_write(struct export_range *range, FILE *out, struct error *error)
     const bool done = keys_collect(range, range->rigs[0], &form, &keys, error);
     if (done && root) move(&form, &keys, root);
     if (done) write_all(range, &(struct bvh){.out = out, .form = &form, .keys = &keys});
-    keys_free(&keys);
     form_close(&form);
     return done;
 }

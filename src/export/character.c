@@ -1,8 +1,6 @@
 /// A soft character as a form: its mesh, and two morph targets per coordinate, as in its own file (model/character.h).
-#include "base/need.h"
 #include "export/form.h"
 #include "model/vector.h"
-#include <stdlib.h>
 
 /// The character with only the coordinates that the rig uses.
 struct moving {
@@ -32,9 +30,9 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     form->indices = c->indices;
     form->index_count = c->index_count;
     struct moving *moving = form->owned =
-        need(sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates, 1);
+        pool_take(&form->pool, sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates, 1);
     form->looks = &c->looks;
-    form->targets = need_zeroed((size_t)c->coordinate_count * 2 + 1, sizeof *form->targets);
+    form->targets = pool_take(&form->pool, (size_t)c->coordinate_count * 2, sizeof *form->targets);
     moving->character = *c;
     moving->character.coordinates = moving->coordinates;
     moving->character.coordinate_count = 0;
@@ -43,16 +41,10 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
         if (!moves_by(&pose->character.morph, k)) continue;
         moving->coordinates[moving->character.coordinate_count++] = c->coordinates[k];
         for (int part = 0; part < 2; part++)
-            form->targets[form->target_count++] = (struct form_target){figure_target_create(figure, k, part), k};
+            form->targets[form->target_count++] =
+                (struct form_target){figure_target_create(figure, k, part, &form->pool), k};
     }
     return true;
-}
-
-static void close(struct form *form)
-{
-    for (int t = 0; t < form->target_count; t++) figure_target_free(&form->targets[t].figure);
-    free(form->targets);
-    free(form->owned);
 }
 
 /// Places the lowest point of the mesh at rest on the rig's position.
@@ -99,4 +91,4 @@ static void columns(const struct export_range *range, int rig, const struct rig_
     }
 }
 
-const struct form_kind character_form = {FORM_MESH | FORM_POINTS, open, close, key, vertices, columns};
+const struct form_kind character_form = {FORM_MESH | FORM_POINTS, open, key, vertices, columns};

@@ -4,7 +4,6 @@
 #include "rig/strand.h"
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 const struct form_kind meadow_form = {0}; // no format has meadows
@@ -66,7 +65,7 @@ void form_channels(const struct export_range *range, int rig, const struct rig_p
 
 void form_close(struct form *form)
 {
-    if (form->kind) form->kind->close(form);
+    pool_free(&form->pool);
     *form = (struct form){0};
 }
 
@@ -166,8 +165,7 @@ static bool collect(struct export_range *range, const struct sampler *from, stru
     return !keys->slopes || add_slopes(from, keys, keys->rows + (size_t)keys->count * width, error);
 }
 
-bool keys_collect(struct export_range *range, int rig, const struct form *form, struct keys *keys,
-                  struct error *error)
+bool keys_collect(struct export_range *range, int rig, struct form *form, struct keys *keys, struct error *error)
 {
     const struct sampler from = {range, form, rig};
     const size_t count = (size_t)range->key_count,
@@ -175,16 +173,7 @@ bool keys_collect(struct export_range *range, int rig, const struct form *form, 
     const bool tangents = range->options->is_cubic && range->format->has_tangents && range->key_count > 1;
     *keys = (struct keys){.count = range->key_count, .width = (int)width, .joints = form->joint_count};
     if (!need_has_room((2 * count + 1) * width * sizeof *keys->rows)) return fail_no_memory(error, form->name);
-    keys->rows = need_zeroed((count + 1) * width, sizeof *keys->rows);
-    if (tangents) keys->slopes = need_zeroed(count * width, sizeof *keys->slopes);
-    const bool done = collect(range, &from, keys, error);
-    if (!done) keys_free(keys);
-    return done;
-}
-
-void keys_free(struct keys *keys)
-{
-    free(keys->rows);
-    free(keys->slopes);
-    *keys = (struct keys){0};
+    keys->rows = pool_take(&form->pool, (count + 1) * width, sizeof *keys->rows);
+    if (tangents) keys->slopes = pool_take(&form->pool, count * width, sizeof *keys->slopes);
+    return collect(range, &from, keys, error);
 }

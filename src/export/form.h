@@ -4,6 +4,7 @@
 #define EXPORT_FORM_H
 
 #include "base/file.h"
+#include "base/pool.h"
 #include "export/export.h"
 #include "model/motion.h"
 
@@ -121,6 +122,7 @@ struct form_target {
 
 struct form {
     const struct form_kind *kind;
+    struct pool pool; ///< of what is made for it, and its keys
     char name[FORM_NAME];
     int vertex_count;
     const float (*position)[3], (*normal)[3], (*color)[3]; ///< colours are linear
@@ -152,10 +154,9 @@ typedef void form_column(void *user, double value, const char *format, ...) __at
 
 struct form_kind {
     unsigned holds; ///< FORM_MESH …
-    /// Fills everything but kind and name, from a pose at any time. After a failure call close().
+    /// Fills everything but kind and name, from a pose at any time.
     bool (*open)(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
                  struct error *error);
-    void (*close)(struct form *form);
     void (*key)(const struct form *form, const struct rig_pose *pose, struct form_key *key);
     /// Vertex positions as on the stage.
     void (*vertices)(const struct form *form, const struct rig_pose *pose, float (*positions)[3]);
@@ -218,10 +219,8 @@ static inline const float *keys_at(const struct keys *keys, int key, int column)
     return keys->rows + (size_t)key * (size_t)keys->width + column;
 }
 
-/// Poses the rig at each key. Returns false with an error message and nothing to free.
-bool keys_collect(struct export_range *range, int rig, const struct form *form, struct keys *keys,
-                  struct error *error);
-void keys_free(struct keys *keys);
+/// Poses the rig at each key. The keys' memory is the form's.
+bool keys_collect(struct export_range *range, int rig, struct form *form, struct keys *keys, struct error *error);
 
 /// A quaternion and its negative are the same rotation; makes `q` the one closer to `before`.
 void keys_turn_short_way(const float before[4], float q[4]);

@@ -298,7 +298,6 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
         scene->targets += targets.count;
     }
     free(targets.list);
-    keys_free(&keys);
     form_close(&form);
     return done;
 }

@@ -159,7 +159,7 @@ static void add_channel(struct gltf_motion *motion, const struct model_body *bod
 }
 
 /// Adds the clip, with keys for all that the one that plays or chains move; one of the same name it replaces.
-static bool put_clip(struct export_range *range, const struct form *form, struct original *o, struct error *error)
+static bool put_clip(struct export_range *range, struct form *form, struct original *o, struct error *error)
 {
     const struct model_body *body = form->owned;
     struct gltf_motion motion;
@@ -181,7 +181,6 @@ static bool put_clip(struct export_range *range, const struct form *form, struct
         o->file.without_memory = true;
     }
     gltf_motion_free(&motion);
-    keys_free(&keys);
     o->clips++;
     return true;
 }
@@ -214,7 +213,7 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
 }
 
 /// Adds the clip that plays, and all others if all are wanted. Chains do not move in clips of a single pose.
-static bool put_clips(struct export_range *range, const struct form *form, struct original *o, struct error *error)
+static bool put_clips(struct export_range *range, struct form *form, struct original *o, struct error *error)
 {
     const struct model_body *body = form->owned;
     bool done = put_clip(range, form, o, error);
@@ -256,7 +255,7 @@ static void put_place(struct original *o, const float root[16])
     json_decref(matrix);
 }
 
-static bool write_file(struct export_range *range, const struct form *form, FILE *out, struct error *error)
+static bool write_file(struct export_range *range, struct form *form, FILE *out, struct error *error)
 {
     struct original o = {0};
     const struct model_body *body = form->owned;

@@ -1,8 +1,6 @@
 /// An imported character as a form in its file's space: its vertices, and its moving nodes as joints.
-#include "base/need.h"
 #include "export/form.h"
 #include "rig/imported.h"
-#include <stdlib.h>
 #include <string.h>
 
 static void add_joint(struct form *form, int node)
@@ -36,12 +34,12 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     const struct gltf *gltf = &pose->model.imported->gltf;
     const int clip = gltf_find_clip(gltf, model->clip);
     const size_t nodes = (size_t)gltf->node_count;
-    struct model_body *body = form->owned = need_zeroed(1, sizeof *body);
+    struct model_body *body = form->owned = pool_take(&form->pool, 1, sizeof *body);
     body->gltf = gltf;
     body->clip = clip >= 0 ? &gltf->clips[clip] : NULL;
-    body->node = need(nodes, sizeof *body->node);
-    body->joint_of = need(nodes, sizeof *body->joint_of);
-    form->joints = need_zeroed(nodes, sizeof *form->joints);
+    body->node = pool_take(&form->pool, nodes, sizeof *body->node);
+    body->joint_of = pool_take(&form->pool, nodes, sizeof *body->joint_of);
+    form->joints = pool_take(&form->pool, nodes, sizeof *form->joints);
     for (size_t n = 0; n < nodes; n++) body->joint_of[n] = -1;
     if (!add_bones(form, posing->document, rig, error)) return false;
     for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
@@ -50,17 +48,6 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     form->target_count = gltf->weight_count;
     for (int n = 0; n < gltf->node_count; n++) form->vertex_count += gltf_vertex_count(gltf, n);
     return true;
-}
-
-static void close(struct form *form)
-{
-    struct model_body *body = form->owned;
-    if (body) {
-        free(body->node);
-        free(body->joint_of);
-    }
-    free(body);
-    free(form->joints);
 }
 
 static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
@@ -90,4 +77,4 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
 }
 
 /// Its chains have the columns of a table; its own clip has none.
-const struct form_kind model_form = {FORM_FILE | FORM_POINTS | FORM_JOINTS, open, close, key, vertices, NULL};
+const struct form_kind model_form = {FORM_FILE | FORM_POINTS | FORM_JOINTS, open, key, vertices, NULL};

@@ -1,11 +1,9 @@
 /// The skeleton of an imported character as a form: every bone with its clip and its chains, relative to its rest in the character's space,
 /// so that bones at rest are not turned. The first joint is the character's origin, and holds the bones that have none above them.
-#include "base/need.h"
 #include "export/form.h"
 #include "model/vector.h"
 #include "rig/imported.h"
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { ORIGIN = 0, NO_JOINT = -1, TO_ADD = -2 };
@@ -90,27 +88,16 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
 {
     const struct gltf *gltf = &pose->model.imported->gltf;
     const size_t most = (size_t)gltf->node_count + 1;
-    struct source *source = form->owned = need_zeroed(1, sizeof *source);
+    struct source *source = form->owned = pool_take(&form->pool, 1, sizeof *source);
     *source = (struct source){.imported = pose->model.imported,
-                              .joint_of = need(most, sizeof *source->joint_of),
-                              .node = need(most, sizeof *source->node),
-                              .turn = need(most, sizeof *source->turn)};
+                              .joint_of = pool_take(&form->pool, most, sizeof *source->joint_of),
+                              .node = pool_take(&form->pool, most, sizeof *source->node),
+                              .turn = pool_take(&form->pool, most, sizeof *source->turn)};
     for (int k = 0; k < 3; k++) source->still = fmaxf(source->still, STILL * (gltf->hi[k] - gltf->lo[k]));
-    form->joints = need_zeroed(most, sizeof *form->joints);
+    form->joints = pool_take(&form->pool, most, sizeof *form->joints);
     add_skeleton(form);
     return form->joint_count > 1 ||
            fail(error, ERROR_INPUT, "\"%s\" has no bones", rig_title(posing->document->rigs[rig]));
-}
-
-static void close(struct form *form)
-{
-    struct source *source = form->owned;
-    if (!source) return;
-    free(source->joint_of);
-    free(source->node);
-    free(source->turn);
-    free(source);
-    free(form->joints);
 }
 
 /// How a bone is turned from its rest, in the character's space.
@@ -141,4 +128,4 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
     }
 }
 
-const struct form_kind skeleton_form = {.holds = FORM_JOINTS, .open = open, .close = close, .key = key};
+const struct form_kind skeleton_form = {.holds = FORM_JOINTS, .open = open, .key = key};

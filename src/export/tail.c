@@ -1,9 +1,7 @@
 /// A tail as a form: the fox, skinned to the tail's joints.
-#include "base/need.h"
 #include "export/form.h"
 #include "model/fox.h"
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /// The fox's mesh, scaled to its tail's length.
@@ -36,12 +34,12 @@ static void add_mesh(struct form *form, struct scaled_fox *fox, const struct glt
         vertices += (size_t)mesh->parts[p].vertex_count;
         indices += (size_t)mesh->parts[p].index_count;
     }
-    form->position = (const float(*)[3])(fox->position = need(vertices, sizeof *fox->position));
-    form->normal = (const float(*)[3])(fox->normal = need(vertices, sizeof *fox->normal));
-    form->color = (const float(*)[3])(fox->color = need(vertices, sizeof *fox->color));
-    form->indices = fox->indices = need(indices, sizeof *fox->indices);
-    form->slots = need(vertices, sizeof *form->slots);
-    form->weights = need(vertices, sizeof *form->weights);
+    form->position = (const float(*)[3])(fox->position = pool_take(&form->pool, vertices, sizeof *fox->position));
+    form->normal = (const float(*)[3])(fox->normal = pool_take(&form->pool, vertices, sizeof *fox->normal));
+    form->color = (const float(*)[3])(fox->color = pool_take(&form->pool, vertices, sizeof *fox->color));
+    form->indices = fox->indices = pool_take(&form->pool, indices, sizeof *fox->indices);
+    form->slots = pool_take(&form->pool, vertices, sizeof *form->slots);
+    form->weights = pool_take(&form->pool, vertices, sizeof *form->weights);
     for (int p = 0; p < mesh->part_count; p++) add_part(form, fox, &mesh->parts[p], scale);
 }
 
@@ -50,7 +48,7 @@ static void add_joints(struct form *form, const struct gltf *gltf, const float r
 {
     form->joint_count = gltf->node_count - 1; // the last node shows the mesh
     form->first_bone = FOX_FIRST_JOINT;
-    form->joints = need_zeroed((size_t)form->joint_count, sizeof *form->joints);
+    form->joints = pool_take(&form->pool, (size_t)form->joint_count, sizeof *form->joints);
     for (int j = 0; j < form->joint_count; j++) {
         const struct gltf_node *node = &gltf->nodes[j];
         struct form_joint *joint = &form->joints[j];
@@ -71,25 +69,10 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
 {
     const struct gltf *gltf = &pose->model.imported->gltf;
     (void)posing, (void)rig, (void)error;
-    struct scaled_fox *fox = form->owned = need_zeroed(1, sizeof *fox);
+    struct scaled_fox *fox = form->owned = pool_take(&form->pool, 1, sizeof *fox);
     add_mesh(form, fox, gltf->meshes, pose->model.root[0]);
     add_joints(form, gltf, pose->model.root);
     return true;
-}
-
-static void close(struct form *form)
-{
-    struct scaled_fox *fox = form->owned;
-    if (fox) {
-        free(fox->position);
-        free(fox->normal);
-        free(fox->color);
-        free(fox->indices);
-    }
-    free(fox);
-    free(form->slots);
-    free(form->weights);
-    free(form->joints);
 }
 
 static void key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
@@ -111,4 +94,4 @@ static void vertices(const struct form *form, const struct rig_pose *pose, float
         for (int k = 0; k < 3; k++) positions[v][k] = root[0] * positions[v][k] + root[12 + k];
 }
 
-const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, open, close, key, vertices, form_channels};
+const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, open, key, vertices, form_channels};

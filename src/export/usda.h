@@ -26,6 +26,7 @@ struct usda_joint {
 };
 
 struct usda_model {
+    struct pool pool;
     struct export_range *range;
     int rig;
     const char *name; ///< of its prim

@@ -397,31 +397,19 @@ static bool reserve(struct usda_model *model)
     const struct gltf *gltf = model->gltf;
     const size_t keys = (size_t)model->range->key_count, nodes = (size_t)gltf->node_count,
                  weights = (size_t)gltf->weight_count;
+    struct pool *pool = &model->pool;
     if (!need_has_room(keys * (nodes * sizeof *model->places + weights * sizeof *model->weights))) return false;
-    model->places = need_zeroed(keys * nodes, sizeof *model->places);
-    model->weights = need_zeroed(keys * weights, sizeof *model->weights);
-    model->shapes = need_zeroed(weights, sizeof *model->shapes);
-    model->joints = need_zeroed(2 * nodes, sizeof *model->joints);
-    model->joint_of = need_zeroed(nodes, sizeof *model->joint_of);
-    model->slot_of = need(nodes, sizeof *model->slot_of);
-    model->materials = need_zeroed((size_t)gltf->material_count, sizeof *model->materials);
-    model->prims = need_zeroed(count_prims(gltf), sizeof *model->prims);
+    model->places = pool_take(pool, keys * nodes, sizeof *model->places);
+    model->weights = pool_take(pool, keys * weights, sizeof *model->weights);
+    model->shapes = pool_take(pool, weights, sizeof *model->shapes);
+    model->joints = pool_take(pool, 2 * nodes, sizeof *model->joints);
+    model->joint_of = pool_take(pool, nodes, sizeof *model->joint_of);
+    model->slot_of = pool_take(pool, nodes, sizeof *model->slot_of);
+    model->materials = pool_take(pool, (size_t)gltf->material_count, sizeof *model->materials);
+    model->prims = pool_take(pool, count_prims(gltf), sizeof *model->prims);
     for (size_t n = 0; n < nodes; n++) model->slot_of[n] = -1;
     model->slots = -1;
     return true;
-}
-
-static void release(struct usda_model *model)
-{
-    usda_names_free(&model->prim_names);
-    free(model->places);
-    free(model->weights);
-    free(model->shapes);
-    free(model->joints);
-    free(model->joint_of);
-    free(model->slot_of);
-    free(model->materials);
-    free(model->prims);
 }
 
 const char *usda_prim(struct usda_model *model, const char *wanted)
@@ -472,6 +460,7 @@ bool usda_model_write(struct usda_model *model, struct error *error)
     done = done && write_root(model, error) && write_all(model, error);
     fputs("    }\n", model->out);
     gltf_pose_free(&pose);
-    release(model);
+    usda_names_free(&model->prim_names);
+    pool_free(&model->pool);
     return done;
 }

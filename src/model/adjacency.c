@@ -117,33 +117,26 @@ static void tidy(struct adjacency *adjacency, int vertex_count)
     adjacency->first[vertex_count] = kept;
 }
 
-void adjacency_create(struct adjacency *adjacency, const float (*position)[3], const float (*normal)[3],
-                      int vertex_count, const uint32_t *indices, int index_count)
+void adjacency_create(struct adjacency *adjacency, struct pool *pool, const float (*position)[3],
+                      const float (*normal)[3], int vertex_count, const uint32_t *indices, int index_count)
 {
     const size_t room = (size_t)vertex_count + 1;
     *adjacency = (struct adjacency){0};
     struct spot *spots = need(room, sizeof *spots);
     int *fill = need_zeroed(room, sizeof *fill);
     const struct edges edges = {indices, index_count, spots, need(room, sizeof *edges.twin), vertex_count};
-    adjacency->first = need_zeroed(room, sizeof *adjacency->first);
+    adjacency->first = pool_take(pool, room, sizeof *adjacency->first);
     spots_sort(position, vertex_count, spots);
     find_twins(&edges, normal);
     add_edges(adjacency, &edges, fill);
     for (int i = 0; i < vertex_count; i++) adjacency->first[i + 1] = adjacency->first[i] + fill[i];
     memcpy(fill, adjacency->first, (size_t)vertex_count * sizeof *fill);
-    adjacency->other = need((size_t)adjacency->first[vertex_count] + 1, sizeof *adjacency->other);
+    adjacency->other = pool_take(pool, (size_t)adjacency->first[vertex_count], sizeof *adjacency->other);
     add_edges(adjacency, &edges, fill);
     tidy(adjacency, vertex_count);
     free(spots);
     free(edges.twin);
     free(fill);
-}
-
-void adjacency_free(struct adjacency *adjacency)
-{
-    free(adjacency->first);
-    free(adjacency->other);
-    *adjacency = (struct adjacency){0};
 }
 
 // --- triangles across edges: an edge a → b is b → a there

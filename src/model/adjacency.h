@@ -2,6 +2,7 @@
 #ifndef MODEL_ADJACENCY_H
 #define MODEL_ADJACENCY_H
 
+#include "base/pool.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -13,11 +14,9 @@ struct adjacency {
     uint32_t *other;
 };
 
-void adjacency_create(struct adjacency *adjacency, const float (*position)[3], const float (*normal)[3],
-                      int vertex_count, const uint32_t *indices, int index_count);
-
-/// Leaves an empty one, all zero.
-void adjacency_free(struct adjacency *adjacency);
+/// Its memory is the pool's.
+void adjacency_create(struct adjacency *adjacency, struct pool *pool, const float (*position)[3],
+                      const float (*normal)[3], int vertex_count, const uint32_t *indices, int index_count);
 
 /// A vertex, by its place.
 struct spot {

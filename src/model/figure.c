@@ -149,14 +149,14 @@ static void find_soles(struct figure *figure)
 
 static void reserve(struct figure *figure)
 {
-    const size_t vertices = (size_t)figure->character.vertex_count;
-    const size_t coordinates = (size_t)figure->character.coordinate_count;
-    const size_t indices = (size_t)figure->character.index_count;
-    figure->tangent = need(vertices + 1, sizeof *figure->tangent);
-    figure->slopes = need_zeroed(vertices * coordinates + 1, sizeof *figure->slopes);
-    figure->largest = need_zeroed(coordinates + 1, sizeof *figure->largest);
-    figure->coarse = need(indices + 1, sizeof *figure->coarse);
-    figure->coarse_from = need(indices / 3 + 1, sizeof *figure->coarse_from);
+    const struct character *c = &figure->character;
+    const size_t vertices = (size_t)c->vertex_count, coordinates = (size_t)c->coordinate_count;
+    struct pool *pool = &figure->pool;
+    figure->tangent = pool_take(pool, vertices, sizeof *figure->tangent);
+    figure->slopes = pool_take(pool, vertices * coordinates, sizeof *figure->slopes);
+    figure->largest = pool_take(pool, coordinates, sizeof *figure->largest);
+    figure->coarse = pool_take(pool, (size_t)c->index_count, sizeof *figure->coarse);
+    figure->coarse_from = pool_take(pool, (size_t)c->index_count / 3, sizeof *figure->coarse_from);
 }
 
 static uint64_t new_id(void)
@@ -169,8 +169,8 @@ void figure_derive(struct figure *figure)
 {
     const struct character *c = &figure->character;
     reserve(figure);
-    adjacency_create(&figure->edges, (const float(*)[3])c->position, (const float(*)[3])c->normal, c->vertex_count,
-                     c->indices, c->index_count);
+    adjacency_create(&figure->edges, &figure->pool, (const float(*)[3])c->position, (const float(*)[3])c->normal,
+                     c->vertex_count, c->indices, c->index_count);
     measure(figure);
     for (int k = 0; k < c->coordinate_count; k++) {
         measure_largest(figure, k);
@@ -196,22 +196,19 @@ static void turn_normals(const struct figure *figure, int coordinate, bool imagi
     }
 }
 
-struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary)
+struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary,
+                                          struct pool *pool)
 {
+    const char *ending = imaginary ? ".im" : ".re";
     const struct coordinate *n = &figure->character.coordinates[coordinate];
     struct figure_target target = {.sign = imaginary ? -1.0f : 1.0f,
                                    .position = (const float(*)[3])(imaginary ? n->im : n->re)};
-    if (asprintf(&target.name, "%s.%s", n->name, imaginary ? "im" : "re") < 0) need_failed();
+    target.name = pool_take(pool, strlen(n->name) + strlen(ending) + 1, 1);
+    stpcpy(stpcpy(target.name, n->name), ending);
     if (!figure->slopes) return target;
-    target.normal = need((size_t)figure->character.vertex_count + 1, sizeof *target.normal);
+    target.normal = pool_take(pool, (size_t)figure->character.vertex_count, sizeof *target.normal);
     turn_normals(figure, coordinate, imaginary, target.normal);
     return target;
-}
-
-void figure_target_free(struct figure_target *target)
-{
-    free(target->name);
-    free(target->normal);
 }
 
 bool figure_has_room(const struct character *character)
@@ -235,12 +232,7 @@ void figure_create(struct figure *figure, struct character *character)
 void figure_free(struct figure *figure)
 {
     character_free(&figure->character);
-    free(figure->tangent);
-    free(figure->slopes);
-    free(figure->largest);
-    free(figure->coarse);
-    free(figure->coarse_from);
-    adjacency_free(&figure->edges);
+    pool_free(&figure->pool);
     *figure = (struct figure){0};
 }
 
@@ -310,17 +302,18 @@ static void reserve_painted(struct painted *painted)
 {
     const struct character *plain = &painted->plain->character;
     struct figure *figure = &painted->figure;
+    struct pool *pool = &figure->pool;
     const size_t vertices = (size_t)plain->vertex_count, coordinates = (size_t)plain->coordinate_count;
-    figure->slopes = need(vertices * coordinates + 1, sizeof *figure->slopes);
-    figure->largest = need(coordinates + 1, sizeof *figure->largest);
-    figure->character.coordinates = need_zeroed(coordinates + 1, sizeof *figure->character.coordinates);
-    painted->applied = need_zeroed(vertices * coordinates + 1, sizeof *painted->applied);
-    painted->stale = need_zeroed(vertices + 1, sizeof *painted->stale);
+    figure->slopes = pool_take(pool, vertices * coordinates, sizeof *figure->slopes);
+    figure->largest = pool_take(pool, coordinates, sizeof *figure->largest);
+    figure->character.coordinates = pool_take(pool, coordinates, sizeof *figure->character.coordinates);
+    painted->applied = pool_take(pool, vertices * coordinates, sizeof *painted->applied);
+    painted->stale = pool_take(pool, vertices, sizeof *painted->stale);
     for (size_t k = 0; k < coordinates; k++) {
         struct coordinate *c = &figure->character.coordinates[k];
         *c = plain->coordinates[k]; // shares the name
-        c->re = need(vertices + 1, sizeof *c->re);
-        c->im = need(vertices + 1, sizeof *c->im);
+        c->re = pool_take(pool, vertices, sizeof *c->re);
+        c->im = pool_take(pool, vertices, sizeof *c->im);
     }
 }
 
@@ -344,9 +337,7 @@ struct painted *painted_create(const struct figure *plain)
     painted->figure = *plain;
     painted->figure.id = new_id();
     painted->figure.version = 1;
-    painted->figure.slopes = NULL;
-    painted->figure.largest = NULL;
-    painted->figure.character.coordinates = NULL;
+    painted->figure.pool = (struct pool){0};
     reserve_painted(painted);
     copy_coordinates(painted);
     return painted;
@@ -355,16 +346,7 @@ struct painted *painted_create(const struct figure *plain)
 void painted_destroy(struct painted *painted)
 {
     if (!painted) return;
-    struct coordinate *coordinates = painted->figure.character.coordinates;
-    for (int k = 0; coordinates && k < painted->plain->character.coordinate_count; k++) {
-        if (coordinates[k].re != painted->plain->character.coordinates[k].re) free(coordinates[k].re);
-        if (coordinates[k].im != painted->plain->character.coordinates[k].im) free(coordinates[k].im);
-    }
-    free(coordinates);
-    free(painted->figure.slopes);
-    free(painted->figure.largest);
-    free(painted->applied);
-    free(painted->stale);
+    pool_free(&painted->figure.pool);
     free(painted);
 }
 

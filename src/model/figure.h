@@ -26,6 +26,7 @@ struct sole {
 
 struct figure {
     struct character character;
+    struct pool pool;      ///< of what follows
     float (*tangent)[3];   ///< t₁ per vertex: unit, across the normal
     struct slope *slopes;  ///< [coordinate · vertex_count + vertex]
     float (*largest)[3];   ///< per coordinate: the largest |Ñ| over all vertices in x, y and z
@@ -58,9 +59,10 @@ struct figure_target {
     float (*normal)[3];         ///< how it turns normals, or NULL
 };
 
-/// A target that turns normals, to first order, where the figure is derived: n = t₁ × t₂, and the coordinate moves both tangents.
-struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary);
-void figure_target_free(struct figure_target *target);
+/// A target that turns normals, to first order, where the figure is derived: n = t₁ × t₂, and the coordinate moves both tangents. Its
+/// memory is the pool's.
+struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary,
+                                          struct pool *pool);
 
 /// Leaves an empty figure.
 void figure_free(struct figure *figure);

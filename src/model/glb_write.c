@@ -1,9 +1,7 @@
 /// Writes a character to a .glb file.
 #include "base/file.h"
-#include "base/need.h"
 #include "model/figure.h"
 #include "model/gltf_shape.h"
-#include <stdlib.h>
 #include <string.h>
 
 // --- the file's vertices: one for each pair of a vertex and its texture coordinates
@@ -54,40 +52,37 @@ static void split_vertices(struct split *s, const struct character *c, struct ch
     }
 }
 
-static void split_create(struct split *split, const struct character *c)
+static void split_create(struct split *split, struct pool *pool, const struct character *c)
 {
     const size_t most = (size_t)c->vertex_count + (c->looks.corner ? (size_t)c->index_count : 0);
-    struct chains chains = {.uv = need(most, sizeof *chains.uv), .next = need(most, sizeof *chains.next)};
-    *split = (struct split){.source = need(most, sizeof *split->source),
-                            .indices = need((size_t)c->index_count, sizeof *split->indices),
-                            .uv = c->looks.uv ? need(most, sizeof *split->uv) : NULL};
+    struct chains chains = {.uv = pool_take(pool, most, sizeof *chains.uv),
+                            .next = pool_take(pool, most, sizeof *chains.next)};
+    *split = (struct split){.source = pool_take(pool, most, sizeof *split->source),
+                            .indices = pool_take(pool, (size_t)c->index_count, sizeof *split->indices),
+                            .uv = c->looks.uv ? pool_take(pool, most, sizeof *split->uv) : NULL};
     split_vertices(split, c, &chains);
-    free(chains.uv);
-    free(chains.next);
 }
 
 // --- the file
 
 /// A file being written.
 struct output {
+    struct pool pool;
     struct gltf_file file;
     struct gltf_looks looks;
     struct split split;
     struct gltf_shape shape;
-    struct figure_target *targets;
 };
 
 static void make_targets(struct output *o, const struct figure *figure)
 {
     const int count = 2 * figure->character.coordinate_count;
-    o->targets = need((size_t)count, sizeof *o->targets);
-    o->shape.targets = need((size_t)count, sizeof *o->shape.targets);
+    o->shape.targets = pool_take(&o->pool, (size_t)count, sizeof *o->shape.targets);
     o->shape.target_count = count;
     for (int t = 0; t < count; t++) {
-        const struct figure_target *own = &o->targets[t];
-        o->targets[t] = figure_target_create(figure, t / 2, t % 2);
+        const struct figure_target own = figure_target_create(figure, t / 2, t % 2, &o->pool);
         o->shape.targets[t] =
-            (struct gltf_shape_target){own->name, own->position, (const float(*)[3])own->normal, own->sign, 1};
+            (struct gltf_shape_target){own.name, own.position, (const float(*)[3])own.normal, own.sign, 1};
     }
 }
 
@@ -95,7 +90,7 @@ static void open_output(struct output *o, const struct figure *figure)
 {
     const struct character *c = &figure->character;
     *o = (struct output){.looks.file = &o->file};
-    split_create(&o->split, c);
+    split_create(&o->split, &o->pool, c);
     o->shape = (struct gltf_shape){.name = "character",
                                    .vertex_count = o->split.count,
                                    .source = o->split.source,
@@ -112,14 +107,9 @@ static void open_output(struct output *o, const struct figure *figure)
 
 static void close_output(struct output *o)
 {
-    for (int t = 0; t < o->shape.target_count; t++) figure_target_free(&o->targets[t]);
-    free(o->shape.targets);
-    free(o->targets);
     gltf_looks_free(&o->looks);
     gltf_file_free(&o->file);
-    free(o->split.source);
-    free(o->split.indices);
-    free(o->split.uv);
+    pool_free(&o->pool);
 }
 
 static bool write_file(struct output *o, const char *path, struct error *error)

@@ -242,9 +242,8 @@ struct gltf_bounds {
     int count;
 };
 
-/// false if memory is short.
-bool gltf_bounds_create(const struct gltf *gltf, struct gltf_bounds *bounds);
-void gltf_bounds_free(struct gltf_bounds *bounds);
+/// False if memory is short. The memory is the character's.
+bool gltf_bounds_create(struct gltf *gltf, struct gltf_bounds *bounds);
 
 /// The box in the model's space; it may be a little too large, never too small for morph weights from −1 to 1. Allocates nothing.
 void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose,

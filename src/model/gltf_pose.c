@@ -271,11 +271,11 @@ static int box_count(const struct gltf *gltf, const struct gltf_node *node)
     return node->skin < 0 ? 1 : gltf->skins[node->skin].joint_count;
 }
 
-bool gltf_bounds_create(const struct gltf *gltf, struct gltf_bounds *bounds)
+bool gltf_bounds_create(struct gltf *gltf, struct gltf_bounds *bounds)
 {
-    size_t total = 1;
+    size_t total = 0;
     for (int n = 0; n < gltf->node_count; n++) total += (size_t)box_count(gltf, &gltf->nodes[n]);
-    *bounds = (struct gltf_bounds){.boxes = malloc(total * sizeof *bounds->boxes)};
+    *bounds = (struct gltf_bounds){.boxes = pool_try(&gltf->pool, total, sizeof *bounds->boxes)};
     if (!bounds->boxes) return false;
     for (int n = 0; n < gltf->node_count; n++) {
         const struct gltf_node *node = &gltf->nodes[n];
@@ -295,12 +295,6 @@ bool gltf_bounds_create(const struct gltf *gltf, struct gltf_bounds *bounds)
         }
     }
     return true;
-}
-
-void gltf_bounds_free(struct gltf_bounds *bounds)
-{
-    free(bounds->boxes);
-    *bounds = (struct gltf_bounds){0};
 }
 
 /// The box at a pose's morph weights: part of the way from the one at rest to a larger one. Weights that are positive and together at most 1

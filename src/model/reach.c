@@ -1,33 +1,21 @@
 /// Distances along a surface, by Dijkstra from a few starting points; and where a ray hits triangles.
 #include "model/reach.h"
-#include "base/need.h"
 #include "model/vector.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const float SHORTER = 0.86f; ///< 1/1.16
 
-void reach_create(struct reach *reach, int vertices)
+void reach_create(struct reach *reach, struct pool *pool, int vertices)
 {
-    const size_t room = (size_t)vertices + 1;
+    const size_t room = (size_t)vertices;
     *reach = (struct reach){.capacity = vertices};
-    reach->distance = need(room, sizeof *reach->distance);
-    reach->vertices = need(room, sizeof *reach->vertices);
-    reach->along = need(room, sizeof *reach->along);
-    reach->heap = need(room, sizeof *reach->heap);
-    reach->place = need(room, sizeof *reach->place);
+    reach->distance = pool_take(pool, room, sizeof *reach->distance);
+    reach->vertices = pool_take(pool, room, sizeof *reach->vertices);
+    reach->along = pool_take(pool, room, sizeof *reach->along);
+    reach->heap = pool_take(pool, room, sizeof *reach->heap);
+    reach->place = pool_take(pool, room, sizeof *reach->place);
     for (int i = 0; i < vertices; i++) reach->distance[i] = reach->along[i] = INFINITY;
-}
-
-void reach_free(struct reach *reach)
-{
-    free(reach->distance);
-    free(reach->vertices);
-    free(reach->along);
-    free(reach->heap);
-    free(reach->place);
-    *reach = (struct reach){0};
 }
 
 static void put(struct reach *reach, int at, int vertex)

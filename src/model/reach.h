@@ -28,11 +28,8 @@ struct reach {
     int heap_count;
 };
 
-/// For a figure of so many vertices.
-void reach_create(struct reach *reach, int vertices);
-
-/// Leaves an empty one, all zero.
-void reach_free(struct reach *reach);
+/// For a figure of so many vertices; its memory is the pool's.
+void reach_create(struct reach *reach, struct pool *pool, int vertices);
 
 /// Finds distances from the nearest of the spots. Allocates nothing.
 void reach_find(struct reach *reach, const struct figure *figure, const struct surface_spot *spots, int count,

@@ -112,9 +112,10 @@ static void skeleton_create(struct imported *imported)
 {
     const size_t count = (size_t)imported->gltf.node_count + 1;
     bool *is_bone = need_zeroed(count, sizeof *is_bone);
-    imported->skeleton = (struct skeleton){.bones = need_zeroed(2 * count, sizeof(struct bone)),
-                                           .carries = need_zeroed(count, sizeof(bool)),
-                                           .leads = need_zeroed(count, sizeof(bool))};
+    struct pool *pool = &imported->gltf.pool;
+    imported->skeleton = (struct skeleton){.bones = pool_take(pool, 2 * count, sizeof(struct bone)),
+                                           .carries = pool_take(pool, count, sizeof(bool)),
+                                           .leads = pool_take(pool, count, sizeof(bool))};
     mark_joints(imported, is_bone);
     mark_carrying(imported, is_bone, &imported->skeleton);
     list_bones(imported, is_bone, &imported->skeleton);
@@ -173,10 +174,6 @@ bool imported_read(struct imported *imported, const char *path, struct error *er
 
 void imported_free(struct imported *imported)
 {
-    free(imported->skeleton.bones);
-    free(imported->skeleton.carries);
-    free(imported->skeleton.leads);
-    gltf_bounds_free(&imported->bounds);
     gltf_pose_free(&imported->rest);
     gltf_free(&imported->gltf);
     *imported = (struct imported){0};

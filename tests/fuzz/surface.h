@@ -38,10 +38,7 @@ static inline void fuzz_figure(struct character *character)
     const struct character *c = &figure.character;
     for (int e = 0; e < figure.edges.first[c->vertex_count]; e++)
         fuzz_expect(figure.edges.other[e] < (uint32_t)c->vertex_count, "an edge ends at a vertex of the surface");
-    for (int k = 0; k < 2 * c->coordinate_count; k++) {
-        struct figure_target target = figure_target_create(&figure, k / 2, k % 2);
-        figure_target_free(&target);
-    }
+    for (int k = 0; k < 2 * c->coordinate_count; k++) figure_target_create(&figure, k / 2, k % 2, &figure.pool);
     fuzz_triangles(&figure, false);
     decimate(c, c->index_count / 6, figure.coarse, figure.coarse_from, &figure.coarse_count);
     fuzz_triangles(&figure, true);

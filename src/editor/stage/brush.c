@@ -1,6 +1,5 @@
 /// The brush works like an airbrush: a stroke adds flow × time to every vertex under it.
 #include "base/error.h"
-#include "base/need.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
@@ -9,7 +8,6 @@
 #include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double RADIUS_LEAST = 0.01, RADIUS_MOST = 0.5, STRENGTH_LEAST = 0.02;
@@ -26,12 +24,7 @@ static float radius_of(const struct brush *brush, const struct figure *figure)
 
 static void free_work(struct brush_work *work)
 {
-    reach_free(&work->reach);
-    free(work->vertices);
-    free(work->values);
-    free(work->steps);
-    free(work->turned);
-    free(work->spent);
+    pool_free(&work->pool);
     *work = (struct brush_work){0};
 }
 
@@ -40,15 +33,15 @@ void brush_free(struct painting *painting) { free_work(&painting->work); }
 /// Allocates for a figure, unless there is enough already.
 static void reserve(struct brush_work *work, int vertices)
 {
-    const size_t room = (size_t)vertices + 1;
+    const size_t room = (size_t)vertices;
     if (work->capacity >= vertices) return;
     free_work(work);
-    work->vertices = need(room, sizeof *work->vertices);
-    work->values = need(room, sizeof *work->values);
-    work->steps = need(room, sizeof *work->steps);
-    work->turned = need(room, sizeof *work->turned);
-    work->spent = need_zeroed(room, sizeof *work->spent);
-    reach_create(&work->reach, vertices);
+    work->vertices = pool_take(&work->pool, room, sizeof *work->vertices);
+    work->values = pool_take(&work->pool, room, sizeof *work->values);
+    work->steps = pool_take(&work->pool, room, sizeof *work->steps);
+    work->turned = pool_take(&work->pool, room, sizeof *work->turned);
+    work->spent = pool_take(&work->pool, room, sizeof *work->spent);
+    reach_create(&work->reach, &work->pool, vertices);
     for (int i = 0; i < vertices; i++) {
         work->turned[i][0] = 1;
         work->turned[i][1] = 0;

@@ -152,6 +152,7 @@ struct floor_drag {
 
 /// Memory for up to `capacity` vertices.
 struct brush_work {
+    struct pool pool;
     int capacity;
     struct reach reach;
     int *vertices; ///< of a dab, and their new values
