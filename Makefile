@@ -8,7 +8,7 @@
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
 #   make wheel    the Python package for every platform, in build/wheels (PLATFORMS="win_amd64" for one); fetches zig
 #   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
-#   make blender    the extension for Blender, a .zip in the build folder
+#   make blender  the extension for Blender with the Python package of every platform that it runs on, a .zip in build; PLATFORMS as above
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports, and takes in files of others
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
@@ -165,8 +165,10 @@ $(B)/models/%.glb: $(B)/%_glb
 	@mkdir -p $(@D)
 	$(Q)$< $@
 
-blender:
-	$(Q)tools/pack-blender.sh $(B) $(VERSION)
+# The platforms that Blender runs on.
+blender: PLATFORMS ?= manylinux_2_17_x86_64 win_amd64 macosx_11_0_x86_64 macosx_11_0_arm64
+blender: wheel
+	$(Q)tools/pack-blender.sh $(B) $(VERSION) $(PLATFORMS)
 
 # Programs of others evaluate every file that wiggly writes; fetched into the build folder.
 proof: $(B)/wiggly

@@ -1,18 +1,21 @@
 #!/bin/bash
-# Writes the Blender extension: its modules, and the wheels of the Python package in the build folder. Usage: tools/pack-blender.sh BUILD VERSION
+# Writes the Blender extension: its modules, and the wheels of the Python package. Usage: tools/pack-blender.sh BUILD VERSION PLATFORM...
 set -eu
-ls "$1"/wheels/*.whl >/dev/null 2>&1 || { echo "$1/wheels has no wheel of the Python package: run make wheel" >&2; exit 1; }
-build=$1 folder=$1/blender zip=$PWD/$1/wiggly-blender-$2.zip
-case $1 in /*) zip=$1/wiggly-blender-$2.zip ;; esac
+build=$(realpath "$1") version=$2
+folder=$build/blender zip=$build/wiggly-blender-$2.zip
+shift 2
 rm -rf "$folder" "$zip"
 mkdir -p "$folder/wheels"
-cp blender/wiggly_blender/* "$folder" 2>/dev/null || true # not the folder of compiled modules
-cp "$build"/wheels/*.whl "$folder/wheels"
+cp blender/wiggly_blender/*.py "$folder"
 {
-    sed "s/^version = .*/version = \"$2\"/" blender/wiggly_blender/blender_manifest.toml
+    sed "s/^version = .*/version = \"$version\"/" blender/wiggly_blender/blender_manifest.toml
     echo 'wheels = ['
-    for wheel in "$folder"/wheels/*.whl; do echo "    \"./wheels/${wheel##*/}\","; done
+    for platform; do
+        wheel=wiggly-$version-py3-none-$platform.whl
+        cp "$build/wheels/$wheel" "$folder/wheels"
+        echo "    \"./wheels/$wheel\","
+    done
     echo ']'
 } >"$folder/blender_manifest.toml"
 (cd "$folder" && python3 -m zipfile -c "$zip" *)
-echo "wrote ${zip#"$PWD/"}"
+echo "wrote $zip"

@@ -26,16 +26,14 @@ def refresh(context, owner):
     for spline in owner.wiggly.splines:
         if spline.follow == 'none':
             continue
-        chain = next((each for each in owner.wiggly.chains if any(c.spline == spline.name for c in each.channels)), None)
+        chain = chains.chain_of(owner, spline)
         bones = chain and chains.bones_of(owner, chain)
         bone = owner.pose.bones.get(spline.joint) if spline.joint else bones and bones[-1]
         if not bones or not bone:
             raise ValueError(f'"{spline.name}" follows the bone "{spline.joint}", which is not there')
-        wanted.append((spline, bone.name, chains.axes_at_rest(owner, chain, bones), []))
-    muted = [con for bone in owner.pose.bones for con in bone.constraints if con.name.startswith('Wiggle ') and not con.mute]
+        wanted.append((spline, bone.name, chains.axes_to_follow(owner, spline), []))
     frame, subframe = scene.frame_current, scene.frame_subframe
-    for con in muted:
-        con.mute = True
+    muted = chains.mute_all(owner)
     try:
         for at in range(scene.frame_start, scene.frame_end + 1):
             scene.frame_set(at)
@@ -43,17 +41,15 @@ def refresh(context, owner):
             for spline, name, axes, motion in wanted:
                 motion.append(sample(seen, name, spline.follow, axes, motion))
     finally:
-        for con in muted:
-            con.mute = False
+        chains.unmute(muted)
         scene.frame_set(frame, subframe=subframe)
     now = stamp(owner, scene)
     for spline, _, _, motion in wanted:
         mean = sum(value for value, _ in motion) / len(motion)
         curves.write(owner, spline, 'y', scene.frame_start, [spline.follow_gain * (value - mean) for value, _ in motion])
         spline.stamp = now
-    chains_now = {c.name for c in owner.wiggly.chains}
-    for name in chains_now:
-        chains.drive(owner, owner.wiggly.chains[name])
+    for chain in owner.wiggly.chains:
+        chains.drive(owner, chain)
 
 
 def sample(seen, name, of, axes, motion):

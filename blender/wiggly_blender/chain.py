@@ -66,6 +66,14 @@ def axes_at_rest(owner, chain, bones):
     return Matrix((along.cross(side), along, side)).transposed()
 
 
+def axes_to_follow(owner, spline):
+    chain = owner.wiggly.chains.get(spline.chain)
+    if chain:
+        return axes_at_rest(owner, chain, bones_of(owner, chain))
+    world = owner.matrix_world.to_3x3().normalized().inverted_safe()
+    return Matrix([world @ Vector(axis) for axis in ((-1, 0, 0), (0, -1, 0), (0, 0, 1))]).transposed()
+
+
 def target_for(owner, first):
     """What the constraints of a chain name as target: they need one, but do not read it. It must not follow the chain."""
     above = first.parent_recursive
@@ -170,6 +178,24 @@ def constraints_of(bone, chain):
     return [con for con in (bone.constraints.get(constraint_name(chain, end)) for end in (' <', '', ' >')) if con]
 
 
+def mute_all(owner):
+    """Mutes what bends an armature, and gives it back for unmute()."""
+    cons = [con for bone in owner.pose.bones for con in bone.constraints if con.name.startswith('Wiggle ') and not con.mute]
+    for con in cons:
+        con.mute = True
+    return cons
+
+
+def unmute(cons):
+    for con in cons:
+        con.mute = False
+
+
+def chain_of(owner, spline):
+    """The first chain that a spline bends."""
+    return next((chain for chain in owner.wiggly.chains if any(channel.spline == spline.name for channel in chain.channels)), None)
+
+
 def unique(name, taken):
     return next(each for each in (name if n == 1 else f'{name} {n}' for n in range(1, len(taken) + 2)) if each not in taken)
 
@@ -193,6 +219,7 @@ def make(owner, bones, follow, loop=False):
         spline.frequency = round(min(max(USUAL_FREQUENCY * math.sqrt(USUAL_LENGTH / length), SLOWEST), FASTEST), 1)
         spline.start = 'loop' if loop else 'rest'
         spline.follow = ('across' if axis == 'side' else 'up') if follow else 'none'
+        spline.chain = chain.name
         channel = chain.channels.add()
         channel.spline, channel.axis, channel.of = spline.name, axis, 'displacement' if follow else 'total'
         channel.lag = round(WHOLE / count)

@@ -4,7 +4,11 @@ import bpy
 
 LAYERED = bpy.app.version >= (4, 4, 0)
 SAMPLES, PARTS = 'wiggle samples', ('re', 'im', 'y')
-HELD = 240000.0  # in a keyframe's unused `period`: its `back` holds the phase of a pose
+HELD, POSE, STIFF = 240000, 1, 2  # in an unused number of a keyframe, `period`: HELD + 1 if `back` is the phase of a pose, + 2 if `amplitude` is a stiffness
+
+
+def single(number):
+    return array('f', [number])[0]
 
 
 def path_of(name):
@@ -57,13 +61,26 @@ def read(curve):
     """The keys as bytes: equal bytes are equal keys."""
     points = curve.keyframe_points if curve else ()
     parts = []
-    for name, code, size in (('co', 'f', 2), ('handle_left', 'f', 2), ('handle_right', 'f', 2), ('back', 'f', 1), ('period', 'f', 1),
+    for name, code, size in (('co', 'f', 2), ('handle_left', 'f', 2), ('handle_right', 'f', 2), ('back', 'f', 1), ('period', 'f', 1), ('amplitude', 'f', 1),
                              ('type', 'i', 1), ('handle_left_type', 'i', 1), ('handle_right_type', 'i', 1)):
         values = array(code, bytes(4 * size * len(points)))
         if points:
             points.foreach_get(name, values)
         parts.append(values.tobytes())
     return b'|'.join(parts)
+
+
+def held(point, what):
+    """Whether a keyframe's unused numbers hold that."""
+    return HELD <= point.period <= HELD + POSE + STIFF and bool(int(point.period) & what)
+
+
+def hold(point, what, value):
+    """Holds a number with a keyframe, so that it is moved and copied with it; None: no longer."""
+    rest = HELD + sum(each for each in (POSE, STIFF) if each != what and held(point, each))
+    if value is not None:
+        setattr(point, 'back' if what == POSE else 'amplitude', value)
+    point.period = rest + (what if value is not None else 0)
 
 
 def slope(point):

@@ -27,6 +27,10 @@ class Spline(bpy.types.PropertyGroup):
     bandwidth: FloatProperty(name='Bandwidth', description='How far the frequency may shift to meet keys, as a fraction of it', default=0.1,
                              min=0, max=1, override=SAME, update=changed('bandwidth'))
     calm: FloatProperty(name='Calm', description='How much a swing at the start costs. Less is livelier', default=1, min=0, max=1, override=SAME, update=changed('calm'))
+    mode: EnumProperty(name='Kind', default='complex', override=SAME, items=(
+        ('complex', 'Wiggly', 'Swings at a frequency that may shift'), ('real', 'Spring', 'Swings as a damped spring'),
+        ('cubic', 'Cubic', 'Does not swing')))
+    more: StringProperty(override=SAME)  # JSON: what else a scene of wiggly said
     start: EnumProperty(name='Start', default='rest', override=SAME, update=changed('start'), items=(
         ('free', 'Free', 'Starts in mid-swing'), ('rest', 'Rest', 'Starts at rest on the first frame'),
         ('loop', 'Loop', 'The last frame repeats the first')))
@@ -35,6 +39,7 @@ class Spline(bpy.types.PropertyGroup):
         ('none', 'Nothing', 'Swings about a number'), ('across', 'Across', 'Follows the motion across the chain'),
         ('up', 'Up', 'Follows the motion up and down'), ('turn', 'Turn', 'Follows the turning')))
     joint: StringProperty(name='Bone', description='The bone it follows; empty is the last one of the chain', override=SAME)
+    chain: StringProperty(override=SAME)  # whose direction counts; empty: as of one that points to the front
     follow_gain: FloatProperty(name='Strength', default=1, override=SAME)
     slot: IntProperty(override=SAME)  # of its samples
     stamp: StringProperty(override=SAME)  # of the motion that was read

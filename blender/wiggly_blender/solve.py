@@ -1,4 +1,5 @@
 """Solves splines whose inputs differ, and writes their samples into the action."""
+import json
 import math
 import bpy
 import wiggly
@@ -47,18 +48,27 @@ def knots_of(curve, spline, first, last, fps, im):
         sample = math.floor(point.co[0] - first + 0.5)
         if spline.start == 'loop':
             sample %= last - first
-        if point.type != 'EXTREME':
-            if point.period == curves.HELD:
-                point.period = point.back = 0
-        elif point.period != curves.HELD:  # it has just become a pose: the phase that is seen now
-            point.period, point.back = curves.HELD, im.evaluate(point.co[0]) if im else 0
+        is_pose = point.type == 'EXTREME'
+        if is_pose and not curves.held(point, curves.POSE):  # it has just become one: the phase that is seen now
+            curves.hold(point, curves.POSE, im.evaluate(point.co[0]) if im else 0)
+        elif not is_pose and curves.held(point, curves.POSE):
+            curves.hold(point, curves.POSE, None)
         if point.type == 'MOVING_HOLD':
             found[sample] = wiggly.Knot(sample / fps, still=True)
             continue
         slope = curves.slope(point)
         found[sample] = wiggly.Knot(sample / fps, point.co[1], slope=None if slope is None else slope * fps,
-                                    phase=point.back if point.type == 'EXTREME' else None)
+                                    phase=point.back if is_pose else None,
+                                    stiffness=point.amplitude if curves.held(point, curves.STIFF) else None)
     return list(found.values())
+
+
+def more(spline):
+    """What only a scene of wiggly can say."""
+    said = json.loads(spline.more or '{}')
+    varied = said.get('variation', {})
+    return {'passive': said.get('passive', 'oscillator'), 'limits': said.get('limits'), 'variation': varied.get('amount', 0),
+            'seed': varied.get('seed', 0)}
 
 
 def equilibrium(owner, spline, first, last):
@@ -77,7 +87,8 @@ def solve(owner, spline, scene):
     fps = fps_of(scene)
     action = curves.action_of(owner)
     y = equilibrium(owner, spline, first, last)
-    settings = (spline.frequency, spline.damping, spline.bandwidth, spline.calm, spline.start)
+    settings = (spline.frequency, spline.damping, spline.bandwidth, spline.calm, spline.start,
+                spline.mode, spline.more)
 
     def inputs():
         return curves.read(curve), settings, first, last, scene.frame_start, scene.frame_end, fps, y, action and action.name_full
@@ -87,7 +98,7 @@ def solve(owner, spline, scene):
         return
     knots = knots_of(curve, spline, first, last, fps, im)
     problem = wiggly.Spline(knots, frequency=spline.frequency, damping=spline.damping, bandwidth=spline.bandwidth,
-                            calm=spline.calm, equilibrium=y, start=spline.start)
+                            calm=spline.calm, equilibrium=y, start=spline.start, mode=spline.mode, **more(spline))
     answer = problem.solve(last - first + 1, fps)
     for part, values in (('re', answer.re), ('im', answer.im)):
         start, values = first, list(values)

@@ -1,7 +1,8 @@
 """Operators, the panel, and menus."""
 import bpy
-from bpy.props import BoolProperty, EnumProperty
-from . import bake, base, chain as chains, curves, prop, settings, solve
+from bpy.props import BoolProperty, EnumProperty, StringProperty
+from bpy_extras.io_utils import ExportHelper, ImportHelper
+from . import bake, base, chain as chains, curves, exchange, prop, settings, solve
 
 PRESETS = {'tail': ('Tail', 1.5, 0.12), 'ear': ('Ear', 3, 0.25), 'hair': ('Hair', 2, 0.2), 'rope': ('Rope', 1, 0.05),
            'antenna': ('Antenna', 5, 0.06), 'belly': ('Belly', 3, 0.35)}
@@ -121,6 +122,31 @@ class WIGGLY_OT_preset(Operator):
             spline.frequency, spline.damping = PRESETS[self.preset][1:]
 
 
+class WIGGLY_OT_import(Operator, ImportHelper):
+    """Opens a scene of wiggly with its characters"""
+    bl_idname, bl_label, filename_ext = 'wiggly.import_scene', 'Wiggly Scene (.json)', '.json'
+    filter_glob: StringProperty(default='*.json', options={'HIDDEN'})
+
+    @classmethod
+    def poll(cls, context):
+        return context.mode == 'OBJECT'
+
+    def run(self, context, _):
+        left = exchange.read(context, self.filepath)
+        if left:
+            self.report({'WARNING'}, 'Left out: ' + ', '.join(left))
+
+
+class WIGGLY_OT_export(Operator, ExportHelper):
+    """Writes the active armature as a scene of wiggly, and everything as a .glb beside it"""
+    bl_idname, bl_label, filename_ext = 'wiggly.export_scene', 'Wiggly Scene (.json, .glb)', '.json'
+    bl_options = {'REGISTER'}
+
+    def run(self, context, owner):
+        active(owner)
+        exchange.write(context, owner, self.filepath)
+
+
 class WIGGLY_UL_chains(bpy.types.UIList):
     def draw_item(self, context, layout, data, item, icon, active_data, active_property, index=0, flag=0):
         layout.label(text=item.name, icon='CON_TRANSFORM')
@@ -179,18 +205,23 @@ def pose_menu(self, context):
 
 
 classes = (WIGGLY_OT_add, WIGGLY_OT_remove, WIGGLY_OT_refresh, WIGGLY_OT_key, WIGGLY_OT_preset, WIGGLY_OT_bake, WIGGLY_OT_property,
-           WIGGLY_OT_property_remove, WIGGLY_UL_chains, WIGGLY_PT_panel)
+           WIGGLY_OT_property_remove, WIGGLY_OT_import, WIGGLY_OT_export, WIGGLY_UL_chains, WIGGLY_PT_panel)
+
+
+menus = (('VIEW3D_MT_pose', pose_menu), ('UI_MT_button_context_menu', button_menu),
+         ('TOPBAR_MT_file_import', lambda self, context: self.layout.operator('wiggly.import_scene')),
+         ('TOPBAR_MT_file_export', lambda self, context: self.layout.operator('wiggly.export_scene')))
 
 
 def register():
     for each in classes:
         bpy.utils.register_class(each)
-    bpy.types.VIEW3D_MT_pose.append(pose_menu)
-    bpy.types.UI_MT_button_context_menu.append(button_menu)
+    for menu, draw in menus:
+        getattr(bpy.types, menu).append(draw)
 
 
 def unregister():
-    bpy.types.UI_MT_button_context_menu.remove(button_menu)
-    bpy.types.VIEW3D_MT_pose.remove(pose_menu)
+    for menu, draw in menus:
+        getattr(bpy.types, menu).remove(draw)
     for each in reversed(classes):
         bpy.utils.unregister_class(each)
