@@ -59,6 +59,25 @@ def undo():
     ok('redo', poses(bpy.data.objects['Rig'], [5, 20]) == after)
 
 
+def undo_of_an_edit_that_was_not_solved_yet():
+    """Blender stores the step of an edit before it tells anybody of the edit."""
+    rig = wagging()
+    bpy.ops.ed.undo_push(message='start')
+    curve = curves.find(rig, curves.path_of('tail side'))
+    curve.keyframe_points[0].co[1] = 3
+    curve.update()
+    bpy.ops.ed.undo_push(message='edit')
+    bpy.context.view_layer.update()
+    after = poses(rig, [5, 20])
+    rig.location.x = 1
+    bpy.ops.ed.undo_push(message='more')
+    bpy.context.view_layer.update()
+    bpy.ops.ed.undo()
+    bpy.context.view_layer.update()
+    rig = bpy.data.objects['Rig']
+    ok('the step of an edit shows the edit', rig.location.x == 0 and poses(rig, [5, 20]) == after, apart(poses(rig, [5, 20]), after))
+
+
 def duplicate():
     rig = wagging()
     before = poses(rig, [5, 20])
@@ -156,4 +175,4 @@ def leaves_nothing():
     ok('and no splines', not settings.of(rig))
 
 
-main(without_add_on, undo, duplicate, other_files, renamed, leaves_nothing)
+main(without_add_on, undo, undo_of_an_edit_that_was_not_solved_yet, duplicate, other_files, renamed, leaves_nothing)

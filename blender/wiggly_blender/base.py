@@ -15,8 +15,8 @@ def stamp(owner, scene):
 
 def stale(owner, scene):
     """Whether a followed motion is not the one of now."""
-    now = stamp(owner, scene) if any(spline.follow != 'none' for spline in owner.wiggly.splines) else ''
-    return any(spline.follow != 'none' and spline.stamp != now for spline in owner.wiggly.splines)
+    action = curves.action_of(owner)
+    return bool(action) and any(spline.follow != 'none' for spline in owner.wiggly.splines) and action.get(curves.STAMP) != stamp(owner, scene)
 
 
 def refresh(context, owner):
@@ -43,11 +43,11 @@ def refresh(context, owner):
     finally:
         chains.unmute(muted)
         scene.frame_set(frame, subframe=subframe)
-    now = stamp(owner, scene)
     for spline, _, _, motion in wanted:
         mean = sum(value for value, _ in motion) / len(motion)
         curves.write(owner, spline, 'y', scene.frame_start, [spline.follow_gain * (value - mean) for value, _ in motion])
-        spline.stamp = now
+    if wanted:
+        curves.action_of(owner)[curves.STAMP] = stamp(owner, scene)
     for chain in owner.wiggly.chains:
         chains.drive(owner, chain)
 

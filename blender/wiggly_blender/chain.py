@@ -202,6 +202,8 @@ def unique(name, taken):
 
 def make(owner, bones, follow, loop=False):
     """Adds a chain with a spline for each of two axes."""
+    if owner.override_library:
+        raise ValueError(f'"{owner.name}" is a library override: add the wiggle in the file that it comes from')
     for bone in bones:
         if any(con.name.startswith('Wiggle ') for con in bone.constraints):
             raise ValueError(f'"{bone.name}" already wiggles: remove that first')
@@ -271,6 +273,7 @@ def remove_spline(owner, name):
     owner.wiggly.splines.remove(owner.wiggly.splines.find(name))
     if not owner.wiggly.splines:
         del owner[curves.SAMPLES]
+        (curves.action_of(owner) or {}).pop(curves.STAMP, None)
         owner.property_unset('wiggly')
 
 

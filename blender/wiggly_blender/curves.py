@@ -3,7 +3,7 @@ from array import array
 import bpy
 
 LAYERED = bpy.app.version >= (4, 4, 0)
-SAMPLES, PARTS = 'wiggle samples', ('re', 'im', 'y')
+SAMPLES, PARTS, STAMP = 'wiggle samples', ('re', 'im', 'y'), 'wiggle stamp'
 HELD, POSE, STIFF = 240000, 1, 2  # in an unused number of a keyframe, `period`: HELD + 1 if `back` is the phase of a pose, + 2 if `amplitude` is a stiffness
 
 

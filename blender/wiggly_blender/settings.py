@@ -42,7 +42,6 @@ class Spline(bpy.types.PropertyGroup):
     chain: StringProperty(override=SAME)  # whose direction counts; empty: as of one that points to the front
     follow_gain: FloatProperty(name='Strength', default=1, override=SAME)
     slot: IntProperty(override=SAME)  # of its samples
-    stamp: StringProperty(override=SAME)  # of the motion that was read
     path: StringProperty(override=SAME)  # of a property that it moves
     index: IntProperty(override=SAME)
     before: FloatProperty()  # its value before that

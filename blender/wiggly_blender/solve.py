@@ -1,12 +1,14 @@
 """Solves splines whose inputs differ, and writes their samples into the action."""
 import json
 import math
+import warnings
 import bpy
 import wiggly
 from bpy.app.handlers import persistent
 from . import curves, settings as stored
 
 solved = {}  # (type, library, ID, spline) → the inputs solved last
+problems = {}  # the same → what is wrong with the answer
 cached = [None, []]  # how many IDs there were, and which have splines
 KINDS = ('objects', 'shape_keys', 'materials', 'node_groups', 'lights', 'cameras', 'worlds', 'scenes')
 
@@ -79,6 +81,10 @@ def equilibrium(owner, spline, first, last):
     return [values[min(max(frame - start, 0), len(values) - 1)] for frame in range(first, last + 1)]
 
 
+def key_of(owner, spline):
+    return owner.id_type, owner.library and owner.library.name, owner.name, spline.name
+
+
 def solve(owner, spline, scene):
     """Solves a spline if its inputs differ from those solved last."""
     curve = curves.find(owner, curves.path_of(spline.name))
@@ -93,13 +99,20 @@ def solve(owner, spline, scene):
     def inputs():
         return curves.read(curve), settings, first, last, scene.frame_start, scene.frame_end, fps, y, action and action.name_full
 
-    key = owner.id_type, owner.library and owner.library.name, owner.name, spline.name
+    key = key_of(owner, spline)
     if im and solved.get(key) == inputs():
         return
     knots = knots_of(curve, spline, first, last, fps, im)
-    problem = wiggly.Spline(knots, frequency=spline.frequency, damping=spline.damping, bandwidth=spline.bandwidth,
+    described = wiggly.Spline(knots, frequency=spline.frequency, damping=spline.damping, bandwidth=spline.bandwidth,
                             calm=spline.calm, equilibrium=y, start=spline.start, mode=spline.mode, **more(spline))
-    answer = problem.solve(last - first + 1, fps)
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter('ignore')
+            answer = described.solve(last - first + 1, fps)
+    except wiggly.Error as problem:
+        problems[key], solved[key] = str(problem), inputs()
+        return
+    problems[key] = answer.status.sentence if answer.status else ''
     for part, values in (('re', answer.re), ('im', answer.im)):
         start, values = first, list(values)
         if spline.start == 'loop':  # through the scene's frames, and one more on either side for motion blur

@@ -182,6 +182,9 @@ class WIGGLY_PT_panel(bpy.types.Panel):
             spline = wiggly.splines.get(channel.spline)
             if not spline:
                 continue
+            problem = solve.problems.get(solve.key_of(owner, spline))
+            if problem:
+                layout.label(text=problem, icon='ERROR')
             column = layout.column(align=True)
             if not chain.alike:
                 column.label(text=spline.name)
