@@ -310,7 +310,7 @@ WORLD_TEST(test_another_document, world_open(world))
     struct document *other = document_of_text(text);
     size_t bytes = history_bytes(world->history), whole = document_bytes_beside(world->document, NULL);
     history_begin(world->history, "Open another", 0);
-    edit_document(world->document, other);
+    document_become(world->document, other);
     history_end(world->history);
     assert_null(world->document->path);
     assert_int_equal(world->document->spline_count, 1);

@@ -178,7 +178,7 @@ static bool take_theirs(struct app *app, struct error *error)
     document->serial = ++app->last_serial;
     editor_let_go(app->table.editor); // a drag may have begun since
     history_begin(app->table.history, "Take theirs", 0);
-    edit_document(app->table.document, document);
+    document_become(app->table.document, document);
     history_end(app->table.history);
     history_mark_saved(app->table.history);
     editor_refresh(app->table.editor);

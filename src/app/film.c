@@ -58,10 +58,7 @@ bool film_knows(const char *path) { return find_format(path) != NULL; }
 /// Whether the scene's end meets its start, by a spline or an imported clip.
 static bool loops(const struct document *document)
 {
-    for (int s = 0; s < document->spline_count; s++) {
-        if (spline_start(document->splines[s]) == WIGGLY_LOOP) return true;
-    }
-    return document_find_rig(document, RIG_MODEL, 0) >= 0;
+    return document_loops(document) || document_find_rig(document, RIG_MODEL, 0) >= 0;
 }
 
 static bool choose_frames(struct film *film, const struct document *document, const struct export_options *options,

@@ -4,8 +4,7 @@
 #include "commands/options.h"
 #include "commands/report.h"
 #include "rig/import.h"
-#include "rig/posing.h"
-#include "scene/evaluate.h"
+#include "rig/opened.h"
 #include "scene/load.h"
 #include "scene/warnings.h"
 #include <math.h>
@@ -54,31 +53,19 @@ static void check_swing(const char *path, const struct document *document, const
 }
 
 /// Checks what needs a solve.
-static void check_solution(const char *path, const struct document *document, struct models *models)
+static void check_solution(const char *path, struct opened *opened)
 {
-    struct evaluation evaluation = {.models = models_source(models)};
-    evaluation_update(&evaluation, document, false);
-    for (int i = 0; i < evaluation.count; i++) {
-        check_swing(path, document, &evaluation, i);
-        if (!jumps(document, &evaluation, i)) continue;
+    const struct document *document = opened->document;
+    const struct evaluation *evaluation = &opened->evaluation;
+    opened_solve(opened, SOLVER_BY_LENGTH);
+    for (int i = 0; i < evaluation->count; i++) {
+        check_swing(path, document, evaluation, i);
+        if (!jumps(document, evaluation, i)) continue;
         print_line(stdout,
                    "warning: %s: splines[%d]: \"%s\": the equilibrium of this loop does not end where it starts",
                    path, i, document->splines[i]->name);
     }
-    solution_warnings(document, &evaluation, warn, &path);
-    evaluation_free(&evaluation);
-}
-
-/// Checks files and solution. false if paint, a model, or something the scene names in one is missing.
-static bool check_document(const char *path, struct document *document)
-{
-    struct error error = {0};
-    struct models *models = models_create();
-    const bool good = scene_read_paint(document, &error) && models_update(models, document, &error);
-    if (!good) print_line(stdout, "%s: %s", path, error.text);
-    check_solution(path, document, models);
-    models_destroy(models);
-    return good;
+    solution_warnings(document, evaluation, warn, &path);
 }
 
 static int check_character(const char *path)
@@ -99,14 +86,19 @@ static int check_character(const char *path)
     return 0;
 }
 
+/// Goes on where paint, a model, or something the scene names in one is missing.
 static int check_scene(const char *path)
 {
     struct problems problems = {.report = print_problem};
     struct error error = {0};
-    struct document *document = scene_load(path, &problems, &error);
-    if (!document) return (int)error.kind;
-    const bool good = check_document(path, document);
-    document_destroy(document);
+    struct opened opened = {.document = scene_load(path, &problems, &error)};
+    if (!opened.document) return (int)error.kind;
+    opened.models = models_create();
+    const bool good =
+        scene_read_paint(opened.document, &error) && models_update(opened.models, opened.document, &error);
+    if (!good) print_line(stdout, "%s: %s", path, error.text);
+    check_solution(path, &opened);
+    opened_free(&opened);
     return good ? 0 : ERROR_INPUT;
 }
 

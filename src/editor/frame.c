@@ -7,7 +7,6 @@
 #include "editor/dialogs/dialogs.h"
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
-#include "editor/keys.h"
 #include "editor/stage/stage.h"
 #include "editor/transport/transport.h"
 #include "ui/theme.h"

@@ -1,5 +1,4 @@
 /// The keyboard: the command of a key or character, and keys that act while they are held.
-#include "editor/keys.h"
 #include "editor/commands.h"
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"

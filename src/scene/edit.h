@@ -35,8 +35,6 @@ bool edit_spline_color(struct document *document, int spline, int color, struct 
 
 // --- the scene -----------------------------------------------------------------------------------------------------------
 
-/// Replaces this document's content by another document, which is destroyed.
-void edit_document(struct document *document, struct document *other);
 /// `keeps_seconds`: knots and range keep their seconds instead of their frames. Slopes are per second in any case.
 bool edit_fps(struct document *document, double fps, bool keeps_seconds, struct error *error);
 bool edit_substeps(struct document *document, int substeps, struct error *error);

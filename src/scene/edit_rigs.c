@@ -161,7 +161,7 @@ bool edit_rig_add(struct document *document, const struct rig *contents, struct 
         rig_drop(rig);
         return false;
     }
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     free(rig->name);
     rig->name = new_name(document, contents);
     rig->extra = NULL;
@@ -200,7 +200,7 @@ bool edit_pin_add(struct document *document, int rig, const struct pin *pin, str
     if (!old || !check_pin(document, old, &added, error)) return false;
     if (pins_count(document) >= SCENE_MAX_PINS)
         return fail(error, ERROR_INPUT, "the limit of %d pins is reached", SCENE_MAX_PINS);
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     added.id = document->next_id++;
     pins_insert(document_own_rig(document, rig), &added);
     return edit_end(document, before, true, error);
@@ -209,7 +209,7 @@ bool edit_pin_add(struct document *document, int rig, const struct pin *pin, str
 bool edit_pin_remove(struct document *document, int rig, unsigned id, struct error *error)
 {
     if (!find(document, rig, id, error)) return false;
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     pins_remove(document_own_rig(document, rig), id);
     return edit_end(document, before, true, error);
 }
@@ -222,7 +222,7 @@ bool edit_pin_set(struct document *document, int rig, const struct pin *pin, str
     const struct pin *was = &old->pins[pins_find_id(old, pin->id)];
     if (fields_equal(rig_pin_fields(old), was, &changed)) return true;
     changed.extra = was->extra;
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     struct rig *own = document_own_rig(document, rig);
     pins_remove(own, changed.id);
     pins_insert(own, &changed);

@@ -106,7 +106,7 @@ bool edit_fps(struct document *document, double fps, bool keeps_seconds, struct 
         timing.last = scaled_end(document->last_frame, factor, false);
         if (!check_timing(document, &timing, error)) return false;
     }
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     if (keeps_seconds) scale_frames(document, factor);
     set_timing(document, &timing);
     return edit_end(document, before, check_loops(document, error) && check_knots_fit(document, error), error);
@@ -118,7 +118,7 @@ bool edit_substeps(struct document *document, int substeps, struct error *error)
     timing.substeps = substeps;
     if (!check_timing(document, &timing, error)) return false;
     if (substeps == document->substeps) return true;
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     set_timing(document, &timing);
     return edit_end(document, before, check_knots_fit(document, error), error);
 }
@@ -202,14 +202,10 @@ bool edit_range(struct document *document, int first, int last, enum range_fit f
     timing.last = last;
     if (!check_timing(document, &timing, error)) return false;
     if (first == document->first_frame && last == document->last_frame) return true;
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     set_timing(document, &timing);
     return edit_end(document, before, fit_all(document, fit, error), error);
 }
-
-void edit_document(struct document *document, struct document *other) { document_become(document, other); }
-
-struct document *edit_begin(const struct document *document) { return document_copy(document); }
 
 /// Whether the document's pins and floors would be allowed in a file.
 static bool suits_pins(const struct document *document, struct error *error)
@@ -262,7 +258,7 @@ bool edit_replace_rig(struct document *document, int rig, struct rig *changed, s
         rig_drop(changed);
         return good;
     }
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     rig_drop(document->rigs[rig]);
     document->rigs[rig] = changed;
     document_touch(document);

@@ -315,7 +315,7 @@ bool edit_parameter(struct document *document, int spline, enum parameter parame
 {
     if (!edit_has_spline(document, spline, error)) return false;
     if ((unsigned)parameter >= PARAMETER_COUNT) return fail(error, ERROR_INPUT, "there is no such parameter");
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     return edit_end(document, before, change(document, spline, parameter, param, error), error);
 }
 

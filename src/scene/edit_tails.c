@@ -77,7 +77,7 @@ bool edit_joints(struct document *document, int rig, int count, struct error *er
         return fail(error, ERROR_INPUT, "%s: joints must be from 1 to %d", old->name, TAIL_MAX_JOINTS);
     }
     if (from == count) return true;
-    struct document *before = edit_begin(document);
+    struct document *before = document_copy(document);
     struct rig *own = document_own_rig(document, rig);
     struct tail *tail = &own->tail;
     const double factor = (double)from / count;

@@ -4,10 +4,7 @@
 
 #include "scene/edit.h"
 
-/// Remembers the document for edit_end().
-struct document *edit_begin(const struct document *document);
-
-/// Ends an edit; `good` says whether it went well so far. If not, or if pins and floors are not allowed any more, the document is restored.
+/// Ends an edit of a document, of which `before` is a copy; `good` says whether it went well so far. If not, or if pins and floors are not allowed any more, the document is restored.
 /// Returns whether it went well.
 bool edit_end(struct document *document, struct document *before, bool good, struct error *error);
 
