@@ -79,6 +79,7 @@ def follow_through():
     ok('what is read is fresh', not base.stale(rig, bpy.context.scene))
     rig.pose.bones['root'].location.x = 2
     rig.pose.bones['root'].keyframe_insert('location', index=0, frame=26)
+    bpy.context.view_layer.update()
     ok('and stale once the action is edited', base.stale(rig, bpy.context.scene))
     bpy.ops.wiggly.refresh()
     bpy.context.scene.frame_set(25)

@@ -1,16 +1,35 @@
 """The motion that a chain follows: that of a bone as the action alone moves it."""
 import hashlib
 import math
-from . import chain as chains, curves
+from . import chain as chains, curves, solve
+
+
+known = {}  # armature, scene → (edits so far, stamp)
 
 
 def stamp(owner, scene):
-    """Differs once the action or the frames do."""
-    text = hashlib.sha1(f'{scene.frame_start} {scene.frame_end}'.encode())
-    for curve in curves.list_of(owner) or ():
-        if curve.data_path.startswith('pose.') or not curve.data_path.startswith('['):
-            text.update(curve.data_path.encode() + bytes([curve.array_index]) + curves.read(curve))
-    return text.hexdigest()
+    """Differs once an action that moves the body does, or the frames."""
+    key = owner.name_full, scene.name_full
+    if known.get(key, (None,))[0] != solve.edits[0]:
+        text = hashlib.sha1(f'{scene.frame_start} {scene.frame_end}'.encode())
+        for mover in movers(owner):
+            for curve in curves.list_of(mover) or ():
+                if not curve.data_path.startswith('["') and '"].constraints["Wiggle ' not in curve.data_path:
+                    text.update(f'{curve.data_path} {curve.array_index}'.encode() + curves.read(curve, curves.SHAPE))
+        known[key] = solve.edits[0], text.hexdigest()
+    return known[key][1]
+
+
+def movers(owner):
+    """The armature, what it is parented to, and the targets of its constraints."""
+    cons = list(owner.constraints) + [con for bone in owner.pose.bones for con in bone.constraints]
+    found, more = [], [owner] + [con.target for con in cons if getattr(con, 'target', None)]
+    while more:
+        each = more.pop()
+        if each and each not in found:
+            found.append(each)
+            more.append(each.parent)
+    return found
 
 
 def stale(owner, scene):
@@ -47,6 +66,7 @@ def refresh(context, owner):
         mean = sum(value for value, _ in motion) / len(motion)
         curves.write(owner, spline, 'y', scene.frame_start, [spline.follow_gain * (value - mean) for value, _ in motion])
     if wanted:
+        solve.edits[0] += 1
         curves.action_of(owner)[curves.STAMP] = stamp(owner, scene)
     for chain in owner.wiggly.chains:
         chains.drive(owner, chain)

@@ -57,15 +57,18 @@ def drop(owner, path, index=0):
         list_of(owner).remove(curve)
 
 
-def read(curve):
+SHAPE = (('co', 'f', 2), ('handle_left', 'f', 2), ('handle_right', 'f', 2))
+ALL = SHAPE + (('back', 'f', 1), ('period', 'f', 1), ('amplitude', 'f', 1), ('type', 'i', 1), ('handle_left_type', 'i', 1),
+               ('handle_right_type', 'i', 1))
+
+
+def read(curve, what=ALL):
     """The keys as bytes: equal bytes are equal keys."""
     points = curve.keyframe_points if curve else ()
     parts = []
-    for name, code, size in (('co', 'f', 2), ('handle_left', 'f', 2), ('handle_right', 'f', 2), ('back', 'f', 1), ('period', 'f', 1), ('amplitude', 'f', 1),
-                             ('type', 'i', 1), ('handle_left_type', 'i', 1), ('handle_right_type', 'i', 1)):
+    for name, code, size in what if points else ():
         values = array(code, bytes(4 * size * len(points)))
-        if points:
-            points.foreach_get(name, values)
+        points.foreach_get(name, values)
         parts.append(values.tobytes())
     return b'|'.join(parts)
 

@@ -9,6 +9,7 @@ from . import curves, settings as stored
 
 solved = {}  # (type, library, ID, spline) → the inputs solved last
 problems = {}  # the same → what is wrong with the answer
+edits = [0]  # how many there were
 cached = [None, []]  # how many IDs there were, and which have splines
 KINDS = ('objects', 'shape_keys', 'materials', 'node_groups', 'lights', 'cameras', 'worlds', 'scenes')
 
@@ -26,6 +27,7 @@ def owners():
 
 
 def forget():
+    edits[0] += 1
     solved.clear()
     cached[0] = None
 
@@ -152,6 +154,7 @@ def guard(scene, depsgraph):
     if bpy.app.is_job_running('RENDER') or not any(
             isinstance(update.id, (bpy.types.Action, bpy.types.Object, bpy.types.Scene, bpy.types.Key)) for update in depsgraph.updates):
         return
+    edits[0] += 1
     try:
         solve_all(scene)
     except ReferenceError:  # an ID has gone

@@ -44,8 +44,10 @@ class WIGGLY_OT_add(Operator):
         return super().poll(context) and context.mode == 'POSE'
 
     def run(self, context, owner):
+        action = curves.action_of(owner)
+        loop = self.loop or bool(action and action.use_frame_range and action.use_cyclic)
         for bones in chains.of_selection(context):
-            chains.make(owner, bones, self.follow, self.loop)
+            chains.make(owner, bones, self.follow, loop)
         curves.list_of(owner, make=True)
         if self.follow:
             base.refresh(context, owner)
@@ -153,15 +155,39 @@ class WIGGLY_UL_chains(bpy.types.UIList):
         layout.prop(item, 'mute', text='', emboss=False, icon='HIDE_ON' if item.mute else 'HIDE_OFF')
 
 
+def draw_spline(layout, owner, spline, title):
+    problem = solve.problems.get(solve.key_of(owner, spline))
+    if problem:
+        layout.label(text=problem, icon='ERROR')
+    column = layout.column(align=True)
+    if title:
+        column.label(text=title)
+    for name in ('frequency', 'damping', 'bandwidth', 'calm', 'start'):
+        column.prop(spline, name)
+
+
 class WIGGLY_PT_panel(bpy.types.Panel):
     bl_label, bl_category, bl_space_type, bl_region_type = 'Wiggle', 'Wiggle', 'VIEW_3D', 'UI'
 
     @classmethod
     def poll(cls, context):
-        return context.object and context.object.type == 'ARMATURE'
+        return context.object
 
     def draw(self, context):
-        layout, owner = self.layout, context.object
+        owner = context.object
+        if owner.type == 'ARMATURE':
+            self.draw_chains(context, self.layout, owner)
+        data = owner.data
+        for each in (owner, data, getattr(data, 'shape_keys', None), owner.active_material):
+            wiggly = each and settings.of(each)
+            for spline in wiggly.splines if wiggly else ():
+                if spline.path:
+                    box = self.layout.box()
+                    box.use_property_split = True
+                    box.prop(each, curves.path_of(spline.name), text='Key')
+                    draw_spline(box, each, spline, f'{each.name}: {spline.name}')
+
+    def draw_chains(self, context, layout, owner):
         wiggly = settings.of(owner)
         row = layout.row(align=True)
         row.operator('wiggly.add', icon='ADD')
@@ -179,20 +205,10 @@ class WIGGLY_PT_panel(bpy.types.Panel):
         layout.prop(chain, 'alike')
         layout.use_property_split = True
         for channel in list(chain.channels)[:1 if chain.alike else None]:
-            spline = wiggly.splines.get(channel.spline)
-            if not spline:
-                continue
-            problem = solve.problems.get(solve.key_of(owner, spline))
-            if problem:
-                layout.label(text=problem, icon='ERROR')
-            column = layout.column(align=True)
-            if not chain.alike:
-                column.label(text=spline.name)
-            for name in ('frequency', 'damping', 'bandwidth', 'calm', 'start'):
-                column.prop(spline, name)
-            column.separator()
-            for name in ('lag', 'gain'):
-                column.prop(channel, name)
+            if channel.spline in wiggly.splines:
+                draw_spline(layout, owner, wiggly.splines[channel.spline], '' if chain.alike else channel.spline)
+                layout.prop(channel, 'lag')
+                layout.prop(channel, 'gain')
 
 
 def button_menu(self, context):
