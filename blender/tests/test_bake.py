@@ -79,4 +79,34 @@ def properties():
     swings('a light', light, 'energy', 0, lambda seen: seen.energy, ((1, 40.0), (20, 60.0)))
 
 
-main(bones, constrained, properties)
+def soft_characters():
+    """A character that wiggly exported: its shapes go as the spline says."""
+    fresh()
+    bpy.ops.object.mode_set(mode='OBJECT')
+    for halved in (False, True):
+        bpy.ops.mesh.primitive_cube_add()
+        cube = bpy.context.object
+        cube.shape_key_add(name='Basis')
+        names = ['up.re', 'up.im'] + ['up.-re', 'up.-im'] * halved
+        for name in names:
+            cube.shape_key_add(name=name).value = 0
+        cube.data['wiggly'] = {'coordinates': [{'name': 'up', 'frequency': 3.25, 'damping': 0.0625}]}
+        bpy.ops.wiggly.shapes()
+        keys = cube.data.shape_keys
+        spline = keys.wiggly.splines[0]
+        ok('the frequency that wiggly found', (spline.frequency, spline.damping) == (3.25, 0.0625))
+        key(keys, spline.name, (10, 1), (22, -0.6))
+        off, most = 0, 0
+        for frame in range(1, 40):
+            bpy.context.scene.frame_set(frame)
+            seen = keys.evaluated_get(bpy.context.evaluated_depsgraph_get())
+            for part in ('re', 'im'):
+                value = seen.key_blocks[f'up.{part}'].value - (seen.key_blocks[f'up.-{part}'].value if halved else 0)
+                want = curves.part(keys, spline, part).evaluate(frame)
+                off, most = max(off, abs(value - want)), max(most, -want)
+        ok('pairs of shape keys swing' + ', in halves' * halved, off < 1e-5 and most > 0.3, off, most)
+        bpy.ops.wiggly.shapes(remove=True)
+        ok('Remove leaves nothing', not keys.animation_data.drivers and not list(keys.keys()) and not len(curves.list_of(keys)))
+
+
+main(soft_characters, bones, constrained, properties)

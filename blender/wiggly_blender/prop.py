@@ -1,4 +1,5 @@
 """Any property that has one number: its own keyframes become the knots, and a driver moves it."""
+import json
 import bpy
 from . import chain as chains, curves, settings, solve
 
@@ -62,3 +63,53 @@ def remove(owner, path, index):
         else:
             setattr(target, name, spline.before)
     chains.remove_spline(owner, spline.name)
+
+
+# --- complex shapes: pairs of shape keys such as up.re and up.im, perhaps with mirrored ones, up.-re and up.-im, because values may be kept ≥ 0
+
+PAIRS = 'key_blocks'  # as the path of a spline that moves a pair; `joint` is the pair's name
+
+
+def pairs_of(keys):
+    return [block.name[:-3] for block in keys.key_blocks if block.name.endswith('.re') and block.name[:-3] + '.im' in keys.key_blocks]
+
+
+def parts_of(keys, name):
+    """Shape keys of a pair: part of the spline, sign, key, whether the other sign has its own."""
+    for part in ('re', 'im'):
+        plus, minus = keys.key_blocks[f'{name}.{part}'], keys.key_blocks.get(f'{name}.-{part}')
+        yield part, 1, plus, bool(minus)
+        if minus:
+            yield part, -1, minus, True
+
+
+def add_pairs(keys, measured=()):
+    """A spline for each pair; `measured` are the frequency and damping that wiggly found, by name."""
+    if not pairs_of(keys):
+        raise ValueError('Expected shape keys in pairs, such as "up.re" and "up.im"')
+    for name in pairs_of(keys):
+        if any(spline.joint == name for spline in keys.wiggly.splines):
+            continue
+        spline = chains.add_spline(keys, chains.unique(f'wiggle {name}', set(keys.keys())))
+        spline.path, spline.joint, spline.start = PAIRS, name, 'free'
+        spline.frequency, spline.damping = dict(measured).get(name, (spline.frequency, spline.damping))
+        sliders = {}
+        for part, sign, block, halved in parts_of(keys, name):
+            driver = block.driver_add('value').driver
+            chains.say(driver, keys, [(spline, part, sign)], 0)
+            if halved:
+                driver.expression = f'max(0,{driver.expression})'
+            sliders[block.name] = block.slider_min, block.slider_max
+            block.slider_min, block.slider_max = 0 if halved else -10, 10
+        spline.more = json.dumps({'sliders': sliders})
+        curves.list_of(keys, make=True)
+
+
+def remove_pairs(keys):
+    for spline in [spline for spline in keys.wiggly.splines if spline.path == PAIRS]:
+        sliders = json.loads(spline.more)['sliders']
+        for _, _, block, _ in parts_of(keys, spline.joint):
+            block.driver_remove('value')
+            block.value = 0
+            block.slider_min, block.slider_max = sliders[block.name]
+        chains.remove_spline(keys, spline.name)

@@ -113,6 +113,23 @@ class WIGGLY_OT_property_remove(Property):
     change = staticmethod(prop.remove)
 
 
+class WIGGLY_OT_shapes(Operator):
+    """Moves pairs of shape keys, such as up.re and up.im of a soft character of wiggly, by a spline each"""
+    bl_idname, bl_label = 'wiggly.shapes', 'Wiggle Shape Keys'
+    remove: BoolProperty()
+
+    @classmethod
+    def poll(cls, context):
+        return context.object and getattr(context.object.data, 'shape_keys', None)
+
+    def run(self, context, owner):
+        keys, found = owner.data.shape_keys, owner.data.get('wiggly', {}).get('coordinates', ())
+        if self.remove:
+            prop.remove_pairs(keys)
+        else:
+            prop.add_pairs(keys, {each['name']: (each['frequency'], each['damping']) for each in found})
+
+
 class WIGGLY_OT_preset(Operator):
     """Sets frequency and damping of the active chain"""
     bl_idname, bl_label = 'wiggly.preset', 'Preset'
@@ -178,7 +195,11 @@ class WIGGLY_PT_panel(bpy.types.Panel):
         if owner.type == 'ARMATURE':
             self.draw_chains(context, self.layout, owner)
         data = owner.data
-        for each in (owner, data, getattr(data, 'shape_keys', None), owner.active_material):
+        keys = getattr(data, 'shape_keys', None)
+        if keys and prop.pairs_of(keys):
+            bound = settings.of(keys)
+            self.layout.operator('wiggly.shapes', text='Remove Wiggle' if bound else 'Wiggle Shape Keys').remove = bool(bound)
+        for each in (owner, data, keys, owner.active_material):
             wiggly = each and settings.of(each)
             for spline in wiggly.splines if wiggly else ():
                 if spline.path:
@@ -224,7 +245,7 @@ def pose_menu(self, context):
 
 
 classes = (WIGGLY_OT_add, WIGGLY_OT_remove, WIGGLY_OT_refresh, WIGGLY_OT_key, WIGGLY_OT_preset, WIGGLY_OT_bake, WIGGLY_OT_property,
-           WIGGLY_OT_property_remove, WIGGLY_OT_import, WIGGLY_OT_export, WIGGLY_UL_chains, WIGGLY_PT_panel)
+           WIGGLY_OT_property_remove, WIGGLY_OT_shapes, WIGGLY_OT_import, WIGGLY_OT_export, WIGGLY_UL_chains, WIGGLY_PT_panel)
 
 
 menus = (('VIEW3D_MT_pose', pose_menu), ('UI_MT_button_context_menu', button_menu),
