@@ -230,7 +230,7 @@ TEST(test_every_command_runs)
             struct session s;
             session_open(&s, rich ? scene : empty);
             if (rich) session_key(&s, 'A', MOD_CTRL);
-            const bool can = command_runs(&commands[c]) && !command_missing(&s.editor->core, &commands[c]);
+            const bool can = command_runs(&commands[c]) && !need_missing(&s.editor->core, commands[c].needs);
             if (can) command_run(s.editor, &commands[c]);
             session_frame(&s);
             if (can && s.editor->core.message.is_error)
@@ -293,7 +293,7 @@ TEST(test_every_letter_to_hold_is_in_the_help)
 
 static const char *missing(const struct session *s, int key, unsigned mods)
 {
-    return command_missing(&s->editor->core, keys_command(key, mods));
+    return need_missing(&s->editor->core, keys_command(key, mods)->needs);
 }
 
 /// Whether a command can be done now follows the scene and the selection.

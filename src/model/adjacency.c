@@ -1,6 +1,5 @@
 /// Lists the neighbours of every vertex, and the triangles across edges.
 #include "model/adjacency.h"
-#include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -121,10 +120,12 @@ void adjacency_create(struct adjacency *adjacency, struct pool *pool, const floa
                       const float (*normal)[3], int vertex_count, const uint32_t *indices, int index_count)
 {
     const size_t room = (size_t)vertex_count + 1;
+    struct pool work = {0};
     *adjacency = (struct adjacency){0};
-    struct spot *spots = need(room, sizeof *spots);
-    int *fill = need_zeroed(room, sizeof *fill);
-    const struct edges edges = {indices, index_count, spots, need(room, sizeof *edges.twin), vertex_count};
+    struct spot *spots = pool_take(&work, room, sizeof *spots);
+    int *fill = pool_take(&work, room, sizeof *fill);
+    const struct edges edges = {indices, index_count, spots, pool_take(&work, room, sizeof *edges.twin),
+                                vertex_count};
     adjacency->first = pool_take(pool, room, sizeof *adjacency->first);
     spots_sort(position, vertex_count, spots);
     find_twins(&edges, normal);
@@ -134,9 +135,7 @@ void adjacency_create(struct adjacency *adjacency, struct pool *pool, const floa
     adjacency->other = pool_take(pool, (size_t)adjacency->first[vertex_count], sizeof *adjacency->other);
     add_edges(adjacency, &edges, fill);
     tidy(adjacency, vertex_count);
-    free(spots);
-    free(edges.twin);
-    free(fill);
+    pool_free(&work);
 }
 
 // --- triangles across edges: an edge a → b is b → a there
@@ -151,10 +150,10 @@ struct corners {
 };
 
 /// Rounds places to a grid so fine that it joins only vertices meant to be one, such as the ends of a ring that differ by rounding.
-static float (*snap(const float (*position)[3], int count))[3]
+static float (*snap(struct pool *work, const float (*position)[3], int count))[3]
 {
     static const float CELLS = 1 << 20;
-    float(*snapped)[3] = need((size_t)count + 1, sizeof *snapped), largest = 0.0f;
+    float(*snapped)[3] = pool_take(work, (size_t)count, sizeof *snapped), largest = 0.0f;
     for (int i = 0; i < 3 * count; i++) largest = fmaxf(largest, fabsf(position[i / 3][i % 3]));
     const float cell = largest / CELLS;
     for (int i = 0; i < 3 * count; i++) {
@@ -196,22 +195,19 @@ static int find_one(const struct corners *corners, const uint32_t *indices, int 
 void neighbours_find(const float (*position)[3], int vertex_count, const uint32_t *indices, int index_count,
                      int *neighbours)
 {
-    const size_t vertices = (size_t)vertex_count + 1;
-    float(*snapped)[3] = snap(position, vertex_count);
-    struct spot *spots = need(vertices, sizeof *spots);
-    struct corners corners = {need(vertices, sizeof *corners.spot), need(vertices, sizeof *corners.last),
-                              need_zeroed(vertices, sizeof *corners.many),
-                              need((size_t)index_count + 1, sizeof *corners.before)};
+    const size_t vertices = (size_t)vertex_count;
+    struct pool work = {0};
+    float(*snapped)[3] = snap(&work, position, vertex_count);
+    struct spot *spots = pool_take(&work, vertices, sizeof *spots);
+    struct corners corners = {pool_take(&work, vertices, sizeof *corners.spot),
+                              pool_take(&work, vertices, sizeof *corners.last),
+                              pool_take(&work, vertices, sizeof *corners.many),
+                              pool_take(&work, (size_t)index_count, sizeof *corners.before)};
     spots_sort((const float(*)[3])snapped, vertex_count, spots);
     spots_first(spots, vertex_count, corners.spot);
     list_corners(&corners, vertex_count, indices, index_count);
     for (int i = 0; i < index_count; i++) neighbours[i] = find_one(&corners, indices, i);
-    free(snapped);
-    free(spots);
-    free(corners.spot);
-    free(corners.last);
-    free(corners.many);
-    free(corners.before);
+    pool_free(&work);
 }
 
 /// The corner of a triangle that is nearest to a place.

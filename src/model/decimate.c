@@ -1,6 +1,5 @@
 /// Half-edge collapses in rounds. In each round every removable vertex picks its cheapest neighbour to collapse onto; the collapses are done
 /// from the cheapest on, except those that touch changed triangles.
-#include "base/need.h"
 #include "model/figure.h"
 #include "model/vector.h"
 #include <math.h>
@@ -182,18 +181,16 @@ void decimate(const struct character *character, int triangles, uint32_t *indice
                         .indices = indices,
                         .sources = sources,
                         .index_count = character->index_count};
-    work.first = need(vertices + 2, sizeof *work.first);
-    work.around = need(count + 1, sizeof *work.around);
-    work.locked = need(vertices + 1, sizeof *work.locked);
-    work.collapses = need(vertices + 1, sizeof *work.collapses);
+    struct pool pool = {0};
+    work.first = pool_take(&pool, vertices + 2, sizeof *work.first);
+    work.around = pool_take(&pool, count, sizeof *work.around);
+    work.locked = pool_take(&pool, vertices, sizeof *work.locked);
+    work.collapses = pool_take(&pool, vertices, sizeof *work.collapses);
     memcpy(indices, character->indices, count * sizeof *indices);
     for (uint32_t t = 0; sources && t < (uint32_t)count / 3; t++) sources[t] = t;
     for (int round = 0; round < MAX_ROUNDS && work.index_count > 3 * triangles; round++) {
         if (collapse_round(&work, (work.index_count / 3 - triangles + 1) / 2) == 0) break;
     }
     *index_count = work.index_count;
-    free(work.first);
-    free(work.around);
-    free(work.locked);
-    free(work.collapses);
+    pool_free(&pool);
 }

@@ -195,6 +195,7 @@ int gltf_find_clip(const struct gltf *gltf, const char *name);
 
 /// Where everything is at one time. Memory is made once for a model and reused.
 struct gltf_pose {
+    struct pool pool;         ///< of what follows
     struct gltf_place *place; ///< of each node against its parent
     float (*world)[16];       ///< of each node, in the model's space
     float (*joints)[16];      ///< what skinning multiplies vertices by, of all skins (gltf_skin.first_joint)

@@ -3,18 +3,15 @@
 #include "model/gltf.h"
 #include "model/vector.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 bool gltf_pose_create(const struct gltf *gltf, struct gltf_pose *pose)
 {
-    size_t nodes = (size_t)gltf->node_count + 1;
-    *pose = (struct gltf_pose){
-        .place = calloc(nodes, sizeof *pose->place),
-        .world = calloc(nodes, sizeof *pose->world),
-        .joints = calloc((size_t)gltf->joint_count + 1, sizeof *pose->joints),
-        .weights = calloc((size_t)gltf->weight_count + 1, sizeof *pose->weights),
-    };
+    *pose = (struct gltf_pose){0};
+    pose->place = pool_try(&pose->pool, (size_t)gltf->node_count, sizeof *pose->place);
+    pose->world = pool_try(&pose->pool, (size_t)gltf->node_count, sizeof *pose->world);
+    pose->joints = pool_try(&pose->pool, (size_t)gltf->joint_count, sizeof *pose->joints);
+    pose->weights = pool_try(&pose->pool, (size_t)gltf->weight_count, sizeof *pose->weights);
     if (!pose->place || !pose->world || !pose->joints || !pose->weights) {
         gltf_pose_free(pose);
         return false;
@@ -26,10 +23,7 @@ bool gltf_pose_create(const struct gltf *gltf, struct gltf_pose *pose)
 
 void gltf_pose_free(struct gltf_pose *pose)
 {
-    free(pose->place);
-    free(pose->world);
-    free(pose->joints);
-    free(pose->weights);
+    pool_free(&pose->pool);
     *pose = (struct gltf_pose){0};
 }
 

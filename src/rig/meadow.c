@@ -2,23 +2,23 @@
 #include "rig/meadow.h"
 #include "base/hash.h"
 #include "base/need.h"
+#include "base/pool.h"
 #include <math.h>
 #include <stdlib.h>
 
 enum { ROWS = 4 }; ///< of a reed's curve: re, im, y, omega
 
 struct meadow {
+    struct pool pool; ///< of the arrays
     wiggly_batch *batch;
-    int batch_samples, batch_knots;
+    int most, most_samples, most_knots; ///< there is room for
     wiggly_desc *descs;
     wiggly_curve *curves;
     struct reed *reeds;
-    int capacity, count;
-    int solved; ///< by the last update
     double *numbers;
-    size_t number_capacity;
     wiggly_knot *knots;
-    int knot_capacity;
+    int count;
+    int solved;      ///< by the last update
     uint64_t key;    ///< hash of what is solved; 0: nothing
     uint64_t ground; ///< hash of the reeds' places
 };
@@ -29,39 +29,23 @@ void meadow_destroy(struct meadow *meadow)
 {
     if (!meadow) return;
     wiggly_batch_destroy(meadow->batch);
-    free(meadow->descs);
-    free(meadow->curves);
-    free(meadow->reeds);
-    free(meadow->numbers);
-    free(meadow->knots);
+    pool_free(&meadow->pool);
     free(meadow);
 }
 
 static void make_room(struct meadow *m, int count, int samples, int knots)
 {
-    const size_t numbers = (size_t)count * ROWS * (size_t)samples;
-    if (count > m->capacity) {
-        free(m->descs), free(m->curves), free(m->reeds);
-        m->descs = need_zeroed((size_t)count, sizeof *m->descs);
-        m->curves = need_zeroed((size_t)count, sizeof *m->curves);
-        m->reeds = need_zeroed((size_t)count, sizeof *m->reeds);
-        m->capacity = count;
-    }
-    if (numbers > m->number_capacity) {
-        free(m->numbers);
-        m->numbers = need_zeroed(numbers, sizeof *m->numbers);
-        m->number_capacity = numbers;
-    }
-    if (knots > m->knot_capacity || !m->knots) {
-        free(m->knots);
-        m->knots = need_zeroed((size_t)knots, sizeof *m->knots);
-        m->knot_capacity = knots;
-    }
-    if (!m->batch || samples > m->batch_samples || knots > m->batch_knots) {
-        wiggly_batch_destroy(m->batch);
-        m->batch_samples = samples, m->batch_knots = knots;
-        if (wiggly_batch_create(samples, knots + samples, 1, &m->batch) != WIGGLY_OK) need_failed();
-    }
+    const bool fits = count <= m->most && samples <= m->most_samples && knots <= m->most_knots;
+    if (m->batch && fits) return;
+    wiggly_batch_destroy(m->batch);
+    pool_free(&m->pool);
+    m->most = count, m->most_samples = samples, m->most_knots = knots;
+    m->descs = pool_take(&m->pool, (size_t)count, sizeof *m->descs);
+    m->curves = pool_take(&m->pool, (size_t)count, sizeof *m->curves);
+    m->reeds = pool_take(&m->pool, (size_t)count, sizeof *m->reeds);
+    m->numbers = pool_take(&m->pool, (size_t)count * ROWS * (size_t)samples, sizeof *m->numbers);
+    m->knots = pool_take(&m->pool, (size_t)knots, sizeof *m->knots);
+    if (wiggly_batch_create(samples, knots + samples, 1, &m->batch) != WIGGLY_OK) need_failed();
 }
 
 /// A number from 0 to 1 that depends only on the seed, the reed and `what`.

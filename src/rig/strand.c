@@ -125,7 +125,8 @@ bool strand_find(const struct posing *posing, int body, int rig, struct strand *
     return imported && strand_of_chain(&document->rigs[rig]->chain, imported, strand);
 }
 
-void strand_axes(const struct strand *strand, int joint, double axis[3][3])
+/// The axes of a joint in its own frame at rest, by enum axis.
+static void rest_axes(const struct strand *strand, int joint, double axis[3][3])
 {
     static const double of_tail[3][3] = {{0, 1, 0}, {-1, 0, 0}, {0, 0, 1}};
     memcpy(axis, of_tail, sizeof of_tail);
@@ -146,8 +147,9 @@ double strand_sign(const struct strand *strand, enum axis axis)
     return strand->mirror && axis != AXIS_UP ? -1.0 : 1.0;
 }
 
-void strand_angles(const struct strand *strand, const wiggly_value *values, enum look look, int joint,
-                   double angle[3])
+/// The radians by which a joint turns about each axis.
+static void find_angles(const struct strand *strand, const wiggly_value *values, enum look look, int joint,
+                        double angle[3])
 {
     for (int axis = AXIS_SIDE; axis <= AXIS_TWIST; axis++) angle[axis] = 0;
     if (strand->rest) angle[AXIS_UP] = radians(angles_at(strand->rest, joint, strand->joints));
@@ -175,12 +177,13 @@ static void turn_about(const double axis[3], double angle, double rotation[4])
     rotation[3] = before[3] * c - before[0] * x - before[1] * y - before[2] * z;
 }
 
-void strand_turn(const struct strand *strand, const wiggly_value *values, enum look look, int joint,
-                 double rotation[4])
+/// Turns a joint's rotation (x y z w) by the values of the channels (eq. 27).
+static void turn_joint(const struct strand *strand, const wiggly_value *values, enum look look, int joint,
+                       double rotation[4])
 {
     double axis[3][3], angle[3];
-    strand_axes(strand, joint, axis);
-    strand_angles(strand, values, look, joint, angle);
+    rest_axes(strand, joint, axis);
+    find_angles(strand, values, look, joint, angle);
     for (int a = 0; a < 3; a++) {
         if (angle[a] != 0.0) turn_about(axis[a], angle[a], rotation);
     }
@@ -192,7 +195,7 @@ void strand_bend(const struct strand *strand, const wiggly_value *values, enum l
         float *rotation = pose->place[strand->bones.node[n]].rotation;
         double turned[4], square = 0;
         for (int k = 0; k < 4; k++) turned[k] = (double)rotation[k];
-        strand_turn(strand, values, look, n, turned);
+        turn_joint(strand, values, look, n, turned);
         for (int k = 0; k < 4; k++) square += turned[k] * turned[k];
         for (int k = 0; k < 4 && square > 0; k++) rotation[k] = (float)(turned[k] / sqrt(square));
     }
@@ -201,8 +204,8 @@ void strand_bend(const struct strand *strand, const wiggly_value *values, enum l
 void strand_turned_axes(const struct strand *strand, const wiggly_value *values, int joint, double axis[3][3])
 {
     double angle[3];
-    strand_axes(strand, joint, axis);
-    strand_angles(strand, values, LOOK_WIGGLY, joint, angle);
+    rest_axes(strand, joint, axis);
+    find_angles(strand, values, LOOK_WIGGLY, joint, angle);
     for (int a = 1; a < 3; a++) {
         if (angle[a] == 0.0) continue;
         const double *about = axis[a], c = cos(angle[a]), s = -sin(angle[a]);
@@ -286,7 +289,7 @@ static void bend_nodes(const struct strand *strand, const wiggly_value *values, 
 {
     for (int i = 0, n = 0; i < path->count && n < strand->joints; i++) {
         if (path->nodes[i].node != strand->bones.node[n]) continue;
-        strand_turn(strand, values, look, n++, path->nodes[i].rotation);
+        turn_joint(strand, values, look, n++, path->nodes[i].rotation);
         rotation_matrix(path->nodes[i].rotation, path->nodes[i].turn);
     }
 }

@@ -38,20 +38,11 @@ bool strand_of_chain(const struct chain *chain, const struct imported *imported,
 /// The strand of a rig, if it bends that body.
 bool strand_find(const struct posing *posing, int body, int rig, struct strand *strand);
 
-/// The axes of a joint in its own frame at rest, by enum axis.
-void strand_axes(const struct strand *strand, int joint, double axis[3][3]);
-
-/// The sign that a mirrored chain gives an axis; and the radians by which a joint turns about each axis.
+/// The sign that a mirrored chain gives an axis.
 double strand_sign(const struct strand *strand, enum axis axis);
-void strand_angles(const struct strand *strand, const wiggly_value *values, enum look look, int joint,
-                   double angle[3]);
 
 /// The axes of a joint as left by the turns after each, in its own bent frame.
 void strand_turned_axes(const struct strand *strand, const wiggly_value *values, int joint, double axis[3][3]);
-
-/// Turns a joint's rotation (x y z w) by the values of the channels (eq. 27).
-void strand_turn(const struct strand *strand, const wiggly_value *values, enum look look, int joint,
-                 double rotation[4]);
 
 /// Bends the joints of a model on top of the clip's pose. Does not change world matrices. Allocates nothing.
 void strand_bend(const struct strand *strand, const wiggly_value *values, enum look look, struct gltf_pose *pose);

@@ -107,11 +107,6 @@ const char *need_missing(const struct core *core, enum need need)
     return need == NEEDS_NOTHING || needs[need].met(core) ? NULL : needs[need].missing;
 }
 
-const char *command_missing(const struct core *core, const struct command *command)
-{
-    return need_missing(core, command->needs);
-}
-
 const char *command_key_name(int key)
 {
     static const struct {

@@ -105,8 +105,7 @@ struct command {
 
 /// false for a gesture.
 bool command_runs(const struct command *command);
-/// The missing need, as in "Select a knot first."; NULL: the command can run.
-const char *command_missing(const struct core *core, const struct command *command);
+/// What is missing, as in "Select a knot first."; NULL: nothing.
 const char *need_missing(const struct core *core, enum need need);
 /// Its first keys, "Ctrl+Y or Ctrl+Shift+Z", or its gesture; "" for neither.
 void command_keys(const struct command *command, char text[COMMAND_KEYS]);

@@ -16,7 +16,7 @@ enum { COMMANDS_MOST = 256 };
 /// The commands that match the typed text, best first.
 struct commands_found {
     const struct command *list[COMMANDS_MOST];
-    const char *missing[COMMANDS_MOST]; ///< from command_missing()
+    const char *missing[COMMANDS_MOST]; ///< from need_missing()
     int count;
 };
 
