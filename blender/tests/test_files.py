@@ -12,6 +12,7 @@ for frame in json.loads(sys.argv[2]):
     bpy.context.scene.frame_set(int(frame), subframe=frame % 1)
     seen = rig.evaluated_get(bpy.context.evaluated_depsgraph_get())
     found[frame] = [x for bone in seen.pose.bones for row in bone.matrix for x in row]
+bpy.ops.wm.save_as_mainfile(filepath=sys.argv[1] + '.blend')
 print('poses ' + json.dumps(list(found.values())), flush=True)
 os._exit(0)
 """
@@ -35,8 +36,9 @@ def without_add_on():
     said = subprocess.run([sys.executable, '-c', WITHOUT, path, json.dumps(frames)], capture_output=True, text=True).stdout
     line = next((line for line in said.splitlines() if line.startswith('poses ')), 'poses []')
     ok('a file moves without the add-on, untrusted', json.loads(line[6:]) == list(found.values()), said[-500:])
-    bpy.ops.wm.open_mainfile(filepath=path)
+    bpy.ops.wm.open_mainfile(filepath=path + '.blend')
     rig = bpy.data.objects['Rig']
+    ok('which keeps the settings when it saves it', len(rig.wiggly.chains) == 1 and rig.wiggly.splines[0].name == 'tail side')
     ok('and as it was once loaded again', poses(rig, frames) == found)
     key(rig, 'tail side', (20, 2))
     ok('and can be edited', apart(poses(rig, frames), found) > 0.01)
@@ -155,6 +157,14 @@ def everything(rig):
     return sorted(rig.keys()), drivers, keys, [[c.name for c in bone.constraints] for bone in rig.pose.bones]
 
 
+def leaves_no_action():
+    rig = fresh()
+    add(rig)
+    key(rig, 'tail side', (10, 1))
+    bpy.ops.wiggly.remove()
+    ok('Remove leaves no action where there was none', not rig.animation_data and not bpy.data.actions, list(bpy.data.actions))
+
+
 def leaves_nothing():
     rig = fresh(bend=0.2)
     bone = rig.pose.bones['tail_2']
@@ -175,4 +185,4 @@ def leaves_nothing():
     ok('and no splines', not settings.of(rig))
 
 
-main(without_add_on, undo, undo_of_an_edit_that_was_not_solved_yet, duplicate, other_files, renamed, leaves_nothing)
+main(without_add_on, undo, undo_of_an_edit_that_was_not_solved_yet, duplicate, other_files, renamed, leaves_no_action, leaves_nothing)

@@ -125,8 +125,10 @@ def nla():
     if slot:
         strip.action_slot = slot
     animation.action = None
+    bpy.context.view_layer.update()
     ok('in a strip', apart(poses(rig, frames), before) < 1e-6, apart(poses(rig, frames), before))
     strip.frame_start, strip.frame_end = 11, 70
+    bpy.context.view_layer.update()
     shifted = poses(rig, [frame + 10 for frame in frames])
     ok('in a strip that was moved', apart({f: shifted[f + 10] for f in frames}, before) < 1e-6)
 

@@ -273,7 +273,7 @@ def remove_spline(owner, name):
     owner.wiggly.splines.remove(owner.wiggly.splines.find(name))
     if not owner.wiggly.splines:
         del owner[curves.SAMPLES]
-        (curves.action_of(owner) or {}).pop(curves.STAMP, None)
+        curves.tidy(owner)
         owner.property_unset('wiggly')
 
 

@@ -3,7 +3,7 @@ from array import array
 import bpy
 
 LAYERED = bpy.app.version >= (4, 4, 0)
-SAMPLES, PARTS, STAMP = 'wiggle samples', ('re', 'im', 'y'), 'wiggle stamp'
+SAMPLES, PARTS, STAMP, MADE = 'wiggle samples', ('re', 'im', 'y'), 'wiggle stamp', 'wiggle made'
 HELD, POSE, STIFF = 240000, 1, 2  # in an unused number of a keyframe, `period`: HELD + 1 if `back` is the phase of a pose, + 2 if `amplitude` is a stiffness
 
 
@@ -25,6 +25,7 @@ def list_of(owner, make=False):
         animation = owner.animation_data_create()
         if not animation.action:
             animation.action = bpy.data.actions.new(owner.name + ' action')
+            animation.action[MADE] = True
         if LAYERED and not animation.action_slot:
             suitable = animation.action_suitable_slots
             animation.action_slot = suitable[0] if suitable else animation.action.slots.new(owner.id_type, owner.name)
@@ -121,6 +122,19 @@ def drop_samples(owner, spline):
         groups = groups_of(owner)
         if SAMPLES in groups:
             groups.remove(groups[SAMPLES])
+
+
+def tidy(owner):
+    """Leaves nothing of an action that was made for splines only."""
+    animation, action = owner.animation_data, action_of(owner)
+    if action:
+        action.pop(STAMP, None)
+    if action and MADE in action and not list_of(owner):
+        animation.action = None
+        if not action.users:
+            bpy.data.actions.remove(action)
+        if not animation.drivers and not animation.nla_tracks:
+            owner.animation_data_clear()
 
 
 def groups_of(owner):

@@ -16,8 +16,8 @@ def resolve(owner, path, index):
 
 def add(owner, path, index):
     """`index` is that of an array, else 0."""
-    if not any(owner == each for kind in solve.KINDS for each in getattr(bpy.data, kind)):
-        raise ValueError(f'"{path}" belongs to a {owner.id_type.lower()} inside of another datablock, which cannot wiggle')
+    if not any(owner == each for each in solve.possible()):
+        raise ValueError(f'"{path}" belongs to a {owner.id_type.lower()}, which cannot wiggle')
     if found(owner, path, index):
         raise ValueError(f'"{path}" already wiggles')
     value = resolve(owner, path, index)

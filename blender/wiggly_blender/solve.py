@@ -7,22 +7,33 @@ import wiggly
 from bpy.app.handlers import persistent
 from . import curves, settings as stored
 
-solved = {}  # (type, library, ID, spline) → the inputs solved last
+solved = {}  # (ID, its name, spline) → the inputs solved last
+SETTINGS = 'frequency', 'damping', 'bandwidth', 'calm', 'start', 'mode', 'more', 'equilibrium', 'follow'
 problems = {}  # the same → what is wrong with the answer
 edits = [0]  # how many there were
 cached = [None, []]  # how many IDs there were, and which have splines
-KINDS = ('objects', 'shape_keys', 'materials', 'node_groups', 'lights', 'cameras', 'worlds', 'scenes')
+KINDS = ('objects', 'shape_keys', 'materials', 'node_groups', 'lights', 'cameras', 'worlds', 'scenes', 'armatures', 'curves', 'lattices', 'speakers')
+TREES = ('materials', 'lights', 'worlds')  # have node trees of their own
 
 
 def fps_of(scene):
     return scene.render.fps / scene.render.fps_base
 
 
+def possible():
+    """All IDs that may have splines."""
+    for kind in KINDS:
+        for each in getattr(bpy.data, kind):
+            yield each
+            if kind in TREES and each.node_tree:
+                yield each.node_tree
+
+
 def owners():
     """All IDs with splines."""
     count = tuple(len(getattr(bpy.data, kind)) for kind in KINDS)
     if cached[0] != count:
-        cached[:] = count, [each for kind in KINDS for each in getattr(bpy.data, kind) if stored.of(each)]
+        cached[:] = count, [each for each in possible() if stored.of(each)]
     return cached[1]
 
 
@@ -75,44 +86,35 @@ def more(spline):
             'seed': varied.get('seed', 0)}
 
 
-def equilibrium(owner, spline, first, last):
-    """A number, or one for each frame."""
-    start, values = curves.samples(curves.part(owner, spline, 'y')) if spline.follow != 'none' else (0, ())
-    if not len(values):
-        return spline.equilibrium
-    return [values[min(max(frame - start, 0), len(values) - 1)] for frame in range(first, last + 1)]
-
-
 def key_of(owner, spline):
-    return owner.id_type, owner.library and owner.library.name, owner.name, spline.name
+    return owner.as_pointer(), owner.name, spline.name
 
 
 def solve(owner, spline, scene):
     """Solves a spline if its inputs differ from those solved last."""
+    action = curves.action_of(owner)
     curve = curves.find(owner, curves.path_of(spline.name))
-    im = curves.part(owner, spline, 'im')
+    im, y = curves.part(owner, spline, 'im'), curves.part(owner, spline, 'y') if spline.follow != 'none' else None
+    if not action or not (curve or y) and owner.animation_data.nla_tracks:  # a strip may move it
+        return
     first, last = range_of(owner, spline, scene, curve)
     fps = fps_of(scene)
-    action = curves.action_of(owner)
-    y = equilibrium(owner, spline, first, last)
-    settings = (spline.frequency, spline.damping, spline.bandwidth, spline.calm, spline.start,
-                spline.mode, spline.more)
-
-    def inputs():
-        return curves.read(curve), settings, first, last, scene.frame_start, scene.frame_end, fps, y, action and action.name_full
-
+    y_first, y = curves.samples(y)
+    given = (*(getattr(spline, name) for name in SETTINGS), first, last, scene.frame_start, scene.frame_end, fps, y_first, y.tobytes(), action.name_full)
     key = key_of(owner, spline)
-    if im and solved.get(key) == inputs():
+    if im and solved.get(key) == (curves.read(curve), given):
         return
     knots = knots_of(curve, spline, first, last, fps, im)
+    middle = [y[min(max(frame - y_first, 0), len(y) - 1)] for frame in range(first, last + 1)] if y else spline.equilibrium
     described = wiggly.Spline(knots, frequency=spline.frequency, damping=spline.damping, bandwidth=spline.bandwidth,
-                            calm=spline.calm, equilibrium=y, start=spline.start, mode=spline.mode, **more(spline))
+                              calm=spline.calm, equilibrium=middle, start=spline.start, mode=spline.mode, **more(spline))
+    solved[key] = curves.read(curve), given
     try:
         with warnings.catch_warnings():
             warnings.simplefilter('ignore')
             answer = described.solve(last - first + 1, fps)
     except wiggly.Error as problem:
-        problems[key], solved[key] = str(problem), inputs()
+        problems[key] = str(problem)
         return
     problems[key] = answer.status.sentence if answer.status else ''
     for part, values in (('re', answer.re), ('im', answer.im)):
@@ -121,8 +123,6 @@ def solve(owner, spline, scene):
             start = min(first, scene.frame_start) - 1
             values = [values[(frame - first) % (last - first)] for frame in range(start, max(last, scene.frame_end) + 2)]
         curves.write(owner, spline, part, start, values)
-    action = curves.action_of(owner)
-    solved[key] = inputs()
 
 
 def insert(owner, spline, frame, kind):
