@@ -91,7 +91,7 @@ static void check_status(struct session *f)
     f->editor->core.status.told = (struct figures){1234, 123456};
     transport_advance(&f->editor->core, 1);
     for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
-        core_message(&f->editor->core, true, messages[m]);
+        core_message(&f->editor->core, true, "%s", messages[m]);
         show(f);
         transport_show(&f->editor->core, NULL);
         const int texts = assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status);

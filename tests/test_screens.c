@@ -152,7 +152,7 @@ static void open_history(struct session *s)
 static void open_message(struct session *s)
 {
     core_set_path(&s->editor->core, "/home/somebody/a scene with a name that is rather too long to show.json");
-    core_message(&s->editor->core, true, long_message);
+    core_message(&s->editor->core, true, "%s", long_message);
     s->editor->core.status.told = (struct figures){1234, 123456};
 }
 

@@ -4,7 +4,6 @@
 #include "base/need.h"
 #include "rig/opened.h"
 #include <stdatomic.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <threads.h>
 
@@ -164,13 +163,11 @@ static void answer(struct app *app, bool done)
     struct export_job *job = app->export_job;
     const struct request *request = &job->request;
     const struct export_report *report = &job->report;
-    char text[sizeof request->path + sizeof report->text + sizeof report->note + 32];
     const bool stopped = !done && atomic_load(&job->stop);
     editor_answer(app->table.editor, request, done, stopped ? "Cancelled. Nothing was written." : job->error.text);
     if (!done) return;
-    snprintf(text, sizeof text, "Wrote %s: %s.%s%s%s", request->path, report->text, *report->note ? " Note: " : "",
-             report->note, *report->note ? "." : "");
-    core_message(&app->table.editor->core, false, text);
+    core_message(&app->table.editor->core, false, "Wrote %s: %s.%s%s%s", request->path, report->text,
+                 *report->note ? " Note: " : "", report->note, *report->note ? "." : "");
     personal_note_export(app, request);
 }
 

@@ -231,7 +231,7 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
 /// F12: saves to the first free wiggly-NNNN.png, in the scene's folder, else the working folder.
 static bool take_picture(struct app *app, struct error *error)
 {
-    char folder[PATH_LIMIT], name[32], path[PATH_LIMIT], text[PATH_LIMIT + 16];
+    char folder[PATH_LIMIT], name[32], path[PATH_LIMIT];
     int number = 0;
     if (!path_folder(app_path(app), folder)) folder[0] = '\0';
     do {
@@ -239,8 +239,7 @@ static bool take_picture(struct app *app, struct error *error)
         if (!path_resolve(folder, name, path)) return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
     } while (access(path, F_OK) == 0);
     if (!app_screenshot(app, path, error)) return false;
-    snprintf(text, sizeof text, "Saved %s.", path);
-    core_message(&app->table.editor->core, false, text);
+    core_message(&app->table.editor->core, false, "Saved %s.", path);
     return true;
 }
 

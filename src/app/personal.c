@@ -55,7 +55,7 @@ static bool make_folder(const char *variable, const char *below_home, char path[
 
 static void complain(struct app *app, const struct error *error)
 {
-    if (error->kind != ERROR_NONE) core_message(&app->table.editor->core, true, error->text);
+    if (error->kind != ERROR_NONE) core_message(&app->table.editor->core, true, "%s", error->text);
 }
 
 /// Reads the settings again before every change, because another window may have written them; locks them until written. NULL without a
@@ -179,11 +179,9 @@ static const char *name_of(const struct recovery_entry *entry)
 static void mention(struct app *app)
 {
     struct recovery_entry entry;
-    char sentence[400];
     if (!recovery_find(app->personal->state_folder, NULL, &entry, NULL)) return;
-    snprintf(sentence, sizeof sentence, "Unsaved work on %.255s is kept: start wiggly without a scene to recover it.",
-             name_of(&entry));
-    core_message(&app->table.editor->core, false, sentence);
+    core_message(&app->table.editor->core, false,
+                 "Unsaved work on %.255s is kept: start wiggly without a scene to recover it.", name_of(&entry));
     recovery_release(&entry.slot);
 }
 

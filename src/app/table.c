@@ -27,10 +27,11 @@ static void read_models(struct table *table)
     if (!is_new && models_suit(table->models, table->document)) return;
     table->models_serial = table->document->serial;
     if (is_new) {
-        if (!scene_read_paint(table->document, &error)) core_message(&table->editor->core, true, error.text);
+        if (!scene_read_paint(table->document, &error)) core_message(&table->editor->core, true, "%s", error.text);
         if (!history_is_open(table->history)) history_amend(table->history);
     }
-    if (!models_update(table->models, table->document, &error)) core_message(&table->editor->core, true, error.text);
+    if (!models_update(table->models, table->document, &error))
+        core_message(&table->editor->core, true, "%s", error.text);
 }
 
 void table_edit(struct table *table, double dt, struct frame_row *row)

@@ -103,7 +103,7 @@ struct request editor_take_request(struct editor *editor)
 void editor_answer(struct editor *editor, const struct request *request, bool ok, const char *text)
 {
     if (!dialogs_answer(editor->dialogs, &editor->core, request, ok, text) && !ok)
-        core_message(&editor->core, true, text);
+        core_message(&editor->core, true, "%s", text);
 }
 
 bool editor_wants_frames(const struct editor *editor)

@@ -51,17 +51,13 @@ int bones_joints(const struct core *core, int rig)
 static void tell(struct core *core, const struct rig *made, int model, bool follows)
 {
     const char *clip = core->document->rigs[model]->model.clip;
-    char text[512], title[BONES_TITLE];
-    const int length = snprintf(text, sizeof text, "Made the chain %.80s, from %.160s to %.80s.", rig_title(made),
-                                bones_title(core->document, model, made->chain.from, title), made->chain.to);
-    if (!follows) {
-        snprintf(text + length, sizeof text - (size_t)length, " Drag it on the stage to set knots.");
-    } else if (clip) {
-        snprintf(text + length, sizeof text - (size_t)length, " It follows through on the clip %.80s.", clip);
-    } else {
-        snprintf(text + length, sizeof text - (size_t)length, " It swings once the character plays a clip.");
-    }
-    core_message(core, false, text);
+    char title[BONES_TITLE];
+    const char *next = !follows ? "Drag it on the stage to set knots."
+                       : clip   ? "It follows through on the clip "
+                                : "It swings once the character plays a clip.";
+    core_message(core, false, "Made the chain %.80s, from %.160s to %.80s. %s%.80s%s", rig_title(made),
+                 bones_title(core->document, model, made->chain.from, title), made->chain.to, next,
+                 follows && clip ? clip : "", follows && clip ? "." : "");
 }
 
 void bones_choose_clip(struct core *core, int model, const char *clip)
@@ -252,10 +248,10 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
     char *ends[2];
     if (!character || history_is_open(core->history)) return;
     if (!find_ends(character, &contents.chain, first, node, ends, &error)) {
-        core_message(core, true, error.text);
+        core_message(core, true, "%s", error.text);
         return;
     }
-    char old[BONE_NAME_SIZE], text[2 * BONE_NAME_SIZE];
+    char old[BONE_NAME_SIZE];
     snprintf(old, sizeof old, "%s", contents.chain.to);
     contents.chain.from = ends[0];
     contents.chain.to = ends[1];
@@ -264,8 +260,7 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
         edit_rig_set(core->document, chain, &contents, &core->error) && follow_end(core, contents.name, old, ends[1]);
     if (!core_end(core, done)) return;
     const struct rig *rig = core->document->rigs[chain];
-    snprintf(text, sizeof text, "%.80s goes from %.100s to %.100s.", rig_title(rig), rig->chain.from, rig->chain.to);
-    core_message(core, false, text);
+    core_message(core, false, "%.80s goes from %.100s to %.100s.", rig_title(rig), rig->chain.from, rig->chain.to);
 }
 
 static bool begins_at(const struct document *document, int model, const char *from)
@@ -299,7 +294,7 @@ int bones_mirrorable(const struct core *core, int chain)
 
 void bones_make_twin(struct core *core, int chain)
 {
-    char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE], name[BONE_NAME_SIZE], text[2 * BONE_NAME_SIZE];
+    char from[BONE_NAME_SIZE], to[BONE_NAME_SIZE], name[BONE_NAME_SIZE];
     if (!find_twin(core, chain, from, to)) return;
     struct rig twin = *core->document->rigs[chain];
     twin.name = twin.name && bone_other_side(twin.name, name) ? name : NULL;
@@ -309,7 +304,6 @@ void bones_make_twin(struct core *core, int chain)
     twin.chain.turn = -twin.chain.turn;
     if (!core_begin(core, "Mirror chain", 0)) return;
     if (!core_end(core, edit_rig_add(core->document, &twin, &core->error))) return;
-    snprintf(text, sizeof text, "Made the chain %s, mirrored, by the same splines.",
-             rig_title(core->document->rigs[core->document->rig_count - 1]));
-    core_message(core, false, text);
+    core_message(core, false, "Made the chain %s, mirrored, by the same splines.",
+                 rig_title(core->document->rigs[core->document->rig_count - 1]));
 }

@@ -6,15 +6,12 @@
 #include "editor/core/selection.h"
 #include "scene/knots.h"
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 static void say_count(struct core *core, const char *what, int count)
 {
-    char text[64];
-    snprintf(text, sizeof text, "%s %d knot%s.", what, count, count == 1 ? "" : "s");
-    core_message(core, false, text);
+    core_message(core, false, "%s %d knot%s.", what, count, count == 1 ? "" : "s");
 }
 
 /// Collects the selected knots in core's originals, which no drag is using; returns how many.
@@ -95,7 +92,7 @@ void core_paste_knots(struct core *core, const char *text)
         return;
     }
     if (!knots_parse("clipboard", text, &list, &error)) {
-        core_message(core, true, error.text);
+        core_message(core, true, "%s", error.text);
         return;
     }
     const unsigned first_id = document->next_id;
@@ -166,8 +163,6 @@ void core_duplicate_knots(struct core *core)
     if (!end_insertion(core, first_id, good)) return;
     say_count(core, "Duplicated", count);
     if (!longer) return;
-    char text[96];
-    snprintf(text, sizeof text, "Duplicated %d knot%s; the scene now ends on frame %d.", count, count == 1 ? "" : "s",
-             end);
-    core_message(core, false, text);
+    core_message(core, false, "Duplicated %d knot%s; the scene now ends on frame %d.", count, count == 1 ? "" : "s",
+                 end);
 }

@@ -4,6 +4,7 @@
 #include "editor/core/selection.h"
 #include <ctype.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -46,7 +47,7 @@ void core_settle(struct core *core)
 {
     core_refresh(core);
     if (core->error.kind == ERROR_NONE) return;
-    core_message(core, true, core->error.text);
+    core_message(core, true, "%s", core->error.text);
     core->error = (struct error){0};
     selection_drop_from(&core->selection, core->document->next_id); // the knot the drag had inserted
 }
@@ -108,11 +109,10 @@ void core_undo(struct core *core, int direction)
     struct history *history = core->history;
     if (history_is_open(history)) return;
     const char *label = direction < 0 ? history_undo_label(history) : history_redo_label(history);
-    char text[128];
     if (label) {
-        snprintf(text, sizeof text, "%s: %s", direction < 0 ? "Undone" : "Redone", label);
+        core_message(core, false, "%s: %s", direction < 0 ? "Undone" : "Redone", label);
     } else {
-        snprintf(text, sizeof text, "Nothing to %s", direction < 0 ? "undo" : "redo");
+        core_message(core, false, "Nothing to %s", direction < 0 ? "undo" : "redo");
     }
     if (direction < 0) {
         history_undo(history);
@@ -120,7 +120,6 @@ void core_undo(struct core *core, int direction)
         history_redo(history);
     }
     return_to_active(core);
-    core_message(core, false, text);
 }
 
 void core_jump(struct core *core, size_t done)
@@ -129,9 +128,7 @@ void core_jump(struct core *core, size_t done)
     size_t before = history_done(core->history), steps = before > done ? before - done : done - before;
     if (!history_jump(core->history, done)) return;
     return_to_active(core);
-    char text[64];
-    snprintf(text, sizeof text, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
-    core_message(core, false, text);
+    core_message(core, false, "%s %zu step%s", before > done ? "Undone:" : "Redone:", steps, steps == 1 ? "" : "s");
 }
 
 void core_request(struct core *core, enum request_kind kind, const char *path)
@@ -147,9 +144,12 @@ struct question *core_ask(struct core *core, const struct answer *answers, int c
     return &core->question;
 }
 
-void core_message(struct core *core, bool is_error, const char *text)
+void core_message(struct core *core, bool is_error, const char *format, ...)
 {
-    snprintf(core->message.text, sizeof core->message.text, "%s", text);
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(core->message.text, sizeof core->message.text, format, arguments);
+    va_end(arguments);
     core->message.is_error = is_error;
     core->message.seconds_left = is_error ? 0 : MESSAGE_SECONDS;
     core->unshown = true;
@@ -181,7 +181,7 @@ void core_stopped(struct core *core, const char *why)
 {
     char text[STOPPED_SIZE + 1] = "";
     core_add_stopped(why, text, sizeof text);
-    core_message(core, false, text);
+    core_message(core, false, "%s", text);
 }
 
 struct spline *core_active_spline(const struct core *core)
@@ -249,7 +249,7 @@ void core_flip(struct core *core, int which)
     *on = !*on;
     core->refit_curves |= which == SWITCH_NORMALISE;
     core->refit_stage |= which == SWITCH_TWIN || which == SWITCH_ORIGINAL;
-    core_message(core, false, switches[which].said[*on]);
+    core_message(core, false, "%s", switches[which].said[*on]);
 }
 
 void core_set_look(struct core *core, enum look look)
@@ -260,7 +260,7 @@ void core_set_look(struct core *core, enum look look)
         [LOOK_CUBIC] = "Cubic: the same knots as a classical spline",
     };
     core->look = look;
-    core_message(core, false, texts[look]);
+    core_message(core, false, "%s", texts[look]);
 }
 
 void core_turn_look(struct core *core, int unused)

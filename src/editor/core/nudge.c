@@ -4,7 +4,6 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 
 enum { NUDGE_PARAMETER = 100 }; ///< kind for core_merge_key()
@@ -74,15 +73,13 @@ double core_fresh_limit(const struct spline *spline, enum parameter parameter)
 static bool say_idle(struct core *core, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
-    char text[160];
     if (parameter == PARAMETER_CALM || row->modes >> spline_mode(spline) & 1) return false;
     if (spline_mode(spline) == WIGGLY_CUBIC) {
-        snprintf(text, sizeof text, "A cubic does not swing. Press M to change the kind.");
+        core_message(core, false, "A cubic does not swing. Press M to change the kind.");
     } else {
-        snprintf(text, sizeof text, "Only a %s spline has a %s. Press M to change the kind.",
-                 row->modes & IN_COMPLEX ? "wiggly" : "spring", row->name);
+        core_message(core, false, "Only a %s spline has a %s. Press M to change the kind.",
+                     row->modes & IN_COMPLEX ? "wiggly" : "spring", row->name);
     }
-    core_message(core, false, text);
     return true;
 }
 
@@ -91,10 +88,8 @@ static void nudge_one(struct core *core, const struct spline *spline, enum param
     if (say_idle(core, spline, parameter)) return;
     const struct param *before = &spline->parameter[parameter];
     if (before->track >= 0) {
-        char text[160];
-        snprintf(text, sizeof text, "The %s follows the spline \"%.60s\".", parameter_rows[parameter].name,
-                 core->document->splines[before->track]->name);
-        core_message(core, false, text);
+        core_message(core, false, "The %s follows the spline \"%.60s\".", parameter_rows[parameter].name,
+                     core->document->splines[before->track]->name);
         return;
     }
     struct param param = *before;
@@ -183,25 +178,21 @@ void core_find_frequency(struct core *core, int unused)
     wiggly_explanation found[2];
     const int count = reason ? 0 : explain(core, spline, found);
     if (count <= 0) {
-        core_message(core, false, reason ? reason : "These knots do not swing: no frequency explains them.");
+        core_message(core, false, "%s", reason ? reason : "These knots do not swing: no frequency explains them.");
         return;
     }
-    char text[160];
     const int active = core->active, chosen = count == 2 && is_set(spline, &found[0]) ? 1 : 0;
     core_begin(core, "Find frequency", 0);
     const bool good = core_set_parameter(core, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) &&
                       core_set_parameter(core, active, PARAMETER_DAMPING, damping_of(&found[chosen]));
     if (!core_end(core, good)) return;
     core_edited(core, core->active);
-    const int length = snprintf(text, sizeof text, "%s: %.2f Hz, damping %.3g.", chosen ? "Runner-up" : "Best",
-                                found[chosen].frequency, found[chosen].damping);
-    char *rest = text + length;
-    const size_t room = sizeof text - (size_t)length;
+    const char *which = chosen ? "Runner-up" : "Best";
+    const double hz = found[chosen].frequency, damping = found[chosen].damping;
     if (count == 1) {
-        snprintf(rest, room, " There is no runner-up.");
+        core_message(core, false, "%s: %.2f Hz, damping %.3g. There is no runner-up.", which, hz, damping);
     } else {
-        snprintf(rest, room, " Shift+F again for the %s: %.2f Hz.", chosen ? "best" : "runner-up",
-                 found[1 - chosen].frequency);
+        core_message(core, false, "%s: %.2f Hz, damping %.3g. Shift+F again for the %s: %.2f Hz.", which, hz, damping,
+                     chosen ? "best" : "runner-up", found[1 - chosen].frequency);
     }
-    core_message(core, false, text);
 }

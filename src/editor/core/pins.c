@@ -6,7 +6,6 @@
 #include "scene/pins.h"
 #include "ui/theme.h"
 #include <math.h>
-#include <stdio.h>
 
 enum pin_nudge { NUDGE_PLACE, NUDGE_FRAME };
 
@@ -93,10 +92,7 @@ void pins_put_here(struct core *core, int rig, int point, const double to[3])
     const double frame = pins_frame_here(core, rig);
     if (!core_begin(core, "Pin", 0)) return;
     if (!core_end(core, pins_put(core, rig, point, frame, to))) return;
-    char text[96];
-    snprintf(text, sizeof text, "Pinned at frame %.6g. Drag the marker, or type its place in the section Pins.",
-             frame);
-    core_message(core, false, text);
+    core_message(core, false, "Pinned at frame %.6g. Drag the marker, or type its place in the section Pins.", frame);
     core->playback.playing = false;
     playback_seek(core, frame);
 }

@@ -1,7 +1,6 @@
 /// Playback: playing, stepping, scrubbing, and the played range, which is never saved. The position is in samples, fractional.
 #include "editor/core/core.h"
 #include <math.h>
-#include <stdio.h>
 
 void playback_range(const struct core *core, double range[2])
 {
@@ -33,13 +32,10 @@ void playback_choose(struct core *core, double first, double last)
 
 void playback_say_range(struct core *core)
 {
-    char text[96];
     double range[2];
     playback_range(core, range);
     bool part = playback_is_part(core);
-    snprintf(text, sizeof text, part ? "Playing frames %.0f to %.0f." : "Playing the whole scene.", range[0],
-             range[1]);
-    core_message(core, false, text);
+    core_message(core, false, part ? "Playing frames %.0f to %.0f." : "Playing the whole scene.", range[0], range[1]);
 }
 
 void playback_mark(struct core *core, int end)
@@ -137,10 +133,8 @@ void playback_change_speed(struct core *core, int direction)
 {
     double *speed = &core->playback.speed;
     int at = 0;
-    char text[64];
     while (at < SPEEDS - 1 && speeds[at] < *speed) at++;
     at += direction;
     *speed = direction == 0 ? 1 : speeds[at < 0 ? 0 : at >= SPEEDS ? SPEEDS - 1 : at];
-    snprintf(text, sizeof text, *speed == 1 ? "Playback in real time." : "Playback at %g× speed.", *speed);
-    core_message(core, false, text);
+    core_message(core, false, *speed == 1 ? "Playback in real time." : "Playback at %g× speed.", *speed);
 }

@@ -234,7 +234,7 @@ void warning_remedy(struct curves *curves, struct core *core, int index)
     const bool good = fix.apply && fix.apply(core->document, &warning, fix.text, &core->error);
     snprintf(text, sizeof text, "Done: %s.", fix.text);
     core_end(core, good);
-    if (good || !fix.apply) core_message(core, false, good ? text : NO_REMEDY);
+    if (good || !fix.apply) core_message(core, false, "%s", good ? text : NO_REMEDY);
 }
 
 static const float SIZE = 7, LIFT = 16,

@@ -251,7 +251,7 @@ bool inspector_event(struct inspector *in, const struct event *event)
     bool used = ui_end(ui);
     if (was_dragging && !ui->held && history_is_open(in->core->history)) history_end(in->core->history);
     if (ui->complaint[0]) {
-        core_message(in->core, true, ui->complaint);
+        core_message(in->core, true, "%s", ui->complaint);
         ui->complaint[0] = '\0';
     }
     bool inside = rect_contains(area, ui->pointer_x, ui->pointer_y);

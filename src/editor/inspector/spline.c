@@ -167,9 +167,7 @@ static void open_list(struct inspector *in, enum parameter parameter, bool joint
         ui_popup_open(&in->ui, track_list.name, (int)parameter, r);
         return;
     }
-    char text[160];
-    snprintf(text, sizeof text, "There is no other spline for %.80s to follow.", core_active_spline(in->core)->name);
-    core_message(in->core, true, text);
+    core_message(in->core, true, "There is no other spline for %.80s to follow.", core_active_spline(in->core)->name);
 }
 
 /// The button at the right of a row: follows a spline from a list, or stops following.

@@ -121,7 +121,7 @@ static void key_body(struct stage *stage, struct core *core, const double offset
     say(&report, frame);
     core_add_stopped(report.why, report.text, sizeof report.text);
     base_say_channel(core, swings, report.text, sizeof report.text);
-    if (!is_first) core_message(core, false, report.text);
+    if (!is_first) core_message(core, false, "%s", report.text);
 }
 
 /// How far all knots of a spline can move within its limits, and the knot that stops them, or NULL.
@@ -235,7 +235,7 @@ static void shift_body(struct stage *stage, struct core *core, const double offs
         const bool keys = tail_of(core->document, stage->body_drag.rig) && !report.why[0];
         say(&report, keys ? ". Auto-key (Shift+A) sets knots instead." : ".");
         core_add_stopped(report.why, report.text, sizeof report.text);
-        core_message(core, false, report.text);
+        core_message(core, false, "%s", report.text);
     }
 }
 

@@ -305,16 +305,14 @@ bool brush_wheel(struct core *core, const struct event *event)
 {
     struct brush *brush = &core->brush;
     const double factor = exp(WHEEL_STEP * fmin(fmax(event->dy, -20), 20));
-    char text[64];
     if (!brush->on || !(event->mods & (MOD_CTRL | MOD_SHIFT))) return false;
     if (event->mods & MOD_CTRL) {
         brush->radius = fmin(fmax(brush->radius * factor, RADIUS_LEAST), RADIUS_MOST);
-        snprintf(text, sizeof text, "Brush: radius %.0f %% of the character's height.", 100 * brush->radius);
+        core_message(core, false, "Brush: radius %.0f %% of the character's height.", 100 * brush->radius);
     } else {
         brush->strength = fmin(fmax(brush->strength * factor, STRENGTH_LEAST), 1);
-        snprintf(text, sizeof text, "Brush: strength %.0f %%.", 100 * brush->strength);
+        core_message(core, false, "Brush: strength %.0f %%.", 100 * brush->strength);
     }
-    core_message(core, false, text);
     return true;
 }
 

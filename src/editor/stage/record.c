@@ -173,7 +173,7 @@ void record_keep(struct stage *stage, struct core *core)
     snprintf(text, sizeof text, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.", made);
     core_add_stopped(why, text, sizeof text);
     base_say_channel(core, swings, text, sizeof text);
-    core_message(core, false, text);
+    core_message(core, false, "%s", text);
     record_forget(stage);
 }
 
