@@ -1,0 +1,42 @@
+# examples/farm.py: a farm's shots have the bits of one machine, also where a worker is killed and where the farm is stopped and goes on.
+. tests/check.sh
+command -v python3 >/dev/null || { echo "skip - python3 is not installed"; exit 0; }
+WIGGLY=$(realpath "$WIGGLY")
+export WIGGLY
+shots=$scratch/shots.txt
+for i in 1 2 3 4 5 6 7 8; do echo "shot$i assets/models/creature.glb --tets 300 --seconds 1 --damping 0.0$i"; done >"$shots"
+echo "bad assets/models/creature.glb --damping 9" >>"$shots"
+
+expect 0 "one shot is made" python3 examples/farm.py "$shots" "$scratch/one" --only 1
+touch -d 2001-01-01 "$scratch/one/shot1.glb"
+expect 0 "it is not made again" python3 examples/farm.py "$shots" "$scratch/one" --only 1
+holds "so that its file stays" [ ! "$scratch/one/shot1.glb" -nt Makefile ]
+expect 1 "a shot that fails says why" python3 examples/farm.py "$shots" "$scratch/one" --only 9
+says "with its name" "bad: wiggly simulate: " "$err"
+holds "and leaves nothing" [ "$(ls -A "$scratch/one")" = shot1.glb ]
+thorough || exit 0
+
+# --- two workers, of which one is killed
+
+place=$B/python
+{ [ -x "$place/bin/python" ] || python3 -m venv "$place"; } >"$scratch/fetch" 2>&1 &&
+    { "$place/bin/python" -c 'import distributed' || timeout 300 "$place/bin/pip" install --quiet --retries 0 distributed; } >"$scratch/fetch" 2>&1 ||
+    { echo "skip - dask.distributed could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
+for i in 2 3 4 5 6 7 8; do python3 examples/farm.py "$shots" "$scratch/one" --only $i >/dev/null; done
+at_end() { kill -9 "${processes[@]}" 2>/dev/null; wait; }
+processes=()
+start() { "$place/bin/dask" "$@" >>"$scratch/dask" 2>&1 & processes+=($!); }
+start scheduler --port 0 --no-dashboard --scheduler-file "$scratch/scheduler.json"
+for _ in 1 2; do start worker --scheduler-file "$scratch/scheduler.json" --nthreads 1 --no-nanny --no-dashboard --local-directory "$scratch"; done
+for _ in $(seq 300); do [ -s "$scratch/scheduler.json" ] && break; sleep 0.1; done
+address=$(sed -n 's/.*"address": "\([^"]*\)".*/\1/p' "$scratch/scheduler.json")
+"$place/bin/python" examples/farm.py "$shots" "$scratch/farm" --scheduler "$address" >"$scratch/said" 2>&1 &
+farm=$!
+for _ in $(seq 600); do [ -n "$(ls "$scratch/farm" 2>/dev/null)" ] && break; sleep 0.1; done
+kill -9 "${processes[1]}"
+status=0
+wait $farm || status=$?
+ok "the farm ends well although a worker was killed" $status
+holds "and names the shot that failed" grep -q "^bad: wiggly simulate" "$scratch/said"
+rm -rf "$scratch"/farm/.*-* # what the killed worker left
+holds "all shots have the bits of one machine" diff -r "$scratch/one" "$scratch/farm"
