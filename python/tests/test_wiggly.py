@@ -207,6 +207,20 @@ class Splines(unittest.TestCase):
             solver.solve()
         self.assertEqual(caught.exception.status, Status.KNOT_TWICE)
 
+    def test_tracks_change_in_place(self):
+        frequency, equilibrium = np.full(97, 1.5), np.zeros(97)
+        solver = Spline(KNOTS, frequency=frequency, equilibrium=equilibrium).prepare(97)
+        solver.solve()
+        frequency[40:] = 2
+        equilibrium[20:] = 0.3
+        expected = Spline(KNOTS, frequency=frequency.copy(), equilibrium=equilibrium.copy()).solve(97)
+        np.testing.assert_array_equal(solver.solve()._block, expected._block)
+
+    def test_splines_can_be_pickled(self):
+        spline = Spline(iter(KNOTS), frequency=np.full(97, 1.5), limits=(-1, None), variation=0.2, seed=4)
+        other = pickle.loads(pickle.dumps(spline))
+        np.testing.assert_array_equal(other.solve(97)._block, spline.solve(97)._block)
+
     def test_curves_can_be_copied_and_pickled(self):
         curve = Spline(KNOTS, frequency=1).solve(97)
         for other in (pickle.loads(pickle.dumps(curve)), copy.deepcopy(curve)):

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping, Sequence
 from ctypes import addressof, c_double
-from typing import Mapping, NamedTuple, Sequence
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -85,7 +86,8 @@ class Group:
                 raise ValueError(f"a bound's c: expected one number a spline, {count}, got {c.shape}")
             c_bound.sample, c_bound.c, c_bound.least = _sample(bound.time, fps), c.ctypes.data, bound.least
         room = max(map(len, (knots for _, knots in described)), default=0)
-        group = Handle("group_create_bounded", max(n, 1), room, max(count, 1), len(pins), len(bounds))
+        group = Handle(
+            lib.wiggly_group_create_bounded, lib.wiggly_group_destroy, max(n, 1), room, max(count, 1), len(pins), len(bounds))  # fmt: skip
         lib.wiggly_group_set_method(group.at, word("solver", solver, SOLVERS))
         code = lib.wiggly_group_solve_bounded(
             group.at, addressof(descs), self.weights.ctypes.data, addressof(structs), count,

@@ -11,6 +11,7 @@ from ctypes import POINTER, Structure, byref, c_bool, c_double, c_int, c_size_t,
 from ctypes.util import find_library
 from enum import IntEnum
 from pathlib import Path
+from typing import Callable
 
 import numpy as np
 
@@ -209,18 +210,19 @@ def version() -> str:
 
 
 class Handle:
-    """What a `wiggly_*_create` function made, for as long as this object lives."""
+    """What a `create` function of the library made, until nobody holds this object."""
 
-    def __init__(self, kind: str, *room: int) -> None:
+    at: int | None = None
+    """Its address."""
+
+    def __init__(self, create: Callable[..., int], destroy: Callable[[int], None], *room: int) -> None:
         handle = c_void_p()
-        destroy = "destroy" if kind == "create" else kind.split("_")[0] + "_destroy"
-        self._destroy = getattr(lib, "wiggly_" + destroy)
-        self.at: int | None = None
-        report(getattr(lib, "wiggly_" + kind)(*room, byref(handle)))
+        self._destroy = destroy
+        report(create(*room, byref(handle)))
         self.at = handle.value
 
     def __del__(self) -> None:
-        if getattr(self, "at", None):
+        if self.at:
             self._destroy(self.at)
 
 
@@ -236,6 +238,6 @@ def shared_solver(samples: int, knots: int) -> int | None:
     """The address of this thread's solver, with at least this room."""
     if _shared.handle is None or samples > _shared.samples or knots > _shared.knots:
         samples, knots = max(samples, 1, _shared.samples), max(knots, 16, _shared.knots)
-        _shared.handle = Handle("create", samples, knots)
+        _shared.handle = Handle(lib.wiggly_create, lib.wiggly_destroy, samples, knots)
         _shared.samples, _shared.knots = samples, knots
     return _shared.handle.at

@@ -103,7 +103,7 @@ def solve_many(
     status, knot = np.zeros(count, np.intc), np.full(count, -1, np.intc)
     many.status, many.knot = status.ctypes.data, knot.ctypes.data
     room = k + (n if desc.has_low or desc.has_high else 0)
-    batch = Handle("batch_create", max(n, 1), room, min(threads or os.cpu_count() or 1, 256))
+    batch = Handle(lib.wiggly_batch_create, lib.wiggly_batch_destroy, max(n, 1), room, min(threads or os.cpu_count() or 1, 256))
     worst = lib.wiggly_batch_solve_many(batch.at, addressof(desc), addressof(many))
     wrong = np.flatnonzero(status >= Status.ARGUMENT)
     if worst >= Status.ARGUMENT and not len(wrong):  # of what they share

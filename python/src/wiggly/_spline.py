@@ -2,15 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable, Sequence
 from ctypes import addressof, byref, c_double, sizeof
-from typing import Any, Iterable, NamedTuple, Optional, Sequence, Union
+from typing import Any, NamedTuple, Optional, Union
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import NDArray
 
 from ._curve import Curve
-from ._library import (KNOT, MODES, PASSIVES, SOLVERS, STARTS, CDesc, CExplanation, CParam, Handle, Status, lib,
-                       report, shared_solver)  # fmt: skip
+from ._library import (
+    KNOT,
+    MODES,
+    PASSIVES,
+    SOLVERS,
+    STARTS,
+    CDesc,
+    CExplanation,
+    CParam,
+    Handle,
+    Status,
+    lib,
+    report,  # fmt: skip
+    shared_solver,
+)
 
 Param = Union[float, NDArray[np.float64], Sequence[float]]
 Limits = tuple[Optional[float], Optional[float]]
@@ -69,7 +83,7 @@ class Spline:
     knots : iterable of Knot or (time, value), or array_like of shape (k, 2)
         Times in seconds. A knot sits on the sample nearest to its time, floor(time * fps + 1/2); two on one sample are an error.
     frequency : float or array_like of shape (n,)
-        Hz, undamped; 0: no swing. An array is a track, one number a sample.
+        Hz, undamped; 0: no swing. An array is a track, one number a sample. It is not copied, so you may change its numbers later.
     damping : float or array_like of shape (n,)
         Ratio: 0 swings on, 1 is critical, more (in real mode only) creeps.
     bandwidth : float or array_like of shape (n,)
@@ -88,6 +102,14 @@ class Spline:
         The total stays between them; None: no limit on that side.
     variation, seed : float, int
         Another motion through the same knots, which strays by `variation` times the farthest knot; the seed chooses it.
+
+    Attributes
+    ----------
+    knots : list or ndarray
+    parameters : dict
+        What it was made of: `Spline(s.knots, **{**s.parameters, "damping": 0.2})` is the same with more damping.
+    times : ndarray of float64, shape (k,)
+        Seconds of the knots.
 
     Examples
     --------
@@ -121,7 +143,11 @@ class Spline:
         variation: float = 0,
         seed: int = 0,
     ) -> None:
-        self.times, self._knots = read_knots(knots)
+        self.knots = knots if isinstance(knots, np.ndarray) else list(knots)
+        self.parameters: dict[str, Any] = dict(
+            frequency=frequency, damping=damping, bandwidth=bandwidth, calm=calm, equilibrium=equilibrium, mode=mode, start=start,
+            passive=passive, limits=limits, variation=variation, seed=seed)  # fmt: skip
+        self.times, self._knots = read_knots(self.knots)
         self._tracks: list[NDArray[np.float64]] = []
         self._desc = desc = CDesc(sizeof(CDesc), knot_count=len(self._knots), calm=calm, has_calm=True)
         desc.mode, desc.start, desc.passive = word("mode", mode, MODES), word("start", start, STARTS), word("passive", passive, PASSIVES)
@@ -132,6 +158,12 @@ class Spline:
             desc.high, desc.has_high = high or 0, high is not None
         desc.frequency, desc.damping = self._param(frequency), self._param(damping)
         desc.bandwidth, desc.equilibrium = self._param(bandwidth), self._param(equilibrium)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _remade, (self.knots, self.parameters)
+
+    def __repr__(self) -> str:
+        return f"<wiggly.Spline through {len(self.times)} knots>"
 
     def _param(self, number: Param) -> CParam:
         if isinstance(number, (int, float)):
@@ -210,6 +242,10 @@ class Spline:
         return Poles(*(np.array(pair, dtype=float).view(complex)[:, 0] for pair in (poles.s, poles.z)))
 
 
+def _remade(knots: Any, parameters: dict[str, Any]) -> Spline:
+    return Spline(knots, **parameters)
+
+
 def solve_into(solver: int | None, desc: CDesc, curve: Curve, method: str = "chain") -> None:
     """Solves with a solver's address; warns or raises."""
     lib.wiggly_set_method(solver, word("solver", method, SOLVERS))
@@ -243,7 +279,7 @@ class Solver:
         self.curve = Curve(n, 1 / fps if fps > 0 else 0)
         self._spline = spline  # holds the tracks
         self._desc, self.knots = spline._describe(n, fps)
-        self._handle = Handle("create", max(n, 1), spline._room(n))
+        self._handle = Handle(lib.wiggly_create, lib.wiggly_destroy, max(n, 1), spline._room(n))
         self._call = lib.wiggly_solve
         self._arguments = (self._handle.at, addressof(self._desc), self.curve._at)
 
