@@ -15,6 +15,15 @@ export PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1 TMPDIR=$scratch
 WIGGLY_LIBRARY=$PWD/$(ls "$B"/libwiggly.so.* | head -n 1)
 [ "${B#/}" = "$B" ] || WIGGLY_LIBRARY=$(ls "$B"/libwiggly.so.* | head -n 1)
 export WIGGLY_LIBRARY
+wheels=("$B"/wheels/*manylinux*_x86_64.whl) # of make wheel
+if [ -e "${wheels[0]}" ]; then
+    version=$(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
+    mkdir "$scratch/wheels"
+    cp "${wheels[0]}" "$scratch/wheels"
+    name=${wheels[0]##*-none-}
+    expect 0 "the extension is packed" tools/pack-blender.sh "$scratch" "$version" "${name%.whl}"
+    export ZIP=$scratch/wiggly-blender-$version.zip
+fi
 for python in $pythons; do
     for test in blender/tests/test_*.py; do
         expect 0 "$test" "$python" "$test"

@@ -113,6 +113,18 @@ def without_parent():
     turns_over(rig, 'a chain without a parent', 'tail_1')
 
 
+def long_names():
+    rig = fresh(bend=0.3)
+    rig.data.bones['tail_1'].name = 'ä"' * 20
+    add(rig, rig.pose.bones[1].name, follow=False)
+    chain = rig.wiggly.chains[0]
+    ok('names may be long and strange', len(chains.bones_of(rig, chain)) == 4)
+    key(rig, chain.channels[0].spline, (10, 1))
+    ok('and move', abs(local(rig, 'tail_2').to_euler().z) >= 0 and curves.part(rig, rig.wiggly.splines[0], 're').evaluate(10) == 1)
+    bpy.ops.wiggly.remove()
+    ok('and go', not rig.animation_data)
+
+
 def nla():
     rig = wagging()
     frames = [3, 9, 21, 40]
@@ -146,4 +158,4 @@ def many_actions():
     ok('and the first one keeps its own', poses(rig, [3, 9]) == before)
 
 
-main(modes, objects, constraints, ik, without_parent, nla, many_actions)
+main(modes, objects, constraints, ik, without_parent, long_names, nla, many_actions)

@@ -200,19 +200,24 @@ def unique(name, taken):
     return next(each for each in (name if n == 1 else f'{name} {n}' for n in range(1, len(taken) + 2)) if each not in taken)
 
 
-def make(owner, bones, follow, loop=False):
-    """Adds a chain with a spline for each of two axes."""
+def check(owner, bones):
+    """Raises what keeps a chain from being made."""
     if owner.override_library:
         raise ValueError(f'"{owner.name}" is a library override: add the wiggle in the file that it comes from')
     for bone in bones:
         if any(con.name.startswith('Wiggle ') for con in bone.constraints):
             raise ValueError(f'"{bone.name}" already wiggles: remove that first')
     target_for(owner, bones[0])
+
+
+def make(owner, bones, follow, loop=False):
+    """Adds a chain with a spline for each of two axes."""
     wiggly = owner.wiggly
     name = bones[0].name
-    bare = name.rstrip('0123456789').rstrip('_-. ')
+    bare = name.rstrip('0123456789').rstrip('_-. ') or name
+    bare = bare.encode()[:48].decode(errors='ignore')  # the name of a constraint has room for 63 bytes
     chain = wiggly.chains.add()
-    chain.name = unique(bare or name, set(wiggly.chains.keys()) | {s.name[:-5] for s in wiggly.splines if s.name.endswith(' side')})
+    chain.name = unique(bare, set(wiggly.chains.keys()) | {s.name[:-5] for s in wiggly.splines if s.name.endswith(' side')})
     points = [bone.bone.head_local for bone in bones] + [bones[-1].bone.tail_local]
     length = max(sum((b - a).length for a, b in zip(points, points[1:])) * owner.matrix_world.median_scale, 1e-3)
     count = len(bones)

@@ -46,7 +46,10 @@ class WIGGLY_OT_add(Operator):
     def run(self, context, owner):
         action = curves.action_of(owner)
         loop = self.loop or bool(action and action.use_frame_range and action.use_cyclic)
-        for bones in chains.of_selection(context):
+        rows = chains.of_selection(context)
+        for bones in rows:
+            chains.check(owner, bones)
+        for bones in rows:
             chains.make(owner, bones, self.follow, loop)
         curves.list_of(owner, make=True)
         if self.follow:
