@@ -247,8 +247,7 @@ static bool take_picture(struct app *app, struct error *error)
 static bool is_own_character(const struct document *document, const char *path)
 {
     char own[PATH_LIMIT], file[PATH_LIMIT];
-    for (int r = document_next_rig(document, RIG_MODEL, 0); r >= 0;
-         r = document_next_rig(document, RIG_MODEL, r + 1)) {
+    for (int r = -1; (r = document_next_rig(document, RIG_MODEL, r)) >= 0;) {
         const bool known = path_resolve(document->folder, document->rigs[r]->model.model, own);
         if (known && path_resolve(NULL, path, file) && strcmp(own, file) == 0) return true;
     }

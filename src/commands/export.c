@@ -53,8 +53,7 @@ static bool write_motion(struct job *job, struct opened *opened, struct error *e
 static bool write_paint(const struct job *job, const struct document *document, struct error *error)
 {
     const char *name = job->options.rig;
-    int i = document_next_rig(document, RIG_CHARACTER, 0);
-    for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
+    for (int i = -1; (i = document_next_rig(document, RIG_CHARACTER, i)) >= 0;) {
         const struct rig *rig = document->rigs[i];
         const struct paint *paint = rig->character.painted;
         if (!paint || (name && strcmp(rig_title(rig), name) != 0)) continue;

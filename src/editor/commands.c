@@ -47,12 +47,6 @@ static void run_insert(struct editor *e, int argument)
     core_insert_on_curve(&e->core, core_frame(&e->core), true, argument);
 }
 
-static bool has_pin(const struct editor *editor)
-{
-    int rig;
-    return pins_selected(&editor->core, &rig) != NULL;
-}
-
 /// Escape undoes one mode at a time: brush, bone picking, presenting, selected bone, selected pin, selection.
 static void run_select_none(struct editor *e, int argument)
 {
@@ -65,7 +59,7 @@ static void run_select_none(struct editor *e, int argument)
         presenter_toggle(&e->core, 0);
     } else if (e->core.bone.any) {
         bones_clear(&e->core);
-    } else if (has_pin(e)) {
+    } else if (pins_any_selected(&e->core)) {
         pins_clear(&e->core);
     } else {
         selection_clear(&e->core.selection);
@@ -167,7 +161,7 @@ static void run_nudge(struct editor *editor, int way)
     const unsigned mods = editor->core.mods;
     const double size = mods & MOD_SHIFT ? 10 : mods & MOD_CTRL ? 0.1 : 1;
     const double across = size * way_sign[way][0], up = -size * way_sign[way][1];
-    if (has_pin(editor)) {
+    if (pins_any_selected(&editor->core)) {
         stage_nudge_pin(editor->stage, &editor->core, across, up);
     } else {
         curves_nudge(editor->curves, &editor->core, across, up);
@@ -488,7 +482,7 @@ void command_run(struct editor *editor, const struct command *command)
     if (command->inspector) command->inspector(editor->inspector, argument);
     if (command->section) inspector_unfold(editor->inspector, command->section);
     if (command->request) ask_for(editor, command->request, argument);
-    const bool pins = command->when & PINS && has_pin(editor);
+    const bool pins = command->when & PINS && pins_any_selected(&editor->core);
     if (pins) pins_select_neighbour(core, argument);
     const struct knot *knot = command->knot && !pins ? command->knot(core, argument) : NULL;
     if (knot) curves_reveal(editor->curves, core, knot->frame, core_knot_value(core, core->active, knot));

@@ -114,8 +114,7 @@ static const char *bone_name(const struct rig *character, const char *text)
 static bool find_bone(struct editor *editor, const struct target *target, float xy[2])
 {
     const struct document *document = editor->core.document;
-    int r = document_next_rig(document, RIG_MODEL, 0);
-    for (; r >= 0; r = document_next_rig(document, RIG_MODEL, r + 1)) {
+    for (int r = -1; (r = document_next_rig(document, RIG_MODEL, r)) >= 0;) {
         const struct imported *shown = bones_character(&editor->core, r);
         const int node = shown ? gltf_find_node(&shown->gltf, bone_name(document->rigs[r], target->name)) : -1;
         if (node >= 0 && stage_bone_point(editor->stage, &editor->core, r, node, xy)) return true;

@@ -258,9 +258,9 @@ static void update_characters(struct models *models, const struct document *docu
     const int count = document_count_rigs(document, RIG_CHARACTER);
     struct character_model *characters = models->characters =
         need_more(models->characters, (size_t)count + 1, sizeof *characters);
-    int rig = document_next_rig(document, RIG_CHARACTER, 0);
-    for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
+    for (int i = 0, rig = -1; i < count; i++) {
         struct error trouble = {0};
+        rig = document_next_rig(document, RIG_CHARACTER, rig);
         characters[i] =
             (struct character_model){.plain = find_figure(models, document, document->rigs[rig], &trouble)};
         keep_first(first, &trouble);
@@ -287,12 +287,12 @@ static bool make_poses(struct placed_model *placed, const struct imported *impor
 static void update_tails(struct models *models, const struct document *document)
 {
     const int count = document_count_rigs(document, RIG_TAIL), level = fox_level(count);
-    int rig = document_next_rig(document, RIG_TAIL, 0);
     while (models->tail_count > count) free_placed(&models->tails[--models->tail_count]);
     if (count > models->tail_count) models->tails = need_more(models->tails, (size_t)count, sizeof *models->tails);
     while (models->tail_count < count) models->tails[models->tail_count++] = (struct placed_model){0};
-    for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_TAIL, rig + 1)) {
+    for (int i = 0, rig = -1; i < count; i++) {
         struct placed_model *placed = &models->tails[i];
+        rig = document_next_rig(document, RIG_TAIL, rig);
         const int joints = document->rigs[rig]->tail.joints;
         if (placed->joints == joints && placed->level == level) continue;
         free_placed(placed);
@@ -322,9 +322,9 @@ static void update_placed(struct models *models, const struct document *document
     drop_placed(models);
     const int count = document_count_rigs(document, RIG_MODEL);
     struct placed_model *placed = models->placed = need_more(models->placed, (size_t)count + 1, sizeof *placed);
-    int rig = document_next_rig(document, RIG_MODEL, 0);
-    for (int i = 0; i < count; i++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
+    for (int i = 0, rig = -1; i < count; i++) {
         struct error trouble = {0};
+        rig = document_next_rig(document, RIG_MODEL, rig);
         place_model(models, document, &document->rigs[rig]->model, &placed[i], &trouble);
         models->placed_count++;
         keep_first(first, &trouble);
@@ -334,8 +334,7 @@ static void update_placed(struct models *models, const struct document *document
 /// Whether all chains find their bones, and pins their points.
 static bool check_chains(const struct models *models, const struct document *document, struct error *error)
 {
-    for (int r = document_next_rig(document, RIG_CHAIN, 0); r >= 0;
-         r = document_next_rig(document, RIG_CHAIN, r + 1)) {
+    for (int r = -1; (r = document_next_rig(document, RIG_CHAIN, r)) >= 0;) {
         const struct chain *chain = &document->rigs[r]->chain;
         const struct imported *imported =
             models_imported(models, document, document_find_model(document, chain->model, chain->by_file));
@@ -362,20 +361,22 @@ bool models_update(struct models *models, const struct document *document, struc
 
 bool models_suit(const struct models *models, const struct document *document)
 {
-    int rig = document_next_rig(document, RIG_MODEL, 0);
-    if (document_count_rigs(document, RIG_CHARACTER) != models->character_count) return false;
-    for (int i = 0; i < models->placed_count; i++, rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
+    if (document_count_rigs(document, RIG_CHARACTER) != models->character_count ||
+        document_count_rigs(document, RIG_MODEL) != models->placed_count)
+        return false;
+    for (int i = 0, rig = -1; i < models->placed_count; i++) {
         const char *path = models->placed[i].path;
-        if (rig < 0 || !path || strcmp(path, document->rigs[rig]->model.model) != 0) return false;
+        rig = document_next_rig(document, RIG_MODEL, rig);
+        if (!path || strcmp(path, document->rigs[rig]->model.model) != 0) return false;
     }
-    return rig < 0;
+    return true;
 }
 
 void models_follow(struct models *models, const struct document *document)
 {
-    int rig = document_next_rig(document, RIG_CHARACTER, 0);
-    for (int i = 0; i < models->character_count && rig >= 0;
-         i++, rig = document_next_rig(document, RIG_CHARACTER, rig + 1)) {
+    for (int i = 0, rig = -1; i < models->character_count; i++) {
+        rig = document_next_rig(document, RIG_CHARACTER, rig);
+        if (rig < 0) break;
         const struct paint *paint = document->rigs[rig]->character.painted;
         struct character_model *model = &models->characters[i];
         if (paint && (!model->plain || !models_paint_fits(paint, model->plain))) paint = NULL;

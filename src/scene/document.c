@@ -316,9 +316,9 @@ int document_find_rig_id(const struct document *document, unsigned id)
     return -1;
 }
 
-int document_next_rig(const struct document *document, enum rig_kind kind, int from)
+int document_next_rig(const struct document *document, enum rig_kind kind, int before)
 {
-    for (int i = from; i < document->rig_count; i++) {
+    for (int i = before + 1; i < document->rig_count; i++) {
         if (document->rigs[i]->kind == kind) return i;
     }
     return -1;
@@ -326,9 +326,9 @@ int document_next_rig(const struct document *document, enum rig_kind kind, int f
 
 int document_find_rig(const struct document *document, enum rig_kind kind, int n)
 {
-    int found = n < 0 ? -1 : document_next_rig(document, kind, 0);
-    for (; n > 0 && found >= 0; n--) found = document_next_rig(document, kind, found + 1);
-    return found;
+    for (int r = -1; n >= 0 && (r = document_next_rig(document, kind, r)) >= 0; n--)
+        if (n == 0) return r;
+    return -1;
 }
 
 int document_count_rigs(const struct document *document, enum rig_kind kind)
@@ -359,12 +359,11 @@ struct character_rig *document_character(const struct document *document, int n)
 
 int document_find_model(const struct document *document, const char *text, bool by_file)
 {
-    int rig = document_next_rig(document, RIG_MODEL, 0);
-    for (; rig >= 0; rig = document_next_rig(document, RIG_MODEL, rig + 1)) {
+    for (int rig = -1; (rig = document_next_rig(document, RIG_MODEL, rig)) >= 0;) {
         const char *own = by_file ? document->rigs[rig]->model.model : document->rigs[rig]->name;
-        if (own && strcmp(own, text) == 0) break;
+        if (own && strcmp(own, text) == 0) return rig;
     }
-    return rig;
+    return -1;
 }
 
 bool document_follows(const struct document *document, int spline, int rig)
@@ -378,11 +377,10 @@ bool document_follows(const struct document *document, int spline, int rig)
 
 int document_find_chain(const struct document *document, const char *name)
 {
-    int rig = document_next_rig(document, RIG_CHAIN, 0);
-    for (; rig >= 0; rig = document_next_rig(document, RIG_CHAIN, rig + 1)) {
-        if (document->rigs[rig]->name && strcmp(document->rigs[rig]->name, name) == 0) break;
+    for (int rig = -1; (rig = document_next_rig(document, RIG_CHAIN, rig)) >= 0;) {
+        if (document->rigs[rig]->name && strcmp(document->rigs[rig]->name, name) == 0) return rig;
     }
-    return rig;
+    return -1;
 }
 
 int spline_find_knot(const struct document *document, const struct spline *spline, int sample)

@@ -164,8 +164,8 @@ int document_find_spline_id(const struct document *document, unsigned id);
 /// Index of the rig with that id, or -1.
 int document_find_rig_id(const struct document *document, unsigned id);
 
-/// Index of the first rig of a kind at `from` or later, or -1.
-int document_next_rig(const struct document *document, enum rig_kind kind, int from);
+/// Index of the first rig of a kind after another, or of all if that is -1; -1 if there is none.
+int document_next_rig(const struct document *document, enum rig_kind kind, int before);
 
 /// Index of the n-th rig of a kind, from 0 on, or -1; and how many there are.
 int document_find_rig(const struct document *document, enum rig_kind kind, int n);

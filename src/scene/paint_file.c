@@ -103,8 +103,7 @@ bool paint_write(const struct paint *paint, const char *path, struct error *erro
 bool scene_read_paint(struct document *document, struct error *error)
 {
     struct error first = {0};
-    int i = document_next_rig(document, RIG_CHARACTER, 0);
-    for (; i >= 0; i = document_next_rig(document, RIG_CHARACTER, i + 1)) {
+    for (int i = -1; (i = document_next_rig(document, RIG_CHARACTER, i)) >= 0;) {
         const struct character_rig *character = &document->rigs[i]->character;
         if (!character->paint_file || character->painted) continue;
         struct error trouble = {0};

@@ -32,13 +32,7 @@ static bool has_knots(const struct core *core)
 
 static bool has_selected(const struct core *core) { return selected_count(core) > 0; }
 
-static bool has_pin(const struct core *core)
-{
-    int rig;
-    return pins_selected(core, &rig) != NULL;
-}
-
-static bool has_chosen(const struct core *core) { return has_selected(core) || has_pin(core); }
+static bool has_chosen(const struct core *core) { return has_selected(core) || pins_any_selected(core); }
 
 static bool has_bone(const struct core *core)
 {
@@ -82,7 +76,7 @@ static const struct {
     [NEEDS_KNOTS] = {has_knots, "Insert a knot first."},
     [NEEDS_SELECTED] = {has_selected, "Select a knot first."},
     [NEEDS_CHOSEN] = {has_chosen, "Select a knot or a pin first."},
-    [NEEDS_PIN] = {has_pin, "Select a pin first."},
+    [NEEDS_PIN] = {pins_any_selected, "Select a pin first."},
     [NEEDS_BONE] = {has_bone, "Click a bone of an imported character first."},
     [NEEDS_RIG] = {has_rig, "Add a tail or a character first."},
     [NEEDS_TAIL] = {has_tail, "Add a tail or a chain first."},

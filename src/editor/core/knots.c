@@ -128,9 +128,8 @@ void core_remove_knots(struct core *core, const char *label)
 
 void core_delete(struct core *core, int unused)
 {
-    int rig;
     (void)unused;
-    if (pins_selected(core, &rig)) {
+    if (pins_any_selected(core)) {
         pins_delete(core);
     } else {
         core_remove_knots(core, selected_count(core) == 1 ? "Delete knot" : "Delete knots");

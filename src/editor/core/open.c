@@ -11,8 +11,7 @@
 static int first_spline(const struct document *document)
 {
     for (int kind = 0; kind < RIG_KINDS; kind++) {
-        int r = document_next_rig(document, (enum rig_kind)kind, 0);
-        for (; r >= 0; r = document_next_rig(document, (enum rig_kind)kind, r + 1)) {
+        for (int r = -1; (r = document_next_rig(document, (enum rig_kind)kind, r)) >= 0;) {
             if (rig_input_count(document->rigs[r]) > 0) return rig_input(document->rigs[r], 0);
         }
     }

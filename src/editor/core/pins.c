@@ -28,6 +28,12 @@ const struct pin *pins_selected(const struct core *core, int *rig)
     return pin;
 }
 
+bool pins_any_selected(const struct core *core)
+{
+    int rig;
+    return pins_selected(core, &rig) != NULL;
+}
+
 uint32_t pins_color(const struct document *document, int rig)
 {
     const int spline = rig_point_spline(document->rigs[rig]);

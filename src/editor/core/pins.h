@@ -12,8 +12,9 @@ struct pin_place {
     (struct pin_place) { 0, -1 }
 /// Goes to the next pin, rig by rig; NULL after the last.
 const struct pin *pins_next(const struct document *document, struct pin_place *place);
-/// The selected pin and its rig, or NULL.
+/// The selected pin and its rig, or NULL; and whether there is one.
 const struct pin *pins_selected(const struct core *core, int *rig);
+bool pins_any_selected(const struct core *core);
 /// The colour of a rig's pins: its first spline's.
 uint32_t pins_color(const struct document *document, int rig);
 void pins_visit(struct core *core, const struct pin *pin);

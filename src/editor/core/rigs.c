@@ -12,8 +12,7 @@ static const double ROOM = 1.2;   ///< metres, if a width is unknown
 
 bool rigs_have_bones(const struct core *core)
 {
-    int r = document_next_rig(core->document, RIG_MODEL, 0);
-    for (; r >= 0; r = document_next_rig(core->document, RIG_MODEL, r + 1)) {
+    for (int r = -1; (r = document_next_rig(core->document, RIG_MODEL, r)) >= 0;) {
         const struct imported *imported = models_imported(core->models, core->document, r);
         if (!imported || imported->skeleton.count > 0) return true;
     }
@@ -25,7 +24,7 @@ enum lead rigs_lead(const struct core *core)
     static const enum rig_kind kinds[] = {
         [LEAD_TAIL] = RIG_TAIL, [LEAD_CHARACTER] = RIG_CHARACTER, [LEAD_CHAIN] = RIG_CHAIN, [LEAD_MODEL] = RIG_MODEL};
     enum lead lead = LEAD_TAIL;
-    while (lead < LEAD_MESH && document_next_rig(core->document, kinds[lead], 0) < 0) lead++;
+    while (lead < LEAD_MESH && document_next_rig(core->document, kinds[lead], -1) < 0) lead++;
     if (lead == LEAD_MESH) return LEAD_NOTHING;
     return lead == LEAD_MODEL && !rigs_have_bones(core) ? LEAD_MESH : lead;
 }

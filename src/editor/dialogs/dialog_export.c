@@ -355,7 +355,7 @@ static void build_flags(struct dialogs *dialogs, const struct document *document
 /// The default clip name: for an imported character, its current clip's.
 static const char *usual_clip(const struct document *document)
 {
-    const int rig = document_next_rig(document, RIG_MODEL, 0);
+    const int rig = document_next_rig(document, RIG_MODEL, -1);
     return rig >= 0 && document->rigs[rig]->model.clip ? document->rigs[rig]->model.clip : "as the scene";
 }
 

@@ -37,36 +37,30 @@ static unsigned what_there_is(const struct core *core)
     return found;
 }
 
-static bool always(const struct inspector *in)
+static bool always(const struct core *core)
 {
-    (void)in;
+    (void)core;
     return true;
 }
 
 /// Without a spline the rigs matter more.
-static bool has_no_spline(const struct inspector *in) { return core_active_spline(in->core) == NULL; }
+static bool has_no_spline(const struct core *core) { return core_active_spline(core) == NULL; }
 
-static bool has_bone(const struct inspector *in)
+static bool has_bone(const struct core *core)
 {
-    return has_no_spline(in) || in->core->bone.any || in->core->pick.use != BONE_SELECTED;
+    return has_no_spline(core) || core->bone.any || core->pick.use != BONE_SELECTED;
 }
 
-static bool has_brush(const struct inspector *in) { return in->core->brush.on; }
-
-static bool has_pin(const struct inspector *in)
-{
-    int rig;
-    return pins_selected(in->core, &rig) != NULL;
-}
+static bool has_brush(const struct core *core) { return core->brush.on; }
 
 /// In order. Replays address headers by `name`.
 static const struct section {
     const char *name, *title;
     const char *(*titled)(struct inspector *in); ///< replaces a fixed title
     void (*build)(struct inspector *in);
-    unsigned needs;                            ///< shown if one of these is there; 0: always
-    bool (*shown)(const struct inspector *in); ///< shown without More; NULL: only on request
-    bool closed;                               ///< initially
+    unsigned needs;                         ///< shown if one of these is there; 0: always
+    bool (*shown)(const struct core *core); ///< shown without More; NULL: only on request
+    bool closed;                            ///< initially
 } sections[] = {
     {"section.feel", "Feel", NULL, inspector_feel, SPLINE, always, false},
     {"section.knot", NULL, inspector_knot_title, inspector_knot, SPLINE, always, false},
@@ -77,7 +71,7 @@ static const struct section {
     {"section.tail", NULL, tail_title, inspector_tail, TAILS | CHAINS, NULL, false},
     {"section.character", "Character", NULL, inspector_character, CHARACTERS, has_brush, false},
     {"section.meadow", "Meadow", NULL, inspector_meadow, MEADOWS, NULL, false},
-    {"section.pins", "Pins", NULL, inspector_pins, TAILS | CHAINS | CHARACTERS, has_pin, false},
+    {"section.pins", "Pins", NULL, inspector_pins, TAILS | CHAINS | CHARACTERS, pins_any_selected, false},
     {"section.advanced", "Advanced", NULL, inspector_advanced, SPLINE, NULL, true},
     {"section.poles", "Poles and response", NULL, inspector_poles, SPLINE, NULL, true},
     {"section.limits", "Limits and steadiness", NULL, inspector_limits, SPLINE, NULL, true},
@@ -106,7 +100,7 @@ static bool is_shown(const struct inspector *in, int i)
 {
     const struct section *section = &sections[i];
     if (section->needs && !(section->needs & what_there_is(in->core))) return false;
-    return in->core->more || in->called[i] || (section->shown && section->shown(in));
+    return in->core->more || in->called[i] || (section->shown && section->shown(in->core));
 }
 
 /// The button that shows all sections, or fewer.

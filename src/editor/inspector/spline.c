@@ -102,8 +102,7 @@ enum { MAX_MODELS = 16, MODEL_TEXT = 112 }; ///< models offered
 static int add_models(const struct inspector *in, struct ui_item *items, char texts[][MODEL_TEXT], int *models)
 {
     int count = 0;
-    for (int r = document_next_rig(in->core->document, RIG_MODEL, 0); r >= 0 && count < MAX_MODELS;
-         r = document_next_rig(in->core->document, RIG_MODEL, r + 1)) {
+    for (int r = -1; count < MAX_MODELS && (r = document_next_rig(in->core->document, RIG_MODEL, r)) >= 0;) {
         if (!bones_character(in->core, r)) continue;
         snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(in->core->document->rigs[r]));
         items[count] = (struct ui_item){texts[count], texts[count], 0};

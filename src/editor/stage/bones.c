@@ -183,8 +183,7 @@ static int model_under(const struct stage *stage, const struct core *core)
     const struct stage_view *view = &stage->view;
     if (core->hover.kind == HOVER_BONE) return core->hover.model;
     if (core->brush.on || !rect_contains(view->viewport, core->pointer_x, core->pointer_y)) return -1;
-    int rig = document_next_rig(core->document, RIG_MODEL, 0);
-    for (; rig >= 0; rig = document_next_rig(core->document, RIG_MODEL, rig + 1)) {
+    for (int rig = -1; (rig = document_next_rig(core->document, RIG_MODEL, rig)) >= 0;) {
         const struct gltf_pose *pose = models_pose(core->models, core->document, rig, POSE_SHOWN);
         for (int m = 0; pose && m < view->model_count; m++) {
             if (view->models[m].pose == pose && is_over(stage, core, &view->models[m])) return rig;

@@ -31,8 +31,8 @@ int overlay_rig(const struct stage *stage, const struct core *core)
 static int overlay_pose_rig(const struct stage *stage, const struct core *core)
 {
     const struct document *document = core->document;
-    const int first = document_next_rig(document, RIG_CHARACTER, 0);
-    for (int r = first; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r + 1)) {
+    const int first = document_next_rig(document, RIG_CHARACTER, -1);
+    for (int r = first; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r)) {
         const struct rig *rig = document->rigs[r];
         for (int i = 0; i < rig_input_count(rig); i++) {
             if (rig_input(rig, i) == core->active) return r;

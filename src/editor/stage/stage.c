@@ -289,7 +289,7 @@ struct rect stage_figure(const struct stage *stage, const struct core *core)
 /// Initial azimuth for imported characters, taken from the first.
 static float azimuth_of_models(const struct core *core)
 {
-    const int rig = document_next_rig(core->document, RIG_MODEL, 0);
+    const int rig = document_next_rig(core->document, RIG_MODEL, -1);
     const struct imported *imported = models_imported(core->models, core->document, rig);
     float back[2];
     return imported && imported_back(imported, back) ? atan2f(-back[1], back[0]) - FROM_BEHIND : AZIMUTH_OF_ONE;
@@ -371,9 +371,9 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     view->meadow.count = 0;
     stage->strand_count = stage->bone_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
-        int rig = document_next_rig(document, (enum rig_kind)kind, 0);
-        for (int n = 0; rig >= 0; n++, rig = document_next_rig(document, (enum rig_kind)kind, rig + 1)) {
-            kinds[kind]->pose(stage, core, rig, n);
+        int n = 0;
+        for (int rig = -1; (rig = document_next_rig(document, (enum rig_kind)kind, rig)) >= 0;) {
+            kinds[kind]->pose(stage, core, rig, n++);
         }
     }
     view->has_tail = stage->tail_count > 0;
