@@ -59,7 +59,10 @@ def round_trip():
 
 def dog():
     """Bones of the imported dog are where wiggly puts them."""
-    scene = os.path.join(here, '..', '..', 'assets', 'scenes', 'dog.json')
+    assets = os.path.abspath(os.path.join(here, '..', '..', 'assets'))
+    scene = os.path.join(folder, 'dog.json')
+    with open(os.path.join(assets, 'scenes', 'dog.json')) as file, open(scene, 'w') as copy:
+        copy.write(file.read().replace('../models', f'{assets}/models').replace('"substeps": 4', '"substeps": 1'))
 
     def heads(frames):
         found, rig = [], next(each for each in bpy.data.objects if each.type == 'ARMATURE')
@@ -92,7 +95,7 @@ def dog():
         off = {name: max((now[name] - then[name]).length for now, then in zip(found, known)) for name in found[0]}
         worst = max(off, key=off.get)
         print(f'  bones of the dog are off by {off[worst]:.1e} m at most ({worst})')
-        ok('and moves as in wiggly', off[worst] < 0.01, worst, off[worst], {k: round(v, 4) for k, v in off.items()})
+        ok('and moves as in wiggly', off[worst] < 1e-5, worst, off[worst], {k: round(v, 4) for k, v in off.items()})
 
 
 main(round_trip, dog)

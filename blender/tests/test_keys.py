@@ -53,6 +53,21 @@ def poses_and_still_keys():
     ok('Insert Key keeps what is seen', max(abs(a - b) for a, b in zip(bend(rig, 'tail_3'), was)) < 1e-3, bend(rig, 'tail_3'), was)
 
 
+def scene_changes():
+    rig = fresh()
+    add(rig, follow=False)
+    key(rig, 'tail side', (10, 1), (30, -0.5))
+    scene, before = bpy.context.scene, channel(rig, 'tail side re', 20)
+    scene.render.fps = 48
+    bpy.context.view_layer.update()
+    ok('another frame rate is another swing', abs(channel(rig, 'tail side re', 20) - before) > 0.01)
+    scene.frame_end = 90
+    bpy.context.view_layer.update()
+    ok('more frames are solved', channel(rig, 'tail side re', 80) != channel(rig, 'tail side re', 85))
+    key(rig, 'tail side', (120, 2))
+    ok('to the last key', abs(channel(rig, 'tail side re', 120) - 2) < 1e-6)
+
+
 def loops():
     rig = fresh(frames=(1, 49))
     add(rig, follow=False, loop=True)
@@ -108,4 +123,4 @@ def says():
     ok('nothing was added', len(rig.wiggly.chains) == 1 and len(rig.wiggly.splines) == 2)
 
 
-main(slopes, poses_and_still_keys, loops, follow_through, says)
+main(slopes, poses_and_still_keys, scene_changes, loops, follow_through, says)

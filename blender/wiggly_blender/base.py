@@ -63,8 +63,9 @@ def refresh(context, owner):
         chains.unmute(muted)
         scene.frame_set(frame, subframe=subframe)
     for spline, _, _, motion in wanted:
-        mean = sum(value for value, _ in motion) / len(motion)
-        curves.write(owner, spline, 'y', scene.frame_start, [spline.follow_gain * (value - mean) for value, _ in motion])
+        values = [value for value, _ in motion]
+        mean = (sum(values) - (values[0] + values[-1]) / 2) / max(len(values) - 1, 1)  # of a loop, too, whose ends are one
+        curves.write(owner, spline, 'y', scene.frame_start, [spline.follow_gain * (value - mean) for value in values])
     if wanted:
         solve.edits[0] += 1
         curves.action_of(owner)[curves.STAMP] = stamp(owner, scene)

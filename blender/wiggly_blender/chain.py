@@ -54,10 +54,19 @@ def of_selection(context):
     return rows
 
 
+def points_at_rest(bones):
+    """The ends of the bones in the armature's space, one more than bones; the tip as in wiggly, which knows no tails of bones."""
+    heads, last = [bone.bone.head_local for bone in bones], bones[-1]
+    if last.children:
+        return heads + [last.children[0].bone.head_local]
+    return heads + [2 * heads[-1] - heads[-2] if len(heads) > 1 else last.bone.tail_local]
+
+
 def axes_at_rest(owner, chain, bones):
     """Columns up, along, side in the armature's space."""
     world = owner.matrix_world.to_3x3().normalized().inverted_safe()
-    along = bones[-1].bone.tail_local - bones[0].bone.head_local
+    points = points_at_rest(bones)
+    along = points[-1] - points[0]
     along = along.normalized() if along.length > 0 else Vector((0, 1, 0))
     up, front = world @ Vector((0, 0, 1)), world @ Vector((0, -1, 0))
     side = front if abs(along.dot(up)) > 0.98 else up
@@ -218,7 +227,7 @@ def make(owner, bones, follow, loop=False):
     bare = bare.encode()[:48].decode(errors='ignore')  # the name of a constraint has room for 63 bytes
     chain = wiggly.chains.add()
     chain.name = unique(bare, set(wiggly.chains.keys()) | {s.name[:-5] for s in wiggly.splines if s.name.endswith(' side')})
-    points = [bone.bone.head_local for bone in bones] + [bones[-1].bone.tail_local]
+    points = points_at_rest(bones)
     length = max(sum((b - a).length for a, b in zip(points, points[1:])) * owner.matrix_world.median_scale, 1e-3)
     count = len(bones)
     for axis in ('side', 'up'):
