@@ -15,10 +15,9 @@ static void add_joint(struct form *form, int node)
 static bool add_bones(struct form *form, const struct document *document, int rig, struct error *error)
 {
     struct model_body *body = form->owned;
-    for (int r = -1; (r = document_next_rig(document, RIG_CHAIN, r)) >= 0;) {
+    for (int r = -1; (r = document_next_chain(document, rig, r)) >= 0;) {
         const struct chain *chain = &document->rigs[r]->chain;
         struct chain_bones bones;
-        if (document_find_model(document, chain->model, chain->by_file) != rig) continue;
         if (!chain_find(body->gltf, chain->from, chain->to, &bones, error)) return false;
         for (int n = 0; n < bones.count; n++) add_joint(form, bones.node[n]);
     }

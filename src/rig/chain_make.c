@@ -98,11 +98,9 @@ static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, s
 static const struct chain *find_twin(const struct document *document, const struct chain_wish *wish)
 {
     char other[BONE_NAME_SIZE];
-    for (int r = 0; r < document->rig_count && bone_other_side(wish->from, other); r++) {
-        const struct rig *rig = document->rigs[r];
-        if (rig->kind == RIG_CHAIN && strcmp(rig->chain.from, other) == 0 &&
-            document_find_model(document, rig->chain.model, rig->chain.by_file) == wish->model)
-            return &rig->chain;
+    if (!bone_other_side(wish->from, other)) return NULL;
+    for (int r = -1; (r = document_next_chain(document, wish->model, r)) >= 0;) {
+        if (strcmp(document->rigs[r]->chain.from, other) == 0) return &document->rigs[r]->chain;
     }
     return NULL;
 }

@@ -366,6 +366,15 @@ int document_find_model(const struct document *document, const char *text, bool 
     return -1;
 }
 
+int document_next_chain(const struct document *document, int model, int before)
+{
+    for (int r = before; (r = document_next_rig(document, RIG_CHAIN, r)) >= 0;) {
+        const struct chain *chain = &document->rigs[r]->chain;
+        if (document_find_model(document, chain->model, chain->by_file) == model) return r;
+    }
+    return -1;
+}
+
 bool document_follows(const struct document *document, int spline, int rig)
 {
     const struct joint_motion *motion = document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM].motion;

@@ -181,6 +181,9 @@ struct character_rig *document_character(const struct document *document, int n)
 /// Index of the first model rig with that name, or with that file; -1 if there is none.
 int document_find_model(const struct document *document, const char *text, bool by_file);
 
+/// As document_next_rig(), of the chains on a model.
+int document_next_chain(const struct document *document, int model, int before);
+
 /// Index of the chain with that name, or -1.
 int document_find_chain(const struct document *document, const char *name);
 

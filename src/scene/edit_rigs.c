@@ -25,13 +25,6 @@ static bool is_taken(const struct document *document, const char *name, int own)
     return false;
 }
 
-/// Whether a chain of the document is on the model rig at `model`.
-static bool is_on(const struct document *document, int chain, int model)
-{
-    const struct rig *rig = document->rigs[chain];
-    return rig->kind == RIG_CHAIN && document_find_model(document, rig->chain.model, rig->chain.by_file) == model;
-}
-
 static const struct joint_motion *motion_of_spline(const struct document *document, int spline)
 {
     return document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM].motion;
@@ -47,9 +40,8 @@ bool edit_rig_remove(struct document *document, int rig, struct error *error)
 {
     char users[NAME_SIZE] = "";
     if (!edit_find_rig(document, rig, EDIT_ANY_KIND, error)) return false;
-    for (int r = 0; r < document->rig_count; r++) {
-        if (is_on(document, r, rig)) append_name(users, rig_title(document->rigs[r]));
-    }
+    for (int r = -1; (r = document_next_chain(document, rig, r)) >= 0;)
+        append_name(users, rig_title(document->rigs[r]));
     for (int s = 0; s < document->spline_count; s++) {
         if (document_follows(document, s, rig)) append_name(users, document->splines[s]->name);
     }
@@ -123,9 +115,8 @@ static void rename_users(struct document *document, int rig, const char *old, co
     for (int s = 0; s < document->spline_count; s++) {
         if (document_follows(document, s, rig)) rename_followed(document, s, old, name);
     }
-    for (int r = 0; r < document->rig_count; r++) {
-        const bool goes_by_name = is_on(document, r, rig) && !document->rigs[r]->chain.by_file;
-        if (goes_by_name) set_text(&document_own_rig(document, r)->chain.model, name);
+    for (int r = -1; (r = document_next_chain(document, rig, r)) >= 0;) {
+        if (!document->rigs[r]->chain.by_file) set_text(&document_own_rig(document, r)->chain.model, name);
     }
 }
 

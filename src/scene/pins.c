@@ -248,9 +248,8 @@ static void mark_chains(const struct document *document, const struct chain *pin
                         bool *bases)
 {
     const int model = document_find_model(document, pinned->model, pinned->by_file);
-    for (int r = -1; (r = document_next_rig(document, RIG_CHAIN, r)) >= 0;) {
+    for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
         const struct chain *chain = &document->rigs[r]->chain;
-        if (document_find_model(document, chain->model, chain->by_file) != model) continue;
         for (int c = 0; c < chain->channel_count; c++) mark(group, which, chain->channels[c].spline, bases);
     }
 }

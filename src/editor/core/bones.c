@@ -122,18 +122,12 @@ void bones_clicked(struct core *core, int model, int node)
     }
 }
 
-static bool is_chain_on(const struct document *document, int rig, int model)
-{
-    return document->rigs[rig]->kind == RIG_CHAIN && rig_body(document, rig) == model;
-}
-
 /// A chain of a model that a spline bends, and the first such channel; NULL if there is none.
 static const struct rig *bent_by(const struct document *document, int spline, int model,
                                  const struct channel **channel)
 {
-    for (int r = 0; r < document->rig_count; r++) {
+    for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
         const struct chain *chain = &document->rigs[r]->chain;
-        if (!is_chain_on(document, r, model)) continue;
         for (int c = 0; c < chain->channel_count; c++) {
             *channel = &chain->channels[c];
             if (chain->channels[c].spline == spline) return document->rigs[r];
@@ -165,9 +159,8 @@ static bool bend_by_the_rest(struct core *core, int spline, int model)
 {
     const struct document *document = core->document;
     bool done = true;
-    for (int r = 0; r < document->rig_count; r++) {
-        const int count = is_chain_on(document, r, model) ? document->rigs[r]->chain.channel_count : 0;
-        for (int c = 0; c < count; c++) {
+    for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
+        for (int c = 0; c < document->rigs[r]->chain.channel_count; c++) {
             struct channel changed = document->rigs[r]->chain.channels[c];
             if (changed.spline != spline) continue;
             changed.of = PART_DISPLACEMENT;
@@ -265,8 +258,8 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
 
 static bool begins_at(const struct document *document, int model, const char *from)
 {
-    for (int r = 0; r < document->rig_count; r++) {
-        if (is_chain_on(document, r, model) && strcmp(document->rigs[r]->chain.from, from) == 0) return true;
+    for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
+        if (strcmp(document->rigs[r]->chain.from, from) == 0) return true;
     }
     return false;
 }
