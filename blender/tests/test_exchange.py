@@ -43,6 +43,7 @@ def round_trip():
         rows = [line.split(',') for line in open(path + '.csv')][1:]
         column = curves.part(rig, rig.wiggly.splines['tail side'], 're')
         off = max(abs(float(row[2]) - column.evaluate(float(row[0]))) for row in rows)
+        print(f'  the exported spline is off by {off:.1e}')
         ok('as Blender does', off < 2e-3, off)
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.wiggly.import_scene(filepath=path)
@@ -98,4 +99,21 @@ def dog():
         ok('and moves as in wiggly', off[worst] < 1e-5, worst, off[worst], {k: round(v, 4) for k, v in off.items()})
 
 
-main(round_trip, dog)
+def strange_files():
+    bpy.ops.wm.read_factory_settings(use_empty=True)
+    start = {'wiggly': 1, 'frames': [0, 9], 'splines': [], 'rigs': []}
+    for what, words, text in (('no file', 'FileNotFoundError', None), ('no JSON', 'expected a scene', '{'), ('no scene', "expected a scene", '[]'),
+                              ('a model that is missing', '"no.glb" is not there',
+                               json.dumps({**start, 'rigs': [{'type': 'model', 'model': 'no.glb'}]}))):
+        path = os.path.join(folder, f'{what}.json')
+        if text:
+            with open(path, 'w') as file:
+                file.write(text)
+        try:
+            bpy.ops.wiggly.import_scene(filepath=path)
+            ok(f'{what} is refused', False)
+        except RuntimeError as problem:
+            ok(f'{what} is refused', words in str(problem), problem)
+
+
+main(round_trip, dog, strange_files)

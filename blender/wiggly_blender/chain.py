@@ -26,31 +26,25 @@ def bones_of(owner, chain):
     return sorted((bone for bone in owner.pose.bones if name in bone.constraints), key=lambda bone: len(bone.parent_recursive))
 
 
-def from_bone(bone):
-    """The bone and those after it, to the tip or the first fork."""
-    row = [bone]
-    while len(row[-1].children) == 1:
-        row.append(row[-1].children[0])
-    return row
-
-
 def of_selection(context):
     """The selected bones as rows; a bone selected alone is the first of its row."""
-    selected = list(context.selected_pose_bones or ())
+    selected = list(context.selected_pose_bones_from_active_object or ())
     if not selected:
         raise ValueError('Select the first bone of a chain, or all its bones')
-    heads = [bone for bone in selected if bone.parent not in selected]
     rows = []
-    for head in heads:
+    for head in selected:
+        if head.parent in selected:
+            continue
         row = [head]
+        alone = not any(child in selected for child in head.children)
         while True:
-            after = [bone for bone in row[-1].children if bone in selected]
-            if len(after) > 1:
+            after = [child for child in row[-1].children if alone or child in selected]
+            if len(after) > 1 and not alone:
                 raise ValueError(f'"{row[-1].name}" has several selected children: select one row of bones')
-            if not after:
+            if len(after) != 1:
                 break
             row += after
-        rows.append(from_bone(head) if len(row) == 1 else row)
+        rows.append(row)
     return rows
 
 
@@ -264,18 +258,14 @@ def remove(owner, chain):
 
 def add_spline(owner, name):
     splines = owner.wiggly.splines
-    slot = unique_slot(splines)
+    taken = {spline.slot for spline in splines}
+    slot = next(slot for slot in range(len(taken) + 1) if slot not in taken)
     spline = splines.add()
     spline.name, spline.slot = name, slot
     owner[name] = 0.0
     curves.make_room(owner, spline)
     solve.forget()
     return spline
-
-
-def unique_slot(splines):
-    taken = {spline.slot for spline in splines}
-    return next(slot for slot in range(len(taken) + 1) if slot not in taken)
 
 
 def remove_spline(owner, name):

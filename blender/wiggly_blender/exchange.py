@@ -4,7 +4,7 @@ import math
 import os
 import bpy
 from mathutils import Matrix
-from . import base, chain as chains, curves, solve
+from . import base, chain as chains, curves, settings, solve
 
 NUMBERS = ('frequency', 'damping', 'bandwidth', 'calm')
 DEFAULTS = {'frequency': 0, 'damping': 0, 'bandwidth': 0.1, 'calm': 1}
@@ -152,11 +152,8 @@ def chain_in(owner, data):
 
 def model_in(data, folder):
     """Imports a character and gives back its armature."""
-    path = os.path.join(folder, data['model'])
-    if not os.path.exists(path):
-        raise ValueError(f'"{data["model"]}" is not there')
     before = set(bpy.data.objects)
-    bpy.ops.import_scene.gltf(filepath=path)
+    bpy.ops.import_scene.gltf(filepath=os.path.join(folder, data['model']))
     new = [each for each in bpy.data.objects if each not in before]
     owner = next((each for each in new if each.type == 'ARMATURE'), None)
     if not owner:
@@ -182,23 +179,32 @@ def read(context, path):
     """Opens a scene: its characters, their chains, and the splines of these. Gives back names of what it left out."""
     try:
         with open(path, encoding='utf-8') as file:
-            data = json.load(file)
-        rigs, splines = data['rigs'], {each['name']: each for each in data['splines']}
-        first, last = data['frames']
-    except (OSError, ValueError, KeyError, TypeError) as problem:
-        raise ValueError(f'{os.path.basename(path)}: expected a scene of wiggly ({problem})') from problem
+            return build(context, json.load(file), os.path.dirname(path))
+    except (OSError, json.JSONDecodeError, KeyError, TypeError) as problem:
+        raise ValueError(f'{os.path.basename(path)}: expected a scene of wiggly, got {type(problem).__name__} {problem}') from problem
+    except RuntimeError as problem:  # of the importer
+        raise ValueError(str(problem)) from problem
+
+
+def build(context, data, folder):
+    rigs, splines = data['rigs'], {each['name']: each for each in data['splines']}
+    models = [each for each in rigs if each['type'] == 'model']
+    for each in models:
+        if not os.path.exists(os.path.join(folder, each['model'])):
+            raise ValueError(f'"{each["model"]}" is not there')
     fps, scene = data.get('fps', 24), context.scene
     scene.render.fps = max(1, round(fps))
     scene.render.fps_base = scene.render.fps / fps
-    scene.frame_start, scene.frame_end = first, last
-    owners = {each.get('name', each['model']): model_in(each, os.path.dirname(path)) for each in rigs if each['type'] == 'model'}
+    scene.frame_start, scene.frame_end = data['frames']
+    owners = {each.get('name', each['model']): model_in(each, folder) for each in models}
     for rig in rigs:
         if rig['type'] == 'chain' and rig['model'] in owners:
             owner = owners[rig['model']]
             for channel in rig['channels'] if 'channels' in rig else [rig]:
-                if channel['spline'] not in owner.wiggly.splines:
+                if not settings.of(owner) or channel['spline'] not in owner.wiggly.splines:
                     spline_in(owner, splines[channel['spline']], fps)
             chain_in(owner, rig)
     for owner in owners.values():
-        base.refresh(context, owner)
+        if settings.of(owner):
+            base.refresh(context, owner)
     return [each.get('name', each['type']) for each in rigs if each['type'] not in {'model', 'chain'}]
