@@ -90,7 +90,7 @@ CODECS = $(eval CODECS := $(shell tools/find-codecs.sh "$(CC)"))$(CODECS)
 # No fused multiply-add and no -ffast-math anywhere: a scene gives the same bits at every optimisation level, number of threads
 # and width of vectors; only libm's exp, expm1, sin, cos and pow may differ from one machine to the next.
 comma := ,
-OPTIMISE := $(if $(DEBUG),-O0 -g3,$(if $(SANITIZE),-O1,-O2) -g) $(if $(SANITIZE),-fno-omit-frame-pointer)
+OPTIMISE := $(if $(DEBUG),-O0 -g3,$(if $(SANITIZE),-O1,-O2) -g1) $(if $(SANITIZE),-fno-omit-frame-pointer)
 SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all) \
     $(if $(FUZZ),-fsanitize=fuzzer-no-link$(comma)float-cast-overflow)
 WARNINGS := -Wall -Wextra -Wshadow -Wconversion -Wcast-qual $(if $(WERROR),-Werror)
