@@ -9,6 +9,7 @@
 #   make wheel    the Python package for every platform, in build/wheels (PLATFORMS="win_amd64" for one); fetches zig
 #   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
 #   make blender  the extension for Blender with the Python package of every platform that it runs on, a .zip in build; PLATFORMS as above
+#   make blender-proof  measures the extension in each Blender, and writes the table of docs/blender.md; BPY='PYTHON...' with bpy
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports, and takes in files of others
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
@@ -121,7 +122,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test test-all bench feel adversary wheel blender proof models check figures regress fuzz fuzzers install clean help packages \
+.PHONY: all library run test test-all bench feel adversary wheel blender blender-proof proof models check figures regress fuzz fuzzers install clean help packages \
     compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
@@ -169,6 +170,11 @@ $(B)/models/%.glb: $(B)/%_glb
 blender: PLATFORMS ?= manylinux_2_17_x86_64 win_amd64 macosx_11_0_x86_64 macosx_11_0_arm64
 blender: wheel
 	$(Q)tools/pack-blender.sh $(B) $(VERSION) $(PLATFORMS)
+
+# Each Blender that there is as a Python module: those of $(BPY), Pythons that have it.
+BPY ?= $(B)/proof/venv/bin/python
+blender-proof: library
+	$(Q)PYTHONPATH=python/src WIGGLY_LIBRARY=$(abspath $(SHARED_LIBRARY)) python3 blender/tests/table.py docs/blender.md $(BPY)
 
 # Programs of others evaluate every file that wiggly writes; fetched into the build folder.
 proof: $(B)/wiggly
