@@ -22,8 +22,9 @@ thorough || exit 0
 
 rm -rf "$B/wheels"
 [ -x "$place/bin/python" ] || python3 -m venv "$place" >/dev/null
-"$place/bin/pip" install --quiet --retries 0 hatchling ziglang numpy auditwheel 2>"$scratch/fetch" ||
+"$place/bin/pip" install --quiet --retries 0 hatchling ziglang numpy auditwheel mypy 2>"$scratch/fetch" ||
     { echo "skip - the wheels, because zig could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
+expect 0 "the types are right" "$place/bin/mypy" --cache-dir "$scratch/mypy" --config-file python/pyproject.toml python/src/wiggly
 expect 0 "wheels for every platform" python/wheels.sh "$B"
 exports() { # <library>: the names that leave it, but for the runtimes'
     case $1 in

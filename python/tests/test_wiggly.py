@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 
 import wiggly
-from wiggly import Bound, Group, Knot, Pin, Scene, Spline, Status, solve_many
+from wiggly import Bound, Group, Knot, Pin, Scene, Spline, Status, _library, solve_many
 
 TREE = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("WIGGLY", str(TREE / "build" / "wiggly"))
@@ -60,6 +60,30 @@ class Pages(unittest.TestCase):
 
     def test_the_package_has_the_librarys_version(self):
         self.assertEqual(wiggly.__version__, wiggly.version())
+
+
+class Headers(unittest.TestCase):
+    text = re.sub(r"///.*", "", "".join((TREE / "include/wiggly" / name).read_text(encoding="utf-8") for name in ("wiggly.h", "more.h")))
+
+    def body(self, kind, name):
+        return re.search(rf"typedef {kind} {name} {{(.*?)}} {name};", self.text, re.DOTALL)[1]
+
+    def test_structures_have_the_members_of_the_headers(self):
+        for name, own in (
+            ("desc", _library.CDesc), ("param", _library.CParam), ("curve", _library.CCurve), ("value", _library.CValue),
+            ("numbers", _library.CRows), ("rows", _library.CRows), ("many", _library.CMany), ("pull", _library.CPull),
+            ("pin", _library.CPin), ("bound", _library.CBound), ("explanation", _library.CExplanation), ("poles", _library.CPoles),
+            ("knot", None),
+        ):  # fmt: skip
+            members = re.findall(r"(\w+)\)?(?:\[\d\])*[,;]", self.body("struct", f"wiggly_{name}"))
+            self.assertEqual([field[0] for field in own._fields_] if own else list(_library.KNOT.names), members, name)
+
+    def test_statuses_are_those_of_the_headers(self):
+        names = re.findall(r"WIGGLY_(?:ERROR_)?(\w+)", self.body("enum", "wiggly_status"))
+        self.assertEqual([*Status.__members__, "STATUS_COUNT"], names)
+        self.assertEqual(_library.lib.wiggly_status_text(Status.PIN + 1), b"unknown status")
+        for status in Status:
+            self.assertNotEqual(status.sentence, "unknown status")
 
 
 class Scenes(unittest.TestCase):
