@@ -48,7 +48,7 @@ with zipfile.ZipFile(wheel) as archive:
 END
 }
 mesh() { # <file> <name>
-    "$WIGGLY" simulate "$1" --tets 400 --seconds 1 --substeps 2 -o "$scratch/$2.npy" >"$scratch/said" 2>&1 &&
+    "$WIGGLY" simulate "$1" --tets 400 --seconds 2 --substeps 2 -o "$scratch/$2.npy" >"$scratch/said" 2>&1 &&
         "$WIGGLY" analyze "$scratch/$2.npy" -o "$scratch/$2.glb" --scene "$scratch/$2.json" >"$scratch/analysis" 2>>"$scratch/said" &&
         "$WIGGLY" solve "$scratch/$2.json" -o "$scratch/$2.csv" >>"$scratch/said" && grep -q '[1-9]' <(tail -n +2 "$scratch/$2.csv") &&
         grep -m 1 -oE 'explains [0-9.]+ %' "$scratch/analysis"
