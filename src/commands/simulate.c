@@ -157,12 +157,12 @@ static void report_body(const struct job *job, const struct soft *soft)
     if (soft->lattice.repair[0]) print_line(stdout, "%s: %s", job->mesh, soft->lattice.repair);
     fflush(stdout);
     const double lowest = soft->modes.count ? soft->modes.frequency[0] : 0, period = 1 / soft_frequency(soft);
-    if (!job->modal && !isfinite(job->seconds) && period > job->shake.seconds) {
+    if (!job->modal && period > job->shake.seconds) {
         print_line(
             stderr,
-            "%s: warning: %.4g s, the most that analyze takes, show less than a period of %.4g s, so it cannot "
-            "find the frequency; choose a lower --fps or a stiffer body",
-            job->mesh, job->shake.seconds, period);
+            "%s: warning: %.4g s show less than a period, %.4g s, so analyze cannot find the frequency; choose a "
+            "longer time, of at most %d frames, or a stiffer body",
+            job->mesh, job->shake.seconds, period, ANALYSIS_FRAMES_MAX);
     }
     if (!job->modal && lowest < slow_warning * soft_frequency(soft)) {
         print_line(
