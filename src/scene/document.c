@@ -189,6 +189,14 @@ static size_t spline_bytes(const struct spline *spline)
     return sizeof *spline + (size_t)spline->knot_count * sizeof *spline->knots + strlen(spline->name) + 1;
 }
 
+static int find_rig_id(const struct document *document, unsigned id)
+{
+    for (int i = 0; i < document->rig_count; i++) {
+        if (document->rigs[i]->id == id) return i;
+    }
+    return -1;
+}
+
 size_t document_bytes_beside(const struct document *document, const struct document *other)
 {
     size_t bytes = sizeof *document + (size_t)document->spline_count * sizeof *document->splines +
@@ -200,7 +208,7 @@ size_t document_bytes_beside(const struct document *document, const struct docum
     }
     for (int i = 0; i < document->rig_count; i++) {
         const struct rig *rig = document->rigs[i];
-        const int there = other ? document_find_rig_id(other, rig->id) : -1;
+        const int there = other ? find_rig_id(other, rig->id) : -1;
         if (there < 0 || other->rigs[there] != rig) bytes += rig_bytes(rig, there < 0 ? NULL : other->rigs[there]);
     }
     return bytes;
@@ -304,14 +312,6 @@ int document_find_spline_id(const struct document *document, unsigned id)
     if (guess < (unsigned)document->spline_count && document->splines[guess]->id == id) return (int)guess;
     for (int i = 0; i < document->spline_count; i++) {
         if (document->splines[i]->id == id) return i;
-    }
-    return -1;
-}
-
-int document_find_rig_id(const struct document *document, unsigned id)
-{
-    for (int i = 0; i < document->rig_count; i++) {
-        if (document->rigs[i]->id == id) return i;
     }
     return -1;
 }

@@ -161,9 +161,6 @@ int document_find_spline(const struct document *document, const char *name);
 /// Index of the spline with that id, or -1.
 int document_find_spline_id(const struct document *document, unsigned id);
 
-/// Index of the rig with that id, or -1.
-int document_find_rig_id(const struct document *document, unsigned id);
-
 /// Index of the first rig of a kind after another, or of all if that is -1; -1 if there is none.
 int document_next_rig(const struct document *document, enum rig_kind kind, int before);
 

@@ -408,7 +408,8 @@ static bool same_places(const struct param *a, const struct param *b)
     return same;
 }
 
-bool same_text(const char *a, const char *b) { return a == b || (a && b && strcmp(a, b) == 0); }
+/// NULL is only itself.
+static bool same_text(const char *a, const char *b) { return a == b || (a && b && strcmp(a, b) == 0); }
 
 static bool same_field(const struct field *field, const void *a, const void *b)
 {

@@ -125,9 +125,6 @@ size_t fields_bytes(const struct field *fields, const void *at, const void *othe
 /// The row of a key, or NULL.
 const struct field *fields_find(const struct field *fields, const char *key);
 
-/// Whether two texts are equal; NULL is only itself.
-bool same_text(const char *a, const char *b);
-
 /// Looks a model rig up by name, else by its file; false: there is none.
 bool model_find(const struct document *document, const char *text, bool *by_file, struct error *error);
 

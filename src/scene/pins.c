@@ -13,12 +13,12 @@ int pins_count(const struct document *document)
     return count;
 }
 
-bool pins_hold_rig(const struct rig *rig) { return rig->pin_count > 0 || rig_has_floor(rig); }
+static bool is_held(const struct rig *rig) { return rig->pin_count > 0 || rig_has_floor(rig); }
 
 bool pins_hold_any(const struct document *document)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        if (pins_hold_rig(document->rigs[r])) return true;
+        if (is_held(document->rigs[r])) return true;
     }
     return false;
 }
@@ -27,7 +27,7 @@ bool pins_move_spline(const struct document *document, int spline)
 {
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
-        for (int i = 0; pins_hold_rig(rig) && i < rig_input_count(rig); i++) {
+        for (int i = 0; is_held(rig) && i < rig_input_count(rig); i++) {
             if (rig_point_input(rig, i) == spline) return true;
         }
     }
@@ -156,7 +156,7 @@ bool pins_check(const struct document *document, struct pin_trouble *trouble)
         }
         *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};
         if (!check_floor(rig, trouble)) return false;
-        if (pins_hold_rig(rig) && !check_splines(document, rig, trouble)) return false;
+        if (is_held(rig) && !check_splines(document, rig, trouble)) return false;
     }
     return true;
 }
@@ -166,7 +166,7 @@ static int pinned_rig_of(const struct document *document, int spline)
 {
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
-        for (int i = 0; pins_hold_rig(rig) && i < rig_input_count(rig); i++) {
+        for (int i = 0; is_held(rig) && i < rig_input_count(rig); i++) {
             if (rig_point_input(rig, i) == spline) return r;
         }
     }
@@ -227,7 +227,7 @@ void pin_groups_find(const struct document *document, int *group)
     for (int s = 0; s < document->spline_count; s++) group[s] = -1;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
-        const int inputs = pins_hold_rig(rig) ? rig_input_count(rig) : 0;
+        const int inputs = is_held(rig) ? rig_input_count(rig) : 0;
         for (int i = 0; i < inputs; i++) {
             const int spline = rig_point_input(rig, i);
             if (spline < 0) continue;
@@ -259,7 +259,7 @@ void pin_groups_find_bases(const struct document *document, const int *group, in
     for (int s = 0; s < document->spline_count; s++) bases[s] = false;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
-        const int spline = pins_hold_rig(rig) ? rig_point_spline(rig) : -1;
+        const int spline = is_held(rig) ? rig_point_spline(rig) : -1;
         if (spline < 0 || group[spline] != which) continue;
         for (int k = 0; rig->kind == RIG_TAIL && k < 3; k++) mark(group, which, rig->tail.position[k].track, bases);
         for (int c = 0; rig->kind == RIG_TAIL && c < rig->tail.channel_count; c++) {

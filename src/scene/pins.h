@@ -6,8 +6,7 @@
 
 /// Pins over all rigs.
 int pins_count(const struct document *document);
-/// Whether a rig's splines are solved together, because it has pins or a floor. And whether any rig's are.
-bool pins_hold_rig(const struct rig *rig);
+/// Whether any rig's splines are solved together, because it has pins or a floor.
 bool pins_hold_any(const struct document *document);
 /// Whether a spline moves a rig that has pins or a floor.
 bool pins_move_spline(const struct document *document, int spline);
