@@ -74,9 +74,24 @@ def properties():
     cube.shape_key_add(name='fat')
     keys = cube.data.shape_keys
     swings('a shape key', keys, 'key_blocks["fat"].value', 0, lambda seen: seen.key_blocks['fat'].value, ((1, 0.2), (20, 0.6)))
+    cube['mine'] = 0.1
+    from wiggly_blender import prop
+    prop.add(cube, '["mine"]', 0)
+    prop.remove(cube, '["mine"]', 0)
+    ok('a custom property without keys is as it was', cube['mine'] == 0.1 and list(cube.keys()) == ['mine'], cube['mine'], list(cube.keys()))
+    del cube['mine']
     light = bpy.data.lights.new('light', 'POINT')
     bpy.context.scene.collection.objects.link(bpy.data.objects.new('light', light))
     swings('a light', light, 'energy', 0, lambda seen: seen.energy, ((1, 40.0), (20, 60.0)))
+
+
+def bone_properties():
+    rig = fresh()
+    bone = rig.pose.bones['tail_1']
+    bone['a.b'] = 0.5
+    swings('a property of a bone', rig, 'pose.bones["tail_1"]["a.b"]', 0, lambda seen: seen.pose.bones['tail_1']['a.b'])
+    rig = fresh()
+    swings('a rotation', rig, 'pose.bones["tail_1"].rotation_quaternion', 2, lambda seen: seen.pose.bones['tail_1'].rotation_quaternion[2])
 
 
 def nodes():
@@ -99,13 +114,14 @@ def soft_characters():
         bpy.ops.mesh.primitive_cube_add()
         cube = bpy.context.object
         cube.shape_key_add(name='Basis')
-        names = ['up.re', 'up.im'] + ['up.-re', 'up.-im'] * halved
+        names = ['up.re', 'up.im', 'side.re', 'side.im'] + ['up.-re', 'up.-im', 'side.-re', 'side.-im'] * halved
         for name in names:
             cube.shape_key_add(name=name).value = 0
         cube.data['wiggly'] = {'coordinates': [{'name': 'up', 'frequency': 3.25, 'damping': 0.0625}]}
         bpy.ops.wiggly.shapes()
         keys = cube.data.shape_keys
-        spline = keys.wiggly.splines[0]
+        spline = keys.wiggly.splines['wiggle up']
+        ok('a spline for each pair', len(keys.wiggly.splines) == 2)
         ok('the frequency that wiggly found', (spline.frequency, spline.damping) == (3.25, 0.0625))
         key(keys, spline.name, (10, 1), (22, -0.6))
         off, most = 0, 0
@@ -121,4 +137,4 @@ def soft_characters():
         ok('Remove leaves nothing', not keys.animation_data and not list(keys.keys()))
 
 
-main(soft_characters, bones, constrained, properties, nodes)
+main(soft_characters, bones, constrained, properties, bone_properties, nodes)

@@ -1,5 +1,6 @@
 """Any property that has one number: its own keyframes become the knots, and a driver moves it."""
 import json
+from operator import getitem, setitem
 import bpy
 from . import chain as chains, curves, settings, solve
 
@@ -9,9 +10,13 @@ def found(owner, path, index):
     return next((spline for spline in wiggly.splines if (spline.path, spline.index) == (path, index)), None) if wiggly else None
 
 
-def resolve(owner, path, index):
-    value = owner.path_resolve(path)
-    return value[index] if hasattr(value, '__len__') else value
+def holder(owner, path):
+    """What has the property, its name, and how it is read and written: custom ones by item, to the last digit."""
+    if path.endswith('"]'):
+        at = path.rindex('["')
+        return owner.path_resolve(path[:at]) if at else owner, bpy.utils.unescape_identifier(path[at + 2:-2]), getitem, setitem
+    head, _, name = path.rpartition('.')
+    return owner.path_resolve(head) if head else owner, name, getattr, setattr
 
 
 def add(owner, path, index):
@@ -20,17 +25,18 @@ def add(owner, path, index):
         raise ValueError(f'"{path}" belongs to a {owner.id_type.lower()}, which cannot wiggle')
     if found(owner, path, index):
         raise ValueError(f'"{path}" already wiggles')
-    value = resolve(owner, path, index)
+    target, name, get, _ = holder(owner, path)
+    value = get(target, name)
+    array = hasattr(value, '__len__')
+    value = value[index] if array else value
     if not isinstance(value, float):
         raise ValueError(f'"{path}" is not a decimal number')
     if owner.animation_data and owner.animation_data.drivers.find(path, index=index):
         raise ValueError(f'"{path}" has a driver')
-    name = path.rpartition('.')[2] if not path.startswith('[') else path[2:-2]
     if path.startswith('key_blocks['):
         name = path.split('"')[1]
-    array = hasattr(owner.path_resolve(path), '__len__')
     spline = chains.add_spline(owner, chains.unique(f'wiggle {name}' + (f' {"XYZW"[index]}' if array and index < 4 else ''), set(owner.keys())))
-    spline.path, spline.index, spline.before, spline.equilibrium, spline.start = path, index, value, value, 'free'
+    spline.path, spline.index, spline.before, spline.equilibrium, spline.start = path, index, repr(value), value, 'free'
     curve = curves.find(owner, path, index)
     if curve:
         curve.data_path, curve.array_index = curves.path_of(spline.name), 0
@@ -48,20 +54,17 @@ def remove(owner, path, index):
     spline = found(owner, path, index)
     if not spline:
         raise ValueError(f'"{path}" does not wiggle')
-    array = hasattr(owner.path_resolve(path), '__len__')
+    target, name, get, put = holder(owner, path)
+    value, before = get(target, name), float(spline.before)
+    array = hasattr(value, '__len__')
     owner.driver_remove(path, index) if array else owner.driver_remove(path)
     curve = curves.find(owner, curves.path_of(spline.name))
     if curve and not spline.made:
         curve.data_path, curve.array_index = path, index
     if array:
-        owner.path_resolve(path)[index] = spline.before
+        value[index] = before
     else:
-        target, _, name = path.rpartition('.')
-        target = owner.path_resolve(target) if target else owner
-        if name.startswith('['):
-            target[name[2:-2]] = spline.before
-        else:
-            setattr(target, name, spline.before)
+        put(target, name, before)
     chains.remove_spline(owner, spline.name)
 
 
@@ -106,10 +109,11 @@ def add_pairs(keys, measured=()):
 
 
 def remove_pairs(keys):
-    for spline in [spline for spline in keys.wiggly.splines if spline.path == PAIRS]:
+    for name in [spline.name for spline in keys.wiggly.splines if spline.path == PAIRS]:
+        spline = keys.wiggly.splines[name]
         sliders = json.loads(spline.more)['sliders']
         for _, _, block, _ in parts_of(keys, spline.joint):
             block.driver_remove('value')
             block.value = 0
             block.slider_min, block.slider_max = sliders[block.name]
-        chains.remove_spline(keys, spline.name)
+        chains.remove_spline(keys, name)

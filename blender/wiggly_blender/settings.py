@@ -44,7 +44,7 @@ class Spline(bpy.types.PropertyGroup):
     slot: IntProperty(override=SAME)  # of its samples
     path: StringProperty(override=SAME)  # of a property that it moves
     index: IntProperty(override=SAME)
-    before: FloatProperty()  # its value before that
+    before: StringProperty()  # its value before that, to the last digit
     made: BoolProperty()  # its keys were made for the spline
 
 
