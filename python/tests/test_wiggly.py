@@ -115,6 +115,11 @@ class Scenes(unittest.TestCase):
             path.write_text(json.dumps(scene))
             self.compare(path)
 
+    def test_curves_of_a_rig_are_read_between_samples(self):
+        for name, curve in Scene.load(TREE / "assets/scenes/dog.json").solve().items():
+            between, step = curve(curve.times[:-1] + 0.5 / curve.fps), np.abs(np.diff(curve.total)).max()
+            np.testing.assert_allclose(between, (curve.total[:-1] + curve.total[1:]) / 2, rtol=0, atol=step / 2, err_msg=name)
+
     def test_a_scene_with_a_rig_says_what_it_needs(self):
         path = TREE / "assets" / "scenes" / "hands.json"
         before = os.environ.copy()

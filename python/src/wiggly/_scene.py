@@ -17,6 +17,7 @@ from ._library import Error, shared_solver, warn
 from ._spline import Knot, Spline, from_spring, solve_into
 
 PARAMETERS = ("frequency", "damping", "bandwidth", "equilibrium")
+SWING = ("mode", "start", "frequency", "damping", "bandwidth", "spring", "friction")
 PLAIN = (*PARAMETERS, "calm", "mode", "start", "passive", "limits")
 
 
@@ -103,16 +104,15 @@ class Scene:
             raise Error(f"{self.path}: {name}: {error!r}; `wiggly check` says more") from None
         return curves[name]
 
-    def _solve_spline(self, source: dict[str, Any], tracks: dict[str, Any], solver: str, knotless: bool = False) -> Curve:
+    def _solve_spline(self, source: dict[str, Any], tracks: dict[str, Any], solver: str) -> Curve:
         settings = {"frequency": 0, **{key: source[key] for key in PLAIN if key in source}, **tracks}
         if "spring" in source or "friction" in source:
             settings["frequency"], settings["damping"] = from_spring(source.get("spring", 0), source.get("friction", 0))
         if "variation" in source:
-            settings["variation"], settings["seed"] = source["variation"]["amount"], source["variation"]["seed"]
-        keys = [] if knotless else source.get("knots", [])
+            settings["variation"], settings["seed"] = source["variation"]["amount"], source["variation"].get("seed", 0)
         knots = [
             Knot(k["frame"], 0, still=True) if k.get("still") else
-            Knot(k["frame"], k["value"], k.get("slope"), k.get("stiffness"), k.get("im")) for k in keys
+            Knot(k["frame"], k["value"], k.get("slope"), k.get("stiffness"), k.get("im")) for k in source.get("knots", [])
         ]  # fmt: skip
         spline, curve = Spline(knots, **settings), Curve(self.n, 1 / self.fps)
         samples = np.floor((spline.times - self._first) * self._substeps + 0.5)
@@ -135,12 +135,13 @@ class Scene:
 
     def _solve_by_program(self, solver: str) -> dict[str, Curve]:
         rows = list(csv.reader(self._run("solve", str(self.path), "--solver", solver).splitlines()))
-        table = np.array(rows[1:], dtype=float).T[1:]
+        table = np.array(rows[1:], dtype=float).T[1:].reshape(-1, 3, self.n)
+        solved = dict(zip(self._splines, table))
         curves = {}
-        for i, (name, source) in enumerate(self._splines.items()):
-            still = {key: value for key, value in source.items() if not isinstance(value, dict)}
-            curve = self._solve_spline(still, {}, solver, knotless=True)
-            curve.total[:], curve.re[:], curve.im[:] = table[3 * i : 3 * i + 3]
+        for name, source in self._splines.items():
+            swing = {key: source[key] for key in SWING if key in source}
+            tracks = {key: solved[value["spline"]][0] for key, value in swing.items() if isinstance(value, dict)}
+            curve = curves[name] = self._solve_spline(swing, tracks, solver)  # at rest, for what a curve needs between samples
+            curve.total[:], curve.re[:], curve.im[:] = solved[name]
             curve.y[:] = curve.total - curve.re
-            curves[name] = curve
         return curves
