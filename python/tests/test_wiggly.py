@@ -169,6 +169,7 @@ class Splines(unittest.TestCase):
             ([(0, 0), (1, 1), (1.01, 2)], Status.KNOT_TWICE, 2),
             ([(0, 0), (9, 1)], Status.KNOT_OUTSIDE, 1),
             ([(0, 0), (float("nan"), 1)], Status.KNOT_OUTSIDE, 1),
+            ([(0, 0), (1e300, 1)], Status.KNOT_OUTSIDE, 1),
             ([(0, float("inf"))], Status.KNOT_NUMBER, 0),
             ([(0, 0), Knot(1, 0, slope=1, still=True)], Status.KNOT_STILL, 1),
         ):
@@ -185,6 +186,10 @@ class Splines(unittest.TestCase):
             (lambda: Spline(frequency=np.ones(5)).solve(6), r"track: .* \(6,\), .* got \(5,\)"),
             (lambda: Spline().solve(0, fps=0), "fps"),
             (lambda: Spline(calm=2).solve(5), "calm 0 to 1"),
+            (lambda: Spline(seed=2**31), "seed"),
+            (lambda: Group([Spline()]).solve(5, pins=[Pin(0, {0: [1, 0]}, [0, 0, 0])]), r"three numbers, .* got \(2,\)"),
+            (lambda: Group([Spline()]).solve(5, pins=[Pin(float("nan"), {}, [0, 0, 0])]), "a pin is outside"),
+            (lambda: Group([Spline()]).solve(5, pins=[Pin(0, {3: [1, 0, 0]}, [0, 0, 0])]), "^a pointer is missing or a count"),
         ):
             with self.assertRaisesRegex(ValueError, fragment):
                 wrong()

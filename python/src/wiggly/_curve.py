@@ -46,7 +46,7 @@ class Curve:
     omega: NDArray[np.float64]
 
     def __init__(self, n: int, step: float) -> None:
-        self._hold(np.zeros((5, n)), CCurve(sizeof(CCurve), samples=n, step=step))
+        self._hold(np.zeros((5, n)), CCurve(sizeof(CCurve), samples=n, step=step, knot=-1))
         self.status = Status.OK
 
     def _hold(self, block: NDArray[np.float64], struct: CCurve) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from ctypes import addressof, c_double
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -107,13 +107,23 @@ class Group:
 
 
 def _sample(time: float, fps: float) -> int:
-    return int(nearest_samples(np.asarray(time, dtype=float), fps))
+    sample = float(nearest_samples(np.asarray(time, dtype=float), fps))
+    if not abs(sample) < 2**31:
+        report(Status.PIN)
+    return int(sample)
 
 
 def _pin(pin: Pin, fps: float) -> CPin:
     pulls = (CPull * len(pin.pulls))()
     for pull, (spline, c) in zip(pulls, pin.pulls.items()):
         pull.spline = spline
-        for axis, z in zip(pull.c, np.asarray(c, dtype=complex)):
+        for axis, z in zip(pull.c, _three(c, complex)):
             axis[:] = z.real, z.imag
-    return CPin(_sample(pin.time, fps), pulls, len(pulls), (c_double * 3)(*np.asarray(pin.to, dtype=float)))
+    return CPin(_sample(pin.time, fps), pulls, len(pulls), (c_double * 3)(*_three(pin.to, float)))
+
+
+def _three(numbers: ArrayLike, kind: type) -> NDArray[Any]:
+    array: NDArray[Any] = np.asarray(numbers, dtype=kind)
+    if array.shape != (3,):
+        raise ValueError(f"a pin: expected three numbers, for x, y and z, got {array.shape}")
+    return array

@@ -151,6 +151,8 @@ class Spline:
         self._tracks: list[NDArray[np.float64]] = []
         self._desc = desc = CDesc(sizeof(CDesc), knot_count=len(self._knots), calm=calm, has_calm=True)
         desc.mode, desc.start, desc.passive = word("mode", mode, MODES), word("start", start, STARTS), word("passive", passive, PASSIVES)
+        if not 0 <= seed < 2**31:
+            raise ValueError(f"seed: expected a whole number from 0 to 2**31 - 1, got {seed!r}")
         desc.variation, desc.variation_seed = variation, seed
         if limits is not None:
             low, high = limits
@@ -184,9 +186,9 @@ class Spline:
         knots = self._knots.copy()
         if samples is None:
             samples = nearest_samples(self.times, fps)
-        if not samples @ samples < 2.0**62:  # quickly: none is NaN or beyond the library's int
-            for knot in np.flatnonzero(~(np.abs(samples) < 2**31)):
-                report(Status.KNOT_OUTSIDE, int(knot))
+        far = np.abs(samples)
+        if not far.max(initial=0) < 2**31:  # NaN, or beyond the library's int
+            report(Status.KNOT_OUTSIDE, int((~(far < 2**31)).argmax()))
         knots["sample"] = samples
         desc = CDesc.from_buffer_copy(self._desc)
         desc.knots, desc.samples, desc.step = knots.ctypes.data, n, 1 / fps
