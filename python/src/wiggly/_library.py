@@ -170,7 +170,8 @@ def _open() -> ctypes.CDLL:
     """From $WIGGLY_LIBRARY, else this package's folder (a wheel), else the build folder above it, else the system's."""
     here = Path(__file__).resolve().parent
     tree = here.parents[2] / "build"
-    beside = [*here.glob("libwiggly.*"), *here.glob("wiggly.dll"), *sorted(tree.glob("libwiggly.so.*"))]
+    newest = sorted(tree.glob("libwiggly.so.*"), key=os.path.getmtime)[-1:]
+    beside = [*here.glob("libwiggly.*"), *here.glob("wiggly.dll"), *newest]
     path = os.environ.get("WIGGLY_LIBRARY") or next(map(str, beside), None) or find_library("wiggly")
     if not path:
         raise ImportError("libwiggly was not found: install a wheel, run `make library`, or set WIGGLY_LIBRARY to the file")
