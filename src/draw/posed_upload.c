@@ -1,5 +1,4 @@
 /// Uploads characters, their pictures and their poses.
-#include "base/need.h"
 #include "draw/posed.h"
 #include <stdlib.h>
 
@@ -72,7 +71,7 @@ long posed_upload_gltf_pictures(struct posed *mesh, const struct gltf *gltf)
     mesh->picture_count = gltf->image_count;
     mesh->sampler_count = gltf->material_count;
     mesh->pictures = pool_take(&mesh->pool, (size_t)gltf->image_count, sizeof *mesh->pictures);
-    mesh->samplers = need((size_t)gltf->material_count + 1, sizeof *mesh->samplers);
+    mesh->samplers = pool_take(&mesh->pool, (size_t)gltf->material_count, sizeof *mesh->samplers);
     for (int i = 0; i < gltf->image_count; i++) bytes += upload_picture(&mesh->pictures[i], &gltf->images[i]);
     for (int m = 0; m < gltf->material_count; m++) mesh->samplers[m] = sampler_of(&gltf->materials[m].sampler);
     for (int p = 0; p < mesh->part_count; p++) {
