@@ -4,6 +4,7 @@ import bpy
 
 LAYERED = bpy.app.version >= (4, 4, 0)
 SAMPLES, PARTS, STAMP, MADE = 'wiggle samples', ('re', 'im', 'y'), 'wiggle stamp', 'wiggle made'
+SAMPLES_PATH = f'["{SAMPLES}"]'
 HELD, POSE, STIFF = 240000, 1, 2  # in an unused number of a keyframe, `period`: HELD + 1 if `back` is the phase of a pose, + 2 if `amplitude` is a stiffness
 
 
@@ -46,6 +47,11 @@ def list_of(owner, make=False):
 def find(owner, path, index=0):
     curves = list_of(owner)
     return curves.find(path, index=index) if curves else None
+
+
+def all_of(owner):
+    """By path and index: Blender's own find() goes through all."""
+    return {(curve.data_path, curve.array_index): curve for curve in list_of(owner) or ()}
 
 
 def ensure(owner, path, index=0):
@@ -106,7 +112,7 @@ def samples(curve):
 
 def slot_path(spline, part):
     """Where the samples of a spline are: one property holds those of all, because drivers look properties up one by one."""
-    return path_of(SAMPLES), 3 * spline.slot + PARTS.index(part)
+    return SAMPLES_PATH, 3 * spline.slot + PARTS.index(part)
 
 
 def part(owner, spline, name):
@@ -118,7 +124,7 @@ def drop_samples(owner, spline):
     for name in PARTS:
         drop(owner, *slot_path(spline, name))
     curves = list_of(owner)
-    if curves is not None and not any(curve.data_path == path_of(SAMPLES) for curve in curves):
+    if curves is not None and not any(curve.data_path == SAMPLES_PATH for curve in curves):
         groups = groups_of(owner)
         if SAMPLES in groups:
             groups.remove(groups[SAMPLES])

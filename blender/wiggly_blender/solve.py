@@ -90,11 +90,11 @@ def key_of(owner, spline):
     return owner.as_pointer(), owner.name, spline.name
 
 
-def solve(owner, spline, scene):
+def solve(owner, spline, scene, known):
     """Solves a spline if its inputs differ from those solved last."""
     action = curves.action_of(owner)
-    curve = curves.find(owner, curves.path_of(spline.name))
-    im, y = curves.part(owner, spline, 'im'), curves.part(owner, spline, 'y') if spline.follow != 'none' else None
+    curve, im = known.get((curves.path_of(spline.name), 0)), known.get(curves.slot_path(spline, 'im'))
+    y = known.get(curves.slot_path(spline, 'y')) if spline.follow != 'none' else None
     if not action or not (curve or y) and owner.animation_data.nla_tracks:  # a strip may move it
         return
     first, last = range_of(owner, spline, scene, curve)
@@ -143,9 +143,10 @@ def solve_all(scene):
         action = curves.action_of(owner)
         if stored.of(owner) and owner.is_editable and (not action or action.is_editable):
             muted = {channel.spline for chain in owner.wiggly.chains if chain.mute for channel in chain.channels}
+            known = curves.all_of(owner)
             for spline in owner.wiggly.splines:
                 if spline.name not in muted:
-                    solve(owner, spline, scene)
+                    solve(owner, spline, scene, known)
 
 
 @persistent
