@@ -1,6 +1,6 @@
 #!/bin/sh
 # Makes the pictures in assets/pictures, which README and docs show. Run it from the root of the tree.
-# Usage: tools/make-pictures.sh [wiggly]
+# Usage: [BPY=PYTHON] tools/make-pictures.sh [wiggly]
 set -eu
 wiggly=${1:-build/wiggly}
 out=assets/pictures
@@ -95,3 +95,10 @@ picture swing.png 100 --replay "$scratch/swing.replay"
 row flick.png idle 255x230+115+15 29 33 35 44 60
 row held.png held 345x250+75+15 0 46 52 58 66 140
 picture figure7.png 60 assets/scenes/figure7.json
+
+# docs/blender.md, with a Python that has bpy.
+if [ -n "${BPY:-}" ]; then
+    PYTHONPATH=python/src WIGGLY_LIBRARY=$(ls "$PWD/$(dirname "$wiggly")"/libwiggly.so.* | head -n 1) \
+        "${BPY%% *}" blender/tests/pictures.py "$scratch" >"$scratch/log" 2>&1 || { cat "$scratch/log" >&2; exit 1; }
+    for name in blender-tail.png blender-curve.png; do keep $name "$scratch/$name" +dither -colors 96; done
+fi
