@@ -6,9 +6,8 @@ folder=$build/blender zip=$build/wiggly-blender-$2.zip
 shift 2
 rm -rf "$folder" "$zip"
 mkdir -p "$folder/wheels"
-cp blender/wiggly_blender/*.py "$folder"
+cp LICENSE blender/wiggly_blender/*.py "$folder"
 {
-    sed "s/^version = .*/version = \"$version\"/" blender/wiggly_blender/blender_manifest.toml
     echo 'wheels = ['
     for platform; do
         wheel=wiggly-$version-py3-none-$platform.whl
@@ -16,6 +15,7 @@ cp blender/wiggly_blender/*.py "$folder"
         echo "    \"./wheels/$wheel\","
     done
     echo ']'
+    sed "s/^version = .*/version = \"$version\"/" blender/wiggly_blender/blender_manifest.toml
 } >"$folder/blender_manifest.toml"
 (cd "$folder" && python3 -m zipfile -c "$zip" *)
 echo "wrote $zip"
