@@ -1,15 +1,23 @@
 # The Blender extension, in every Blender there is as a Python module (bpy): those of $BPY, Pythons that have it, or of `make proof`.
-# It is fetched, 350 MB, only by `make test-all`.
+# They are fetched, 350 MB each, only by `make test-all`: those of $BPY_VERSIONS, or all.
 . tests/check.sh
 [ -z "${SANITIZE:-}" ] || { echo "skip - Blender loads no sanitized library"; exit 0; }
-place=$B/proof/venv
 has_bpy() { "$1" -c "import importlib.util as u, sys; sys.exit(u.find_spec('bpy') is None)" 2>/dev/null; }
-pythons=${BPY:-$place/bin/python}
-if [ -z "${BPY:-}" ] && ! has_bpy "$place/bin/python"; then
-    thorough || { echo "skip - there is no bpy: name a Python that has it in BPY, or run make proof"; exit 0; }
-    { [ -x "$place/bin/python" ] || python3 -m venv "$place"; } >"$scratch/fetch" 2>&1 &&
-        timeout 900 "$place/bin/pip" install --quiet --retries 0 numpy bpy==4.5.15 >"$scratch/fetch" 2>&1 ||
-        { echo "skip - bpy could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
+
+fetch() { # <version>
+    place=$B/bpy/$1
+    has_bpy "$place/bin/python" ||
+        { python3 -m venv "$place" && timeout 900 "$place/bin/pip" install --quiet --retries 0 numpy "bpy==$1"; } >"$scratch/fetch" 2>&1 ||
+        { echo "skip - bpy $1 could not be fetched: $(tail -n 1 "$scratch/fetch")"; return; }
+    pythons="$pythons $place/bin/python"
+}
+
+pythons=${BPY:-}
+if [ -z "$pythons" ] && thorough; then
+    for version in ${BPY_VERSIONS:-4.2.23 4.5.15 5.0.1}; do fetch "$version"; done
+elif [ -z "$pythons" ]; then
+    pythons=$B/proof/venv/bin/python
+    has_bpy "$pythons" || { echo "skip - there is no bpy: name a Python that has it in BPY, or run make proof"; exit 0; }
 fi
 export PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1 TMPDIR=$scratch
 WIGGLY_LIBRARY=$PWD/$(ls "$B"/libwiggly.so.* | head -n 1)
