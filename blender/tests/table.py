@@ -28,7 +28,7 @@ def shown(name, value):
     if name in VARY:
         return f'{value:.1f}'
     if name == 'rates':
-        return f'{100 * value:.2g} %'
+        return f'{100 * value:.1g} %'
     return '0' if value == 0 else f'{value:.2g}' if value >= 1e-3 else f'< 1e{math.floor(math.log10(value)) + 1}'
 
 
