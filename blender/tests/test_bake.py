@@ -94,6 +94,33 @@ def bone_properties():
     swings('a rotation', rig, 'pose.bones["tail_1"].rotation_quaternion', 2, lambda seen: seen.pose.bones['tail_1'].rotation_quaternion[2])
 
 
+def baked_property():
+    fresh()
+    light = bpy.data.lights.new('light', 'POINT')
+    bpy.context.scene.collection.objects.link(bpy.data.objects.new('light', light))
+    curve = curves.ensure(light, 'energy')
+    for frame, number in ((1, 40), (20, 60), (30, 10)):
+        curve.keyframe_points.insert(frame, number)
+    from wiggly_blender import prop
+    prop.add(light, 'energy', 0)
+    bpy.context.view_layer.update()
+    mine = light.animation_data.action
+
+    def energies():
+        found = []
+        for frame in range(1, 61):
+            bpy.context.scene.frame_set(frame)
+            found.append(light.evaluated_get(bpy.context.evaluated_depsgraph_get()).energy)
+        return found
+
+    live = energies()
+    prop.make_keys(light, 'energy', 0)
+    bpy.context.view_layer.update()
+    off = max(abs(a - b) for a, b in zip(live, energies()))
+    ok('a baked property is as it was', off < 1e-5 and max(live) - min(live) > 40, off)
+    ok('in an action of its own', light.animation_data.action != mine and len(curves.list_of(light)) == 1 and not light.animation_data.drivers)
+
+
 def nodes():
     fresh()
     material = bpy.data.materials.new('skin')
@@ -137,4 +164,4 @@ def soft_characters():
         ok('Remove leaves nothing', not keys.animation_data and not list(keys.keys()))
 
 
-main(soft_characters, bones, constrained, properties, bone_properties, nodes)
+main(soft_characters, bones, constrained, properties, bone_properties, baked_property, nodes)

@@ -23,10 +23,7 @@ def bake(context, owner, chain):
             row.append(angles(seen.pose.bones[bone.name], chain) if by_constraint else
                        turned(seen.pose.bones[bone.name], chain, row))
     scene.frame_set(now, subframe=subframe)
-    old = owner.animation_data.action
-    old.use_fake_user = True
-    owner.animation_data.action = old.copy()
-    owner.animation_data.action.name = f'{old.name} baked'
+    copy_action(owner)
     for bone, row, by_constraint in zip(bones, rows, held):
         if by_constraint:
             con = keep(bone, chain)
@@ -41,6 +38,13 @@ def bake(context, owner, chain):
         curves.drop(owner, curves.path_of(spline.name))
         curves.drop_samples(owner, spline)
     chain.mute = True
+
+
+def copy_action(owner):
+    old = owner.animation_data.action
+    old.use_fake_user = True
+    owner.animation_data.action = old.copy()
+    owner.animation_data.action.name = f'{old.name} baked'
 
 
 def angles(seen, chain):

@@ -2,7 +2,7 @@
 import json
 from operator import getitem, setitem
 import bpy
-from . import chain as chains, curves, settings, solve
+from . import bake, chain as chains, curves, settings, solve
 
 
 def found(owner, path, index):
@@ -66,6 +66,18 @@ def remove(owner, path, index):
     else:
         put(target, name, before)
     chains.remove_spline(owner, spline.name)
+
+
+def make_keys(owner, path, index):
+    """A copy of the action in which the property has a key at every frame of the scene, and wiggles no more."""
+    scene, spline = bpy.context.scene, found(owner, path, index)
+    if not spline:
+        raise ValueError(f'"{path}" does not wiggle')
+    frames, curve = range(scene.frame_start, scene.frame_end + 1), curves.part(owner, spline, 're')
+    values = [curve.evaluate(frame) + spline.equilibrium for frame in frames]
+    bake.copy_action(owner)
+    remove(owner, path, index)
+    bake.write(owner, path, index, frames, values)
 
 
 # --- complex shapes: pairs of shape keys such as up.re and up.im, perhaps with mirrored ones, up.-re and up.-im, because values may be kept ≥ 0

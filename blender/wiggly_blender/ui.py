@@ -116,6 +116,12 @@ class WIGGLY_OT_property_remove(Property):
     change = staticmethod(prop.remove)
 
 
+class WIGGLY_OT_property_bake(Property):
+    """Makes a keyframe of this property at every frame, in a copy of the action"""
+    bl_idname, bl_label = 'wiggly.property_bake', 'Bake Wiggle'
+    change = staticmethod(prop.make_keys)
+
+
 class WIGGLY_OT_shapes(Operator):
     """Moves pairs of shape keys, such as up.re and up.im of a soft character of wiggly, by a spline each"""
     bl_idname, bl_label = 'wiggly.shapes', 'Wiggle Shape Keys'
@@ -239,7 +245,9 @@ def button_menu(self, context):
     if getattr(context, 'property', None):
         owner, path, index = context.property
         self.layout.separator()
-        self.layout.operator('wiggly.property_remove' if prop.found(owner, path, max(index, 0)) else 'wiggly.property')
+        wiggles = prop.found(owner, path, max(index, 0))
+        for name in ('wiggly.property_remove', 'wiggly.property_bake') if wiggles else ('wiggly.property',):
+            self.layout.operator(name)
 
 
 def pose_menu(self, context):
@@ -248,7 +256,7 @@ def pose_menu(self, context):
 
 
 classes = (WIGGLY_OT_add, WIGGLY_OT_remove, WIGGLY_OT_refresh, WIGGLY_OT_key, WIGGLY_OT_preset, WIGGLY_OT_bake, WIGGLY_OT_property,
-           WIGGLY_OT_property_remove, WIGGLY_OT_shapes, WIGGLY_OT_import, WIGGLY_OT_export, WIGGLY_UL_chains, WIGGLY_PT_panel)
+           WIGGLY_OT_property_remove, WIGGLY_OT_property_bake, WIGGLY_OT_shapes, WIGGLY_OT_import, WIGGLY_OT_export, WIGGLY_UL_chains, WIGGLY_PT_panel)
 
 
 menus = (('VIEW3D_MT_pose', pose_menu), ('UI_MT_button_context_menu', button_menu),
