@@ -79,9 +79,10 @@ def write(context, owner, path):
     out = {'wiggly': 1, 'fps': short(fps), 'frames': [scene.frame_start, scene.frame_end],
            'splines': [spline_out(owner, spline, owner.name, fps) for spline in owner.wiggly.splines if spline.name in names],
            'rigs': [rig] + [chain_out(owner, chain, owner.name) for chain in owner.wiggly.chains]}
-    with open(path, 'w', encoding='utf-8') as file:
+    with open(path + '.new', 'w', encoding='utf-8') as file:
         json.dump(out, file, indent=2, ensure_ascii=False)
         file.write('\n')
+    os.replace(path + '.new', path)
 
 
 # --- import

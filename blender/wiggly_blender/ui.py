@@ -19,7 +19,7 @@ class Operator(bpy.types.Operator):
     def execute(self, context):
         try:
             self.run(context, context.object)
-        except ValueError as problem:
+        except (ValueError, OSError) as problem:
             self.report({'ERROR'}, str(problem))
             return {'CANCELLED'}
         solve.solve_all(context.scene)
