@@ -66,6 +66,16 @@ def scene_changes():
     ok('more frames are solved', channel(rig, 'tail side re', 80) != channel(rig, 'tail side re', 85))
     key(rig, 'tail side', (120, 2))
     ok('to the last key', abs(channel(rig, 'tail side re', 120) - 2) < 1e-6)
+    from wiggly_blender import base
+    ok('the frames are those of the scene', not base.stale(rig, scene))
+    before = poses(rig, range(20, 40))
+    scene.frame_start, scene.frame_end = 20, 40
+    bpy.context.view_layer.update()
+    ok('a part of them moves as in the whole', apart(before, poses(rig, range(20, 40))) == 0)
+    ok('the panel offers to start there', base.stale(rig, scene))
+    bpy.ops.wiggly.refresh()
+    bpy.context.view_layer.update()
+    ok('and then it does', not base.stale(rig, scene) and apart(before, poses(rig, range(20, 40))) > 1e-3)
 
 
 def loops():
@@ -76,6 +86,9 @@ def loops():
     ok('the last frame is the first one', apart({1: found[1]}, {1: found[49]}) < 1e-6)
     ok('and goes on', apart({1: found[0]}, {1: found[48]}) < 1e-6 and apart({1: found[1.5]}, {1: found[49.5]}) < 1e-6)
     ok('it moves', apart({1: found[1]}, {1: found[48]}) > 1e-3)
+    bpy.context.scene.frame_start, bpy.context.scene.frame_end = 20, 30
+    bpy.context.view_layer.update()
+    ok('a part of it, too', apart(found, poses(rig, list(found))) < 1e-6)
 
 
 def follow_through():

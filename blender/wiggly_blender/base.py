@@ -33,16 +33,29 @@ def movers(owner):
 
 
 def stale(owner, scene):
-    """Whether a followed motion is not the one of now."""
+    """Whether a followed motion is not the one of now, or a spline has other frames than the scene."""
     action = curves.action_of(owner)
+    for spline in owner.wiggly.splines:
+        first, last = frames_of(owner, spline, scene)
+        if spline.first != first or spline.start == 'loop' and spline.last != last:
+            return True
     return bool(action) and any(spline.follow != 'none' for spline in owner.wiggly.splines) and action.get(curves.STAMP) != stamp(owner, scene)
 
 
+def frames_of(owner, spline, scene):
+    """First and last frame: the scene's, or those of an action that loops."""
+    action = curves.action_of(owner)
+    if spline.start == 'loop' and action and action.use_frame_range:
+        return tuple(map(round, action.frame_range))
+    return scene.frame_start, scene.frame_end
+
+
 def refresh(context, owner):
-    """Reads what the owner's splines follow, by playing the scene once with the wiggle muted."""
+    """Reads what the owner's splines follow, by playing the scene once with the wiggle muted, and takes the scene's frames."""
     scene = context.scene
     wanted = []
     for spline in owner.wiggly.splines:
+        spline.first, spline.last = frames_of(owner, spline, scene)
         if spline.follow == 'none':
             continue
         chain = chains.chain_of(owner, spline)
@@ -51,6 +64,8 @@ def refresh(context, owner):
         if not bones or not bone:
             raise ValueError(f'"{spline.name}" follows the bone "{spline.joint}", which is not there')
         wanted.append((spline, bone.name, chains.axes_to_follow(owner, spline), []))
+    if not wanted:
+        return
     frame, subframe = scene.frame_current, scene.frame_subframe
     muted = chains.mute_all(owner)
     try:
@@ -66,9 +81,8 @@ def refresh(context, owner):
         values = [value for value, _ in motion]
         mean = (sum(values) - (values[0] + values[-1]) / 2) / max(len(values) - 1, 1)  # of a loop, too, whose ends are one
         curves.write(owner, spline, 'y', scene.frame_start, [spline.follow_gain * (value - mean) for value in values])
-    if wanted:
-        solve.edits[0] += 1
-        curves.action_of(owner)[curves.STAMP] = stamp(owner, scene)
+    solve.edits[0] += 1
+    curves.action_of(owner)[curves.STAMP] = stamp(owner, scene)
     for chain in owner.wiggly.chains:
         chains.drive(owner, chain)
 

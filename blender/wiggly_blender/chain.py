@@ -11,7 +11,7 @@ from . import curves, solve
 
 AXES = {'side': 'z', 'up': 'x', 'twist': 'y'}
 USUAL_LENGTH, USUAL_FREQUENCY, SLOWEST, FASTEST = 0.5, 1.5, 0.8, 3.5  # longer chains swing slower, like a pendulum
-SOLVED = {'frequency', 'damping', 'bandwidth', 'calm', 'start'}
+SOLVED = {'frequency', 'damping', 'bandwidth', 'calm', 'start', 'first', 'last'}
 SHARED = SOLVED | {'lag', 'gain'}
 WHOLE = 110  # degrees: lag from the first bone to the tip, and the bend for a value of 1
 
@@ -262,6 +262,7 @@ def add_spline(owner, name):
     slot = next(slot for slot in range(len(taken) + 1) if slot not in taken)
     spline = splines.add()
     spline.name, spline.slot = name, slot
+    spline.first, spline.last = bpy.context.scene.frame_start, bpy.context.scene.frame_end
     owner[name] = 0.0
     curves.make_room(owner, spline)
     solve.forget()

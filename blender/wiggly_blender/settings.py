@@ -41,6 +41,8 @@ class Spline(bpy.types.PropertyGroup):
     joint: StringProperty(name='Bone', description='The bone it follows; empty is the last one of the chain', override=SAME)
     chain: StringProperty(override=SAME)  # whose direction counts; empty: as of one that points to the front
     follow_gain: FloatProperty(name='Strength', default=1, override=SAME)
+    first: IntProperty(name='First Frame', description='Where the motion starts', override=SAME, update=changed('first'))
+    last: IntProperty(name='Last', description='Where the motion ends. Of a loop, this frame repeats the first', override=SAME, update=changed('last'))
     slot: IntProperty(override=SAME)  # of its samples
     path: StringProperty(override=SAME)  # of a property that it moves
     index: IntProperty(override=SAME)

@@ -43,16 +43,14 @@ def forget():
     cached[0] = None
 
 
-def range_of(owner, spline, scene, curve):
-    """First and last frame; a loop's last frame repeats its first."""
-    first, last = scene.frame_start, scene.frame_end
-    action = curves.action_of(owner)
-    if spline.start == 'loop':
-        if action and action.use_frame_range:
-            first, last = map(round, action.frame_range)
-    elif curve and len(curve.keyframe_points):
-        first = min(first, math.floor(curve.keyframe_points[0].co[0]))
-        last = max(last, math.ceil(curve.keyframe_points[-1].co[0]))
+def range_of(spline, scene, curve):
+    """First and last frame. The first is not the scene's: a part that is rendered alone moves as in the whole."""
+    first, last = spline.first, spline.last
+    if spline.start != 'loop':
+        last = max(last, scene.frame_end)
+        if curve and len(curve.keyframe_points):
+            first = min(first, math.floor(curve.keyframe_points[0].co[0]))
+            last = max(last, math.ceil(curve.keyframe_points[-1].co[0]))
     return first, max(last, first + 3)
 
 
@@ -97,7 +95,7 @@ def solve(owner, spline, scene, known):
     y = known.get(curves.slot_path(spline, 'y')) if spline.follow != 'none' else None
     if not action or not (curve or y) and owner.animation_data.nla_tracks:  # a strip may move it
         return
-    first, last = range_of(owner, spline, scene, curve)
+    first, last = range_of(spline, scene, curve)
     fps = fps_of(scene)
     y_first, y = curves.samples(y)
     given = (*(getattr(spline, name) for name in SETTINGS), first, last, scene.frame_start, scene.frame_end, fps, y_first, y.tobytes(), action.name_full)

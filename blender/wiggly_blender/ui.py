@@ -52,8 +52,7 @@ class WIGGLY_OT_add(Operator):
         for bones in rows:
             chains.make(owner, bones, self.follow, loop)
         curves.list_of(owner, make=True)
-        if self.follow:
-            base.refresh(context, owner)
+        base.refresh(context, owner)
 
 
 class WIGGLY_OT_remove(Operator):
@@ -188,7 +187,7 @@ def draw_spline(layout, owner, spline, title):
     column = layout.column(align=True)
     if title:
         column.label(text=title)
-    for name in ('frequency', 'damping', 'bandwidth', 'calm', 'start'):
+    for name in ('frequency', 'damping', 'bandwidth', 'calm', 'start', 'first', 'last'):
         column.prop(spline, name)
 
 
@@ -228,7 +227,7 @@ class WIGGLY_PT_panel(bpy.types.Panel):
         layout.template_list('WIGGLY_UL_chains', '', wiggly, 'chains', wiggly, 'active', rows=2)
         chain = active(owner)
         if base.stale(owner, context.scene):
-            layout.operator('wiggly.refresh', text='The Body Has Changed: Refresh', icon='ERROR')
+            layout.operator('wiggly.refresh', text='Body or Frames Have Changed: Refresh', icon='ERROR')
         layout.operator_menu_enum('wiggly.key', 'kind', icon='KEY_HLT')
         layout.operator_menu_enum('wiggly.preset', 'preset', icon='PRESET')
         layout.operator('wiggly.bake', icon='RENDER_ANIMATION')
