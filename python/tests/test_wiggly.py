@@ -12,6 +12,7 @@ import sys
 import tempfile
 import threading
 import unittest
+import unittest.mock
 import warnings
 from pathlib import Path
 
@@ -122,14 +123,8 @@ class Scenes(unittest.TestCase):
 
     def test_a_scene_with_a_rig_says_what_it_needs(self):
         path = TREE / "assets" / "scenes" / "hands.json"
-        before = os.environ.copy()
-        os.environ["WIGGLY"] = "/nowhere/wiggly"
-        try:
-            with self.assertRaisesRegex(wiggly.Error, "WIGGLY"):
-                Scene.load(path).solve()
-        finally:
-            os.environ.clear()
-            os.environ.update(before)
+        with unittest.mock.patch.dict(os.environ, WIGGLY="/nowhere/wiggly"), self.assertRaisesRegex(wiggly.Error, "WIGGLY"):
+            Scene.load(path).solve()
 
     def test_export_writes_the_programs_file(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -139,19 +134,26 @@ class Scenes(unittest.TestCase):
             self.assertEqual((Path(folder) / "a.csv").read_bytes(), (Path(folder) / "b.csv").read_bytes())
 
     def test_faults_of_scenes_are_sentences(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = Path(folder) / "mine.json"
-            path.write_text('{"frames": [0, 24}')
-            with self.assertRaisesRegex(wiggly.Error, "mine.json: .*line 1"):
-                Scene.load(path)
-        for splines, fragment in (
-            ([{"name": "a", "frequency": {"spline": "a"}}], "circle: a → a"),
-            ([{"name": "a", "frequency": {"spline": "b"}}], "'b'"),
-            ([{"name": "a", "knots": [{"frame": 1}]}], "wiggly check"),
-            ([{"name": "a", "knots": [{"frame": 500, "value": 1}]}], "outside"),
-        ):
-            with self.assertRaisesRegex(wiggly.Error, f"mine.json: .*{fragment}"):
-                Scene("mine.json", {"frames": [0, 24], "splines": splines}).solve()
+        bad = TREE / "tests/bad"
+        for name in ("truncated", "fps_zero", "knot_number", "knot_far_away", "track_of_itself", "pin_vertex"):
+            check = subprocess.run([PROGRAM, "check", str(bad / f"{name}.json")], capture_output=True, encoding="utf-8").stdout
+            self.assertIn(self.fault(bad / f"{name}.json") or "?", check)
+        with unittest.mock.patch.dict(os.environ, WIGGLY="/nowhere/wiggly"):
+            texts = {path: self.fault(path) for path in bad.glob("*.json")}
+            self.assertGreater(sum(map(bool, texts.values())), 60)
+            for path, text in texts.items():
+                self.assertRegex(text or f"{path}: ", "^" + re.escape(f"{path}: "))
+            self.assertRegex(texts[bad / "truncated.json"], "line 6")
+            self.assertRegex(texts[bad / "knot_far_away.json"], "x: knot 0: a knot is outside")
+            self.assertRegex(texts[bad / "track_cycle.json"], "wiggly check")
+
+    def fault(self, path):
+        try:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore", wiggly.WigglyWarning)
+                Scene.load(path).solve()
+        except wiggly.Error as error:
+            return str(error)
 
 
 class Splines(unittest.TestCase):

@@ -7,6 +7,7 @@ import json
 import os
 import shutil
 import subprocess
+from ctypes import ArgumentError
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,23 @@ from ._spline import Knot, Spline, from_spring, solve_into
 PARAMETERS = ("frequency", "damping", "bandwidth", "equilibrium")
 SWING = ("mode", "start", "frequency", "damping", "bandwidth", "spring", "friction")
 PLAIN = (*PARAMETERS, "calm", "mode", "start", "passive", "limits")
+FAULTS = (ArithmeticError, ArgumentError, AttributeError, LookupError, RecursionError, TypeError, ValueError)
+
+
+def _program() -> str | None:
+    tree = Path(__file__).resolve().parents[3] / "build" / "wiggly"
+    return shutil.which(os.environ.get("WIGGLY") or shutil.which("wiggly") or str(tree))
+
+
+def _wrong(path: Path, error: Exception) -> Error:
+    """What is wrong with a scene: in the program's words, where it is there."""
+    clear = isinstance(error, (Error, json.JSONDecodeError, UnicodeDecodeError))
+    text = f"{path}: {error}" if clear else f"{path}: not a scene: {error!r}; `wiggly check` says more"
+    program = _program()
+    if program and path.exists():
+        done = subprocess.run([program, "check", path], capture_output=True, encoding="utf-8")
+        text = done.stdout.strip() if done.returncode else text
+    return Error(text, getattr(error, "status", None), getattr(error, "knot", None))
 
 
 class Scene:
@@ -31,6 +49,8 @@ class Scene:
         The file's JSON.
     n, fps : int, float
         Samples of each curve, and samples per second. A curve's second 0 is the first frame.
+    needs_rig : bool
+        Whether its splines need what only the program has: pins, a floor, or the motion of a clip.
 
     Examples
     --------
@@ -48,23 +68,20 @@ class Scene:
             self.n = (last - self._first) * self._substeps + 1
             self.fps = data.get("fps", 24) * self._substeps
             self._splines = {spline["name"]: spline for spline in data.get("splines", [])}
-        except (KeyError, TypeError, ValueError, AttributeError) as error:
-            raise Error(f"{path}: not a scene: {error!r}; `wiggly check` says more") from None
+            self._step = 1 / self.fps
+            follows = (isinstance(s.get("equilibrium"), dict) and "model" in s["equilibrium"] for s in self._splines.values())
+            self.needs_rig = any(rig.get("pins") or "floor" in rig for rig in data.get("rigs", [])) or any(follows)
+        except FAULTS as error:
+            raise _wrong(self.path, error) from None
 
     @classmethod
     def load(cls, path: str | os.PathLike[str]) -> Scene:
         """Reads a file."""
         try:
-            return cls(path, json.loads(Path(path).read_text(encoding="utf-8")))
-        except (json.JSONDecodeError, UnicodeDecodeError) as error:
-            raise Error(f"{path}: {error}") from None
-
-    @property
-    def needs_rig(self) -> bool:
-        """Whether its splines need what only the program has: pins, a floor, or the motion of a clip."""
-        rigs = self.data.get("rigs", [])
-        follows = (isinstance(s.get("equilibrium"), dict) and "model" in s["equilibrium"] for s in self._splines.values())
-        return any(rig.get("pins") or "floor" in rig for rig in rigs) or any(follows)
+            data = json.loads(Path(path).read_text(encoding="utf-8"))
+        except FAULTS as error:
+            raise _wrong(Path(path), error) from None
+        return cls(path, data)
 
     def solve(self, solver: str = "chain") -> dict[str, Curve]:
         """All curves, by name: the same bits as `wiggly solve --solver chain`.
@@ -75,33 +92,29 @@ class Scene:
         if self.needs_rig:
             return self._solve_by_program(solver)
         curves: dict[str, Curve] = {}
-        for name in self._splines:
-            self._solve_one(name, solver, curves, [])
+        try:
+            for name in self._splines:
+                self._solve_one(name, solver, curves)
+        except FAULTS as error:
+            raise _wrong(self.path, error) from None
         return {name: curves[name] for name in self._splines}
 
     def export(self, path: str | os.PathLike[str], *options: str) -> None:
         """Writes what `wiggly export` writes: .glb, .usda, .csv and others, by the ending of the file."""
         self._run("export", str(self.path), "-o", str(path), "--quiet", *options)
 
-    def _solve_one(self, name: str, solver: str, curves: dict[str, Curve], followers: list[str]) -> Curve:
-        if name in curves:
-            return curves[name]
-        if name in followers:
-            raise Error(f"{self.path}: splines follow each other in a circle: {' → '.join([*followers, name])}")
-        if name not in self._splines:
-            raise Error(f"{self.path}: expected the name of a spline, got {name!r}")
-        source = self._splines[name]
-        tracks = {
-            key: self._solve_one(source[key]["spline"], solver, curves, [*followers, name]).total
-            for key in PARAMETERS
-            if isinstance(source.get(key), dict) and "spline" in source[key]
-        }
-        try:
-            curves[name] = self._solve_spline(source, tracks, solver)
-        except (KeyError, TypeError, ValueError) as error:
-            if isinstance(error, Error):
-                raise Error(f"{self.path}: {name}: {error}", error.status, error.knot) from None
-            raise Error(f"{self.path}: {name}: {error!r}; `wiggly check` says more") from None
+    def _solve_one(self, name: str, solver: str, curves: dict[str, Curve]) -> Curve:
+        if name not in curves:
+            source = self._splines[name]
+            tracks = {
+                key: self._solve_one(source[key]["spline"], solver, curves).total
+                for key in PARAMETERS
+                if isinstance(source.get(key), dict) and "spline" in source[key]
+            }
+            try:
+                curves[name] = self._solve_spline(source, tracks, solver)
+            except Error as error:
+                raise Error(f"{name}: {error}", error.status, error.knot) from None
         return curves[name]
 
     def _solve_spline(self, source: dict[str, Any], tracks: dict[str, Any], solver: str) -> Curve:
@@ -114,16 +127,15 @@ class Scene:
             Knot(k["frame"], 0, still=True) if k.get("still") else
             Knot(k["frame"], k["value"], k.get("slope"), k.get("stiffness"), k.get("im")) for k in source.get("knots", [])
         ]  # fmt: skip
-        spline, curve = Spline(knots, **settings), Curve(self.n, 1 / self.fps)
+        spline, curve = Spline(knots, **settings), Curve(self.n, self._step)
         samples = np.floor((spline.times - self._first) * self._substeps + 0.5)
         desc, _knots = spline._describe(self.n, self.fps, samples)
         solve_into(shared_solver(self.n, spline._room(self.n)), desc, curve, solver)
         return curve
 
     def _run(self, *arguments: str) -> str:
-        tree = Path(__file__).resolve().parents[3] / "build" / "wiggly"
-        program = os.environ.get("WIGGLY") or shutil.which("wiggly") or (str(tree) if tree.exists() else None)
-        if not program or not shutil.which(program):
+        program = _program()
+        if not program:
             raise Error(f"{self.path}: this needs the program wiggly: build it with make, and set WIGGLY to its path")
         done = subprocess.run([program, *arguments], capture_output=True, encoding="utf-8")
         if done.returncode:
