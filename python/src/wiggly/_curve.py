@@ -105,23 +105,23 @@ class Curve:
         angle = np.asarray(angles, dtype=float)[..., None]
         return np.asarray(self.y + np.cos(angle) * self.re + np.sin(angle) * self.im)
 
-    def __call__(self, t: ArrayLike, lag: float = 0) -> Any:
+    def __call__(self, t: ArrayLike, lag: ArrayLike = 0) -> Any:
         """The total at a time, or that of a part that lags.
 
         Parameters
         ----------
         t : float or array_like
             Seconds. Beyond the ends the curve stands still; a loop goes round.
-        lag : float
+        lag : float or array_like
             Radians.
 
         Returns
         -------
-        float, or ndarray of float64 of the shape of `t`
+        float, or ndarray of float64 of the shape that `t` and `lag` broadcast to; NaN where a time is.
         """
         return self._read(t, lag, False)
 
-    def derivative(self, t: ArrayLike, lag: float = 0) -> Any:
+    def derivative(self, t: ArrayLike, lag: ArrayLike = 0) -> Any:
         """The same for the change per second.
 
         >>> from wiggly import Spline
@@ -131,13 +131,13 @@ class Curve:
         """
         return self._read(t, lag, True)
 
-    def _read(self, t: ArrayLike, lag: float, moving: bool) -> Any:
+    def _read(self, t: ArrayLike, lag: ArrayLike, moving: bool) -> Any:
         evaluate, at, rate = lib.wiggly_evaluate_at, self._at, CValue()
-        cos, sin = np.cos(lag), np.sin(lag)
-        out = np.empty(np.shape(t))
-        for i, seconds in np.ndenumerate(np.asarray(t, dtype=float)):
-            value = evaluate(at, seconds, byref(rate) if moving else None)
-            if moving:
-                value = rate
-            out[i] = value.y + cos * value.re + sin * value.im
+        seconds = np.asarray(t, dtype=float)
+        values = (CValue * seconds.size)()
+        for i, second in enumerate(seconds.ravel().tolist()):
+            value = evaluate(at, second, byref(rate) if moving else None)
+            values[i] = rate if moving else value
+        y, re, im = np.moveaxis(np.ndarray((*seconds.shape, 3), buffer=memoryview(values)), -1, 0)
+        out = np.where(np.isnan(seconds), np.nan, y + np.cos(lag) * re + np.sin(lag) * im)
         return out if out.ndim else float(out)
