@@ -238,7 +238,10 @@ class Spline:
         >>> Spline(frequency=1, damping=0.5, mode="real").poles().s.real.round(3).tolist()
         [-3.142, -3.142]
         """
-        desc, _knots = self._describe(len(self._tracks[0]) if self._tracks else sample + 1, fps, np.zeros(len(self._knots)))
+        n = len(self._tracks[0]) if self._tracks else sample + 1
+        if not 0 <= sample < n:
+            raise ValueError(f"sample: expected 0 or more, and one that the tracks have, got {sample!r}")
+        desc, _knots = self._describe(n, fps, np.zeros(len(self._knots)))
         desc.knot_count = 0
         poles = lib.wiggly_poles_at(addressof(desc), sample)
         return Poles(*(np.array(pair, dtype=float).view(complex)[:, 0] for pair in (poles.s, poles.z)))
