@@ -29,6 +29,8 @@ rm -rf "$B/wheels"
 "$place/bin/pip" install --quiet --retries 0 hatchling ziglang numpy auditwheel mypy 2>"$scratch/fetch" ||
     { echo "skip - the wheels, because zig could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
 expect 0 "the types are right" "$place/bin/mypy" --cache-dir "$scratch/mypy" --config-file python/pyproject.toml python/src/wiggly
+sed -n '/^```python$/,/^```$/{/^```/!p;}' docs/python.md >"$scratch/page.py"
+expect 0 "and those of a strict user" env MYPYPATH=python/src "$place/bin/mypy" --cache-dir "$scratch/mypy" --strict "$scratch/page.py"
 expect 0 "wheels are built" python/wheels.sh "$B" "${platforms[@]}"
 exports() { # <library>: the names that leave it, but for the runtimes'
     case $1 in

@@ -190,6 +190,7 @@ class Splines(unittest.TestCase):
             (lambda: Spline(calm=2).solve(5), "calm 0 to 1"),
             (lambda: Spline(seed=2**31), "seed"),
             (lambda: Spline(frequency=np.ones(5)).poles(sample=5), "sample"),
+            (lambda: solve_many(Spline(), [0], [1], 5, parts="total"), "parts: .* got 'total'"),
             (lambda: Group([Spline()]).solve(5, pins=[Pin(0, {0: [1, 0]}, [0, 0, 0])]), r"three numbers, .* got \(2,\)"),
             (lambda: Group([Spline()]).solve(5, pins=[Pin(float("nan"), {}, [0, 0, 0])]), "a pin is outside"),
             (lambda: Group([Spline()]).solve(5, pins=[Pin(0, {3: [1, 0, 0]}, [0, 0, 0])]), "^a pointer is missing or a count"),

@@ -14,13 +14,13 @@ from ._spline import Spline, nearest_samples
 
 
 class Many(NamedTuple):
-    """What `solve_many` returns; rows that you did not ask for are None."""
+    """What `solve_many` returns."""
 
-    total: NDArray[np.float64] | None
-    """shape (count, n)"""
-    y: NDArray[np.float64] | None
-    re: NDArray[np.float64] | None
-    im: NDArray[np.float64] | None
+    total: NDArray[np.float64]
+    """shape (count, n); (0, n) where you did not ask for it."""
+    y: NDArray[np.float64]
+    re: NDArray[np.float64]
+    im: NDArray[np.float64]
     status: NDArray[np.intc]
     """One `Status` a spline, shape (count,)."""
 
@@ -95,11 +95,11 @@ def solve_many(
         rows, held = _numbers(array, (count, k))
         setattr(many, name, rows)
         keep.append(held)
-    rows_of = {part: np.empty((count, n)) for part in parts}
-    for part, out in rows_of.items():
-        if part not in Many._fields[:4]:
-            raise ValueError(f"parts: expected total, y, re, im, got {part!r}")
-        setattr(many, part, CRows(out.ctypes.data, n, 1))
+    out = {part: np.empty((count if part in parts else 0, n)) for part in ("total", "y", "re", "im")}
+    if not set(parts) <= set(out):
+        raise ValueError(f"parts: expected some of {', '.join(out)}, got {parts!r}")
+    for part in parts:
+        setattr(many, part, CRows(out[part].ctypes.data, n, 1))
     status, knot = np.zeros(count, np.intc), np.full(count, -1, np.intc)
     many.status, many.knot = status.ctypes.data, knot.ctypes.data
     room = k + (n if desc.has_low or desc.has_high else 0)
@@ -110,6 +110,6 @@ def solve_many(
         report(worst)
     if check and len(wrong):
         report(int(status[wrong[0]]), int(knot[wrong[0]]), int(wrong[0]))
-    for out in rows_of.values():
-        out[wrong] = np.nan
-    return Many(rows_of.get("total"), rows_of.get("y"), rows_of.get("re"), rows_of.get("im"), status)
+    for part in parts:
+        out[part][wrong] = np.nan
+    return Many(**out, status=status)

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from ctypes import addressof, byref, c_double, sizeof
-from typing import Any, NamedTuple, Optional, Union
+from typing import Any, NamedTuple, Optional
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from ._curve import Curve
 from ._library import (
@@ -26,7 +26,6 @@ from ._library import (
     shared_solver,
 )
 
-Param = Union[float, NDArray[np.float64], Sequence[float]]
 Limits = tuple[Optional[float], Optional[float]]
 
 
@@ -131,11 +130,11 @@ class Spline:
         self,
         knots: Iterable[Any] | NDArray[np.float64] = (),
         *,
-        frequency: Param = 0,
-        damping: Param = 0,
-        bandwidth: Param = 0.1,
+        frequency: ArrayLike = 0,
+        damping: ArrayLike = 0,
+        bandwidth: ArrayLike = 0.1,
         calm: float = 1,
-        equilibrium: Param = 0,
+        equilibrium: ArrayLike = 0,
         mode: str = "complex",
         start: str = "free",
         passive: str = "oscillator",
@@ -167,7 +166,7 @@ class Spline:
     def __repr__(self) -> str:
         return f"<wiggly.Spline through {len(self.times)} knots>"
 
-    def _param(self, number: Param) -> CParam:
+    def _param(self, number: ArrayLike) -> CParam:
         if isinstance(number, (int, float)):
             return CParam(number)
         track = np.asarray(number, dtype=float, order="C")
