@@ -5,6 +5,7 @@ WIGGLY_PLATFORM names the platform of the wheel where CC compiles for another ma
 
 import os
 import shlex
+import shutil
 import subprocess
 import sysconfig
 import tempfile
@@ -27,8 +28,13 @@ class LibraryHook(BuildHookInterface):
         self.folder = tempfile.TemporaryDirectory()
         library = Path(self.folder.name) / name
         sources = [*sorted((tree / "src" / "spline").glob("*.c")), tree / "src" / "base" / "status.c"]
-        subprocess.run(
-            [*shlex.split(os.environ.get("CC", "cc")), *FLAGS.split(), "-include", here / "exports.h", "-I", tree / "include", "-I", tree / "src",
-             "-shared", "-s", *sources, "-o", library, "-lm", *([] if platform.startswith("win") else ["-lpthread"])], check=True)  # fmt: skip
+        compiler = shlex.split(os.environ.get("CC") or "cc")
+        if not shutil.which(compiler[0]):
+            raise SystemExit(f"wiggly is written in C, and the compiler {compiler[0]!r} was not found: install one, or set CC to yours")
+        done = subprocess.run(
+            [*compiler, *FLAGS.split(), "-include", here / "exports.h", "-I", tree / "include", "-I", tree / "src",
+             "-shared", "-s", *sources, "-o", library, "-lm", *([] if platform.startswith("win") else ["-lpthread"])])  # fmt: skip
+        if done.returncode:
+            raise SystemExit(f"{compiler[0]} could not compile wiggly; its messages are above")
         build_data["force_include"] = {str(library): f"wiggly/{name}", str(tree / "LICENSE"): "wiggly/LICENSE"}
         build_data["pure_python"], build_data["tag"] = False, f"py3-none-{platform}"

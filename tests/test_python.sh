@@ -31,6 +31,8 @@ rm -rf "$B/wheels"
 expect 0 "the types are right" "$place/bin/mypy" --cache-dir "$scratch/mypy" --config-file python/pyproject.toml python/src/wiggly
 sed -n '/^```python$/,/^```$/{/^```/!p;}' docs/python.md >"$scratch/page.py"
 expect 0 "and those of a strict user" env MYPYPATH=python/src "$place/bin/mypy" --cache-dir "$scratch/mypy" --strict "$scratch/page.py"
+expect 1 "without a C compiler nothing is built" bash -c "cd python && CC=/nowhere/cc '$place/bin/python' -m hatchling build -t wheel -d '$scratch'"
+says "which says why" "the compiler '/nowhere/cc' was not found" "$err"
 expect 0 "wheels are built" python/wheels.sh "$B" "${platforms[@]}"
 exports() { # <library>: the names that leave it, but for the runtimes'
     case $1 in
