@@ -1,7 +1,7 @@
 """Plain keyframes in place of a chain's bends."""
 import math
 from mathutils import Euler, Quaternion
-from . import chain as chains, curves
+from . import base, chain as chains, curves
 
 LINEAR = 1  # of a keyframe's interpolation
 
@@ -11,18 +11,18 @@ def bake(context, owner, chain):
     scene = context.scene
     if not curves.list_of(owner):
         raise ValueError(f'"{owner.name}" has no action to bake into: set a key first')
-    bones = chains.bones_of(owner, chain)
+    if chain.mute:
+        raise ValueError(f'"{chain.name}" is muted: unmute it to bake it')
+    bones = chains.row_of(owner, chain)
+    driven = [driver.data_path.rpartition('.rotation_')[0] for driver in owner.animation_data.drivers]
     frames = range(scene.frame_start, scene.frame_end + 1)
-    held = [any(not con.mute and con not in chains.constraints_of(bone, chain) for con in bone.constraints) for bone in bones]
+    held = [bone.path_from_id() in driven or any(not con.mute and con not in chains.constraints_of(bone, chain) for con in bone.constraints)
+            for bone in bones]
     rows = [[] for _ in bones]
-    now, subframe = scene.frame_current, scene.frame_subframe
-    for frame in frames:
-        scene.frame_set(frame)
-        seen = owner.evaluated_get(context.evaluated_depsgraph_get())
+    for seen in base.played(context, owner):
         for bone, row, by_constraint in zip(bones, rows, held):
             row.append(angles(seen.pose.bones[bone.name], chain) if by_constraint else
                        turned(seen.pose.bones[bone.name], chain, row))
-    scene.frame_set(now, subframe=subframe)
     copy_action(owner)
     for bone, row, by_constraint in zip(bones, rows, held):
         if by_constraint:
@@ -78,7 +78,7 @@ def turned(seen, chain, before):
 
 
 def keep(bone, chain):
-    """Copies of the chain's constraints beside them, without drivers: where other constraints act, keys of the bone would not be the same."""
+    """Copies of the chain's constraints beside them, without drivers: where constraints or drivers act, keys of the bone would not be the same."""
     main = None
     for con in chains.constraints_of(bone, chain):
         copy = bone.constraints.copy(con)

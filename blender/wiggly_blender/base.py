@@ -13,6 +13,9 @@ def stamp(owner, scene):
     if known.get(key, (None,))[0] != solve.edits[0]:
         text = hashlib.sha1(f'{scene.frame_start} {scene.frame_end}'.encode())
         for mover in movers(owner):
+            for track in mover.animation_data.nla_tracks if mover.animation_data else ():
+                for strip in track.strips:
+                    text.update(f'{strip.name} {strip.frame_start} {strip.frame_end} {strip.influence} {track.mute or strip.mute}'.encode())
             for curve in curves.list_of(mover) or ():
                 if not curve.data_path.startswith('["') and '"].constraints["Wiggle ' not in curve.data_path:
                     text.update(f'{curve.data_path} {curve.array_index}'.encode() + curves.read(curve, curves.SHAPE))
@@ -50,6 +53,16 @@ def frames_of(owner, spline, scene):
     return scene.frame_start, scene.frame_end
 
 
+def played(context, owner):
+    """An armature at each frame of the scene. Time may be stretched, and actions have frames of their own."""
+    scene, now = context.scene, (context.scene.frame_current, context.scene.frame_subframe)
+    stretch = scene.render.frame_map_new / scene.render.frame_map_old
+    for frame in range(scene.frame_start, scene.frame_end + 1):
+        scene.frame_set(math.floor(frame * stretch), subframe=frame * stretch % 1)
+        yield owner.evaluated_get(context.evaluated_depsgraph_get())
+    scene.frame_set(now[0], subframe=now[1])
+
+
 def refresh(context, owner):
     """Reads what the owner's splines follow, by playing the scene once with the wiggle muted, and takes the scene's frames."""
     scene = context.scene
@@ -66,17 +79,13 @@ def refresh(context, owner):
         wanted.append((spline, bone.name, chains.axes_to_follow(owner, spline), []))
     if not wanted:
         return
-    frame, subframe = scene.frame_current, scene.frame_subframe
     muted = chains.mute_all(owner)
     try:
-        for at in range(scene.frame_start, scene.frame_end + 1):
-            scene.frame_set(at)
-            seen = owner.evaluated_get(context.evaluated_depsgraph_get())
+        for seen in played(context, owner):
             for spline, name, axes, motion in wanted:
                 motion.append(sample(seen, name, spline.follow, axes, motion))
     finally:
         chains.unmute(muted)
-        scene.frame_set(frame, subframe=subframe)
     for spline, _, _, motion in wanted:
         values = [value for value, _ in motion]
         mean = (sum(values) - (values[0] + values[-1]) / 2) / max(len(values) - 1, 1)  # of a loop, too, whose ends are one

@@ -21,9 +21,18 @@ def constraint_name(chain, end=''):
 
 
 def bones_of(owner, chain):
-    """The chain's bones, from the first to the last."""
+    """The chain's bones, from the first to the last. Constraints that were copied to other bones have no drivers."""
     name = constraint_name(chain)
-    return sorted((bone for bone in owner.pose.bones if name in bone.constraints), key=lambda bone: len(bone.parent_recursive))
+    driven = {driver.data_path.rpartition('.')[0] for driver in owner.animation_data.drivers} if owner.animation_data else ()
+    return sorted((bone for bone in owner.pose.bones if name in bone.constraints and bone.constraints[name].path_from_id() in driven),
+                  key=lambda bone: len(bone.parent_recursive))
+
+
+def row_of(owner, chain):
+    bones = bones_of(owner, chain)
+    if not bones:
+        raise ValueError(f'"{chain.name}" has no bones any more: remove it')
+    return bones
 
 
 def of_selection(context):
@@ -96,6 +105,8 @@ def constrain(owner, chain, bones):
     target, subtarget = target_for(owner, bones[0])
     axes = axes_at_rest(owner, chain, bones)
     for bone in bones:
+        for con in [con for con in bone.constraints if con.type == 'TRANSFORM' and con.name.startswith('Wiggle ')]:  # copied from another bone
+            bone.constraints.remove(con)
         into = (bone.bone.matrix_local.to_3x3().inverted() @ axes).to_quaternion()
         ends = ('',) if into.angle < 1e-4 else (' <', '', ' >')
         for end in ends:
@@ -130,9 +141,9 @@ def weights(channel, n, count):
     return gain, gain * math.cos(math.radians(lag)), gain * math.sin(math.radians(lag))
 
 
-def drive(owner, chain):
+def drive(owner, chain, bones=None):
     """Writes the drivers of a chain anew."""
-    bones = bones_of(owner, chain)
+    bones = bones or bones_of(owner, chain)
     for n, bone in enumerate(bones):
         con = bone.constraints[constraint_name(chain)]
         for axis, letter in AXES.items():
@@ -172,6 +183,13 @@ def say(driver, owner, terms, rest):
     driver.expression = '+'.join(words or ['0']).replace('+-', '-')
 
 
+def readers(owner, spline):
+    """The drivers that a spline is part of."""
+    paths = ['{}[{}]'.format(*curves.slot_path(spline, part)) for part in curves.PARTS]
+    return [each for each in owner.animation_data.drivers if any(variable.targets[0].data_path in paths for variable in each.driver.variables)
+            ] if owner.animation_data else []
+
+
 def undrive(owner, con, letter):
     if owner.animation_data and owner.animation_data.drivers.find(con.path_from_id(f'to_min_{letter}_rot')):
         con.driver_remove(f'to_min_{letter}_rot')
@@ -203,12 +221,16 @@ def unique(name, taken):
     return next(each for each in (name if n == 1 else f'{name} {n}' for n in range(1, len(taken) + 2)) if each not in taken)
 
 
+def check_local(owner):
+    if owner.override_library:
+        raise ValueError(f'"{owner.name}" is a library override: add or remove the wiggle in the file that it comes from')
+
+
 def check(owner, bones):
     """Raises what keeps a chain from being made."""
-    if owner.override_library:
-        raise ValueError(f'"{owner.name}" is a library override: add the wiggle in the file that it comes from')
+    check_local(owner)
     for bone in bones:
-        if any(con.name.startswith('Wiggle ') for con in bone.constraints):
+        if any(bone in bones_of(owner, chain) for chain in owner.wiggly.chains):
             raise ValueError(f'"{bone.name}" already wiggles: remove that first')
     target_for(owner, bones[0])
 
@@ -220,7 +242,8 @@ def make(owner, bones, follow, loop=False):
     bare = name.rstrip('0123456789').rstrip('_-. ') or name
     bare = bare.encode()[:48].decode(errors='ignore')  # the name of a constraint has room for 63 bytes
     chain = wiggly.chains.add()
-    chain.name = unique(bare, set(wiggly.chains.keys()) | {s.name[:-5] for s in wiggly.splines if s.name.endswith(' side')})
+    used = [spline.name for spline in wiggly.splines] + [curve.data_path[2:-2] for curve in curves.list_of(owner) or ()]
+    chain.name = unique(bare, set(wiggly.chains.keys()) | {each[:-5] for each in used if each.endswith(' side')})
     points = points_at_rest(bones)
     length = max(sum((b - a).length for a, b in zip(points, points[1:])) * owner.matrix_world.median_scale, 1e-3)
     count = len(bones)
@@ -236,16 +259,17 @@ def make(owner, bones, follow, loop=False):
         channel.gain = round(math.degrees(2 / (length * (count + 1))) if follow else WHOLE / count, 1)
     wiggly.active = len(wiggly.chains) - 1
     constrain(owner, chain, bones)
-    drive(owner, chain)
+    drive(owner, chain, bones)
     return chain
 
 
 def remove(owner, chain):
     """Takes a chain away, with all that it added."""
+    check_local(owner)
     for bone in bones_of(owner, chain):
-        con = bone.constraints[constraint_name(chain)]
         for letter in AXES.values():
-            undrive(owner, con, letter)
+            undrive(owner, bone.constraints[constraint_name(chain)], letter)
+    for bone in owner.pose.bones:
         for con in constraints_of(bone, chain):
             bone.constraints.remove(con)
     wiggly = owner.wiggly
@@ -258,8 +282,8 @@ def remove(owner, chain):
 
 def add_spline(owner, name):
     splines = owner.wiggly.splines
-    taken = {spline.slot for spline in splines}
-    slot = next(slot for slot in range(len(taken) + 1) if slot not in taken)
+    taken = {spline.slot for spline in splines} | {index // 3 for path, index in curves.all_of(owner) if path == curves.SAMPLES_PATH}
+    slot = next(slot for slot in range(len(taken) + 1) if slot not in taken)  # nor in use by another ID with this action
     spline = splines.add()
     spline.name, spline.slot = name, slot
     spline.first, spline.last = bpy.context.scene.frame_start, bpy.context.scene.frame_end
@@ -271,13 +295,15 @@ def add_spline(owner, name):
 
 def remove_spline(owner, name):
     spline = owner.wiggly.splines[name]
+    for driver in readers(owner, spline):
+        owner.animation_data.drivers.remove(driver)
     curves.drop(owner, curves.path_of(name))
     curves.drop_samples(owner, spline)
     if name in owner:
         del owner[name]
     owner.wiggly.splines.remove(owner.wiggly.splines.find(name))
     if not owner.wiggly.splines:
-        del owner[curves.SAMPLES]
+        owner.pop(curves.SAMPLES, None)
         curves.tidy(owner)
         owner.property_unset('wiggly')
 

@@ -17,7 +17,9 @@ def path_of(name):
 
 
 def action_of(owner):
-    return owner.animation_data.action if owner.animation_data else None
+    """The action that moves an ID; none in which it has no slot."""
+    animation = owner.animation_data
+    return animation.action if animation and (not LAYERED or animation.action_slot) else None
 
 
 def list_of(owner, make=False):
@@ -27,6 +29,8 @@ def list_of(owner, make=False):
         if not animation.action:
             animation.action = bpy.data.actions.new(owner.name + ' action')
             animation.action[MADE] = True
+        if not animation.action.is_editable:
+            raise ValueError(f'The action "{animation.action.name}" is linked: make it single-user to change it')
         if LAYERED and not animation.action_slot:
             suitable = animation.action_suitable_slots
             animation.action_slot = suitable[0] if suitable else animation.action.slots.new(owner.id_type, owner.name)
@@ -34,8 +38,6 @@ def list_of(owner, make=False):
     if not action or not LAYERED:
         return action and action.fcurves
     slot = owner.animation_data.action_slot
-    if not slot:
-        return None
     if make:
         layer = action.layers[0] if action.layers else action.layers.new('Layer')
         strip = layer.strips[0] if layer.strips else layer.strips.new(type='KEYFRAME')
@@ -55,7 +57,8 @@ def all_of(owner):
 
 
 def ensure(owner, path, index=0):
-    return find(owner, path, index) or list_of(owner, make=True).new(path, index=index)
+    curves = list_of(owner, make=True)
+    return curves.find(path, index=index) or curves.new(path, index=index)
 
 
 def drop(owner, path, index=0):

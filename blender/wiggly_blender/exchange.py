@@ -40,7 +40,7 @@ def spline_out(owner, spline, model, fps):
     out = {'name': spline.name, 'mode': spline.mode, **{name: short(getattr(spline, name)) for name in NUMBERS}}
     out['equilibrium'] = short(spline.equilibrium)
     if spline.follow != 'none':
-        out['equilibrium'] = {'model': model, 'joint': spline.joint or chains.bones_of(owner, chain)[-1].name, 'of': spline.follow,
+        out['equilibrium'] = {'model': model, 'joint': spline.joint or chains.row_of(owner, chain)[-1].name, 'of': spline.follow,
                               'gain': short(spline.follow_gain)}
         if spline.chain:
             out['equilibrium']['chain'] = spline.chain
@@ -51,7 +51,7 @@ def spline_out(owner, spline, model, fps):
 
 
 def chain_out(owner, chain, model):
-    bones = chains.bones_of(owner, chain)
+    bones = chains.row_of(owner, chain)
     out = {'type': 'chain', 'name': chain.name, 'model': model, 'from': bones[0].name, 'to': bones[-1].name,
            'turn': short(chain.turn), 'mirror': chain.mirror, 'channels': []}
     for channel in chain.channels:
@@ -65,11 +65,6 @@ def write(context, owner, path):
     """The chains of an armature, and the character beside them as its action alone moves it."""
     scene = context.scene
     model = os.path.splitext(path)[0] + '.glb'
-    muted = chains.mute_all(owner)
-    try:
-        bpy.ops.export_scene.gltf(filepath=model, export_format='GLB')
-    finally:
-        chains.unmute(muted)
     fps = solve.fps_of(scene)
     names = {channel.spline for chain in owner.wiggly.chains for channel in chain.channels}
     action = curves.action_of(owner)
@@ -82,7 +77,15 @@ def write(context, owner, path):
     with open(path + '.new', 'w', encoding='utf-8') as file:
         json.dump(out, file, indent=2, ensure_ascii=False)
         file.write('\n')
-    os.replace(path + '.new', path)
+    muted = chains.mute_all(owner)
+    try:
+        bpy.ops.export_scene.gltf(filepath=model, export_format='GLB')
+        os.replace(path + '.new', path)
+    except RuntimeError as problem:  # of the exporter
+        os.remove(path + '.new')
+        raise ValueError(f'{model}: {str(problem).strip().splitlines()[-1]}') from problem
+    finally:
+        chains.unmute(muted)
 
 
 # --- import
@@ -148,7 +151,7 @@ def chain_in(owner, data):
                 setattr(channel, name, value)
         channel.ramps = json.dumps({name: value for name, value in values.items() if not isinstance(value, (int, float))})
     chains.constrain(owner, chain, row)
-    chains.drive(owner, chain)
+    chains.drive(owner, chain, row)
 
 
 def model_in(data, folder):

@@ -6,8 +6,10 @@ from . import bake, chain as chains, curves, settings, solve
 
 
 def found(owner, path, index):
+    """The spline that moves a property, by its driver: names of what has it may change."""
     wiggly = settings.of(owner)
-    return next((spline for spline in wiggly.splines if (spline.path, spline.index) == (path, index)), None) if wiggly else None
+    driver = owner.animation_data.drivers.find(path, index=index) if wiggly and owner.animation_data else None
+    return next((spline for spline in wiggly.splines if spline.path and driver in chains.readers(owner, spline)), None) if driver else None
 
 
 def holder(owner, path):
@@ -21,6 +23,7 @@ def holder(owner, path):
 
 def add(owner, path, index):
     """`index` is that of an array, else 0."""
+    chains.check_local(owner)
     if not any(owner == each for each in solve.possible()):
         raise ValueError(f'"{path}" belongs to a {owner.id_type.lower()}, which cannot wiggle')
     if found(owner, path, index):
@@ -36,7 +39,7 @@ def add(owner, path, index):
     if path.startswith('key_blocks['):
         name = path.split('"')[1]
     spline = chains.add_spline(owner, chains.unique(f'wiggle {name}' + (f' {"XYZW"[index]}' if array and index < 4 else ''), set(owner.keys())))
-    spline.path, spline.index, spline.before, spline.equilibrium, spline.start = path, index, repr(value), value, 'free'
+    spline.path, spline.before, spline.equilibrium, spline.start = path, repr(value), value, 'free'
     curve = curves.find(owner, path, index)
     if curve:
         curve.data_path, curve.array_index = curves.path_of(spline.name), 0
@@ -54,17 +57,30 @@ def remove(owner, path, index):
     spline = found(owner, path, index)
     if not spline:
         raise ValueError(f'"{path}" does not wiggle')
-    target, name, get, put = holder(owner, path)
-    value, before = get(target, name), float(spline.before)
-    array = hasattr(value, '__len__')
-    owner.driver_remove(path, index) if array else owner.driver_remove(path)
-    curve = curves.find(owner, curves.path_of(spline.name))
-    if curve and not spline.made:
-        curve.data_path, curve.array_index = path, index
-    if array:
-        value[index] = before
-    else:
-        put(target, name, before)
+    give_back(owner, spline)
+
+
+def give_back(owner, spline):
+    """Leaves what a spline moves as it was before; it may be gone."""
+    chains.check_local(owner)
+    sliders, before = json.loads(spline.more or '{}').get('sliders', {}), float(spline.before)
+    for driver in chains.readers(owner, spline):
+        path, index = driver.data_path, driver.array_index
+        owner.animation_data.drivers.remove(driver)
+        curve = curves.find(owner, curves.path_of(spline.name))
+        if curve and not spline.made:
+            curve.data_path, curve.array_index = path, index
+        try:
+            target, name, get, put = holder(owner, path)
+            value = get(target, name)
+        except (ValueError, KeyError, AttributeError):
+            continue
+        if hasattr(value, '__len__'):
+            value[index] = before
+        else:
+            put(target, name, before)
+        if getattr(target, 'name', '') in sliders:
+            target.slider_min, target.slider_max = sliders[target.name]
     chains.remove_spline(owner, spline.name)
 
 
@@ -106,7 +122,7 @@ def add_pairs(keys, measured=()):
         if any(spline.joint == name for spline in keys.wiggly.splines):
             continue
         spline = chains.add_spline(keys, chains.unique(f'wiggle {name}', set(keys.keys())))
-        spline.path, spline.joint, spline.start = PAIRS, name, 'free'
+        spline.path, spline.joint, spline.start, spline.before, spline.made = PAIRS, name, 'free', '0', True
         spline.frequency, spline.damping = dict(measured).get(name, (spline.frequency, spline.damping))
         sliders = {}
         for part, sign, block, halved in parts_of(keys, name):
@@ -122,10 +138,4 @@ def add_pairs(keys, measured=()):
 
 def remove_pairs(keys):
     for name in [spline.name for spline in keys.wiggly.splines if spline.path == PAIRS]:
-        spline = keys.wiggly.splines[name]
-        sliders = json.loads(spline.more)['sliders']
-        for _, _, block, _ in parts_of(keys, spline.joint):
-            block.driver_remove('value')
-            block.value = 0
-            block.slider_min, block.slider_max = sliders[block.name]
-        chains.remove_spline(keys, name)
+        give_back(keys, keys.wiggly.splines[name])

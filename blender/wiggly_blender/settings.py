@@ -45,7 +45,6 @@ class Spline(bpy.types.PropertyGroup):
     last: IntProperty(name='Last', description='Where the motion ends. Of a loop, this frame repeats the first', override=SAME, update=changed('last'))
     slot: IntProperty(override=SAME)  # of its samples
     path: StringProperty(override=SAME)  # of a property that it moves
-    index: IntProperty(override=SAME)
     before: StringProperty()  # its value before that, to the last digit
     made: BoolProperty()  # its keys were made for the spline
 

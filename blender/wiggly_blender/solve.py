@@ -88,17 +88,29 @@ def key_of(owner, spline):
     return owner.as_pointer(), owner.name, spline.name
 
 
-def solve(owner, spline, scene, known):
+def note(owner, spline, curve, other):
+    """What keeps a spline from being as its keys say, beside its own answer."""
+    if spline.name not in owner:
+        return f'Its property "{spline.name}" is gone: name it so again, or insert a key'
+    if curve and any(not modifier.mute for modifier in curve.modifiers):
+        return f'Modifiers of "{spline.name}" in the Graph Editor do nothing'
+    return f'Its frames and their rate are those of the scene "{other.name}"' if other else ''
+
+
+def solve(owner, spline, scene, known, other=None):
     """Solves a spline if its inputs differ from those solved last."""
     action = curves.action_of(owner)
     curve, im = known.get((curves.path_of(spline.name), 0)), known.get(curves.slot_path(spline, 'im'))
     y = known.get(curves.slot_path(spline, 'y')) if spline.follow != 'none' else None
     if not action or not (curve or y) and owner.animation_data.nla_tracks:  # a strip may move it
         return
+    said = note(owner, spline, curve, other)
+    if curve and (curve.mute or curve.group and curve.group.mute):
+        curve = None
     first, last = range_of(spline, scene, curve)
     fps = fps_of(scene)
     y_first, y = curves.samples(y)
-    given = (*(getattr(spline, name) for name in SETTINGS), first, last, scene.frame_start, scene.frame_end, fps, y_first, y.tobytes(), action.name_full)
+    given = (*(getattr(spline, name) for name in SETTINGS), first, last, scene.frame_start, scene.frame_end, fps, y_first, y.tobytes(), action.name_full, said)
     key = key_of(owner, spline)
     if im and solved.get(key) == (curves.read(curve), given):
         return
@@ -114,7 +126,7 @@ def solve(owner, spline, scene, known):
     except wiggly.Error as problem:
         problems[key] = str(problem)
         return
-    problems[key] = answer.status.sentence if answer.status else ''
+    problems[key] = said or (answer.status.sentence if answer.status else '')
     for part, values in (('re', answer.re), ('im', answer.im)):
         start, values = first, list(values)
         if spline.start == 'loop':  # through the scene's frames, and one more on either side for motion blur
@@ -131,20 +143,35 @@ def insert(owner, spline, frame, kind):
     if spline.name not in owner:
         owner[spline.name] = 0.0
     curve = curves.ensure(owner, curves.path_of(spline.name))
+    if curve.lock:
+        raise ValueError(f'"{spline.name}" is locked: unlock it in the Graph Editor')
     point = curve.keyframe_points.insert(frame, total)
     point.type = kind
     curve.update()
 
 
+def home_of(owner, scene):
+    """The scene whose frames count: the first one that an object is in. Two windows would else solve it in turn, without end."""
+    if len(bpy.data.scenes) == 1 or not isinstance(owner, bpy.types.Object):
+        return scene
+    return next((each for each in bpy.data.scenes if owner.name in each.objects), scene)
+
+
 def solve_all(scene):
+    rulers = {}
     for owner in owners():
         action = curves.action_of(owner)
         if stored.of(owner) and owner.is_editable and (not action or action.is_editable):
             muted = {channel.spline for chain in owner.wiggly.chains if chain.mute for channel in chain.channels}
-            known = curves.all_of(owner)
+            known, home = curves.all_of(owner), home_of(owner, scene)
+            differs = fps_of(home) != fps_of(scene) or (home.frame_start, home.frame_end) != (scene.frame_start, scene.frame_end)
+            slot = owner.animation_data.action_slot.handle if action and curves.LAYERED else 0
             for spline in owner.wiggly.splines:
-                if spline.name not in muted:
-                    solve(owner, spline, scene, known)
+                ruler = rulers.setdefault((action.name_full, slot, spline.slot), owner) if action else owner
+                if ruler != owner:
+                    problems[key_of(owner, spline)] = f'The action is shared: its keys swing with the settings of "{ruler.name}"'
+                elif spline.name not in muted:
+                    solve(owner, spline, home, known, home if differs else None)
 
 
 @persistent

@@ -80,7 +80,7 @@ class WIGGLY_OT_key(Operator):
         ('MOVING_HOLD', 'Still', 'Comes to rest, and starts from rest')))
 
     def run(self, context, owner):
-        frame = context.scene.frame_current
+        frame = context.scene.frame_current_final
         for channel in active(owner).channels:
             solve.insert(owner, owner.wiggly.splines[channel.spline], frame, self.kind)
 
@@ -113,6 +113,19 @@ class WIGGLY_OT_property_remove(Property):
     """Gives this property its keyframes back"""
     bl_idname, bl_label = 'wiggly.property_remove', 'Remove Wiggle'
     change = staticmethod(prop.remove)
+
+
+class WIGGLY_OT_spline_remove(Operator):
+    """Gives the property that this moves its keyframes back"""
+    bl_idname, bl_label = 'wiggly.spline_remove', 'Remove Wiggle'
+    spline: StringProperty()
+
+    @classmethod
+    def poll(cls, context):
+        return getattr(context, 'wiggly_owner', None)
+
+    def run(self, context, _):
+        prop.give_back(context.wiggly_owner, context.wiggly_owner.wiggly.splines[self.spline])
 
 
 class WIGGLY_OT_property_bake(Property):
@@ -213,7 +226,11 @@ class WIGGLY_PT_panel(bpy.types.Panel):
                 if spline.path:
                     box = self.layout.box()
                     box.use_property_split = True
-                    box.prop(each, curves.path_of(spline.name), text='Key')
+                    row = box.row(align=True)
+                    row.context_pointer_set('wiggly_owner', each)
+                    if spline.name in each:
+                        row.prop(each, curves.path_of(spline.name), text='Key')
+                    row.operator('wiggly.spline_remove', text='', icon='X').spline = spline.name
                     draw_spline(box, each, spline, f'{each.name}: {spline.name}')
 
     def draw_chains(self, context, layout, owner):
@@ -255,7 +272,7 @@ def pose_menu(self, context):
 
 
 classes = (WIGGLY_OT_add, WIGGLY_OT_remove, WIGGLY_OT_refresh, WIGGLY_OT_key, WIGGLY_OT_preset, WIGGLY_OT_bake, WIGGLY_OT_property,
-           WIGGLY_OT_property_remove, WIGGLY_OT_property_bake, WIGGLY_OT_shapes, WIGGLY_OT_import, WIGGLY_OT_export, WIGGLY_UL_chains, WIGGLY_PT_panel)
+           WIGGLY_OT_property_remove, WIGGLY_OT_spline_remove, WIGGLY_OT_property_bake, WIGGLY_OT_shapes, WIGGLY_OT_import, WIGGLY_OT_export, WIGGLY_UL_chains, WIGGLY_PT_panel)
 
 
 menus = (('VIEW3D_MT_pose', pose_menu), ('UI_MT_button_context_menu', button_menu),
