@@ -334,7 +334,7 @@ def properties():
     keys.wiggly.splines[0].frequency = 2
     update()
     with bpy.context.temp_override(wiggly_owner=keys):
-        bpy.ops.wiggly.spline_remove(spline=keys.wiggly.splines[0].name)
+        bpy.ops.wiggly.property_remove(spline=keys.wiggly.splines[0].name)
     ok('what moved a deleted shape key can go', not settings.of(keys))
     modifier = cube.modifiers.new('wave', 'WAVE')
     prop.add(cube, 'modifiers["wave"].height', 0)
@@ -342,7 +342,7 @@ def properties():
     cube.location.x = 1
     update()
     with bpy.context.temp_override(wiggly_owner=cube):
-        bpy.ops.wiggly.spline_remove(spline=cube.wiggly.splines[0].name)
+        bpy.ops.wiggly.property_remove(spline=cube.wiggly.splines[0].name)
     ok('and what moved a deleted modifier', not settings.of(cube) and not cube.animation_data)
     names = 'Basis', 'up.re', 'up.im'
     for name in names[1:]:

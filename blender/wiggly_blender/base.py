@@ -79,13 +79,10 @@ def refresh(context, owner):
         wanted.append((spline, bone.name, chains.axes_to_follow(owner, spline), []))
     if not wanted:
         return
-    muted = chains.mute_all(owner)
-    try:
+    with chains.muted(owner):
         for seen in played(context, owner):
             for spline, name, axes, motion in wanted:
                 motion.append(sample(seen, name, spline.follow, axes, motion))
-    finally:
-        chains.unmute(muted)
     for spline, _, _, motion in wanted:
         values = [value for value, _ in motion]
         mean = (sum(values) - (values[0] + values[-1]) / 2) / max(len(values) - 1, 1)  # of a loop, too, whose ends are one

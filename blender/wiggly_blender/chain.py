@@ -3,6 +3,7 @@
 Bone n turns by q · C · Rz(side) · Rx(up) · Ry(twist) · C⁻¹, where q is what the action and earlier constraints say and C takes the
 chain's axes into the bone. Each angle is gain · (y + Re(e^(-j·n·lag) x)).
 """
+import contextlib
 import json
 import math
 import bpy
@@ -144,32 +145,28 @@ def weights(channel, n, count):
 def drive(owner, chain, bones=None):
     """Writes the drivers of a chain anew."""
     bones = bones or bones_of(owner, chain)
+    undrive(owner, chain)
     for n, bone in enumerate(bones):
-        con = bone.constraints[constraint_name(chain)]
-        for axis, letter in AXES.items():
-            channels = [channel for channel in chain.channels if channel.axis == axis]
-            undrive(owner, con, letter)
-            if channels:
-                sign = -1 if chain.mirror and axis != 'up' else 1
-                drive_axis(owner, con, letter, [(channel, [sign * w for w in weights(channel, n, len(bones))]) for channel in channels])
+        path = bone.constraints[constraint_name(chain)].path_from_id()
+        for axis in sorted({channel.axis for channel in chain.channels}):
+            sign, terms, rest = -1 if chain.mirror and axis != 'up' else 1, [], 0
+            for channel in chain.channels:
+                if channel.axis == axis:
+                    gain, real, imaginary = weights(channel, n, len(bones))
+                    spline = owner.wiggly.splines[channel.spline]
+                    terms += [(spline, 're', sign * real), (spline, 'im', sign * imaginary)]
+                    if channel.of == 'total' and spline.follow != 'none':
+                        terms.append((spline, 'y', sign * gain))
+                    elif channel.of == 'total':
+                        rest += sign * gain * spline.equilibrium
+            drive_by(owner, f'{path}.to_min_{AXES[axis]}_rot', -1, terms, rest)
         for each in constraints_of(bone, chain):
             each.mute = chain.mute
 
 
-def drive_axis(owner, con, letter, parts):
-    terms, rest = [], 0
-    for channel, (gain, real, imaginary) in parts:
-        spline = owner.wiggly.splines[channel.spline]
-        terms += [(spline, 're', real), (spline, 'im', imaginary)]
-        if channel.of == 'total' and spline.follow != 'none':
-            terms.append((spline, 'y', gain))
-        elif channel.of == 'total':
-            rest += gain * spline.equilibrium
-    say(con.driver_add(f'to_min_{letter}_rot').driver, owner, terms, rest)
-
-
-def say(driver, owner, terms, rest):
-    """Makes a driver a sum: of parts of splines, each with its weight, and a number."""
+def drive_by(owner, path, index, terms, rest=0):
+    """Drives a property by a sum of parts of splines, each with its weight, and a number."""
+    driver = owner.driver_add(path, index).driver
     words = [f'{rest:.9g}'] if rest else []
     for spline, part, weight in terms:
         if weight:
@@ -181,6 +178,7 @@ def say(driver, owner, terms, rest):
             target.data_path = f'{path}[{index}]'
             words.append(f'{weight:.9g}*{variable.name}')
     driver.expression = '+'.join(words or ['0']).replace('+-', '-')
+    return driver
 
 
 def readers(owner, spline):
@@ -190,26 +188,28 @@ def readers(owner, spline):
             ] if owner.animation_data else []
 
 
-def undrive(owner, con, letter):
-    if owner.animation_data and owner.animation_data.drivers.find(con.path_from_id(f'to_min_{letter}_rot')):
-        con.driver_remove(f'to_min_{letter}_rot')
+def undrive(owner, chain):
+    """Removes the drivers of a chain, and those of bones that were deleted."""
+    name = f'.constraints{curves.path_of(constraint_name(chain))}.to_min_'
+    for driver in [each for each in owner.animation_data.drivers if name in each.data_path] if owner.animation_data else ():
+        owner.animation_data.drivers.remove(driver)
 
 
 def constraints_of(bone, chain):
     return [con for con in (bone.constraints.get(constraint_name(chain, end)) for end in (' <', '', ' >')) if con]
 
 
-def mute_all(owner):
-    """Mutes what bends an armature, and gives it back for unmute()."""
+@contextlib.contextmanager
+def muted(owner):
+    """Within this, nothing bends an armature."""
     cons = [con for bone in owner.pose.bones for con in bone.constraints if con.name.startswith('Wiggle ') and not con.mute]
     for con in cons:
         con.mute = True
-    return cons
-
-
-def unmute(cons):
-    for con in cons:
-        con.mute = False
+    try:
+        yield
+    finally:
+        for con in cons:
+            con.mute = False
 
 
 def chain_of(owner, spline):
@@ -266,9 +266,7 @@ def make(owner, bones, follow, loop=False):
 def remove(owner, chain):
     """Takes a chain away, with all that it added."""
     check_local(owner)
-    for bone in bones_of(owner, chain):
-        for letter in AXES.values():
-            undrive(owner, bone.constraints[constraint_name(chain)], letter)
+    undrive(owner, chain)
     for bone in owner.pose.bones:
         for con in constraints_of(bone, chain):
             bone.constraints.remove(con)
@@ -295,8 +293,6 @@ def add_spline(owner, name):
 
 def remove_spline(owner, name):
     spline = owner.wiggly.splines[name]
-    for driver in readers(owner, spline):
-        owner.animation_data.drivers.remove(driver)
     curves.drop(owner, curves.path_of(name))
     curves.drop_samples(owner, spline)
     if name in owner:

@@ -77,15 +77,13 @@ def write(context, owner, path):
     with open(path + '.new', 'w', encoding='utf-8') as file:
         json.dump(out, file, indent=2, ensure_ascii=False)
         file.write('\n')
-    muted = chains.mute_all(owner)
     try:
-        bpy.ops.export_scene.gltf(filepath=model, export_format='GLB')
+        with chains.muted(owner):
+            bpy.ops.export_scene.gltf(filepath=model, export_format='GLB')
         os.replace(path + '.new', path)
     except RuntimeError as problem:  # of the exporter
         os.remove(path + '.new')
         raise ValueError(f'{model}: {str(problem).strip().splitlines()[-1]}') from problem
-    finally:
-        chains.unmute(muted)
 
 
 # --- import

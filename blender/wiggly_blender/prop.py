@@ -26,11 +26,9 @@ def add(owner, path, index):
     chains.check_local(owner)
     if not any(owner == each for each in solve.possible()):
         raise ValueError(f'"{path}" belongs to a {owner.id_type.lower()}, which cannot wiggle')
-    if found(owner, path, index):
-        raise ValueError(f'"{path}" already wiggles')
     target, name, get, _ = holder(owner, path)
     value = get(target, name)
-    array = hasattr(value, '__len__')
+    array = hasattr(value, '__len__') and not isinstance(value, str)
     value = value[index] if array else value
     if not isinstance(value, float):
         raise ValueError(f'"{path}" is not a decimal number')
@@ -48,16 +46,19 @@ def add(owner, path, index):
         curves.list_of(owner, make=True)
         solve.insert(owner, spline, bpy.context.scene.frame_current, 'KEYFRAME')
     spline.made = not curve
-    driver = (owner.driver_add(path, index) if array else owner.driver_add(path)).driver
-    chains.say(driver, owner, [(spline, 're', 1.0)], spline.equilibrium)
+    chains.drive_by(owner, path, index if array else -1, [(spline, 're', 1.0)], spline.equilibrium)
+    return spline
+
+
+def wiggling(owner, path, index):
+    spline = found(owner, path, index)
+    if not spline:
+        raise ValueError(f'"{path}" does not wiggle')
     return spline
 
 
 def remove(owner, path, index):
-    spline = found(owner, path, index)
-    if not spline:
-        raise ValueError(f'"{path}" does not wiggle')
-    give_back(owner, spline)
+    give_back(owner, wiggling(owner, path, index))
 
 
 def give_back(owner, spline):
@@ -86,13 +87,11 @@ def give_back(owner, spline):
 
 def make_keys(owner, path, index):
     """A copy of the action in which the property has a key at every frame of the scene, and wiggles no more."""
-    scene, spline = bpy.context.scene, found(owner, path, index)
-    if not spline:
-        raise ValueError(f'"{path}" does not wiggle')
+    scene, spline = bpy.context.scene, wiggling(owner, path, index)
     frames, curve = range(scene.frame_start, scene.frame_end + 1), curves.part(owner, spline, 're')
     values = [curve.evaluate(frame) + spline.equilibrium for frame in frames]
     bake.copy_action(owner)
-    remove(owner, path, index)
+    give_back(owner, spline)
     bake.write(owner, path, index, frames, values)
 
 
@@ -126,8 +125,7 @@ def add_pairs(keys, measured=()):
         spline.frequency, spline.damping = dict(measured).get(name, (spline.frequency, spline.damping))
         sliders = {}
         for part, sign, block, halved in parts_of(keys, name):
-            driver = block.driver_add('value').driver
-            chains.say(driver, keys, [(spline, part, sign)], 0)
+            driver = chains.drive_by(keys, block.path_from_id('value'), -1, [(spline, part, sign)])
             if halved:
                 driver.expression = f'max(0,{driver.expression})'
             sliders[block.name] = block.slider_min, block.slider_max

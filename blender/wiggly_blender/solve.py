@@ -169,6 +169,7 @@ def solve_all(scene):
             for spline in owner.wiggly.splines:
                 ruler = rulers.setdefault((action.name_full, slot, spline.slot), owner) if action else owner
                 if ruler != owner:
+                    solved.pop(key_of(owner, spline), None)
                     problems[key_of(owner, spline)] = f'The action is shared: its keys swing with the settings of "{ruler.name}"'
                 elif spline.name not in muted:
                     solve(owner, spline, home, known, home if differs else None)

@@ -113,19 +113,17 @@ class WIGGLY_OT_property_remove(Property):
     """Gives this property its keyframes back"""
     bl_idname, bl_label = 'wiggly.property_remove', 'Remove Wiggle'
     change = staticmethod(prop.remove)
-
-
-class WIGGLY_OT_spline_remove(Operator):
-    """Gives the property that this moves its keyframes back"""
-    bl_idname, bl_label = 'wiggly.spline_remove', 'Remove Wiggle'
     spline: StringProperty()
 
     @classmethod
     def poll(cls, context):
-        return getattr(context, 'wiggly_owner', None)
+        return getattr(context, 'wiggly_owner', None) or super().poll(context)
 
     def run(self, context, _):
-        prop.give_back(context.wiggly_owner, context.wiggly_owner.wiggly.splines[self.spline])
+        if self.spline:  # of the panel: the property may be gone
+            prop.give_back(context.wiggly_owner, context.wiggly_owner.wiggly.splines[self.spline])
+        else:
+            super().run(context, None)
 
 
 class WIGGLY_OT_property_bake(Property):
@@ -230,7 +228,7 @@ class WIGGLY_PT_panel(bpy.types.Panel):
                     row.context_pointer_set('wiggly_owner', each)
                     if spline.name in each:
                         row.prop(each, curves.path_of(spline.name), text='Key')
-                    row.operator('wiggly.spline_remove', text='', icon='X').spline = spline.name
+                    row.operator('wiggly.property_remove', text='', icon='X').spline = spline.name
                     draw_spline(box, each, spline, f'{each.name}: {spline.name}')
 
     def draw_chains(self, context, layout, owner):
@@ -272,7 +270,7 @@ def pose_menu(self, context):
 
 
 classes = (WIGGLY_OT_add, WIGGLY_OT_remove, WIGGLY_OT_refresh, WIGGLY_OT_key, WIGGLY_OT_preset, WIGGLY_OT_bake, WIGGLY_OT_property,
-           WIGGLY_OT_property_remove, WIGGLY_OT_spline_remove, WIGGLY_OT_property_bake, WIGGLY_OT_shapes, WIGGLY_OT_import, WIGGLY_OT_export, WIGGLY_UL_chains, WIGGLY_PT_panel)
+           WIGGLY_OT_property_remove, WIGGLY_OT_property_bake, WIGGLY_OT_shapes, WIGGLY_OT_import, WIGGLY_OT_export, WIGGLY_UL_chains, WIGGLY_PT_panel)
 
 
 menus = (('VIEW3D_MT_pose', pose_menu), ('UI_MT_button_context_menu', button_menu),
