@@ -254,6 +254,39 @@ def bake_driven():
     ok('baked twice, it stays', apart(live, poses(rig, frames)) < 2e-6)
 
 
+def bake_turns():
+    rig = fresh()
+    bone = rig.pose.bones['tail_2']
+    add(rig, follow=False)
+    key(rig, 'tail side', (10, 1), (30, -0.5))
+    for frame, mode in ((1, 'QUATERNION'), (20, 'XYZ')):
+        bone.rotation_mode = mode
+        bone.keyframe_insert('rotation_mode', frame=frame)
+    bone.rotation_euler.x = 0.5
+    live = poses(rig, range(1, 61))
+    bpy.ops.wiggly.bake()
+    update()
+    ok('a bone whose rotation mode has keys is baked', apart(live, poses(rig, range(1, 61))) < 2e-6)
+
+
+def strips():
+    rig = wagging()
+    animation = rig.animation_data
+    strip = animation.nla_tracks.new().strips.new('wag', 1, animation.action)
+    if curves.LAYERED:
+        strip.action_slot = animation.action_slot
+    animation.action = None
+    bpy.context.scene.frame_set(14)
+    was = bend(rig, 'tail_1')[2]
+    bpy.ops.wiggly.key()
+    update()
+    ok('a key over a strip keeps what is seen', abs(bend(rig, 'tail_1')[2] - was) < 1e-4 and abs(was) > 1, bend(rig, 'tail_1'), was)
+    rig = wagging()
+    bpy.context.scene.frame_set(12, subframe=0.6)
+    bpy.ops.wiggly.key()
+    ok('keys go to whole frames', [point.co[0] for point in curves.find(rig, '["tail side"]').keyframe_points] == [10, 13, 30])
+
+
 def channels():
     rig = wagging()
     before = values(rig)
@@ -354,6 +387,13 @@ def properties():
     update()
     bpy.ops.wiggly.shapes(remove=True)
     ok('and renamed pairs', not settings.of(keys) and not keys.animation_data)
+    keys.key_blocks['left.re'].name = 'up.re'
+    keys.key_blocks['up.im'].driver_add('value').driver.expression = '0.5'
+    fails('"up.im" has a driver', bpy.ops.wiggly.shapes)
+    ok('which stays', not settings.of(keys) and [d.driver.expression for d in keys.animation_data.drivers] == ['0.5'])
+    prop.add(cube, 'location', 1)
+    cube.animation_data.action = None
+    fails('has no keys', prop.make_keys, cube, 'location', 1)
 
 
 def overrides():
@@ -427,4 +467,4 @@ def settings_ends():
 
 
 main(shared_action, bones_deleted, bone_inserted, copied_constraints, renamed, action_gone, frames, remapped, moved_strip, stretch_baked, bake_driven,
-     channels, pose_keys, undone, properties, overrides, two_scenes, settings_ends)
+     bake_turns, strips, channels, pose_keys, undone, properties, overrides, two_scenes, settings_ends)

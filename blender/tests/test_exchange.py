@@ -106,6 +106,7 @@ def strange_files():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     start = {'wiggly': 1, 'frames': [0, 9], 'splines': [], 'rigs': []}
     for what, words, text in (('no file', 'FileNotFoundError', None), ('no JSON', 'expected a scene', '{'), ('no scene', "expected a scene", '[]'),
+                              ('no rate', 'expected a scene', json.dumps({**start, 'fps': 0})),
                               ('a model that is missing', '"no.glb" is not there',
                                json.dumps({**start, 'rigs': [{'type': 'model', 'model': 'no.glb'}]}))):
         path = os.path.join(folder, f'{what}.json')

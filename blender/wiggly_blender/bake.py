@@ -14,7 +14,8 @@ def bake(context, owner, chain):
     if chain.mute:
         raise ValueError(f'"{chain.name}" is muted: unmute it to bake it')
     bones = chains.row_of(owner, chain)
-    driven = [driver.data_path.rpartition('.rotation_')[0] for driver in owner.animation_data.drivers]
+    modes = [curve for curve in curves.list_of(owner) if curve.data_path.endswith('.rotation_mode')]
+    driven = [each.data_path.rpartition('.rotation_')[0] for each in [*owner.animation_data.drivers, *modes]]
     frames = range(scene.frame_start, scene.frame_end + 1)
     held = [bone.path_from_id() in driven or any(not con.mute and con not in chains.constraints_of(bone, chain) for con in bone.constraints)
             for bone in bones]

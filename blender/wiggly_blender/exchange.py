@@ -182,7 +182,7 @@ def read(context, path):
     try:
         with open(path, encoding='utf-8') as file:
             return build(context, json.load(file), os.path.dirname(path))
-    except (OSError, json.JSONDecodeError, KeyError, TypeError) as problem:
+    except (OSError, json.JSONDecodeError, LookupError, TypeError, AttributeError, ArithmeticError) as problem:
         raise ValueError(f'{os.path.basename(path)}: expected a scene of wiggly, got {type(problem).__name__} {problem}') from problem
     except RuntimeError as problem:  # of the importer
         raise ValueError(str(problem)) from problem

@@ -89,6 +89,8 @@ def make_keys(owner, path, index):
     """A copy of the action in which the property has a key at every frame of the scene, and wiggles no more."""
     scene, spline = bpy.context.scene, wiggling(owner, path, index)
     frames, curve = range(scene.frame_start, scene.frame_end + 1), curves.part(owner, spline, 're')
+    if not curve:
+        raise ValueError(f'"{path}" has no keys to bake')
     values = [curve.evaluate(frame) + spline.equilibrium for frame in frames]
     bake.copy_action(owner)
     give_back(owner, spline)
@@ -117,6 +119,11 @@ def add_pairs(keys, measured=()):
     """A spline for each pair; `measured` are the frequency and damping that wiggly found, by name."""
     if not pairs_of(keys):
         raise ValueError('Expected shape keys in pairs, such as "up.re" and "up.im"')
+    driven = [driver.data_path for driver in keys.animation_data.drivers] if keys.animation_data and not settings.of(keys) else ()
+    for name in pairs_of(keys):
+        for _, _, block, _ in parts_of(keys, name):
+            if block.path_from_id('value') in driven:
+                raise ValueError(f'"{block.name}" has a driver')
     for name in pairs_of(keys):
         if any(spline.joint == name for spline in keys.wiggly.splines):
             continue

@@ -137,9 +137,10 @@ def solve(owner, spline, scene, known, other=None):
 
 def insert(owner, spline, frame, kind):
     """A key at the value that the curve has there."""
-    total = sum(curve.evaluate(frame) for curve in (curves.part(owner, spline, part) for part in ('re', 'y')) if curve)
-    if spline.follow == 'none':
-        total += spline.equilibrium
+    total = spline.equilibrium if spline.follow == 'none' else 0
+    for part in ('re', 'y'):
+        curve, index = curves.part(owner, spline, part), curves.slot_path(spline, part)[1]
+        total += curve.evaluate(frame) if curve else (owner.get(curves.SAMPLES) or [0] * (index + 1))[index]  # a strip may move it
     if spline.name not in owner:
         owner[spline.name] = 0.0
     curve = curves.ensure(owner, curves.path_of(spline.name))

@@ -80,7 +80,7 @@ class WIGGLY_OT_key(Operator):
         ('MOVING_HOLD', 'Still', 'Comes to rest, and starts from rest')))
 
     def run(self, context, owner):
-        frame = context.scene.frame_current_final
+        frame = round(context.scene.frame_current_final)  # that of the action, if time is stretched
         for channel in active(owner).channels:
             solve.insert(owner, owner.wiggly.splines[channel.spline], frame, self.kind)
 
