@@ -15,17 +15,17 @@ static struct imported make_character(void)
     struct imported imported = {0};
     struct gltf *gltf = &imported.gltf;
     versors before = glms_quatv(0.4f, (vec3s){.raw = {0.3f, 1, 0.2f}});
-    gltf->path = strdup("made.glb");
+    gltf->path = "made.glb";
     gltf->node_count = BONES + 3; // root, bones, tip, spur
-    gltf->nodes = calloc((size_t)gltf->node_count, sizeof *gltf->nodes);
-    gltf->order = calloc((size_t)gltf->node_count, sizeof *gltf->order);
+    gltf->nodes = pool_take(&gltf->pool, (size_t)gltf->node_count, sizeof *gltf->nodes);
+    gltf->order = pool_take(&gltf->pool, (size_t)gltf->node_count, sizeof *gltf->order);
     for (int n = 0; n < gltf->node_count; n++) {
         struct gltf_node *node = &gltf->nodes[n];
         const bool is_spur = n == BONES + 2;
-        char name[16];
-        snprintf(name, sizeof name, n == 0 ? "root" : is_spur ? "spur" : "bone_%d", n);
+        char *name = pool_take(&gltf->pool, 16, 1);
+        snprintf(name, 16, n == 0 ? "root" : is_spur ? "spur" : "bone_%d", n);
         *node = (struct gltf_node){
-            .name = strdup(name), .parent = is_spur ? 3 : n - 1, .mesh = -1, .skin = -1, .place.scale = {1, 1, 1}};
+            .name = name, .parent = is_spur ? 3 : n - 1, .mesh = -1, .skin = -1, .place.scale = {1, 1, 1}};
         versors after =
             n == 0 ? before
                    : glms_quatv(1.7f * (float)n, glms_vec3_normalize((vec3s){.raw = {1, 0.3f * (float)n, -0.7f}}));

@@ -53,7 +53,7 @@ holds "the .pc file carries the version" [ "$(pkg-config --modversion wiggly)" =
 flags=$(pkg-config --cflags --libs wiggly)
 export LD_LIBRARY_PATH=$root/lib # where no ldconfig has been
 
-for example in examples/*; do
+for example in examples/*.c*; do
     name=$(basename "${example%.*}")
     case $example in *.cpp) compiler="g++ -std=c++17 -Wpedantic" ;; *) compiler="$CC -std=c11" ;; esac
     # shellcheck disable=SC2086
