@@ -203,9 +203,8 @@ struct figure_target figure_target_create(const struct figure *figure, int coord
     const struct coordinate *n = &figure->character.coordinates[coordinate];
     struct figure_target target = {.sign = imaginary ? -1.0f : 1.0f,
                                    .position = (const float(*)[3])(imaginary ? n->im : n->re)};
-    const char *name = n->name ? n->name : "";
-    target.name = pool_take(pool, strlen(name) + strlen(ending) + 1, 1);
-    stpcpy(stpcpy(target.name, name), ending);
+    target.name = pool_take(pool, strlen(n->name) + strlen(ending) + 1, 1);
+    stpcpy(stpcpy(target.name, n->name), ending);
     if (!figure->slopes) return target;
     target.normal = pool_take(pool, (size_t)figure->character.vertex_count, sizeof *target.normal);
     turn_normals(figure, coordinate, imaginary, target.normal);

@@ -7,6 +7,7 @@
 #include "model/adjacency.h"
 #include "model/figure.h"
 #include <stdlib.h>
+#include <string.h>
 
 /// The outlines of a mesh as it stands, from an eye.
 static inline void fuzz_outlines(const struct posed *mesh, const float eye[3])
@@ -66,7 +67,10 @@ static inline void fuzz_surface(const char *path)
         fuzz_expect(!triangle_repeats(surface.indices + 3 * i), "a triangle has three different vertices");
     }
     struct character character;
-    if (character_create(&character, &surface, 1)) fuzz_figure(&character);
+    if (character_create(&character, &surface, 1)) {
+        character.coordinates[0].name = strdup("up");
+        fuzz_figure(&character);
+    }
     surface_free(&surface);
 }
 
