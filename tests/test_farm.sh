@@ -14,6 +14,18 @@ holds "so that its file stays" [ ! "$scratch/one/shot1.glb" -nt Makefile ]
 expect 1 "a shot that fails says why" python3 examples/farm.py "$shots" "$scratch/one" --only 9
 says "with its name" "bad: wiggly simulate: " "$err"
 holds "and leaves nothing" [ "$(ls -A "$scratch/one")" = shot1.glb ]
+
+refuses() { # <what> <--only> <fragment> <list>
+    printf "$4" >"$scratch/wrong.txt"
+    expect 1 "$1 is refused" python3 examples/farm.py "$scratch/wrong.txt" "$scratch/one" --only "$2"
+    says "in a sentence" "$3" "$err"
+    holds "and only that" not grep -q Traceback "$scratch/stderr"
+}
+refuses "a name that is there twice" 1 "wrong.txt:4: expected a name of its own, a mesh and options, got a y.obj" '# shots\na x.obj\n\na y.obj\n'
+refuses "a name with a folder" 1 "wrong.txt:1: expected a name" '../a x.obj\n'
+refuses "an open quotation mark" 1 "wrong.txt:1: expected a name" "a 'x.obj\n"
+refuses "a shot that the list lacks" 0 "expected 1 to 1, got 0" 'a x.obj\n'
+refuses "a mesh that is not there" 1 "a: $PWD/x.obj: cannot be opened" '# shots\na x.obj\n'
 thorough || exit 0
 
 # --- two workers, of which one is killed
@@ -36,7 +48,7 @@ for _ in $(seq 600); do [ -n "$(ls "$scratch/farm" 2>/dev/null)" ] && break; sle
 kill -9 "${processes[1]}"
 status=0
 wait $farm || status=$?
-ok "the farm ends well although a worker was killed" $status
+ok "the farm ends although a worker was killed" "$([ $status = 1 ]; echo $?)"
 holds "and names the shot that failed" grep -q "^bad: wiggly simulate" "$scratch/said"
 rm -rf "$scratch"/farm/.*-* # what the killed worker left
 holds "all shots have the bits of one machine" diff -r "$scratch/one" "$scratch/farm"
