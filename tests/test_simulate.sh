@@ -43,6 +43,7 @@ swings "a time too short" "$free a burst of 1.091 s and a period of 0.5 s do not
 swings "a body too slow for it" "do not fit into 1 s" "$burst" --seconds 1 --young 1e4
 says "whose frequency nobody can tell" "warning: 1 s show less than a period, 2." "$err"
 swings "a burst that is asked for, however short the time" "swing.npy: 24 frames" "because" --seconds 1 --drive burst
+says "that analyze may misread" "warning: a drive of 1.091 s and a period of 0.5 s do not fit into 1 s" "$err"
 swings "eight periods of a slow body" "swing.npy: 384 frames" "because" --frequency 0.5
 swings "the same by its material" "then the body swings freely" "because" --young 1e4
 swings "a thousand frames a second" "swing.npy: 4000 frames" "because" --fps 1000

@@ -60,14 +60,23 @@ static bool set_times(struct job *job, const struct soft *soft)
     return end + fmax(period, ANALYSIS_FRAMES_MIN / shake->fps) <= shake->seconds;
 }
 
-/// Makes the body, tuned to what moves it. The burst that nobody asked for gives way to a free swing where time is too short.
+/// Makes the body, tuned to what moves it. Where time is too short, the burst that nobody asked for gives way to a free swing.
 static bool make_body(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
 {
     if (!soft_create(soft, surface, job->mesh, &job->soft, error)) return false;
     const bool fits = set_times(job, soft);
-    if (fits || job->drive_text || job->drive.kind == DRIVE_NONE) return true;
+    const double end = drive_end(&job->drive), period = 1 / soft_frequency(soft);
+    if (fits || job->drive.kind == DRIVE_NONE) return true;
+    if (job->drive_text) {
+        if (isfinite(end) && period <= job->shake.seconds)
+            print_line(stderr,
+                       "%s: warning: a drive of %.4g s and a period of %.4g s do not fit into %.4g s, so analyze may "
+                       "take the drive for the body's swing; choose a longer time",
+                       job->mesh, end, period, job->shake.seconds);
+        return true;
+    }
     print_line(stdout, "%s: swings freely, because a burst of %.4g s and a period of %.4g s do not fit into %.4g s",
-               job->mesh, drive_end(&job->drive), 1 / soft_frequency(soft), job->shake.seconds);
+               job->mesh, end, period, job->shake.seconds);
     soft_free(soft);
     set_swing(job, DRIVE_NONE);
     return make_body(job, soft, surface, error);
