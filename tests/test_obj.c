@@ -73,7 +73,8 @@ TEST(triangles_that_repeat_a_vertex_are_left_out)
         {"f 1 2 3 4\nf 1 2 2\n", 6, {0, 1, 2, 0, 2, 3}, {0, 1}},
         {"f 1 2 3\nf 1 1 3 4\n", 6, {0, 1, 2, 0, 2, 3}, {0, 0}}, // a polygon of its own, not more of the one before
         {"f 1 2 3 3 4\n", 6, {0, 1, 2, 0, 2, 3}, {0, 1}},
-        {"f 1 2 3 1 4 5\n", 6, {0, 1, 2, 0, 3, 4}, {0, 0}}, // two that touch at a corner
+        {"f 1 2 3/1 3/2 4\n", 6, {0, 1, 2, 0, 2, 3}, {0, 0}}, // whose textures do not meet
+        {"f 1 2 3 1 4 5\n", 6, {0, 1, 2, 0, 3, 4}, {0, 0}},   // two that touch at a corner
         {"f 1 2 3\nf 4 4 4\nf 1 3 4 5\n", 9, {0, 1, 2, 0, 2, 3, 0, 3, 4}, {0, 0, 1}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

@@ -151,7 +151,8 @@ static void drop_repeats(struct surface *s)
         const uint32_t *corner = s->indices + 3 * t;
         begun = begun && looks->joined[t];
         if (triangle_repeats(corner)) continue;
-        looks->joined[kept] = begun && corner[1] == s->indices[3 * kept - 1];
+        looks->joined[kept] =
+            begun && corner[1] == s->indices[3 * kept - 1] && looks->corner[3 * t + 1] == looks->corner[3 * kept - 1];
         looks->material[kept] = looks->material[t];
         memmove(s->indices + 3 * kept, corner, 3 * sizeof *s->indices);
         memmove(looks->corner + 3 * kept, looks->corner + 3 * t, 3 * sizeof *looks->corner);
