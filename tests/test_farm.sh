@@ -21,11 +21,10 @@ refuses() { # <what> <--only> <fragment> <list>
     says "in a sentence" "$3" "$err"
     holds "and only that" not grep -q Traceback "$scratch/stderr"
 }
-refuses "a name that is there twice" 1 "wrong.txt:4: expected a name of its own, a mesh and options, got a y.obj" '# shots\na x.obj\n\na y.obj\n'
-refuses "a name with a folder" 1 "wrong.txt:1: expected a name" '../a x.obj\n'
-refuses "an open quotation mark" 1 "wrong.txt:1: expected a name" "a 'x.obj\n"
+refuses "a name that is there twice" 1 "wrong.txt: expected a name and a mesh in every line, and no name twice" 'a x.obj\n\na y.obj\n'
+refuses "a shot without a mesh" 1 "wrong.txt: expected a name and a mesh" 'a\n'
 refuses "a shot that the list lacks" 0 "expected 1 to 1, got 0" 'a x.obj\n'
-refuses "a mesh that is not there" 1 "a: $PWD/x.obj: cannot be opened" '# shots\na x.obj\n'
+refuses "a mesh that is not there" 1 "a: x.obj: cannot be opened" 'a x.obj\n'
 thorough || exit 0
 
 # --- two workers, of which one is killed
