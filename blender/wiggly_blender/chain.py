@@ -229,8 +229,9 @@ def check_local(owner):
 def check(owner, bones):
     """Raises what keeps a chain from being made."""
     check_local(owner)
+    taken = [bone for chain in owner.wiggly.chains for bone in bones_of(owner, chain)]
     for bone in bones:
-        if any(bone in bones_of(owner, chain) for chain in owner.wiggly.chains):
+        if bone in taken:
             raise ValueError(f'"{bone.name}" already wiggles: remove that first')
     target_for(owner, bones[0])
 
