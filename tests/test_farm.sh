@@ -41,13 +41,13 @@ start scheduler --port 0 --no-dashboard --scheduler-file "$scratch/scheduler.jso
 for _ in 1 2; do start worker --scheduler-file "$scratch/scheduler.json" --nthreads 1 --no-nanny --no-dashboard --local-directory "$scratch"; done
 for _ in $(seq 300); do [ -s "$scratch/scheduler.json" ] && break; sleep 0.1; done
 address=$(sed -n 's/.*"address": "\([^"]*\)".*/\1/p' "$scratch/scheduler.json")
-"$place/bin/python" examples/farm.py "$shots" "$scratch/farm" --scheduler "$address" >"$scratch/said" 2>&1 &
+"$place/bin/python" examples/farm.py "$shots" "$scratch/many" --scheduler "$address" >"$scratch/said" 2>&1 &
 farm=$!
-for _ in $(seq 600); do [ -n "$(ls "$scratch/farm" 2>/dev/null)" ] && break; sleep 0.1; done
+for _ in $(seq 600); do [ -n "$(ls "$scratch/many" 2>/dev/null)" ] && break; sleep 0.1; done
 kill -9 "${processes[1]}"
 status=0
 wait $farm || status=$?
 ok "the farm ends although a worker was killed" "$([ $status = 1 ]; echo $?)"
 holds "and names the shot that failed" grep -q "^bad: wiggly simulate" "$scratch/said"
-rm -rf "$scratch"/farm/.*-* # what the killed worker left
-holds "all shots have the bits of one machine" diff -r "$scratch/one" "$scratch/farm"
+rm -rf "$scratch"/many/.*-* # what the killed worker left
+holds "all shots have the bits of one machine" diff -r "$scratch/one" "$scratch/many"
