@@ -1,4 +1,3 @@
-#version 330 core
 // Background, ground and shadows. Shadows are discs blended over the rest; they fade out smoothly.
 in vec2 disc;
 in vec4 tint;

@@ -1,4 +1,3 @@
-#version 330 core
 // Background, ground and contact shadows: quads in clip space with coordinates across a disc.
 layout(location = 0) in vec4 clip;
 layout(location = 1) in vec2 local;

@@ -1,4 +1,3 @@
-#version 330 core
 // A reed, blended by its coverage of the pixel.
 in vec3 color;
 in vec2 edge;

@@ -1,4 +1,3 @@
-#version 330 core
 // Reeds: one instanced strip. Each bends joint by joint like a tail. Few are wider than two pixels, so both sides are lit here, as a round
 // stem's.
 layout(location = 0) in vec2 corner; // joints from the ground; across: -1 … 1

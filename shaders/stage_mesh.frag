@@ -1,4 +1,3 @@
-#version 330 core
 // Wrapped key light, hemisphere, rim. Colours are linear until the last line. FURRED is a fox's coat, FACED its head, PICTURED other meshes
 // with pictures, masks or opacity.
 #if defined(FACED)

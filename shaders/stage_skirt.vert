@@ -1,4 +1,3 @@
-#version 330 core
 // Characters and their skirts, already posed (draw/posed.h). All programs use it without macros, so that Mesa compiles it once for several.
 layout(location = 0) in vec3 position;
 layout(location = 1) in vec3 normal;

@@ -1,4 +1,3 @@
-#version 330 core
 // One shader for everything: coverage is the line's (across and along) times the glyph's. Solids use a white texel; filled shapes have edge
 // values of full coverage.
 

@@ -1,4 +1,3 @@
-#version 330 core
 // The interface, in device pixels from the top left.
 
 layout(location = 0) in vec2 position;

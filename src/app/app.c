@@ -66,19 +66,33 @@ static bool open_log(struct app *app, struct error *error)
     return true;
 }
 
+/// The frames of a run.
+struct run {
+    struct app *app;
+    long frames; ///< 0: unlimited
+    bool timed;
+};
+
+/// Makes a frame; false after the last.
+static bool run_frame(void *user)
+{
+    const struct run *run = user;
+    struct app *app = run->app;
+    if (app->options->turns) {
+        turns_take();
+        app->last_swap = NAN; // the other program's frame came between
+    }
+    mtx_lock(&app->working);
+    app_frame(app);
+    mtx_unlock(&app->working);
+    if (app->frame == 1 && run->timed && !app->log && !open_log(app, &app->error)) app->failed = true;
+    if (app->options->turns && !app->failed) turns_give();
+    return !app->quit && !app->failed && !process_was_told_to_end() && (run->frames == 0 || app->frame < run->frames);
+}
+
 static bool run_frames(struct app *app, long frames, bool timed, struct error *error)
 {
-    while (!app->quit && !app->failed && !process_was_told_to_end() && (frames == 0 || app->frame < frames)) {
-        if (app->options->turns) {
-            turns_take();
-            app->last_swap = NAN; // the other program's frame came between
-        }
-        mtx_lock(&app->working);
-        app_frame(app);
-        mtx_unlock(&app->working);
-        if (app->frame == 1 && timed && !app->log && !open_log(app, error)) return false;
-        if (app->options->turns) turns_give();
-    }
+    platform_run(app->platform, run_frame, &(struct run){app, frames, timed});
     if (app->failed) *error = app->error;
     return !app->failed;
 }

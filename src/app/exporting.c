@@ -114,10 +114,7 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
     opened->document = document_copy(app->table.document);
     opened->models = models_create();
     job->threaded = thrd_create(&job->thread, work, job) == thrd_success;
-    if (!job->threaded) {
-        destroy(job);
-        return fail(error, ERROR_ENVIRONMENT, "%s: cannot start a thread", request->path);
-    }
+    if (!job->threaded) work(job); // a late frame is better than no export
     app->export_job = job;
     return true;
 }
@@ -137,9 +134,9 @@ static enum film_state begin_film(struct export_job *job)
 /// FILM_RUNS while any format has more to do.
 static enum film_state go_on(struct export_job *job, bool wait)
 {
-    if (job->threaded) {
+    if (!job->film) {
         if (!wait && !atomic_load(&job->ended)) return FILM_RUNS;
-        thrd_join(job->thread, NULL);
+        if (job->threaded) thrd_join(job->thread, NULL);
         job->threaded = false;
         if (!job->good) return FILM_FAILED;
         if (!film_knows(job->request.path)) return FILM_DONE;

@@ -17,7 +17,7 @@
 
 static const size_t LARGEST = (size_t)1 << 30;
 
-enum { READ_BLOCK = 1 << 16, MAX_LINKS = 32, MAX_NAMES = 100 };
+enum { READ_BLOCK = 1 << 16, MAX_LINKS = 32, MAX_NAMES = 100, LARGEST_ACL = 1 << 16 };
 
 static const char acl_name[] = "system.posix_acl_access";
 
@@ -240,7 +240,7 @@ static mode_t common_rights(mode_t mode, const unsigned char *acl, ssize_t size)
 /// both had: members of the old group are others now.
 static bool keep_rights(int file, const char *path, const struct stat *old)
 {
-    unsigned char acl[XATTR_SIZE_MAX];
+    unsigned char acl[LARGEST_ACL];
     const ssize_t size = getxattr(path, acl_name, acl, sizeof acl);
     const bool has_owner = fchown(file, old->st_uid, old->st_gid) == 0;
     const bool has_group = has_owner || fchown(file, (uid_t)-1, old->st_gid) == 0;

@@ -12,11 +12,8 @@ static GLuint compile(GLenum kind, const char *name, const char *define)
     const struct embedded *source = embedded_find(path);
     GLuint shader = glCreateShader(kind);
     if (define) snprintf(line, sizeof line, "#define %s\n", define);
-    const GLchar *text = (const GLchar *)source->data;
-    const GLint first = (GLint)strcspn(text, "\n") + 1; // "#version …" must come first
-    const GLchar *texts[] = {text, line, text + first};
-    const GLint lengths[] = {first, (GLint)strlen(line), (GLint)source->size - first};
-    glShaderSource(shader, 3, texts, lengths);
+    const GLchar *texts[] = {GLSL_VERSION, line, (const GLchar *)source->data};
+    glShaderSource(shader, 3, texts, NULL);
     glCompileShader(shader);
     return shader;
 }

@@ -7,6 +7,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/// The line that begins every shader. OpenGL ES has one of its own.
+#ifndef GLSL_VERSION
+#define GLSL_VERSION "#version 330 core\n"
+#endif
+
 /// Compiles and links the embedded shaders "shaders/<vertex_name>" and "shaders/<fragment_name>", the latter with the macro `define` (or
 /// NULL). Returns 0 with the driver's first error message on failure.
 GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error);

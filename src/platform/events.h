@@ -1,4 +1,4 @@
-/// Maps GLFW's keys to ours, and queues events until the next frame. Private to platform/.
+/// Queues events until the next frame, and counts clicks. Private to platform/.
 #ifndef PLATFORM_EVENTS_H
 #define PLATFORM_EVENTS_H
 
@@ -29,10 +29,15 @@ void event_queue_push_drop(struct event_queue *queue, const char *path, double t
 /// The events since the last call, valid until the next.
 const struct event *event_queue_take(struct event_queue *queue, int *count);
 
-/// Letters and punctuation map by their label, digits, arrows and the rest by position; so do letters if the layout has no Latin ones.
-/// KEY_NONE for other keys.
-int key_translate(int glfw_key, int scancode);
+/// The last press.
+struct clicks {
+    bool open; ///< it may become a double-click
+    double time;
+    float x, y;
+    enum event_button button;
+};
 
-unsigned mods_translate(int glfw_mods);
+/// 2 for a press soon after another at the same place; a third counts as 1.
+int clicks_count(struct clicks *clicks, enum event_button button, float x, float y, double now);
 
 #endif

@@ -86,4 +86,10 @@ void platform_destroy(struct platform *platform)
     free(platform);
 }
 
+void platform_run(struct platform *platform, bool (*frame)(void *), void *user)
+{
+    (void)platform;
+    while (frame(user)) continue;
+}
+
 bool platform_keeps(const struct platform *platform) { return platform->keeps; }

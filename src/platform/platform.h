@@ -24,6 +24,9 @@ struct platform *platform_blind(int width, int height, float scale);
 
 void platform_destroy(struct platform *platform);
 
+/// Calls `frame` until it returns false. In a browser the frames of a window are callbacks, and this never returns.
+void platform_run(struct platform *platform, bool (*frame)(void *), void *user);
+
 /// Waits at most `seconds` for events (0: not at all) and returns those so far, in order, valid until the next call. The callbacks only
 /// translate and queue.
 const struct event *platform_events(struct platform *platform, double seconds, int *count);

@@ -53,6 +53,12 @@ static inline bool symbol_find(const char *name, void *pointer)
     return symbol != NULL;
 }
 
+/// Letters and punctuation map by their label, digits, arrows and the rest by position; so do letters if the layout has no Latin ones.
+/// KEY_NONE for other keys.
+int key_translate(int glfw_key, int scancode);
+
+unsigned mods_translate(int glfw_mods);
+
 // The graphics driver's messages (--gl-debug).
 
 /// Whether platform_debug_gl() was called, so that contexts need debug output.

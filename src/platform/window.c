@@ -10,8 +10,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double DOUBLE_CLICK_SECONDS = 0.35;
-static const float DOUBLE_CLICK_PIXELS = 4.0f;
 enum { CURSOR_KINDS = CURSOR_TEXT + 1 };
 
 struct window {
@@ -21,10 +19,8 @@ struct window {
     bool has_cursors;
     enum mouse_cursor cursor;
     struct surface_size size;
-    float units;       ///< logical pixels per GLFW window coordinate
-    double click_time; ///< of the last press that may become a double-click, or -1
-    float click_x, click_y;
-    enum event_button click_button;
+    float units; ///< logical pixels per GLFW window coordinate
+    struct clicks clicks;
     bool is_shown; ///< since the first swap
     bool is_fullscreen;
     int x, y, width, height; ///< before full screen
@@ -164,20 +160,6 @@ static void on_key(GLFWwindow *handle, int glfw_key, int scancode, int action, i
                      .kind = EVENT_KEY, .key = key, .action = action_of(action), .mods = mods_translate(glfw_mods)});
 }
 
-/// 2 for a press soon after another at the same place; a third counts as 1.
-static int count_clicks(struct window *window, enum event_button button, float x, float y)
-{
-    double now = clock_now();
-    bool again = window->click_time >= 0.0 && now - window->click_time <= DOUBLE_CLICK_SECONDS &&
-                 window->click_button == button &&
-                 hypotf(x - window->click_x, y - window->click_y) <= DOUBLE_CLICK_PIXELS;
-    window->click_time = again ? -1.0 : now;
-    window->click_button = button;
-    window->click_x = x;
-    window->click_y = y;
-    return again ? 2 : 1;
-}
-
 static void on_button(GLFWwindow *handle, int glfw_button, int action, int glfw_mods)
 {
     struct window *window = of(handle);
@@ -191,7 +173,8 @@ static void on_button(GLFWwindow *handle, int glfw_button, int action, int glfw_
                           .mods = mods_translate(glfw_mods),
                           .clicks = 1};
     pointer(window, &event.x, &event.y);
-    if (event.action == ACTION_PRESS) event.clicks = count_clicks(window, button, event.x, event.y);
+    if (event.action == ACTION_PRESS)
+        event.clicks = clicks_count(&window->clicks, button, event.x, event.y, clock_now());
     push(window, event);
 }
 
@@ -270,7 +253,6 @@ struct window *window_create(int width, int height, const char *title, int vsync
         return NULL;
     }
     window->queue = queue;
-    window->click_time = -1.0;
     window->units = 1.0f;
     glfwSetWindowUserPointer(window->handle, window);
     glfwSetWindowSizeLimits(window->handle, 480, 320, GLFW_DONT_CARE, GLFW_DONT_CARE);
