@@ -127,12 +127,11 @@ const struct field knot_fields[] = {
 const struct field knot_list_field = {
     FIELD_LIST_OF("knots", struct spline, knots, knot_count, knot_fields, SCENE_MAX_KNOTS)};
 
-/// By sample, then in file order, in which ids rise.
-static int compare_knots(const void *a, const void *b, void *document)
+/// By frame, then in file order, in which ids rise.
+static int compare_knots(const void *a, const void *b)
 {
     const struct knot *left = a, *right = b;
-    int l = document_sample(document, left->frame), r = document_sample(document, right->frame);
-    if (l != r) return l < r ? -1 : 1;
+    if (left->frame != right->frame) return left->frame < right->frame ? -1 : 1;
     return left->id < right->id ? -1 : left->id > right->id;
 }
 
@@ -152,15 +151,14 @@ static void check_knots(struct reader *reader, const struct where *knots_at, str
         struct where at = {.parent = knots_at, .index = (size_t)i};
         check_domain(reader, &at, spline, spline->knots[i].frame);
     }
-    qsort_r(spline->knots, (size_t)spline->knot_count, sizeof *spline->knots, compare_knots, document);
-    for (int i = 0; i < spline->knot_count; i++) {
-        const struct knot *knot = &spline->knots[i], *before = i > 0 ? knot - 1 : NULL;
-        struct where at = {.parent = knots_at, .index = knot->id - first_id};
+    qsort(spline->knots, (size_t)spline->knot_count, sizeof *spline->knots, compare_knots);
+    for (int i = 1; i < spline->knot_count; i++) {
+        const struct knot *one = &spline->knots[i - 1], *other = &spline->knots[i];
+        if (document_sample(document, one->frame) != document_sample(document, other->frame)) continue;
+        const uint32_t first = one->id < other->id ? one->id : other->id, later = one->id + other->id - first;
+        struct where at = {.parent = knots_at, .index = later - first_id};
         struct where frame_at = {.parent = &at, .key = "frame"};
-        if (before && document_sample(document, before->frame) == document_sample(document, knot->frame)) {
-            reader_fail(reader, &frame_at, "expected a sample without a knot, got that of knots[%u]",
-                        before->id - first_id);
-        }
+        reader_fail(reader, &frame_at, "expected a sample without a knot, got that of knots[%u]", first - first_id);
     }
 }
 

@@ -1,0 +1,243 @@
+/// A canvas in a browser: its WebGL 2 context, and the events that page.js sends.
+#include "base/need.h"
+#include "base/progress.h"
+#include "platform/events.h"
+#include "platform/platform.h"
+#include <emscripten.h>
+#include <emscripten/html5.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct platform {
+    EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context; ///< 0 without a window
+    struct event_queue queue;
+    struct clicks clicks;
+    int width, height; ///< device pixels
+    float scale;       ///< device pixels per logical pixel
+    char *clipboard;
+    enum mouse_cursor cursor;
+    bool (*frame)(void *); ///< platform_run()'s
+    void *user;
+};
+
+/// The one with a canvas.
+static struct platform *shown;
+
+// What the page does; `page` is page.js's object.
+EM_JS(int, page_width, (void), { return Module.page.size().width; });
+EM_JS(int, page_height, (void), { return Module.page.size().height; });
+EM_JS(double, page_scale, (void), { return Module.page.size().scale; });
+EM_JS(void, page_title, (const char *title), { Module.page.title(UTF8ToString(title)); });
+EM_JS(void, page_cursor, (const char *name), { Module.page.cursor(UTF8ToString(name)); });
+EM_JS(void, page_copy, (const char *text), { Module.page.copy(UTF8ToString(text)); });
+EM_JS(void, page_shown, (void), { Module.page.shown(); });
+EM_JS(void, page_fullscreen, (void), { Module.page.fullscreen(); });
+EM_JS(void, page_stopped, (void), { Module.page.stopped(); });
+
+struct platform *platform_blind(int width, int height, float scale)
+{
+    struct platform *platform = need_zeroed(1, sizeof *platform);
+    platform->width = width;
+    platform->height = height;
+    platform->scale = scale;
+    return platform;
+}
+
+struct platform *platform_window(int width, int height, const char *title, int vsync, struct error *error)
+{
+    (void)width;
+    (void)height;
+    (void)vsync;
+    EmscriptenWebGLContextAttributes wishes;
+    emscripten_webgl_init_context_attributes(&wishes);
+    wishes.alpha = wishes.antialias = wishes.stencil = false;
+    wishes.preserveDrawingBuffer = true; // so that only what changed is drawn
+    wishes.majorVersion = 2;
+    EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = emscripten_webgl_create_context("#canvas", &wishes);
+    if (context <= 0 || emscripten_webgl_make_context_current(context) != EMSCRIPTEN_RESULT_SUCCESS) {
+        fail(error, ERROR_ENVIRONMENT, "this browser has no WebGL 2");
+        return NULL;
+    }
+    shown = platform_blind(page_width(), page_height(), (float)page_scale());
+    shown->context = context;
+    platform_title(shown, title);
+    return shown;
+}
+
+struct platform *platform_offscreen(int width, int height, float scale, struct error *error)
+{
+    (void)width;
+    (void)height;
+    (void)scale;
+    fail(error, ERROR_ENVIRONMENT, "a browser draws only in its window: expected --no-draw");
+    return NULL;
+}
+
+void platform_destroy(struct platform *platform)
+{
+    if (!platform) return;
+    if (platform->context) emscripten_webgl_destroy_context(platform->context);
+    if (platform == shown) shown = NULL;
+    free(platform->clipboard);
+    free(platform);
+}
+
+static EM_BOOL on_frame(double time, void *user)
+{
+    (void)time;
+    struct platform *platform = user;
+    if (platform->frame(platform->user)) return EM_TRUE;
+    page_stopped();
+    return EM_FALSE;
+}
+
+void platform_run(struct platform *platform, bool (*frame)(void *), void *user)
+{
+    if (platform->context) {
+        platform->frame = frame;
+        platform->user = user;
+        emscripten_request_animation_frame_loop(on_frame, platform);
+        emscripten_unwind_to_js_event_loop(); // leaves the stack as it is: `user` is there
+    }
+    while (frame(user)) continue;
+}
+
+const struct event *platform_events(struct platform *platform, double seconds, int *count)
+{
+    (void)seconds; // the browser waits
+    return event_queue_take(&platform->queue, count);
+}
+
+void platform_size(const struct platform *platform, int *width, int *height, float *scale)
+{
+    *width = platform->width;
+    *height = platform->height;
+    *scale = platform->scale;
+}
+
+bool platform_keeps(const struct platform *platform) { return platform->context != 0; }
+
+void platform_swap(struct platform *platform)
+{
+    (void)platform;
+    page_shown();
+}
+
+double platform_refresh_rate(struct platform *platform)
+{
+    (void)platform;
+    return 0;
+}
+
+bool platform_is_window(const struct platform *platform) { return platform->context != 0; }
+
+void platform_title(struct platform *platform, const char *title)
+{
+    if (platform->context) page_title(title);
+}
+
+void platform_toggle_fullscreen(struct platform *platform)
+{
+    if (platform->context) page_fullscreen();
+}
+
+const char *platform_clipboard(struct platform *platform) { return platform->clipboard; }
+
+void platform_set_clipboard(struct platform *platform, const char *text)
+{
+    free(platform->clipboard);
+    platform->clipboard = need_text(text);
+    if (platform->context) page_copy(text);
+}
+
+void platform_cursor(struct platform *platform, enum mouse_cursor cursor)
+{
+    static const char *const names[] = {
+        [CURSOR_ARROW] = "default",      [CURSOR_HAND] = "pointer", [CURSOR_HORIZONTAL] = "ew-resize",
+        [CURSOR_VERTICAL] = "ns-resize", [CURSOR_MOVE] = "move",    [CURSOR_TEXT] = "text"};
+    if (!platform->context || cursor == platform->cursor) return;
+    platform->cursor = cursor;
+    page_cursor(names[cursor]);
+}
+
+// A browser keeps its windows, and says itself what is wrong in WebGL.
+
+void platform_on_lost(platform_rescue *function, void *user)
+{
+    (void)function;
+    (void)user;
+}
+
+void platform_debug_gl(void) {}
+int platform_gl_complaints(void) { return 0; }
+
+// Events, called by page.js. Positions are logical pixels from the canvas's top left.
+
+static void push(struct event event)
+{
+    event.time = clock_now();
+    if (shown) event_queue_push(&shown->queue, &event);
+}
+
+EMSCRIPTEN_KEEPALIVE void web_pointer(float x, float y, unsigned mods)
+{
+    push((struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = mods});
+}
+
+EMSCRIPTEN_KEEPALIVE void web_button(int button, int action, unsigned mods, float x, float y)
+{
+    struct event event = {.kind = EVENT_BUTTON,
+                          .button = (enum event_button)button,
+                          .action = (enum event_action)action,
+                          .mods = mods,
+                          .x = x,
+                          .y = y,
+                          .clicks = 1};
+    if (shown && event.action == ACTION_PRESS)
+        event.clicks = clicks_count(&shown->clicks, event.button, x, y, clock_now());
+    push(event);
+}
+
+EMSCRIPTEN_KEEPALIVE void web_wheel(float dx, float dy, unsigned mods, float x, float y)
+{
+    push((struct event){.kind = EVENT_WHEEL, .dx = dx, .dy = dy, .mods = mods, .x = x, .y = y});
+}
+
+/// `name` as replays have it.
+EMSCRIPTEN_KEEPALIVE void web_key(const char *name, int action, unsigned mods)
+{
+    const int key = key_from_name(name);
+    if (key != KEY_NONE)
+        push((struct event){.kind = EVENT_KEY, .key = key, .action = (enum event_action)action, .mods = mods});
+}
+
+EMSCRIPTEN_KEEPALIVE void web_text(unsigned codepoint)
+{
+    push((struct event){.kind = EVENT_TEXT, .codepoint = codepoint});
+}
+
+/// Device pixels.
+EMSCRIPTEN_KEEPALIVE void web_size(int width, int height, float scale)
+{
+    if (!shown) return;
+    shown->width = width;
+    shown->height = height;
+    shown->scale = scale;
+    push((struct event){.kind = EVENT_SIZE, .x = (float)width / scale, .y = (float)height / scale, .scale = scale});
+}
+
+EMSCRIPTEN_KEEPALIVE void web_drop(const char *path)
+{
+    if (shown) event_queue_push_drop(&shown->queue, path, clock_now());
+}
+
+/// The text that the next paste inserts.
+EMSCRIPTEN_KEEPALIVE void web_clipboard(const char *text)
+{
+    if (!shown) return;
+    free(shown->clipboard);
+    shown->clipboard = need_text(text);
+}
+
+/// The window's content was lost.
+EMSCRIPTEN_KEEPALIVE void web_expose(void) { push((struct event){.kind = EVENT_EXPOSE}); }
