@@ -21,6 +21,7 @@ struct app_options {
     int theme;                 ///< 1 + an enum theme_kind; 0: the user's own in a window, else dark
     enum solver_choice solver; ///< how the splines are solved
     bool gl_debug;             ///< prints the OpenGL driver's messages; serious ones fail the run
+    bool still;                ///< nothing plays before the user starts it
     bool welcome;              ///< shows the card for new users
     const char *log;           ///< timing log, CSV
     const char *screenshot;    ///< PNG of the last frame

@@ -22,6 +22,9 @@ static const char new_scene[] =
     " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"rest\": 2,"
     " \"spline\": \"sway\"}]}";
 
+/// In a browser, the first of the recent files: opens the browser's own dialog.
+#define ELSEWHERE "On this device …"
+
 /// Relative to the program's folder. The installed path comes first, because a folder beside it could have unrelated assets/scenes.
 static const char *const places[] = {"../share/wiggly/scenes", "../assets/scenes", "../../assets/scenes",
                                      "../../../assets/scenes"};
@@ -266,6 +269,15 @@ static bool may_replace(struct app *app, const char *path, struct error *error)
     return fail(error, ERROR_INPUT, "%s already exists: press Enter again to replace it", path);
 }
 
+static bool share(struct app *app)
+{
+    size_t size;
+    char *scene = scene_print(app->table.document, &size);
+    platform_share(app->platform, scene);
+    free(scene);
+    return true;
+}
+
 static bool carry_out(struct app *app, const struct request *request, struct error *error)
 {
     switch (request->kind) {
@@ -280,6 +292,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_FIGURE:
         return open_figure(app, request->number, error);
     case REQUEST_OPEN:
+        if (strcmp(request->path, ELSEWHERE) == 0) return platform_choose_file(app->platform);
         return app_open(app, request->path, error);
     case REQUEST_ADD:
         return add_file(app, request->path, error);
@@ -308,6 +321,8 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return personal_forget(app, error);
     case REQUEST_SCREENSHOT:
         return take_picture(app, error);
+    case REQUEST_SHARE:
+        return share(app);
     case REQUEST_FULLSCREEN:
         platform_toggle_fullscreen(app->platform);
         return true;
@@ -388,10 +403,18 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
     return count;
 }
 
+static int list_recent(void *user, struct dialog_recent *list, int max)
+{
+    const struct app *app = user;
+    const int first = platform_in_page(app->platform);
+    if (first) list[0] = (struct dialog_recent){.path = ELSEWHERE};
+    return first + personal_recent(user, list + first, max - first);
+}
+
 void app_connect_files(struct app *app)
 {
     dialogs_set_files(app->table.editor->dialogs, &(struct dialog_files){.list = list_folder,
-                                                                         .recent = personal_recent,
+                                                                         .recent = list_recent,
                                                                          .formats = exporting_formats,
                                                                          .format_count = exporting_format_count,
                                                                          .user = app});

@@ -29,6 +29,7 @@ int command_live(int argc, char **argv)
          OPTION_FLAG, &options.demo, 0, 0},
         {"--welcome", NULL, NULL, "show what to try first, as on the first start in a window", OPTION_FLAG,
          &options.welcome, 0, 0},
+        {"--still", NULL, NULL, "start paused, for those whom motion disturbs", OPTION_FLAG, &options.still, 0, 0},
         {"--headless", NULL, NULL, "draw without a display", OPTION_FLAG, &options.headless, 0, 0},
         {"--no-draw", NULL, NULL, "headless without OpenGL: plays a replay and writes --result", OPTION_FLAG,
          &options.no_draw, 0, 0},

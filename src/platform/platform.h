@@ -49,6 +49,13 @@ void platform_toggle_fullscreen(struct platform *platform);
 /// The clipboard as UTF-8: the system's, or without a window the process's own. NULL without text; valid until the next call.
 const char *platform_clipboard(struct platform *platform);
 void platform_set_clipboard(struct platform *platform, const char *text);
+
+/// Whether this is a page in a browser. The other two do nothing elsewhere: offer a link to a scene, given as JSON, and let the user choose
+/// a file, which arrives as EVENT_DROP. They return true.
+bool platform_in_page(const struct platform *platform);
+bool platform_share(struct platform *platform, const char *scene);
+bool platform_choose_file(struct platform *platform);
+
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor);
 
 /// Called when the display is lost or another program destroyed the window; then the process ends with exit status 3. Register it once the

@@ -65,6 +65,8 @@ static bool has_no_meadow(const struct core *core) { return !has_meadow(core); }
 
 static bool has_coordinate(const struct core *core) { return characters_coordinate(core) != NULL; }
 
+static bool has_page(const struct core *core) { return core->in_page; }
+
 static const struct {
     bool (*met)(const struct core *core);
     const char *missing;
@@ -88,6 +90,7 @@ static const struct {
     [NEEDS_MEADOW] = {has_meadow, "Add a meadow first."},
     [NEEDS_NO_MEADOW] = {has_no_meadow, "There is a meadow already."},
     [NEEDS_PAINT] = {has_coordinate, "Select a soft character first."},
+    [NEEDS_PAGE] = {has_page, "Links are for the app in a browser."},
 };
 
 bool command_runs(const struct command *command)

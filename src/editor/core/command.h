@@ -59,6 +59,7 @@ enum need {
     NEEDS_MEADOW,
     NEEDS_NO_MEADOW,
     NEEDS_PAINT, ///< a character with a coordinate
+    NEEDS_PAGE,  ///< the app runs in a browser
     NEEDS_COUNT
 };
 

@@ -34,6 +34,7 @@ static void open_playback(struct core *core)
         core->playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
         for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) core->auto_key |= rig->tail.position[k].track >= 0;
     }
+    if (core->still) core->playback.playing = false;
 }
 
 void core_open(struct core *core)

@@ -39,6 +39,7 @@ enum request_kind {
     REQUEST_QUIT,
     REQUEST_RECOVER, ///< offered unsaved work
     REQUEST_FORGET,  ///< deletes that work
+    REQUEST_SHARE,   ///< a link to the scene
     REQUEST_SCREENSHOT,
     REQUEST_FULLSCREEN,
     REQUEST_UI_SCALE,    ///< number: 1 larger, -1 smaller, 0 the display's own
@@ -351,6 +352,8 @@ struct core {
     bool auto_key;         ///< dragging a body sets knots at the playhead instead of moving the whole shot
     bool record_armed;     ///< record the next drag of a body
     bool more;             ///< the inspector shows everything
+    bool in_page;          ///< the app runs in a browser
+    bool still;            ///< no scene plays by itself
     bool plain;            ///< the stage without text
     bool refit_stage;      ///< fit the camera to the stage
     bool refit_curves;     ///< show all curves after the solve

@@ -36,6 +36,7 @@ void stage_open(struct stage *stage)
 
 const struct stage_view *stage_seen(const struct stage *stage) { return &stage->view; }
 
+static const float TURN_STEP = 0.08f; ///< per notch sideways, radians
 static const double ZOOM_STEP = 0.12; ///< per wheel notch, as a power of e
 
 /// The one nearer on the screen; the first if the second is nothing.
@@ -170,6 +171,7 @@ void stage_wheel(struct stage *stage, struct core *core, const struct event *eve
     camera_zoom(&stage->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
     const float share = 1 - before / stage->camera.distance; // the place under the pointer stays there
     camera_pan(&stage->camera, share * (event->x - r->x - r->w / 2), share * (event->y - r->y - r->h / 2), r->h);
+    stage_orbit(stage, TURN_STEP * (float)fmin(fmax(event->dx, -20), 20), 0);
 }
 
 void stage_advance(struct stage *stage, struct core *core, double dt)

@@ -16,6 +16,7 @@ struct platform {
     float scale;       ///< device pixels per logical pixel
     char *clipboard;
     enum mouse_cursor cursor;
+    bool is_shown;         ///< since the first swap
     bool (*frame)(void *); ///< platform_run()'s
     void *user;
 };
@@ -32,6 +33,9 @@ EM_JS(void, page_cursor, (const char *name), { Module.page.cursor(UTF8ToString(n
 EM_JS(void, page_copy, (const char *text), { Module.page.copy(UTF8ToString(text)); });
 EM_JS(void, page_shown, (void), { Module.page.shown(); });
 EM_JS(void, page_fullscreen, (void), { Module.page.fullscreen(); });
+EM_JS(void, page_share, (const char *scene), { Module.page.share(UTF8ToString(scene)); });
+EM_JS(void, page_choose, (void), { Module.page.choose(); });
+EM_JS(void, page_resize, (void), { Module.page.resize(); });
 EM_JS(void, page_stopped, (void), { Module.page.stopped(); });
 
 struct platform *platform_blind(int width, int height, float scale)
@@ -104,7 +108,8 @@ void platform_run(struct platform *platform, bool (*frame)(void *), void *user)
 
 const struct event *platform_events(struct platform *platform, double seconds, int *count)
 {
-    (void)seconds; // the browser waits
+    (void)seconds;                        // the browser waits
+    if (platform->context) page_resize(); // just before a frame, since it clears the canvas
     return event_queue_take(&platform->queue, count);
 }
 
@@ -119,8 +124,8 @@ bool platform_keeps(const struct platform *platform) { return platform->context 
 
 void platform_swap(struct platform *platform)
 {
-    (void)platform;
-    page_shown();
+    if (!platform->is_shown) page_shown();
+    platform->is_shown = true;
 }
 
 double platform_refresh_rate(struct platform *platform)
@@ -148,6 +153,20 @@ void platform_set_clipboard(struct platform *platform, const char *text)
     free(platform->clipboard);
     platform->clipboard = need_text(text);
     if (platform->context) page_copy(text);
+}
+
+bool platform_in_page(const struct platform *platform) { return platform->context != 0; }
+
+bool platform_share(struct platform *platform, const char *scene)
+{
+    if (platform->context) page_share(scene);
+    return true;
+}
+
+bool platform_choose_file(struct platform *platform)
+{
+    if (platform->context) page_choose();
+    return true;
 }
 
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor)

@@ -1,0 +1,95 @@
+// Starts the app in its page, and does what it asks of a browser (surface.c's page_… functions).
+import { listen } from './input.js';
+import { fetchModels, keep, readLink, receive, writeLink } from './files.js';
+
+const canvas = document.getElementById('canvas');
+const prefers = what => matchMedia(`(prefers-${what})`).matches;
+const SETTINGS = '/home/web_user/.config/wiggly/settings';
+
+let timer;
+/// Says something above the canvas for a while.
+function say(text) {
+  document.getElementById('said').textContent = text;
+  clearTimeout(timer);
+  timer = setTimeout(() => (document.getElementById('said').textContent = ''), 4000);
+}
+
+// The canvas's size in device pixels, which a frame takes over just before it is drawn.
+let wanted = measured(canvas.getBoundingClientRect());
+function measured({ width, height }) {
+  const scale = devicePixelRatio;
+  return { width: Math.max(1, Math.round(width * scale)), height: Math.max(1, Math.round(height * scale)), scale };
+}
+new ResizeObserver(([entry]) => {
+  wanted = measured(entry.contentRect);
+  const exact = entry.devicePixelContentBoxSize?.[0];
+  if (exact) [wanted.width, wanted.height] = [exact.inlineSize, exact.blockSize];
+}).observe(canvas);
+
+const page = {
+  size() {
+    [canvas.width, canvas.height] = [wanted.width, wanted.height];
+    return wanted;
+  },
+  resize() {
+    if (canvas.width === wanted.width && canvas.height === wanted.height && page.scale === wanted.scale) return;
+    page.scale = wanted.scale;
+    const { width, height, scale } = page.size();
+    app._web_size(width, height, scale);
+  },
+  title(title) {
+    document.title = title;
+    canvas.setAttribute('aria-label', title);
+  },
+  cursor: name => (canvas.style.cursor = name),
+  copy: text => navigator.clipboard?.writeText(text).catch(() => say('The browser refused the clipboard.')),
+  fullscreen: () => (document.fullscreenElement ? document.exitFullscreen() : document.body.requestFullscreen()).catch(() => {}),
+  shown() {
+    say('');
+    performance.mark('first frame');
+    fetchModels(app.FS).catch(() => {});
+    navigator.serviceWorker?.register('sw.js').catch(() => {});
+  },
+  stopped: () => say('wiggly has ended. Reload the page to start it again.'),
+  choose: () => Object.assign(document.createElement('input'), {
+    type: 'file', multiple: true, accept: '.json,.glb,.gltf,.bin,.png,.jpg,.obj',
+    onchange() { receive(app, this.files).catch(error => say(error.message)); },
+  }).click(),
+  async share(scene) {
+    try {
+      const link = await writeLink(scene);
+      history.replaceState(null, '', link);
+      await navigator.clipboard?.writeText(location.href);
+      say(navigator.clipboard ? 'The link is copied.' : 'The link is in the address bar.');
+    } catch (error) {
+      say(error instanceof RangeError ? error.message : 'The link is in the address bar.');
+    }
+  },
+};
+
+/// The command line: the user's theme if none was chosen, stillness if the system asks for it, and what the link holds.
+function commandLine(FS, linked) {
+  const chosen = FS.analyzePath(SETTINGS).exists && /theme/.test(FS.readFile(SETTINGS, { encoding: 'utf8' }));
+  const line = ['live'];
+  if (!chosen && prefers('color-scheme: light')) line.push('--theme', 'light');
+  if (prefers('reduced-motion: reduce')) line.push('--still');
+  return linked ? [...line, linked] : line;
+}
+
+const app = await createWiggly({
+  canvas, page, print: text => console.log(text), printErr: text => (console.warn(text), say(text)),
+  onAbort: () => say('wiggly has stopped. Reload the page: what you did is kept.'),
+});
+globalThis.wiggly = app;
+await keep(app.FS);
+const linked = await readLink(app.FS, location.hash).catch(error => (say(error.message), null));
+listen(canvas, app);
+for (const type of ['dragover', 'drop']) addEventListener(type, event => event.preventDefault());
+addEventListener('drop', event => receive(app, event.dataTransfer.files).catch(error => say(error.message)));
+addEventListener('hashchange', async () => {
+  const path = await readLink(app.FS, location.hash).catch(error => (say(error.message), null));
+  if (path) app.ccall('web_drop', null, ['string'], [path]);
+});
+canvas.addEventListener('webglcontextlost', () => say('The graphics driver was reset. Reload the page: what you did is kept.'));
+if (linked) await fetchModels(app.FS).catch(() => {});
+app.callMain(commandLine(app.FS, linked));
