@@ -7,6 +7,7 @@
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
 #   make wheel    the Python package for every platform, in build/wheels (PLATFORMS="win_amd64" for one); fetches zig
+#   make web      the app as a web page, in build/web, for any web server; fetches the source of jansson
 #   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
 #   make blender  the extension for Blender with the Python package of every platform that it runs on, a .zip in build; PLATFORMS as above
 #   make blender-proof  measures the extension in each Blender, and writes the table of docs/blender.md; BPY='PYTHON...' with bpy
@@ -122,7 +123,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test test-all bench feel adversary wheel blender blender-proof proof models check figures regress fuzz fuzzers install clean help packages \
+.PHONY: all library run test test-all bench feel adversary web wheel blender blender-proof proof models check figures regress fuzz fuzzers install clean help packages \
     compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
@@ -236,8 +237,8 @@ clean:
 # --- what must be installed first --------------------------------------------------------------------------------------
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
 
-SETS := $(if $(filter-out check clean help library wheel blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
-SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS))
+SETS := $(if $(filter-out check clean help library web wheel blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
+SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check web,$(MAKECMDGOALS))
 packages:
 	$(Q)tools/install-missing.sh $(SETS)
 	$(if $(filter build,$(SETS)),$(Q)tools/check-system.sh "$(CC)" $(PACKAGES))
@@ -340,6 +341,10 @@ $(B)/parts.txt: FORCE | packages
 	@mkdir -p $(@D); tools/find-parts.sh $(if $(filter -DWITH_DRACO,$(CODECS)),draco) > $@.$$$$ && { cmp -s $@.$$$$ $@ && rm $@.$$$$ || mv $@.$$$$ $@; }
 $(GENERATED)/build.c: FORCE | packages
 	@tools/build-info.sh $@ "$(CC)" "$(filter -O% -f% -m%,$(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS))$(if $(SPLINE_CFLAGS),; spline $(SPLINE_CFLAGS))"
+
+# --- the web page ------------------------------------------------------------------------------------------------------
+
+include src/platform/web/web.mk
 
 .SECONDARY:
 -include $(shell find $(B)/obj -name "*.d" 2>/dev/null)

@@ -12,11 +12,21 @@ table=$out/embedded_table.c.new
 declarations=""
 rows=""
 count=0
-echo '    .section .rodata' >"$data"
+cat >"$data" <<'END'
+#ifdef __wasm__
+#define OBJECT @object
+    .section .rodata.embedded,"",@
+#else
+#define OBJECT %object
+    .section .note.GNU-stack,"",%progbits
+    .section .rodata
+#endif
+END
 
 add() { # <name in the binary> <file>
-    printf '    .balign 16\n    .global embedded_%d\nembedded_%d:\n    .incbin "%s"\n    .byte 0\n' \
-        $count $count "$2" >>"$data"
+    symbol=embedded_$count
+    printf '    .globl %s\n    .type %s, OBJECT\n    .balign 16\n%s:\n    .incbin "%s"\n    .byte 0\n    .size %s, . - %s\n' \
+        $symbol $symbol $symbol "$2" $symbol $symbol >>"$data"
     declarations="${declarations}extern const unsigned char embedded_$count[];
 "
     rows="$rows    {\"$1\", embedded_$count, $(stat -L -c %s "$2")},
@@ -27,7 +37,6 @@ add() { # <name in the binary> <file>
 tab=$(printf '\t')
 while IFS=$tab read -r name file; do add "$name" "$file"; done <"$list"
 for file in "$@"; do add "${file#assets/}" "$file"; done
-echo '    .section .note.GNU-stack,"",%progbits' >>"$data"
 
 {
     printf '#include "base/embedded.h"\n\n%s\n' "$declarations"

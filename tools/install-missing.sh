@@ -1,7 +1,7 @@
 #!/bin/sh
 # Installs missing Debian packages of the named sets. Quick and silent if nothing is missing.
 # "a|b": a, or b if the system has no a. "a|": optional, never installed alone, so that a build without it stays quiet.
-# Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [bare] [whole]
+# Usage: tools/install-missing.sh [build] [test] [bench] [check] [clang] [web] [bare] [whole]
 set -eu
 
 packages_of() {
@@ -13,12 +13,14 @@ packages_of() {
     bench) echo liblapacke-dev libopenblas-dev ;;
     check) echo clang-format-14 cppcheck ;;
     clang) echo clang "libclang-rt-dev|libclang-rt-14-dev" ;; # with its sanitizers and its fuzzer
+    web) echo emscripten nodejs python3-fonttools patch xz-utils pkg-config libcglm-dev libstb-dev fontconfig fonts-inter \
+        "fonts-jetbrains-mono|fonts-dejavu-core" ;;
     bare) echo debootstrap ;;
     whole) # what parts of the suite are skipped without; Debian's npm, with hundreds of packages, only where there is no other
         echo ffmpeg weston cmake assimp-testmodels libdraco-dev libmeshoptimizer-dev gcc-mingw-w64-x86-64 gcc-aarch64-linux-gnu libc6-dev-arm64-cross \
             qemu-user "$(command -v npm >/dev/null || echo nodejs npm)" ;;
     *)
-        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang, bare and whole" >&2
+        echo "install-missing.sh: unknown set '$1'; the sets are build, test, bench, check, clang, web, bare and whole" >&2
         exit 2
         ;;
     esac
@@ -32,6 +34,7 @@ probes_of() {
     bench) echo lapacke.pc openblas.pc ;;
     check) echo clang-format-14 cppcheck ;;
     clang) echo clang ;;
+    web) echo emcc node python3 patch xz pkg-config fc-match cglm.pc stb.pc ;;
     bare) echo debootstrap ;;
     whole) echo ffmpeg weston cmake x86_64-w64-mingw32-gcc aarch64-linux-gnu-gcc qemu-aarch64 npm ;;
     esac

@@ -1,6 +1,7 @@
 /// Finds the rectangles that changed since the last frame.
 #include "draw/damage.h"
 #include "base/hash.h"
+#include <limits.h>
 
 /// Narrow cells make a moving playhead cheap; more cells cost more hashing.
 enum { CELL_MIN = 16, CANDIDATES = 48 };
@@ -99,7 +100,7 @@ static bool merge_cheapest(struct pile *pile, long limit)
     return true;
 }
 
-static const long ANY_WASTE = 1L << 40;
+static const long ANY_WASTE = LONG_MAX;
 
 /// The next run of changed cells of a row from `column` on: [*from, *to). false at the end of the row.
 static bool next_run(const struct damage *damage, int row, int column, int *from, int *to)

@@ -6,6 +6,8 @@
 
 #define GLSL_VERSION "#version 300 es\nprecision highp float;\n"
 
+#define glDepthRange glDepthRangef
+
 // Queries of the GPU's time need an extension that software renderers lack: no counter has bits, so none is used.
 #define GL_TIME_ELAPSED 0x88BF
 #define GL_QUERY_COUNTER_BITS 0x8864
