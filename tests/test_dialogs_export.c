@@ -16,7 +16,7 @@ static void open_other(struct session *s, const char *text, const char *path, fl
 {
     panel_open(s, text, width, height);
     dialogs_set_files(s->editor->dialogs,
-                      &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count});
+                      &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count()});
     core_set_path(&s->editor->core, path);
     session_key(s, 'E', MOD_CTRL);
     assert_int_equal(dialog_of(s)->kind, DIALOG_EXPORT);
@@ -86,7 +86,7 @@ TEST(test_a_character_keeps_its_file)
         struct session s;
         panel_open(&s, with_dog, 1280, 720);
         dialogs_set_files(s.editor->dialogs, &(struct dialog_files){.formats = exporting_formats,
-                                                                    .format_count = exporting_format_count});
+                                                                    .format_count = exporting_format_count()});
         core_set_path(&s.editor->core, cases[i].path);
         session_key(&s, 'E', MOD_CTRL);
         session_key(&s, KEY_ENTER, 0);

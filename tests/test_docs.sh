@@ -26,7 +26,7 @@ cat >"$scratch/bin/wiggly" <<END
 #!/bin/bash
 # Films need ffmpeg, which not every machine has; small pictures do.
 if [[ " \$* " =~ ^\ export\ .*\.(mp4|webm|gif|png)\  ]]; then
-    [[ \${BASH_REMATCH[1]} = png ]] || { $(thorough && echo command -v ffmpeg || echo false) >/dev/null; } || exit 0
+    [[ \${BASH_REMATCH[1]} = [gp]* ]] || { $(thorough && echo command -v ffmpeg || echo false) >/dev/null; } || exit 0
     set -- "\$@" --size 160x90 --frames 0:12
 fi
 # The live app lasts until somebody quits it: ten small frames do. A simulation takes 10 s: a coarse, short one does.

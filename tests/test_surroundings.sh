@@ -73,9 +73,9 @@ lengthy() { # <frames> <export's options>...
 }
 says "export of 100,000,000 keys" "/nowhere/x.csv: cannot be written" "$(lengthy 90009 --fps 1111 -o /nowhere/x.csv)"
 says "and of one more" "at most 100000000 keys, got 100000001" "$(lengthy 90009 --fps 1111.00002 -o /nowhere/x.csv)"
-case $(lengthy 41841 --fps 239 -o /nowhere/x.gif) in *"at most"*) false ;; *nowhere* | *ffmpeg*) ;; *) false ;; esac
+case $(lengthy 41841 --fps 239 -o /nowhere/x.mp4) in *"at most"*) false ;; *nowhere* | *ffmpeg*) ;; *) false ;; esac
 ok "a film of 10,000,000 pictures" $?
-says "and of one more" "at most 10000000 pictures, got 10000001" "$(lengthy 41841 --fps 239.00003 -o /nowhere/x.gif)"
+says "and of one more" "at most 10000000 pictures, got 10000001" "$(lengthy 41841 --fps 239.00003 -o /nowhere/x.mp4)"
 
 # --- a locale whose decimal sign is a comma
 

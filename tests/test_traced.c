@@ -203,7 +203,8 @@ static const struct output {
     {"assets/scenes/tail.json", {"out.mdd"}, NULL, true},
     {"assets/scenes/tail.json", {"out.npy"}, NULL, false},
     {NULL, {"out-0001.png", "out-0002.png"}, &film_png, false},
-    {NULL, {"out.gif"}, &film_ffmpeg, false}, // .mp4 and .webm but for the words to ffmpeg
+    {NULL, {"out.gif"}, &film_gif, false},
+    {NULL, {"out.mp4"}, &film_ffmpeg, false}, // .webm but for the words to ffmpeg
 };
 
 enum { SIDE = 16, MOST_FILES = 2 };
@@ -220,7 +221,7 @@ static int make_film(const struct film_file_kind *kind, const char *path)
     struct error error = {0};
     off_t bytes;
     for (size_t i = 0; i < sizeof pixels; i++) pixels[i] = (unsigned char)(i * i / 97);
-    struct film_file *film = kind->open(path, &(struct film_shape){SIDE, SIDE, 24, 2, film_gif}, &error);
+    struct film_file *film = kind->open(path, &(struct film_shape){SIDE, SIDE, 24, 2, film_mp4}, &error);
     if (!film) return error.text[0] ? 3 : 9;
     enum film_state state = FILM_DONE;
     for (int i = 0; i < 2 && state == FILM_DONE; i++) {

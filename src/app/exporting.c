@@ -22,12 +22,19 @@ const struct dialog_format exporting_formats[] = {
     {".pc2", "every vertex at every key: Blender's Mesh Cache", .choices = POINTS},
     {".mdd", "the same for Maya, LightWave and others", .choices = POINTS},
     {".npy", "the same as an array: Python", .choices = POINTS},
+    {".gif", "a small film that repeats: messages, README files", CHOICE_SIZE, SMALL_WIDTH, SMALL_HEIGHT},
     {".mp4", "a film that plays everywhere", CHOICE_SIZE, WIDTH, HEIGHT},
     {".webm", "a film for web pages", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT},
-    {".gif", "a small film that repeats: messages, README files", CHOICE_SIZE, SMALL_WIDTH, SMALL_HEIGHT},
     {".png", "one numbered picture per frame", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT},
 };
-const int exporting_format_count = sizeof exporting_formats / sizeof *exporting_formats;
+enum { FORMATS = sizeof exporting_formats / sizeof *exporting_formats };
+
+int exporting_format_count(void)
+{
+    int count = FORMATS;
+    while (film_knows(exporting_formats[count - 1].ending) && !film_can(exporting_formats[count - 1].ending)) count--;
+    return count;
+}
 
 struct export_job {
     struct request request;

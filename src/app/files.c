@@ -416,6 +416,6 @@ void app_connect_files(struct app *app)
     dialogs_set_files(app->table.editor->dialogs, &(struct dialog_files){.list = list_folder,
                                                                          .recent = list_recent,
                                                                          .formats = exporting_formats,
-                                                                         .format_count = exporting_format_count,
+                                                                         .format_count = exporting_format_count(),
                                                                          .user = app});
 }

@@ -6,6 +6,7 @@
 #include "draw/draw.h"
 #include "editor/editor.h"
 #include "platform/platform.h"
+#include "platform/process.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -15,16 +16,18 @@ enum { MAX_PICTURES = 10000000, MAX_SIDE = 8192 };
 
 static const struct film_format {
     const char *ending;
+    const struct film_file_kind *kind;
     char *const *coding, *const *alpha; ///< ffmpeg's arguments (film_file.h); with transparency
     int width, height;                  ///< defaults
+    double most_rate;                   ///< pictures per second that players show; 0: any
     bool is_even;                       ///< only even sizes
     bool has_alpha;
     bool repeats; ///< players loop it
 } formats[] = {
-    {".mp4", film_mp4, NULL, 1280, 720, .is_even = true},
-    {".webm", film_webm, film_webm_alpha, 1280, 720, .is_even = true, .has_alpha = true},
-    {".gif", film_gif, NULL, 640, 360, .repeats = true},
-    {".png", NULL, NULL, 1280, 720, .has_alpha = true},
+    {".mp4", &film_ffmpeg, film_mp4, NULL, 1280, 720, .is_even = true},
+    {".webm", &film_ffmpeg, film_webm, film_webm_alpha, 1280, 720, .is_even = true, .has_alpha = true},
+    {".gif", &film_gif, NULL, NULL, 640, 360, .most_rate = 50, .repeats = true},
+    {".png", &film_png, NULL, NULL, 1280, 720, .has_alpha = true},
 };
 
 enum { FORMATS = sizeof formats / sizeof *formats };
@@ -55,6 +58,12 @@ static const struct film_format *find_format(const char *path)
 
 bool film_knows(const char *path) { return find_format(path) != NULL; }
 
+/// A browser has no ffmpeg, and would make a download of each picture of many.
+bool film_can(const char *path)
+{
+    return film_knows(path) && (!process_is_alone() || find_format(path)->kind == &film_gif);
+}
+
 /// Whether the scene's end meets its start, by a spline or an imported clip.
 static bool loops(const struct document *document)
 {
@@ -73,7 +82,11 @@ static bool choose_frames(struct film *film, const struct document *document, co
                     document->first_frame, document->last_frame, first, last);
     if (options->loops > 0 && !loops(document))
         return fail(error, ERROR_INPUT, "--loops: nothing in this scene loops: its end does not meet its start");
-    film->shape.rate = options->rate > 0 ? options->rate : document->fps;
+    const double most = film->format->most_rate > 0 ? film->format->most_rate : INFINITY;
+    if (options->rate > most)
+        return fail(error, ERROR_INPUT, "--fps: expected at most %g pictures a second in a %s file, got %g", most,
+                    film->format->ending, options->rate);
+    film->shape.rate = options->rate > 0 ? options->rate : fmin(document->fps, most);
     film->first = first;
     film->spacing = document->fps / film->shape.rate;
     film->period = in_rounds ? last - first : 0;
@@ -110,7 +123,7 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
 {
     struct film *film = need_zeroed(1, sizeof *film);
     film->format = find_format(path);
-    film->kind = film->format->coding ? &film_ffmpeg : &film_png;
+    film->kind = film->format->kind;
     film->path = path;
     film->editor = editor_create();
     if (file_check_place(path, error) && choose_shape(film, options, error) &&
@@ -138,6 +151,7 @@ enum film_state film_step(struct film *film, bool wait, struct error *error)
     if (!film->pixels) {
         editor_pose_alone(film->editor, next_frame(film), (float)film->shape.width, (float)film->shape.height);
         film->pixels = picture_draw(film->picture, editor_stage(film->editor), film->transparent);
+        if (!wait) return FILM_RUNS;
     }
     enum film_state state = film->kind->put(film->file, film->pixels, wait, error);
     if (state != FILM_DONE) return state;

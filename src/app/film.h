@@ -1,4 +1,4 @@
-/// Draws pictures and films of the stage offscreen. ffmpeg encodes the films.
+/// Draws pictures and films of the stage offscreen. ffmpeg encodes .mp4 and .webm.
 #ifndef APP_FILM_H
 #define APP_FILM_H
 
@@ -9,6 +9,9 @@
 
 /// Whether a path names a film or a picture.
 bool film_knows(const char *path);
+
+/// Whether it can be made here: in a browser only a .gif can.
+bool film_can(const char *path);
 
 /// Writes a film completely or not at all; needs no display. A .png path with %d in it (walk-%04d.png) names a sequence, and several
 /// pictures in walk.png are numbered. Call with solved splines and loaded models.
@@ -23,7 +26,7 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
 
 enum film_state { FILM_RUNS, FILM_DONE, FILM_FAILED };
 
-/// Draws at most one picture. Without `wait` it does not wait for ffmpeg.
+/// Draws at most one picture. Without `wait` it does less at a time and does not wait for ffmpeg.
 enum film_state film_step(struct film *film, bool wait, struct error *error);
 
 /// Pictures done, and their total.

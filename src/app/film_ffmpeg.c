@@ -104,8 +104,8 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
         file->process = 0;
         if (cause == ENOENT) {
             fail(error, ERROR_ENVIRONMENT,
-                 "%s: films are made by ffmpeg, which is missing: install the package ffmpeg, or write pictures "
-                 "(.png), which need nothing",
+                 "%s: ffmpeg, which makes it, is missing: install the package ffmpeg, or write .gif or .png, which "
+                 "need nothing",
                  path);
         } else {
             fail(error, ERROR_ENVIRONMENT, "ffmpeg: cannot be run: %s", strerror(cause));
@@ -185,11 +185,3 @@ const struct film_file_kind film_ffmpeg = {open_encoder, put, finish, close_enco
 char *const film_mp4[] = {SCREEN_COLORS("yuv420p"), MP4};
 char *const film_webm[] = {SCREEN_COLORS("yuv420p"), WEBM};
 char *const film_webm_alpha[] = {SCREEN_COLORS("yuva420p"), WEBM};
-char *const film_gif[] = {"-filter_complex",
-                          "split[all][some];[some]palettegen=stats_mode=diff[palette];"
-                          "[all][palette]paletteuse=dither=sierra2_4a:diff_mode=rectangle",
-                          "-loop",
-                          "0",
-                          "-f",
-                          "gif",
-                          NULL};

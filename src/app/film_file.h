@@ -1,4 +1,4 @@
-/// Where a film's pictures go: to ffmpeg or into numbered files. Private to src/app.
+/// Where a film's pictures go: to ffmpeg, into a .gif or into numbered files. Private to src/app.
 #ifndef APP_FILM_FILE_H
 #define APP_FILM_FILE_H
 
@@ -10,7 +10,7 @@ struct film_shape {
     int width, height; ///< pixels; a picture has four bytes per pixel
     double rate;       ///< pictures per second
     long count;
-    char *const *coding; ///< one of the lists below; NULL: pictures
+    char *const *coding; ///< for ffmpeg, one of the lists below
 };
 
 struct film_file;
@@ -27,9 +27,9 @@ struct film_file_kind {
     void (*close)(struct film_file *file);
 };
 
-extern const struct film_file_kind film_ffmpeg, film_png;
+extern const struct film_file_kind film_ffmpeg, film_gif, film_png;
 
 /// Arguments for ffmpeg, NULL-terminated.
-extern char *const film_mp4[], *const film_webm[], *const film_webm_alpha[], *const film_gif[];
+extern char *const film_mp4[], *const film_webm[], *const film_webm_alpha[];
 
 #endif

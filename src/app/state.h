@@ -136,9 +136,10 @@ void app_connect_files(struct app *app);
 
 // Exports in the background: a thread solves and writes a copy of the document; films are drawn frame by frame.
 
-/// The formats in the dialog's order.
+/// The formats in the dialog's order, which begins with those that can be made in a browser, too.
 extern const struct dialog_format exporting_formats[];
-extern const int exporting_format_count;
+/// How many can be made here.
+int exporting_format_count(void);
 
 /// Starts an export; exporting_step() answers when it is done. false with an error.
 bool exporting_start(struct app *app, const struct request *request, struct error *error);
