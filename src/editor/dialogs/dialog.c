@@ -281,7 +281,7 @@ static void label_recent(struct ui *ui, struct rect r, const struct dialog_recen
 {
     char folder[PATH_LIMIT];
     const char *slash = strrchr(recent->path, '/');
-    int length = slash && slash > recent->path ? (int)(slash - recent->path) : 1;
+    int length = !slash ? 0 : slash > recent->path ? (int)(slash - recent->path) : 1;
     snprintf(folder, sizeof folder, "%.*s", length, recent->path);
     float half = floorf(r.w * 0.45f);
     ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, path_name(recent->path),

@@ -26,14 +26,15 @@ export function listen(canvas, app) {
   const key = (name, action, mods = 0) => app.ccall('web_key', null, ['string', 'number', 'number'], [name, action, mods]);
   const type = text => { for (const c of text) app._web_text(c.codePointAt(0)); };
   const tap = (name, mods = 0) => { key(name, PRESS, mods); key(name, RELEASE, mods); };
-  const place = event => { const box = canvas.getBoundingClientRect(); return [event.clientX - box.left, event.clientY - box.top]; };
+  const place = event => {
+    const box = canvas.getBoundingClientRect();
+    return [(event.clientX - box.left) * app.page.unit, (event.clientY - box.top) * app.page.unit];
+  };
 
   // Mouse and pen.
   const isFinger = event => event.pointerType === 'touch';
   const focus = () => { if (document.activeElement !== canvas) canvas.focus({ preventScroll: true }); };
   canvas.addEventListener('pointerdown', event => {
-    event.preventDefault();
-    if (isFinger(event)) return;
     focus();
     canvas.setPointerCapture(event.pointerId);
   });
@@ -57,6 +58,7 @@ export function listen(canvas, app) {
   const spread = () => { const [a, b] = [...fingers.values()]; return [Math.hypot(b[0] - a[0], b[1] - a[1]), Math.atan2(b[1] - a[1], b[0] - a[0])]; };
   canvas.addEventListener('pointerdown', event => {
     if (!isFinger(event) || fingers.size === 2) return;
+    event.preventDefault(); // no mouse events besides
     if (held === LEFT) { key('Escape', PRESS); key('Escape', RELEASE); } // a second finger takes back what the first began
     if (fingers.size) release(middle());
     fingers.set(event.pointerId, place(event));

@@ -14,21 +14,20 @@ function say(text) {
   timer = setTimeout(() => (document.getElementById('said').textContent = ''), 4000);
 }
 
-// The canvas's size in device pixels, which a frame takes over just before it is drawn.
+// The canvas's size in device pixels, which a frame takes over just before it is drawn. On a phone, all of the app is smaller.
+const LEAST = { width: 720, height: 420 }; // logical pixels
+const sized = (width, height) => ({ width, height, scale: Math.min(devicePixelRatio, width / LEAST.width, height / LEAST.height) });
+const measured = ({ width, height }) => sized(...[width, height].map(side => Math.max(1, Math.round(side * devicePixelRatio))));
 let wanted = measured(canvas.getBoundingClientRect());
-function measured({ width, height }) {
-  const scale = devicePixelRatio;
-  return { width: Math.max(1, Math.round(width * scale)), height: Math.max(1, Math.round(height * scale)), scale };
-}
 new ResizeObserver(([entry]) => {
-  wanted = measured(entry.contentRect);
   const exact = entry.devicePixelContentBoxSize?.[0];
-  if (exact) [wanted.width, wanted.height] = [exact.inlineSize, exact.blockSize];
+  wanted = exact ? sized(exact.inlineSize, exact.blockSize) : measured(entry.contentRect);
 }).observe(canvas);
 
 const page = {
   size() {
     [canvas.width, canvas.height] = [wanted.width, wanted.height];
+    page.unit = devicePixelRatio / wanted.scale; // logical pixels per pixel of the page
     return wanted;
   },
   resize() {

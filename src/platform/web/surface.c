@@ -56,6 +56,7 @@ struct platform *platform_window(int width, int height, const char *title, int v
     emscripten_webgl_init_context_attributes(&wishes);
     wishes.alpha = wishes.antialias = wishes.stencil = false;
     wishes.preserveDrawingBuffer = true; // so that only what changed is drawn
+    wishes.enableExtensionsByDefault = false;
     wishes.majorVersion = 2;
     EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context = emscripten_webgl_create_context("#canvas", &wishes);
     if (context <= 0 || emscripten_webgl_make_context_current(context) != EMSCRIPTEN_RESULT_SUCCESS) {
