@@ -15,7 +15,7 @@ JANSSON_CFLAGS := -w -DHAVE_UNISTD_H -DHAVE_STDINT_H -Dutf8_encode=jansson_utf8_
 WEB_LDFLAGS := -O2 -lidbfs.js -lnodefs.js -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB \
     -sENVIRONMENT=web,node -sMODULARIZE=1 -sEXPORT_NAME=createWiggly -sEXPORTED_RUNTIME_METHODS=FS,callMain,ccall,UTF8ToString -sINVOKE_RUN=0
 WEB_FILES := $(wildcard $(addprefix src/platform/web/,*.html *.js *.json)) assets/desktop/wiggly.svg
-WEB_PAGE := $(addprefix $(B)/web/,$(filter-out sw.js,$(notdir $(WEB_FILES))) wiggly.js)
+WEB_PAGE := $(addprefix $(B)/web/,$(filter-out sw.js,$(notdir $(WEB_FILES))) wiggly.js models/dog.glb models/creature.glb)
 
 web: $(WEB_PAGE) $(B)/web/sw.js
 	@echo "Page: $(B)/web/index.html"
@@ -40,8 +40,11 @@ $(B)/web/wiggly.js: $(WEB_OBJECTS) $(WASM)/flags
 # The worker names the files that it keeps, and a version that changes when they do.
 $(B)/web/sw.js: src/platform/web/sw.js $(WEB_PAGE)
 	$(Q)version=$$(cat $^ $(B)/web/wiggly.wasm | sha256sum | cut -c 1-16); \
-	sed "s/@VERSION@/$$version/; s/@FILES@/$(notdir $(WEB_PAGE)) wiggly.wasm/" $< > $@
+	sed "s/@VERSION@/$$version/; s|@FILES@|$(WEB_PAGE:$(B)/web/%=%) wiggly.wasm|" $< > $@
 $(B)/web/%: src/platform/web/%
+	@mkdir -p $(@D)
+	$(Q)cp $< $@
+$(B)/web/models/%: assets/models/%
 	@mkdir -p $(@D)
 	$(Q)cp $< $@
 $(B)/web/%.svg: assets/desktop/%.svg
