@@ -6,6 +6,7 @@
 #   make test     builds and runs every test (TESTS="tests/test_timing.c tests/test_cli.sh" for some; JOBS=1 for one at a time)
 #   make test-all the same with all that takes long: failing allocations and system calls, other compilers, every size of screen
 #   make bench    the solver against LAPACKE (ARGS="--json FILE --large")
+#   make npm      the npm package, in build/npm
 #   make wheel    the Python package for every platform, in build/wheels (PLATFORMS="win_amd64" for one); fetches zig
 #   make web      the app as a web page, in build/web, for any web server; fetches the source of jansson
 #   make models   the generated characters, build/models/creature.obj, dog.glb and fox.glb
@@ -123,7 +124,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test test-all bench feel adversary web wheel blender blender-proof proof models check figures regress fuzz fuzzers install clean help packages \
+.PHONY: all library run test test-all bench feel adversary web npm wheel blender blender-proof proof models check figures regress fuzz fuzzers install clean help packages \
     compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
@@ -132,6 +133,9 @@ library: $(LIBRARIES)
 
 wheel:
 	$(Q)python/wheels.sh $(B) $(PLATFORMS)
+
+npm: | packages
+	$(Q)npm/build.sh $(B)
 
 # The app itself finds out whether it has a display; however it ran, it leaves its log and its last picture.
 LIVE_OUT ?= $(B)
@@ -237,8 +241,8 @@ clean:
 # --- what must be installed first --------------------------------------------------------------------------------------
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
 
-SETS := $(if $(filter-out check clean help library web wheel blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
-SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check web,$(MAKECMDGOALS))
+SETS := $(if $(filter-out check clean help library web npm wheel blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
+SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS)) $(if $(filter web npm,$(MAKECMDGOALS)),web)
 packages:
 	$(Q)tools/install-missing.sh $(SETS)
 	$(if $(filter build,$(SETS)),$(Q)tools/check-system.sh "$(CC)" $(PACKAGES))

@@ -1,0 +1,34 @@
+# The npm package: its size, its promises under Node, the library's vectors by the same compiler, and its types.
+. tests/check.sh
+[ -z "${SANITIZE:-}" ] || { echo "skip - wasm is not built with sanitizers"; exit 0; }
+for tool in node emcc python3; do
+    command -v $tool >/dev/null || { echo "skip - $tool is not installed"; exit 0; }
+done
+place=$(mkdir -p "$B/npm" && realpath "$B/npm")
+export WIGGLY_NPM=$place/wiggly VECTORS_WASM=$place/vectors.wasm NO_COLOR=1
+
+newest() { # <file>: whether it is newer than what it is made of
+    [ -e "$1" ] && [ -z "$(find npm src/spline include/wiggly -type f -newer "$1" | head -n 1)" ]
+}
+newest "$WIGGLY_NPM/wasm.js" || expect 0 "the package is built" npm/build.sh "$B"
+newest "$VECTORS_WASM" || expect 0 "and the whole solver" npm/tests/build-vectors.sh "$VECTORS_WASM"
+
+packed=$(cat "$WIGGLY_NPM"/* | gzip -9 | wc -c)
+echo "  all that is shipped: $packed bytes gzipped"
+holds "at most 45 KB are shipped" [ "$packed" -le 45000 ]
+version=$(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
+holds "with the library's version" grep -qF "\"version\": \"$version\"" "$WIGGLY_NPM/package.json"
+expect 0 "it does what it promises" node --test npm/tests/spring.test.js
+expect 0 "the vectors are met under Node" node --test npm/tests/vectors.test.js
+sed -n '/^```js$/,/^```$/{/^```/!p;}' npm/README.md >"$scratch/page.mjs"
+mkdir -p "$scratch/node_modules" && ln -s "$WIGGLY_NPM" "$scratch/node_modules/wiggly"
+expect 0 "the programs of its page run" node "$scratch/page.mjs"
+
+# --- with what npm fetches
+
+command -v npm >/dev/null || { echo "skip - npm is not installed"; exit $cases_failed; }
+[ -e "$place/node_modules/typescript" ] ||
+    timeout 120 npm install --silent --no-audit --no-fund --no-save --prefix "$place" typescript@5.9.3 >"$scratch/fetch" 2>&1 ||
+    { echo "skip - npm could not fetch typescript: $(tail -n 1 "$scratch/fetch")"; exit $cases_failed; }
+cp npm/tests/types.ts "$scratch"
+expect 0 "the types are right" "$place/node_modules/.bin/tsc" --strict --noEmit --target es2022 --module nodenext --moduleResolution nodenext --skipLibCheck false "$scratch/types.ts"
