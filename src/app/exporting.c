@@ -32,7 +32,7 @@ enum { FORMATS = sizeof exporting_formats / sizeof *exporting_formats };
 int exporting_format_count(void)
 {
     int count = FORMATS;
-    while (film_knows(exporting_formats[count - 1].ending) && !film_can(exporting_formats[count - 1].ending)) count--;
+    while (!film_can(exporting_formats[count - 1].ending)) count--;
     return count;
 }
 
@@ -44,7 +44,7 @@ struct export_job {
     bool threaded; ///< the thread must be joined
     atomic_long done, total;
     atomic_bool stop, ended;
-    bool good; ///< result of the thread
+    bool prepared, good; ///< the thread's: solved; what it did last went well
     struct error error;
     struct export_report report;
 };
@@ -93,12 +93,18 @@ static bool prepare(struct export_job *job)
     return true;
 }
 
+/// Solves, then writes.
+static void work_on(struct export_job *job)
+{
+    job->good = job->prepared ? write_motion(job) : prepare(job);
+    if (job->prepared || !job->good || film_knows(job->request.path)) atomic_store(&job->ended, true);
+    job->prepared = true;
+}
+
 static int work(void *user)
 {
     struct export_job *job = user;
-    job->good = prepare(job);
-    if (job->good && !film_knows(job->request.path)) job->good = write_motion(job);
-    atomic_store(&job->ended, true);
+    while (!atomic_load(&job->ended)) work_on(job);
     return 0;
 }
 
@@ -121,7 +127,6 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
     opened->document = document_copy(app->table.document);
     opened->models = models_create();
     job->threaded = thrd_create(&job->thread, work, job) == thrd_success;
-    if (!job->threaded) work(job); // a late frame is better than no export
     app->export_job = job;
     return true;
 }
@@ -142,7 +147,8 @@ static enum film_state begin_film(struct export_job *job)
 static enum film_state go_on(struct export_job *job, bool wait)
 {
     if (!job->film) {
-        if (!wait && !atomic_load(&job->ended)) return FILM_RUNS;
+        if (!job->threaded && !atomic_load(&job->ended)) work_on(job); // late frames are better than no export
+        if (!(wait && job->threaded) && !atomic_load(&job->ended)) return FILM_RUNS;
         if (job->threaded) thrd_join(job->thread, NULL);
         job->threaded = false;
         if (!job->good) return FILM_FAILED;
@@ -186,6 +192,8 @@ void exporting_step(struct app *app)
     answer(app, state == FILM_DONE);
     app_stop_export(app);
 }
+
+bool exporting_draws(const struct app *app) { return app->export_job && app->export_job->film; }
 
 void app_stop_export(struct app *app)
 {

@@ -44,7 +44,7 @@ struct film {
     struct picture *picture;
     struct film_file *file;
     const unsigned char *pixels; ///< drawn but not yet written, else NULL
-    long done;
+    long drawn, done;            ///< pictures
     off_t bytes;
 };
 
@@ -59,9 +59,12 @@ static const struct film_format *find_format(const char *path)
 bool film_knows(const char *path) { return find_format(path) != NULL; }
 
 /// A browser has no ffmpeg, and would make a download of each picture of many.
-bool film_can(const char *path)
+bool film_can(const char *ending)
 {
-    return film_knows(path) && (!process_is_alone() || find_format(path)->kind == &film_gif);
+    for (int f = 0; f < FORMATS; f++) {
+        if (strcmp(formats[f].ending, ending) == 0) return !process_is_alone() || formats[f].kind == &film_gif;
+    }
+    return true;
 }
 
 /// Whether the scene's end meets its start, by a spline or an imported clip.
@@ -139,19 +142,22 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
     return NULL;
 }
 
-static double next_frame(const struct film *film)
+static void draw_next(struct film *film)
 {
-    const double since = (double)film->done * film->spacing;
-    return film->first + (film->period > 0 ? fmod(since, film->period) : since);
+    const double since = (double)film->drawn++ * film->spacing;
+    const double frame = film->first + (film->period > 0 ? fmod(since, film->period) : since);
+    editor_pose_alone(film->editor, frame, (float)film->shape.width, (float)film->shape.height);
+    picture_draw(film->picture, editor_stage(film->editor), film->transparent);
 }
 
 enum film_state film_step(struct film *film, bool wait, struct error *error)
 {
     if (film->done == film->shape.count) return film->kind->finish(film->file, wait, &film->bytes, error);
     if (!film->pixels) {
-        editor_pose_alone(film->editor, next_frame(film), (float)film->shape.width, (float)film->shape.height);
-        film->pixels = picture_draw(film->picture, editor_stage(film->editor), film->transparent);
-        if (!wait) return FILM_RUNS;
+        if (film->drawn == film->done) draw_next(film);
+        film->pixels = picture_take(film->picture, wait);
+        if (!film->pixels) return FILM_RUNS;
+        if (film->drawn < film->shape.count) draw_next(film); // while this one is written
     }
     enum film_state state = film->kind->put(film->file, film->pixels, wait, error);
     if (state != FILM_DONE) return state;

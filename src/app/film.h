@@ -10,8 +10,8 @@
 /// Whether a path names a film or a picture.
 bool film_knows(const char *path);
 
-/// Whether it can be made here: in a browser only a .gif can.
-bool film_can(const char *path);
+/// false for the ending of a film that cannot be made here: in a browser only a .gif can.
+bool film_can(const char *ending);
 
 /// Writes a film completely or not at all; needs no display. A .png path with %d in it (walk-%04d.png) names a sequence, and several
 /// pictures in walk.png are numbered. Call with solved splines and loaded models.
@@ -26,7 +26,7 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
 
 enum film_state { FILM_RUNS, FILM_DONE, FILM_FAILED };
 
-/// Draws at most one picture. Without `wait` it does less at a time and does not wait for ffmpeg.
+/// Writes at most one picture. Without `wait` it waits neither for the graphics driver nor for ffmpeg.
 enum film_state film_step(struct film *film, bool wait, struct error *error);
 
 /// Pictures done, and their total.

@@ -297,7 +297,8 @@ void app_frame(struct app *app)
         return;
     }
     exporting_step(app);
-    table_edit(table, step(app), row);
+    const double passed = step(app);
+    table_edit(table, exporting_draws(app) ? 0 : passed, row);
     app_show_title(app);
     ui_scale_update(app);
     personal_update(app);

@@ -147,6 +147,8 @@ bool exporting_start(struct app *app, const struct request *request, struct erro
 void exporting_stop(struct app *app);
 /// Call once per frame: continues the export and tells the editor. With a fixed clock it finishes in the frame it began in.
 void exporting_step(struct app *app);
+/// Whether a film is being drawn. Playback stands still meanwhile, so that the stage is not drawn twice.
+bool exporting_draws(const struct app *app);
 
 /// Stops the export without writing anything.
 void app_stop_export(struct app *app);

@@ -57,9 +57,9 @@ struct picture *picture_create(int width, int height, struct error *error);
 /// Accepts NULL.
 void picture_destroy(struct picture *picture);
 
-/// Draws the stage over the whole picture: width·height·4 bytes, top row first, valid until the next picture. Transparent: only rigs,
-/// without ground and shadows, alpha 0 elsewhere.
-/// without ground and shadows, and 0 where there is nothing.
-const unsigned char *picture_draw(struct picture *picture, const struct stage_view *view, bool transparent);
+/// Begins to draw the stage over the whole picture. Transparent: only rigs, without ground and shadows, alpha 0 elsewhere.
+void picture_draw(struct picture *picture, const struct stage_view *view, bool transparent);
+/// The last picture drawn: width·height·4 bytes, top row first, valid until the next call. NULL while it is being drawn, unless `wait`.
+const unsigned char *picture_take(struct picture *picture, bool wait);
 
 #endif

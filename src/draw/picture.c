@@ -10,6 +10,9 @@ struct picture {
     int width, height;
     struct stage_renderer *stage;
     struct stage_target target;
+    GLuint buffer; ///< receives what is drawn
+    GLsync fence;  ///< after that
+    bool transparent;
     unsigned char *drawn, *pixels; ///< as drawn, bottom row first; the picture
 };
 
@@ -35,6 +38,8 @@ struct picture *picture_create(int width, int height, struct error *error)
     picture->height = height;
     if ((picture->stage = stage_renderer_create(error)) && create_target(picture, error)) {
         const size_t bytes = 4 * (size_t)width * (size_t)height;
+        picture->buffer = gl_buffer(GL_PIXEL_PACK_BUFFER, FINE * FINE * bytes, NULL, GL_STREAM_READ);
+        glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
         picture->drawn = need(FINE * FINE, bytes);
         picture->pixels = need(bytes, 1);
         return picture;
@@ -48,17 +53,19 @@ void picture_destroy(struct picture *picture)
     if (!picture) return;
     stage_renderer_destroy(picture->stage);
     stage_target_destroy(&picture->target);
+    glDeleteBuffers(1, &picture->buffer);
+    if (picture->fence) glDeleteSync(picture->fence);
     free(picture->drawn);
     free(picture->pixels);
     free(picture);
 }
 
-/// Draws and reads back.
-static void draw(struct picture *picture, const struct stage_view *view, bool transparent)
+void picture_draw(struct picture *picture, const struct stage_view *view, bool transparent)
 {
     const int width = FINE * picture->width, height = FINE * picture->height;
     GLint before = 0;
     long bytes = 0;
+    picture->transparent = transparent;
     glGetIntegerv(GL_FRAMEBUFFER_BINDING, &before);
     stage_target_bind(&picture->target, width, height);
     glDisable(GL_SCISSOR_TEST);
@@ -71,7 +78,12 @@ static void draw(struct picture *picture, const struct stage_view *view, bool tr
         stage_draw(picture->stage, view, 0, 0, width, height);
     }
     glPixelStorei(GL_PACK_ALIGNMENT, 4);
-    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, picture->drawn);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, picture->buffer);
+    glReadPixels(0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, NULL);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    if (picture->fence) glDeleteSync(picture->fence);
+    picture->fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    glFlush();
     glBindFramebuffer(GL_FRAMEBUFFER, (GLuint)before);
 }
 
@@ -98,14 +110,18 @@ static void weigh_row(const unsigned char *below, const unsigned char *above, in
     }
 }
 
-const unsigned char *picture_draw(struct picture *picture, const struct stage_view *view, bool transparent)
+const unsigned char *picture_take(struct picture *picture, bool wait)
 {
-    draw(picture, view, transparent);
+    if (!wait && glClientWaitSync(picture->fence, 0, 0) == GL_TIMEOUT_EXPIRED) return NULL;
     const size_t stride = 4 * FINE * (size_t)picture->width;
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, picture->buffer);
+    glGetBufferSubData(GL_PIXEL_PACK_BUFFER, 0, (GLsizeiptr)(FINE * (size_t)picture->height * stride),
+                       picture->drawn);
+    glBindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     for (int y = 0; y < picture->height; y++) {
         const unsigned char *below = picture->drawn + FINE * (size_t)(picture->height - 1 - y) * stride;
         unsigned char *row = picture->pixels + 4 * (size_t)y * (size_t)picture->width;
-        if (transparent) {
+        if (picture->transparent) {
             weigh_row(below, below + stride, picture->width, row);
         } else {
             average_row(below, below + stride, picture->width, row);

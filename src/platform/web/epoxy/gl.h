@@ -8,6 +8,9 @@
 
 #define glDepthRange glDepthRangef
 
+/// Which WebGL 2 has beyond OpenGL ES.
+void glGetBufferSubData(GLenum target, GLintptr offset, GLsizeiptr size, void *data);
+
 // Queries of the GPU's time need an extension, which is not asked for: no counter has bits, so none is used.
 #define GL_TIME_ELAPSED 0x88BF
 #define GL_QUERY_COUNTER_BITS 0x8864
