@@ -32,3 +32,14 @@ command -v npm >/dev/null || { echo "skip - npm is not installed"; exit $cases_f
     { echo "skip - npm could not fetch typescript: $(tail -n 1 "$scratch/fetch")"; exit $cases_failed; }
 cp npm/tests/types.ts "$scratch"
 expect 0 "the types are right" "$place/node_modules/.bin/tsc" --strict --noEmit --target es2022 --module nodenext --moduleResolution nodenext --skipLibCheck false "$scratch/types.ts"
+
+command -v chromium >/dev/null || { echo "skip - chromium is not installed"; exit $cases_failed; }
+examples=$place/examples
+mkdir -p "$examples" && cp npm/examples/* "$examples"
+sed -i 's|"wiggly": "[^"]*"|"wiggly": "file:../wiggly"|' "$examples/package.json"
+sed -i 's|https://esm.sh/wiggly|../wiggly/index.js|' "$examples/waapi.html"
+(cd "$examples" && timeout 180 npm install --silent --no-audit --no-fund --install-links=false) >"$scratch/fetch" 2>&1 ||
+    { echo "skip - npm could not fetch the examples' libraries: $(tail -n 1 "$scratch/fetch")"; exit $cases_failed; }
+expect 0 "the examples are bundled" bash -c "cd '$examples' && node_modules/.bin/\$(node -p 'require(\"./package.json\").scripts.start.replace(/--servedir=./, \"--log-level=warning\")')"
+timeout 200 python3 npm/tests/pages.py chromium "$examples" | tee "$scratch/pages"
+ok "the pages were looked at in Chromium" $((PIPESTATUS[0]))
