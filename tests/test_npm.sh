@@ -20,7 +20,11 @@ version=$(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly
 holds "with the library's version" grep -qF "\"version\": \"$version\"" "$WIGGLY_NPM/package.json"
 expect 0 "it does what it promises" node --test npm/tests/spring.test.js
 expect 0 "the vectors are met under Node" node --test npm/tests/vectors.test.js
-sed -n '/^```js$/,/^```$/{/^```/!p;}' npm/README.md >"$scratch/page.mjs"
+{ # a comment that begins with numbers says what its line returns
+    echo 'const check = (...pair) => { const [a, b] = pair.map((x) => JSON.stringify([x].flat().map((y) => +y.toFixed(2)))); if (a !== b) throw Error(`${a}, not ${b}`) }'
+    sed -n '/^```js$/,/^```$/{/^```/!p;}' npm/README.md | sed -E 's#^([a-z]+\..*[^ ]) +// (\[[^]]*\]|[0-9.]+)(:.*)?$#check(\1, \2)#'
+} >"$scratch/page.mjs"
+holds "its page has numbers" [ "$(grep -c '^check' "$scratch/page.mjs")" -ge 4 ]
 mkdir -p "$scratch/node_modules" && ln -s "$WIGGLY_NPM" "$scratch/node_modules/wiggly"
 expect 0 "the programs of its page run" node "$scratch/page.mjs"
 
@@ -41,5 +45,8 @@ sed -i 's|https://esm.sh/wiggly|../wiggly/index.js|' "$examples/waapi.html"
 (cd "$examples" && timeout 180 npm install --silent --no-audit --no-fund --install-links=false) >"$scratch/fetch" 2>&1 ||
     { echo "skip - npm could not fetch the examples' libraries: $(tail -n 1 "$scratch/fetch")"; exit $cases_failed; }
 expect 0 "the examples are bundled" bash -c "cd '$examples' && node_modules/.bin/\$(node -p 'require(\"./package.json\").scripts.start.replace(/--servedir=./, \"--log-level=warning\")')"
+cp npm/compare.mjs "$examples"
+expect 0 "springs of two keys are compared" bash -c "cd '$examples' && node compare.mjs"
+holds "and the page says how they do" [ -n "$out" -a -z "$(grep -vxFf npm/README.md <<<"$out")" ]
 timeout 200 python3 npm/tests/pages.py chromium "$examples" | tee "$scratch/pages"
 ok "the pages were looked at in Chromium" $((PIPESTATUS[0]))
