@@ -2,6 +2,7 @@
 #include "folder.h"
 
 #include "app/film_file.h"
+#include "platform/platform.h"
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
@@ -77,6 +78,34 @@ TEST(pictures_of_few_colors_are_read_back_exactly)
         assert_int_equal(read_film(folder_path("few.gif"), pixels), PICTURES);
         for (int p = 0; p < PICTURES; p++) assert_memory_equal(seen[p], written[p], 4 * pixels);
     }
+}
+
+static void step_through(const struct opened *opened, const char *path, bool wait)
+{
+    static const struct export_options options = {.size = {96, 54}, .has_frames = true, .last = 12};
+    struct error error;
+    enum film_state state;
+    struct film *film = film_open(opened, path, &options, &error);
+    assert_non_null(film);
+    while ((state = film_step(film, wait, &error)) == FILM_RUNS) continue;
+    assert_int_equal(state, FILM_DONE);
+    film_close(film);
+}
+
+/// As the app and a browser draw it, between frames of their own.
+TEST(a_film_that_waits_for_nothing_is_the_same)
+{
+    struct opened opened;
+    struct platform *platform = platform_offscreen(64, 64, 1, NULL);
+    if (!platform) skip();
+    assert_done(opened_read(&opened, "assets/scenes/tail.json", &error));
+    opened_solve(&opened, SOLVER_BY_LENGTH);
+    step_through(&opened, folder_path("waits.gif"), true);
+    step_through(&opened, folder_path("steps.gif"), false);
+    const uint64_t content = file_content(folder_path("waits.gif"));
+    assert_true(content != 0 && content == file_content(folder_path("steps.gif")));
+    opened_free(&opened);
+    platform_destroy(platform);
 }
 
 int main(void) { return tests_run(folder_make, folder_remove); }
