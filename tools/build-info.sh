@@ -8,7 +8,7 @@ git() { GIT_OPTIONAL_LOCKS=0 command git -c safe.directory='*' "$@" 2>/dev/null;
 commit=$(git rev-parse --short=12 HEAD || echo unknown)
 [ -z "$(git status --porcelain --untracked-files=no || true)" ] || commit=$commit-dirty
 # shellcheck disable=SC2086 # the compiler may have a prefix (ccache gcc)
-compiler=$($2 --version | head -n 1 | tr -d '"\\')
+compiler=$($2 --version | sed -n '1{s/["\\]//g;p;}')
 mkdir -p "$(dirname "$output")"
 new=$output.$$ # several may be at it at once
 {

@@ -18,7 +18,7 @@ function say(text) {
 const LEAST = { width: 720, height: 420 }; // logical pixels
 const sized = (width, height) => ({ width, height, scale: Math.min(devicePixelRatio, width / LEAST.width, height / LEAST.height) });
 const measured = ({ width, height }) => sized(...[width, height].map(side => Math.max(1, Math.round(side * devicePixelRatio))));
-let wanted = measured(canvas.getBoundingClientRect());
+let ratio = devicePixelRatio, wanted = measured(canvas.getBoundingClientRect());
 new ResizeObserver(([entry]) => {
   const exact = entry.devicePixelContentBoxSize?.[0];
   wanted = exact ? sized(exact.inlineSize, exact.blockSize) : measured(entry.contentRect);
@@ -31,6 +31,8 @@ const page = {
     return wanted;
   },
   resize() {
+    if (ratio !== devicePixelRatio) wanted = measured(canvas.getBoundingClientRect()); // on another display now
+    ratio = devicePixelRatio;
     if (canvas.width === wanted.width && canvas.height === wanted.height && page.scale === wanted.scale) return;
     page.scale = wanted.scale;
     const { width, height, scale } = page.size();
