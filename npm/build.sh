@@ -21,7 +21,9 @@ for simd in "" -msimd128; do
         -sWARN_ON_UNDEFINED_SYMBOLS=0 -sMALLOC=none -sFILESYSTEM=0 -sTOTAL_STACK=65536 -sINITIAL_MEMORY=1MB -sALLOW_MEMORY_GROWTH \
         -o "$build/solver$simd.wasm"
 done
-python3 pack.py "$package/wasm.js" "$build/solver-msimd128.wasm" "$build/solver.wasm"
+emcc -std=gnu11 -Os -Wall -Wextra -Werror src/unpack.c -sSTANDALONE_WASM --no-entry -sEXPORTED_FUNCTIONS=_unpack_from,_unpack -sMALLOC=none \
+    -sFILESYSTEM=0 -sTOTAL_STACK=4096 -sINITIAL_MEMORY=512KB -o "$build/unpack.wasm"
+python3 pack.py "$package/wasm.js" "$build/unpack.wasm" "$build/solver-msimd128.wasm" "$build/solver.wasm"
 cp src/index.js src/solver.js src/index.d.ts package.json README.md ../LICENSE "$package"
 command -v npm >/dev/null || { echo "Package: $package (npm, which makes a .tgz of it, is not installed)"; exit 0; }
 cd "$package"

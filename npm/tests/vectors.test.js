@@ -23,6 +23,7 @@ function solve(scene, spline, method) {
   }
   names.forEach((name, i) => {
     if (typeof spline[name] === 'number') values[i] = spline[name]
+    else if (spline[name] instanceof Float64Array) tracks[i] = spline[name]
     else if (spline[name]) tracks[i] = solve(scene, scene.splines.find((other) => other.name === spline[name].spline), method).columns[0]
   })
   const all = numbers(4 + 4 * n + 8 * knots.length).fill(0)
@@ -58,3 +59,17 @@ for (const name of scenes) {
     })
   })
 }
+
+test('a spring is the library\'s: real, about an equilibrium that goes to each key as its oscillator lets it', async () => {
+  const { spring } = await import(`${process.env.WIGGLY_NPM}/index.js`)
+  const keys = [[0, 0], [0.4, 1], [1.2, 0.3]], frequency = 2, damping = 0.2, rate = 2000, lag = (2 * damping) / (2 * Math.PI * frequency)
+  const goal = (t) => keys.slice(1).reduce((sum, [time, value], i) => {
+    const past = t - (keys[i][0] + time) / 2 // y, for which y + (2d/k) y′ is the goal
+    return sum + (past > 0 ? (value - keys[i][1]) * (1 - Math.exp(-past / lag)) : 0)
+  }, keys[0][1])
+  const scene = { fps: rate, frames: [0, 2 * rate] }, equilibrium = Float64Array.from({ length: 2 * rate + 1 }, (_, i) => goal(i / rate))
+  const knots = keys.slice(1).map(([time, value]) => ({ frame: time * rate, value }))
+  const { columns: [total] } = solve(scene, { mode: 'real', start: 'rest', frequency, damping, equilibrium, knots }, 0)
+  const own = spring({ keys, frequency, damping, rate: 1000 })
+  total.forEach((value, i) => assert.ok(Math.abs(own.at(i / rate) - value) < 3e-5, `${i / rate} s: ${own.at(i / rate)}, not ${value}`))
+})
