@@ -11,5 +11,14 @@ function Scene() {
 }
 
 createRoot(document.querySelector('main')).render(
-  <Player component={Scene} fps={60} durationInFrames={Math.ceil(60 * s.duration)} compositionWidth={400} compositionHeight={100} autoPlay acknowledgeRemotionLicense />,
+  <Player
+    component={Scene}
+    fps={60}
+    durationInFrames={Math.ceil(60 * s.duration)}
+    compositionWidth={400}
+    compositionHeight={100}
+    autoPlay
+    initiallyMuted
+    acknowledgeRemotionLicense
+  />,
 )
