@@ -13,17 +13,14 @@ done
 unset LDFLAGS CFLAGS
 export NODE_PATH=/usr/share/nodejs # where Debian keeps what emcc needs
 mkdir -p "$package"
-for simd in "" -msimd128; do
-    # shellcheck disable=SC2086 # the lists are split on purpose
-    emcc -std=gnu11 -Os -flto $simd -mbulk-memory -fno-math-errno -fno-trapping-math -ffp-contract=off -Wall -Wextra -Werror \
-        -Dexp=js_exp -Dexpm1=js_expm1 -Dsin=js_sin -Dcos=js_cos -Dhypot=js_hypot -I../src -I../include $sources \
-        -sSTANDALONE_WASM --no-entry -sEXPORTED_FUNCTIONS=_spring_room,_spring_solve -sERROR_ON_UNDEFINED_SYMBOLS=0 \
-        -sWARN_ON_UNDEFINED_SYMBOLS=0 -sMALLOC=none -sFILESYSTEM=0 -sTOTAL_STACK=65536 -sINITIAL_MEMORY=1MB -sALLOW_MEMORY_GROWTH \
-        -o "$build/solver$simd.wasm"
-done
-emcc -std=gnu11 -Os -Wall -Wextra -Werror src/unpack.c -sSTANDALONE_WASM --no-entry -sEXPORTED_FUNCTIONS=_unpack_from,_unpack -sMALLOC=none \
-    -sFILESYSTEM=0 -sTOTAL_STACK=4096 -sINITIAL_MEMORY=512KB -o "$build/unpack.wasm"
-python3 pack.py "$package/wasm.js" "$build/unpack.wasm" "$build/solver-msimd128.wasm" "$build/solver.wasm"
+# shellcheck disable=SC2086 # the list is split on purpose
+emcc -std=gnu11 -O2 -flto -mbulk-memory -fno-math-errno -fno-trapping-math -ffp-contract=off -Wall -Wextra -Werror \
+    -Dexp=js_exp -Dexpm1=js_expm1 -Dsin=js_sin -Dcos=js_cos -Dhypot=js_hypot -I../src -I../include $sources \
+    -sSTANDALONE_WASM --no-entry -sEXPORTED_FUNCTIONS=_spring_room,_spring_solve -sERROR_ON_UNDEFINED_SYMBOLS=0 \
+    -sWARN_ON_UNDEFINED_SYMBOLS=0 -sMALLOC=none -sFILESYSTEM=0 -sTOTAL_STACK=65536 -sINITIAL_MEMORY=1MB -sALLOW_MEMORY_GROWTH \
+    -o "$build/solver.wasm"
+# As text, so that nothing has to be fetched; hexadecimal, because that compresses best.
+printf "export const wasm = '%s'\n" "$(od -An -v -tx1 "$build/solver.wasm" | tr -d ' \n')" >"$package/wasm.js"
 cp src/index.js src/solver.js src/index.d.ts package.json README.md ../LICENSE "$package"
 command -v npm >/dev/null || { echo "Package: $package (npm, which makes a .tgz of it, is not installed)"; exit 0; }
 cd "$package"

@@ -4,7 +4,6 @@ import { test } from 'node:test'
 
 const folder = process.env.WIGGLY_NPM
 const { spring } = await import(`${folder}/index.js`)
-const { solve, start } = await import(`${folder}/solver.js`)
 
 const example = { keys: [[0, 0], [0.4, 1], [1.2, 0.3]], frequency: 2, damping: 0.2 }
 const near = (actual, expected, error, what) => assert.ok(Math.abs(actual - expected) <= error, `${what}: ${actual}, expected ${expected}`)
@@ -127,13 +126,6 @@ test('linear() has few stops: four seconds of 2 Hz need at most 60 for 1 %', () 
   const s = spring({ keys: [[0, 0], [0.25, 1]], frequency: 2, damping: 0.09, rest: 0.01 })
   near(s.duration, 4, 0.5, 'duration')
   assert.ok(s.linear(0.01).split(',').length <= 60, `${s.linear(0.01).split(',').length} stops`)
-})
-
-test('has the same curve without SIMD', () => {
-  const args = [[0, 0.4, 1.2, 3], [[0, 1, 0.3, 2]], [4], 120, 2, 0.2], fast = solve(...args)[0]
-  start(true)
-  solve(...args)[0].forEach((value, i) => near(value, fast[i], 1e-12, `number ${i}`))
-  start()
 })
 
 test('refuses with one sentence', () => {
