@@ -384,7 +384,7 @@ const struct command commands[] = {
     COMMAND("Save as", FILE, 0, NOTHING, 0, .request = REQUEST_SAVE_AS, 0, {'S', CTRL_SHIFT}),
     COMMAND("Export: Blender, film, table", FILE, 0, NOTHING, 0, .request = REQUEST_EXPORT, 0, {'E', CTRL}),
     COMMAND("Copy a link, in a browser", FILE, 0, PAGE, 0, .request = REQUEST_SHARE, 0, {'L', CTRL_SHIFT}),
-    COMMAND("Quit", FILE, 0, NOTHING, 0, .request = REQUEST_QUIT, 0, {'Q', CTRL}),
+    COMMAND("Quit", FILE, 0, NO_PAGE, 0, .request = REQUEST_QUIT, 0, {'Q', CTRL}),
 
     COMMAND("All keys", WINDOW, 0, NOTHING, ANY_TIME | FIRST, .run = run_help, 0, {KEY_F1, 0}),
     COMMAND("Any command, by typing", WINDOW, 0, NOTHING, FIRST | ANY_TIME, .run = run_palette, 0, {KEY_F3, 0}),

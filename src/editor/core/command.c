@@ -67,6 +67,8 @@ static bool has_coordinate(const struct core *core) { return characters_coordina
 
 static bool has_page(const struct core *core) { return core->in_page; }
 
+static bool has_no_page(const struct core *core) { return !core->in_page; }
+
 static const struct {
     bool (*met)(const struct core *core);
     const char *missing;
@@ -91,6 +93,7 @@ static const struct {
     [NEEDS_NO_MEADOW] = {has_no_meadow, "There is a meadow already."},
     [NEEDS_PAINT] = {has_coordinate, "Select a soft character first."},
     [NEEDS_PAGE] = {has_page, "Links are for the app in a browser."},
+    [NEEDS_NO_PAGE] = {has_no_page, "Close the page instead: unsaved work is kept."},
 };
 
 bool command_runs(const struct command *command)

@@ -60,6 +60,7 @@ enum need {
     NEEDS_NO_MEADOW,
     NEEDS_PAINT, ///< a character with a coordinate
     NEEDS_PAGE,  ///< the app runs in a browser
+    NEEDS_NO_PAGE,
     NEEDS_COUNT
 };
 
