@@ -2,40 +2,42 @@
 
 WASM := $(B)/wasm
 EMCC ?= emcc
-export NODE_PATH := /usr/share/nodejs$(NODE_PATH:%=:%)# where Debian keeps what emcc needs of node's modules, whichever node there is
+# Its clang with its flags, asked for once: emcc takes longer to start than most files take to compile.
+WEB_CC = $(eval WEB_CC := $(shell tools/web-compiler.sh "$(EMCC)"))$(WEB_CC)
 WEB_SOURCES := $(filter-out src/platform/% src/timing/allocations.c,$(SOURCES)) src/platform/events.c $(wildcard src/platform/web/*.c)
 JANSSON ?= $(WASM)/jansson
 WEB_OBJECTS := $(WEB_SOURCES:%.c=$(WASM)/%.o) \
     $(patsubst %,$(WASM)/jansson-%.o,dump error hashtable hashtable_seed load memory pack_unpack strbuffer strconv utf value version) \
     $(addprefix $(WASM)/generated/,build.o embedded_table.o embedded_data.o)
 
-WEB_CFLAGS := -O2 -msimd128 $(WARNINGS) $(filter-out -fPIC -fno-semantic-interposition -fsanitize% -fno-sanitize%,$(FIXED_CFLAGS))
+WEB_CFLAGS := -Os -msimd128 $(WARNINGS) $(filter-out -fPIC -fno-semantic-interposition -fsanitize% -fno-sanitize%,$(FIXED_CFLAGS))
 WEB_CPPFLAGS = $(OWN_CPPFLAGS) -isystem src/platform/web -isystem $(WASM)/include -isystem $(JANSSON)/src
 JANSSON_CFLAGS := -w -DHAVE_UNISTD_H -DHAVE_STDINT_H -Dutf8_encode=jansson_utf8_encode# which is a name of ours
-WEB_LDFLAGS := -O2 -lidbfs.js -lnodefs.js -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB \
+WEB_LDFLAGS := -Os -lidbfs.js -lnodefs.js -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB \
     -sENVIRONMENT=web,node -sMODULARIZE=1 -sEXPORT_NAME=createWiggly -sEXPORTED_RUNTIME_METHODS=FS,callMain,ccall,UTF8ToString -sINVOKE_RUN=0
 WEB_FILES := $(wildcard $(addprefix src/platform/web/,*.html *.js *.json)) assets/desktop/wiggly.svg
-WEB_PAGE := $(addprefix $(B)/web/,$(filter-out sw.js,$(notdir $(WEB_FILES))) wiggly.js models/dog.glb models/creature.glb)
+WEB_PAGE := $(addprefix $(B)/web/,$(filter-out sw.js,$(notdir $(WEB_FILES))) wiggly.js)
 
-web: $(WEB_PAGE) $(B)/web/sw.js
+web: $(WEB_PAGE) $(B)/web/sw.js $(addprefix $(B)/web/models/,dog.glb creature.glb)
 	@echo "Page: $(B)/web/index.html"
 
 $(WASM)/src/spline/%.o: private WEB_CFLAGS += $(SPLINE_CFLAGS)
 $(WASM)/%.o: %.c $(WASM)/flags | $(WASM)/ready
 	@mkdir -p $(@D)
 	$(if $(Q),@echo "EMCC $<")
-	$(Q)$(EMCC) $(WEB_CPPFLAGS) $(WEB_CFLAGS) -MMD -MP -c $< -o $@
+	$(Q)$(WEB_CC) $(WEB_CPPFLAGS) $(WEB_CFLAGS) -MMD -MP -c $< -o $@
 $(WASM)/jansson-%.o: $(WASM)/flags | $(WASM)/ready
-	$(Q)$(EMCC) $(WEB_CPPFLAGS) $(WEB_CFLAGS) $(JANSSON_CFLAGS) -c $(JANSSON)/src/$*.c -o $@
+	$(Q)$(WEB_CC) $(WEB_CPPFLAGS) $(WEB_CFLAGS) $(JANSSON_CFLAGS) -c $(JANSSON)/src/$*.c -o $@
 $(WASM)/generated/%.o: $(WASM)/generated/%.c $(WASM)/flags | $(WASM)/ready
-	$(Q)$(EMCC) $(WEB_CPPFLAGS) $(WEB_CFLAGS) -c $< -o $@
+	$(Q)$(WEB_CC) $(WEB_CPPFLAGS) $(WEB_CFLAGS) -c $< -o $@
 $(WASM)/generated/%.o: $(WASM)/generated/%.S | $(WASM)/ready
-	$(Q)$(EMCC) -c $< -o $@
+	$(Q)$(WEB_CC) -c $< -o $@
 
+# Debian keeps node's modules where only its own node looks for them.
 $(B)/web/wiggly.js: $(WEB_OBJECTS) $(WASM)/flags
 	@mkdir -p $(@D)
 	$(if $(Q),@echo "LINK $@")
-	$(Q)$(EMCC) $(WEB_LDFLAGS) $(WEB_OBJECTS) -o $@
+	$(Q)NODE_PATH=/usr/share/nodejs:$$NODE_PATH $(EMCC) $(WEB_LDFLAGS) $(WEB_OBJECTS) -o $@
 
 # The worker names the files that it keeps, and a version that changes when they do.
 $(B)/web/sw.js: src/platform/web/sw.js $(WEB_PAGE)
