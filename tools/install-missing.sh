@@ -13,7 +13,7 @@ packages_of() {
     bench) echo liblapacke-dev libopenblas-dev ;;
     check) echo clang-format-14 cppcheck ;;
     clang) echo clang "libclang-rt-dev|libclang-rt-14-dev" ;; # with its sanitizers and its fuzzer
-    web) echo emscripten nodejs python3-fonttools patch xz-utils pkg-config libcglm-dev libstb-dev fontconfig fonts-inter \
+    web) echo emscripten nodejs brotli python3-fonttools patch xz-utils pkg-config libcglm-dev libstb-dev fontconfig fonts-inter \
         "fonts-jetbrains-mono|fonts-dejavu-core" ;;
     bare) echo debootstrap ;;
     whole) # what parts of the suite are skipped without; Debian's npm, with hundreds of packages, only where there is no other

@@ -1,0 +1,24 @@
+# `make web`: the page is small, complete, and offline whatever it is served by.
+. tests/check.sh
+[ -z "${SANITIZE:-}" ] || { echo "skip - wasm is not built with sanitizers"; exit 0; }
+for tool in emcc brotli; do
+    command -v $tool >/dev/null || { echo "skip - $tool is not installed"; exit 0; }
+done
+built=${B:-build}
+unset MAKEFLAGS SANITIZE DEBUG
+
+expect 0 "the page is built" flock "$built" make --no-print-directory B="$built" web
+page=$built/web
+files=$(sed -n "s/.*'\(index.html [^']*\)'.*/\1/p" "$page/sw.js")
+missing=$(cd "$page" && ls $files 2>&1 >/dev/null)
+holds "what the worker keeps is there" [ -n "$files" -a -z "$missing" ]
+besides=$(cd "$page" && for file in *.*; do case " $files sw.js " in *" $file "*) ;; *) echo "$file" ;; esac; done)
+holds "and is all there is" [ -z "$besides" ]
+
+size=0
+for file in $files sw.js; do size=$((size + $(brotli -q 11 -c "$page/$file" | wc -c))); done
+echo "  $size bytes over the wire"
+holds "at most 1.0 MB go over the wire" [ "$size" -le 1000000 ]
+
+cd "$page" || exit 1
+holds "addresses are relative" not grep -nE "(src|href)=\"/|(fetch|register|from|import)\(? ?['\"]/|https?://[^w]" index.html page.js files.js input.js manifest.json
