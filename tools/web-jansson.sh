@@ -6,7 +6,7 @@ folder=$1
 work=$folder.new
 lists=$work/lists
 rm -rf "$work"
-mkdir -p "$lists/partial" "$work/parts" "$work/cache/archives/partial" "$folder"
+mkdir -p "$lists/partial" "$work/parts" "$work/cache/archives/partial"
 
 # The system's own sources, as sources of source packages.
 for file in /etc/apt/sources.list /etc/apt/sources.list.d/*; do
@@ -31,7 +31,7 @@ fetch() { # other people's archives may have no sources: what counts is whether 
 work=$(cd "$work" && pwd)
 lists=$work/lists
 said=$(fetch) || {
-    echo "wiggly needs the source of jansson, and apt-get could not fetch it: $(echo "$said" | grep '^E:' | tail -n 1)" >&2
+    echo "wiggly needs the source of jansson, and apt-get could not fetch it: $(echo "$said" | grep '^[EW]: ' | head -n 1)" >&2
     echo "Or name its folder: make web JANSSON=path/to/jansson" >&2
     rm -rf "$work"
     exit 3
