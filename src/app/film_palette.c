@@ -124,11 +124,12 @@ static int by_green(const void *a, const void *b)
 
 void palette_choose(struct palette_maker *maker, const struct palette_picture *picture, struct palette *palette)
 {
-    struct box boxes[PALETTE_COLORS];
     const int colors = count_colors(maker, picture);
-    int count = colors > 0;
-    if (count) boxes[0] = measure(maker->colors, 0, colors);
-    while (count > 0 && count < PALETTE_COLORS) {
+    palette->count = 0;
+    if (colors == 0) return;
+    struct box boxes[PALETTE_COLORS] = {measure(maker->colors, 0, colors)};
+    int count = 1;
+    while (count < PALETTE_COLORS) {
         struct box *most = boxes;
         for (int b = 1; b < count; b++) {
             if (boxes[b].spread > most->spread) most = &boxes[b];
