@@ -190,6 +190,10 @@ class Page:
         self.call('Input.dispatchKeyEvent', type='keyDown', **what, **typed)
         self.call('Input.dispatchKeyEvent', type='keyUp', **what)
 
+    def type(self, text):
+        for letter in text:
+            self.key(letter)
+
     def touch(self, kind, *points):
         """touch('touchStart', (x, y), …), touch('touchMove', …), touch('touchEnd')"""
         self.call('Input.dispatchTouchEvent', type=kind,

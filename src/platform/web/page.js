@@ -20,8 +20,9 @@ const sized = (width, height) => ({ width, height, scale: Math.min(devicePixelRa
 const measured = ({ width, height }) => sized(...[width, height].map(side => Math.max(1, Math.round(side * devicePixelRatio))));
 let ratio = devicePixelRatio, wanted = measured(canvas.getBoundingClientRect());
 new ResizeObserver(([entry]) => {
-  const exact = entry.devicePixelContentBoxSize?.[0];
-  wanted = exact ? sized(exact.inlineSize, exact.blockSize) : measured(entry.contentRect);
+  const exact = entry.devicePixelContentBoxSize?.[0], rough = measured(entry.contentRect);
+  const isNear = exact && Math.abs(exact.inlineSize - rough.width) < 2; // not where a browser only acts as if it had another display
+  wanted = isNear ? sized(exact.inlineSize, exact.blockSize) : rough;
 }).observe(canvas);
 
 const page = {
@@ -46,7 +47,7 @@ const page = {
   copy: text => navigator.clipboard?.writeText(text).catch(() => say('The browser refused the clipboard.')),
   fullscreen: () => (document.fullscreenElement ? document.exitFullscreen() : document.body.requestFullscreen()).catch(() => {}),
   shown() {
-    say('');
+    if (!timer) say(''); // "Loading …"
     performance.mark('first frame');
     fetchModels(app.FS).catch(() => {});
     navigator.serviceWorker?.register('sw.js').catch(() => {});

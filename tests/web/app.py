@@ -1,0 +1,375 @@
+"""The app's page as a user meets it: python3 app.py FOLDER OUT, a built page and a folder for screenshots and downloads. Each case says
+"ok - what" or "not ok - what"."""
+import base64
+import json
+import os
+import pathlib
+import re
+import signal
+import subprocess
+import sys
+import time
+import traceback
+import zlib
+
+import chromium
+import firefox
+import serve
+from wait import until
+
+FOLDER, OUT = map(pathlib.Path, sys.argv[1:3])
+MODELS = pathlib.Path(__file__).parents[2] / 'assets/models'
+STILL = {'color_scheme': 'light', 'reduced_motion': 'reduce'}
+KNOT, LOWER = (125, 470), (125, 530)  # the first knot of "sway" at 1280 × 720
+STAGE = (340, 20, 650, 370)  # x, y, width, height: beside the card
+FIRST_FRAME = "performance.getEntriesByName('first frame')[0]?.startTime"
+# How many pixels of the canvas differ from the last look at it.
+LOOK = '''(([x, y, width, height]) => {
+    const [canvas, copy] = [document.getElementById('canvas'), new OffscreenCanvas(width, height)];
+    const scale = canvas.width / canvas.clientWidth, context = copy.getContext('2d', { willReadFrequently: true });
+    context.drawImage(canvas, x * scale, y * scale, width * scale, height * scale, 0, 0, width, height);
+    const before = globalThis.lastLook, now = globalThis.lastLook = context.getImageData(0, 0, width, height).data;
+    return before?.length === now.length ? now.reduce((sum, value, k) => sum + (k % 4 === 1 && Math.abs(value - before[k]) > 16), 0) : -1;
+})'''
+
+
+def look(page, box=STAGE):
+    return page.evaluate(f'{LOOK}({list(box)})')
+
+
+def frames(page, count=3):
+    """Waits until the app has drawn what it was told."""
+    page.evaluate(f'(async () => {{ for (let n = 0; n < {count}; n++) await new Promise(requestAnimationFrame); }})()')
+
+
+def opened(browser, url, fresh=True, size=(1280, 720, 1), fingers=False, **media):
+    page = browser.page(*size, fresh=fresh)
+    page.prefer(**{**STILL, **media})
+    if fingers:
+        page.fingers()
+    return reopened(page, url)
+
+
+def reopened(page, url):
+    page.open(url)
+    page.until('the first frame', FIRST_FRAME)
+    frames(page)
+    return page
+
+
+def share(page):
+    """The link's part behind #, from its #."""
+    page.evaluate("history.replaceState(null, '', location.pathname)")
+    page.key('Ctrl+Shift+L')
+    return page.until('a link', 'location.hash')
+
+
+def scene(page):
+    text = share(page)[1:]
+    return json.loads(zlib.decompress(base64.urlsafe_b64decode(text + '=' * (-len(text) % 4)), -15))
+
+
+def title(page):
+    return page.evaluate('document.title')
+
+
+def told(page, what, condition):
+    until(what, lambda: condition(title(page)))
+
+
+def expect(value, what):
+    if not value:
+        raise AssertionError(what)
+
+
+def starts(browser, url):
+    page = browser.page(fresh=True)
+    page.open(url)
+    took = page.until('the first frame', FIRST_FRAME)
+    print(f'first frame after {took / 1000:.2f} s')
+    frames(page)
+    look(page)
+    until('a fox that moves', lambda: look(page) > 500)
+    name, role, about = page.evaluate('''(canvas => [canvas.ariaLabel, canvas.getAttribute('role'),
+        document.getElementById(canvas.getAttribute('aria-describedby')).textContent])(document.getElementById('canvas'))''')
+    expect('untitled' in name and role == 'application' and len(about) > 100, f'the canvas is called {name}, a {role}: {about}')
+    time.sleep(2)  # what is done once is over
+    seconds = 20 if os.environ.get('THOROUGH') else 5
+    page.evaluate('longTasks.length = 0')
+    count = page.evaluate(f'''new Promise(done => {{
+        const start = performance.now();
+        let count = 0;
+        requestAnimationFrame(function next(now) {{
+            now - start < {seconds * 1000} ? (count++, requestAnimationFrame(next)) : done(count);
+        }});
+    }})''')
+    long = [round(took) for _, took in page.evaluate('longTasks')]
+    print(f'{count / seconds:.0f} frames a second, tasks longer than 50 ms in {seconds} s: {len(long)} {sorted(long)[-5:]}')
+    expect(not (found := page.problems()), f'the console says {found}')
+    page.close()
+
+
+def edits(browser, url):
+    page = opened(browser, url)
+    look(page)
+    time.sleep(0.5)
+    expect(look(page) == 0, 'with reduced motion the fox stands still at first')
+    start = scene(page)
+    page.drag(KNOT, LOWER)
+    told(page, 'a star in the title', lambda text: text.startswith('*'))
+    moved = scene(page)
+    values = [one['splines'][0]['knots'][0]['value'] for one in (start, moved)]
+    expect(values[1] < values[0] - 0.3, f'a knot that is dragged down goes from {values[0]} to {values[1]}')
+    expect(look(page) > 500, 'the tail follows the knot')
+    page.key('Ctrl+Z')
+    told(page, 'a title without a star', lambda text: not text.startswith('*'))
+    expect(scene(page) == start, 'undo brings the scene back')
+    page.key('Ctrl+Y')
+    told(page, 'a star again', lambda text: text.startswith('*'))
+    expect(scene(page) == moved, 'redo brings the change back')
+    page.key('I')
+    frames(page)
+    expect(len(scene(page)['splines'][0]['knots']) == 6, 'the key I inserts a knot')
+    look(page)
+    page.key('Space')
+    until('a fox that moves', lambda: look(page) > 500)
+    page.key('Space')
+    page.wheel(600, 200, -300)
+    frames(page)
+    expect(look(page) > 500, 'the wheel zooms')
+    expect(not (found := page.problems()), f'the console says {found}')
+    page.close()
+
+
+def links(browser, url):
+    page = opened(browser, url)
+    link = share(page)
+    print(f'the link of the start scene: {len(link)} bytes')
+    expect(len(link) <= 2048, 'the link of the start scene has at most 2 KB')
+    page.drag(KNOT, LOWER)
+    told(page, 'a star in the title', lambda text: text.startswith('*'))
+    changed, link = scene(page), page.evaluate('location.hash')
+    page.close()
+    other = opened(browser, url + link)
+    expect(scene(other) == changed, 'a link holds the scene, for a stranger, too')
+    reopened(other, url + link[:-20])
+    expect('cut off' in other.until('words', "document.getElementById('said').textContent"), 'a broken link is said to be one')
+    other.close()
+
+
+def kept(browser, url):
+    page = opened(browser, url)
+    page.drag(KNOT, LOWER)
+    told(page, 'a star in the title', lambda text: text.startswith('*'))
+    changed = scene(page)
+    page.until('a recovery file', "wiggly.FS.analyzePath('/home/web_user/.local/state/wiggly/recovery-1').exists")
+    time.sleep(1.5)  # half a second, and some for the browser's storage
+    reopened(page, url)
+    page.key('Enter')
+    told(page, 'the work as it was before the reload', lambda text: text.startswith('*'))
+    expect(scene(page) == changed, 'it is the same scene')
+    page.close()
+
+
+def files(browser, url):
+    page = opened(browser, url)
+    folder = OUT / 'downloads'
+    folder.mkdir()
+    page.downloads(folder.resolve())
+    beginnings = {'glb': b'glTF', 'csv': b'frame', 'gif': b'GIF89a'}
+    for kind, beginning in beginnings.items():
+        page.key('Ctrl+E')
+        frames(page)
+        page.type(f'fox.{kind}')
+        page.key('Enter')
+        file = folder / f'fox.{kind}'
+        until(f'the download of {file.name}', file.exists)
+        expect(file.read_bytes().startswith(beginning), f'{file.name} begins as such files do')
+    page.drag(KNOT, LOWER)
+    changed = scene(page)
+    page.key('Ctrl+S')
+    frames(page)
+    page.key('Enter')
+    file = folder / 'untitled.json'
+    until('the download of the scene', file.exists)
+    expect(json.loads(file.read_text())['splines'] == changed['splines'], 'the scene that is saved is the one that is shown')
+    told(page, "the scene's name", lambda text: text.startswith('untitled.json'))
+    page.key('Alt+N')
+    told(page, 'a new scene', lambda text: text == 'untitled — wiggly')
+    expect(len(scene(page)['splines'][0]['knots']) == 1, 'a new scene has one knot')
+    look(page)
+    page.drop(600, 200, file)
+    told(page, 'the scene that was dropped', lambda text: text.startswith('untitled.json'))
+    frames(page)
+    expect(scene(page) == changed, 'the scene that was dropped is the one that was saved')
+    expect(not (found := page.problems()), f'the console says {found}')
+    page.close()
+
+
+def characters(browser, url):
+    page = opened(browser, url)
+    look(page)
+    page.drop(600, 200, MODELS / 'dog.glb')
+    until('the character that was dropped', lambda: look(page) > 5000)
+    page.screenshot(OUT / 'dropped.png')
+    page.key('Ctrl+Shift+L')
+    page.until('a word that no link holds it', "/no characters/.test(document.getElementById('said').textContent)")
+    reopened(page, url)
+    look(page)
+    page.until("the dog's file", "wiggly.FS.analyzePath('/usr/share/wiggly/models/dog.glb').exists")
+    page.key('Ctrl+8')
+    until('the dog', lambda: look(page) > 5000)
+    frames(page)
+    page.screenshot(OUT / 'dog.png')
+    expect('dog.glb' in json.dumps(scene(page)), 'the scene with the dog is shared by its name')
+    expect(not (found := page.problems()), f'the console says {found}')
+    page.close()
+
+
+def touches(browser, url):
+    page = opened(browser, url, size=(1280, 772, 1), fingers=True)  # the bar takes 52
+    bar = page.evaluate("[...document.querySelectorAll('#bar button')].map(button => button.offsetHeight)")
+    expect(len(bar) == 8 and min(bar) > 40, f'the bar has eight keys for fingers: {bar}')
+    start = scene(page)
+    look(page)
+    page.touch('touchStart', (500, 200), (700, 200))
+    for n in range(8):
+        page.touch('touchMove', (500 - 8 * n, 200 - 5 * n), (700 + 8 * n, 200 + 5 * n))
+        frames(page, 1)
+    page.touch('touchEnd')
+    frames(page)
+    expect(look(page) > 2000, 'two fingers zoom and turn')
+    page.touch('touchStart', (500, 200), (700, 200))
+    for n in range(8):
+        page.touch('touchMove', (500 + 8 * n, 200), (700 + 8 * n, 200))
+        frames(page, 1)
+    page.touch('touchEnd')
+    frames(page)
+    expect(look(page) > 2000, 'two fingers pan')
+    expect(scene(page) == start, 'and change nothing of the scene')
+    page.screenshot(OUT / 'fingers.png')
+    page.close()
+    page = opened(browser, url, size=(1280, 772, 1), fingers=True)
+    page.touch('touchStart', KNOT)
+    for n in range(8):
+        page.touch('touchMove', (KNOT[0], KNOT[1] + 8 * n))
+        frames(page, 1)
+    page.touch('touchEnd')
+    told(page, 'a knot moved by a finger', lambda text: text.startswith('*'))
+    undo = page.evaluate('''(box => [box.x + box.width / 2, box.y + box.height / 2])(
+        document.querySelector('#bar [data-key=Z]').getBoundingClientRect())''')
+    page.touch('touchStart', undo)
+    page.touch('touchEnd')
+    told(page, 'Undo by the bar', lambda text: not text.startswith('*'))
+    page.touch('touchStart', (655, 250))
+    for n in range(10):
+        page.touch('touchMove', (655 - 12 * n, 250))
+        frames(page, 1)
+    page.touch('touchEnd')
+    told(page, 'the fox dragged by a finger', lambda text: text.startswith('*'))
+    expect(scene(page) != start, 'one finger drags the fox')
+    expect(not (found := page.problems()), f'the console says {found}')
+    page.close()
+
+
+def offline(browser, url):
+    page = browser.page(fresh=True)
+    page.prefer(**STILL)
+    with serve.Server(FOLDER) as server:
+        reopened(page, server.url)
+        page.until('a service worker', 'navigator.serviceWorker.ready.then(() => true)')
+        page.until('its cache', '''caches.keys().then(names => names.length && caches.open(names[0])).then(cache => cache && cache.keys())
+            .then(files => files && files.some(file => file.url.endsWith('wiggly.wasm')))''')
+    reopened(page, server.url)
+    page.close()
+
+
+def sizes(browser, url):
+    page = opened(browser, url, size=(900, 600, 2))
+    canvas = "(canvas => [canvas.width, canvas.height])(document.getElementById('canvas'))"
+    expect(page.evaluate(canvas) == [1800, 1200], f'two pixels of the canvas per pixel of the page: {page.evaluate(canvas)}')
+    page.screenshot(OUT / 'twice.png')
+    page.resize(1000, 700)
+    until('a canvas of the new size', lambda: page.evaluate(canvas) == [1000, 700])
+    page.resize(390, 760, 2, mobile=True)
+    frames(page)
+    page.screenshot(OUT / 'phone.png')
+    expect(page.evaluate('document.documentElement.scrollWidth <= innerWidth'), 'nothing sticks out of a phone')
+    page.close()
+
+
+def themes(browser, url):
+    bright = {}
+    for name in ('light', 'dark'):
+        page = opened(browser, url, color_scheme=name)
+        look(page, (1010, 600, 80, 40))
+        bright[name] = page.evaluate('lastLook[1]')
+        page.screenshot(OUT / f'{name}.png')
+        page.close()
+    expect(bright['light'] > 200 and bright['dark'] < 80, f'the theme is the system\'s: green is {bright}')
+
+
+def wire(browser, url):
+    total = 0
+    for file in sorted(FOLDER.iterdir()):
+        if file.is_file():
+            total += len(subprocess.run(['brotli', '-q', '11', '-c', file], check=True, capture_output=True).stdout)
+    print(f'over the wire: {total} bytes')
+    expect(total <= 1_000_000, f'the page has {total} bytes over the wire: at most 1 MB')
+
+
+def in_firefox(_, url):
+    with firefox.Firefox(1280, 806) as browser:
+        browser.open(url)
+        browser.until('the first frame', FIRST_FRAME)
+        height = browser.evaluate("document.getElementById('canvas').clientHeight")
+        expect(height == 720, f'the canvas has {height} pixels')
+        browser.drag(KNOT, LOWER)
+        browser.screenshot(OUT / 'firefox.png')
+        until('a star in the title', lambda: browser.evaluate('document.title').startswith('*'))
+        browser.key('z', ctrl=True)
+        until('a title without a star', lambda: not browser.evaluate('document.title').startswith('*'))
+
+
+CASES = [
+    ('the page starts without a complaint, plays, and says what it is', starts),
+    ('mouse and keys edit the scene, and undo', edits),
+    ('a link holds the scene', links),
+    ('unsaved work is offered again after a reload', kept),
+    ('exports and scenes are downloads, and scenes come back by a drop', files),
+    ('a character is dropped in, and the built-in dog opens', characters),
+    ('fingers drag, pan, zoom and turn', touches),
+    ('without a network it opens again', offline),
+    ('the canvas follows the size and the display', sizes),
+    ('the theme is the system\'s', themes),
+    ('it is at most 1 MB over the wire', wire),
+    ('Firefox loads it and drags', in_firefox),
+]
+
+
+def main():
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))
+    only = re.compile(sys.argv[3] if len(sys.argv) > 3 else '')
+    failed = 0
+    with serve.Server(FOLDER) as server, chromium.Chromium() as browser:
+        for what, case in CASES:
+            if not only.search(case.__name__):
+                continue
+            if case is in_firefox and not firefox.find():
+                print('skip - firefox is not installed')
+                continue
+            start = time.monotonic()
+            try:
+                case(browser, server.url)
+                print(f'ok - {what} ({time.monotonic() - start:.1f} s)', flush=True)
+            except Exception:
+                failed += 1
+                traceback.print_exc(file=sys.stdout)
+                print(f'not ok - {what}', flush=True)
+                for number, page in enumerate(browser.pages.copy().values()):
+                    page.screenshot(OUT / f'{case.__name__}-{number}.png')
+                    page.close()
+    sys.exit(failed > 0)
+
+
+main()
