@@ -11,7 +11,7 @@ let timer;
 function say(text) {
   document.getElementById('said').textContent = text;
   clearTimeout(timer);
-  timer = setTimeout(() => (document.getElementById('said').textContent = ''), 4000);
+  timer = setTimeout(() => app.isShown && (document.getElementById('said').textContent = ''), 4000); // else there is nothing but the word
 }
 
 // The canvas's size in device pixels, which a frame takes over just before it is drawn. On a phone, all of the app is smaller.
@@ -48,6 +48,7 @@ const page = {
   fullscreen: () => (document.fullscreenElement ? document.exitFullscreen() : document.body.requestFullscreen()).catch(() => {}),
   shown() {
     if (!timer) say(''); // "Loading …"
+    app.isShown = true;
     performance.mark('first frame');
     fetchModels(app.FS).catch(() => {});
     navigator.serviceWorker?.register('sw.js').catch(() => {});

@@ -74,7 +74,8 @@ struct platform *platform_offscreen(int width, int height, float scale, struct e
     (void)width;
     (void)height;
     (void)scale;
-    fail(error, ERROR_ENVIRONMENT, "a browser draws only in its window: expected --no-draw");
+    fail(error, ERROR_ENVIRONMENT,
+         shown ? "a browser draws only in its window: expected --no-draw" : "this browser has no WebGL 2");
     return NULL;
 }
 
