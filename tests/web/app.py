@@ -309,6 +309,16 @@ def themes(browser, url):
     expect(bright['light'] > 200 and bright['dark'] < 80, f'the theme is the system\'s: green is {bright}')
 
 
+def without_webgl(_, url):
+    with chromium.Chromium('--disable-3d-apis') as browser:
+        page = browser.page()
+        page.open(url)
+        says = "/no WebGL 2/.test(document.getElementById('said').textContent)"
+        page.until('a word on WebGL', says)
+        time.sleep(4.5)  # other words go after 4
+        expect(page.evaluate(says), 'the word stays')
+
+
 def wire(browser, url):
     total = 0
     for file in sorted(FOLDER.iterdir()):
@@ -342,6 +352,7 @@ CASES = [
     ('without a network it opens again', offline),
     ('the canvas follows the size and the display', sizes),
     ('the theme is the system\'s', themes),
+    ('without WebGL it says so', without_webgl),
     ('it is at most 1 MB over the wire', wire),
     ('Firefox loads it and drags', in_firefox),
 ]
