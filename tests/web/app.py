@@ -313,7 +313,7 @@ def without_webgl(_, url):
     with chromium.Chromium('--disable-3d-apis') as browser:
         page = browser.page()
         page.open(url)
-        says = "/no WebGL 2/.test(document.getElementById('said').textContent)"
+        says = "/no WebGL 2/.test(document.getElementById('said')?.textContent)"
         page.until('a word on WebGL', says)
         time.sleep(4.5)  # other words go after 4
         expect(page.evaluate(says), 'the word stays')
