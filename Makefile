@@ -63,7 +63,7 @@ endif
 VERSION := $(shell sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
 MAJOR := $(firstword $(subst ., ,$(VERSION)))
 SOURCES := $(sort $(shell find src -name '*.c' -not -path 'src/platform/web/*'))
-LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/base/status.c
+LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/maths/maths.c src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
     assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
     assets/scenes/meadow.json assets/models/fox.glb assets/demo/demo.replay)
@@ -91,7 +91,7 @@ PKG_LIBS = $(eval PKG_LIBS := $(shell pkg-config --libs glfw3 epoxy egl jansson)
 CODECS = $(eval CODECS := $(shell tools/find-codecs.sh "$(CC)"))$(CODECS)
 
 # No fused multiply-add and no -ffast-math anywhere: a scene gives the same bits at every optimisation level, number of threads
-# and width of vectors; only libm's exp, expm1, sin, cos and pow may differ from one machine to the next.
+# and width of vectors, on every machine: of libm only what is exactly rounded is used (src/maths has the rest).
 comma := ,
 OPTIMISE := $(if $(DEBUG),-O0 -g3,$(if $(SANITIZE),-O1,-O2) -g1) $(if $(SANITIZE),-fno-omit-frame-pointer)
 SANITIZERS := $(if $(SANITIZE),-fsanitize=address$(comma)undefined -fno-sanitize-recover=all) \
@@ -111,8 +111,8 @@ OWN_LDFLAGS := $(SANITIZERS) -Wl,--as-needed $(WRAPPED:%=-Wl,--wrap=%)
 LIBS = $(PKG_LIBS) $(filter-out -D%,$(CODECS)) -lm -ldl -lpthread $(LDLIBS)
 TEST_LIBS = -lcmocka -llapacke -lopenblas -lquadmath
 
-$(B)/obj/src/spline/%.o: OWN_CFLAGS += $(filter -O%,$(SPLINE_CFLAGS))
-$(B)/obj/src/spline/%.o: FIXED_CFLAGS += $(filter -f%,$(SPLINE_CFLAGS))
+$(B)/obj/src/spline/%.o $(B)/obj/src/maths/%.o: OWN_CFLAGS += $(filter -O%,$(SPLINE_CFLAGS))
+$(B)/obj/src/spline/%.o $(B)/obj/src/maths/%.o: FIXED_CFLAGS += $(filter -f%,$(SPLINE_CFLAGS))
 # The library is made of the objects that the app is made of: fit for a shared one, machine code whatever CFLAGS say (names are
 # taken out of it), and without a package.
 $(LIBRARY_OBJECTS): FIXED_CFLAGS += -fno-lto
@@ -314,7 +314,7 @@ $(B)/adversary: $(B)/obj/tools/adversary.o $(patsubst %.c,$(B)/obj/%.o,$(wildcar
 	$(Q)$(LINK) $^ -lquadmath $(LIBS) -o $@
 
 # Of the sources only what readers and exports need, and no GL.
-FUZZED := $(wildcard src/base/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
+FUZZED := $(wildcard src/base/*.c src/maths/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
     $(addprefix src/app/,replay.c settings.c) $(addprefix src/timing/,readlog.c columns.c) \
     $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/posed.c src/commands/companion.c \
     $(addprefix src/simulation/,\

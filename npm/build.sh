@@ -1,12 +1,11 @@
 #!/bin/sh
 # Builds the npm package: npm/build.sh BUILD. It comes to BUILD/npm/wiggly, and as a .tgz beside it.
-# The solver without what springs never reach (bands, loops, limits, variations, moving equilibria): those functions become imports, and
-# so do exp, sin and the like, which the browser has.
+# The solver without what springs never reach (bands, loops, limits, variations, moving equilibria): those functions become imports.
 set -eu
 build=$(mkdir -p "$1/npm" && realpath "$1/npm")
 cd "$(dirname "$0")"
 package=$build/wiggly
-sources="src/spring.c"
+sources="src/spring.c ../src/maths/maths.c"
 for name in spline solver problem complete poles chain chain_nodes chain_tables chain_gradient tail desc pose; do
     sources="$sources ../src/spline/$name.c"
 done
@@ -15,7 +14,7 @@ export NODE_PATH=/usr/share/nodejs # where Debian keeps what emcc needs
 mkdir -p "$package"
 # shellcheck disable=SC2086 # the list is split on purpose
 emcc -std=gnu11 -O2 -flto -mbulk-memory -fno-math-errno -fno-trapping-math -ffp-contract=off -Wall -Wextra -Werror \
-    -Dexp=js_exp -Dexpm1=js_expm1 -Dsin=js_sin -Dcos=js_cos -Dhypot=js_hypot -I../src -I../include $sources \
+    -I../src -I../include $sources \
     -sSTANDALONE_WASM --no-entry -sEXPORTED_FUNCTIONS=_spring_room,_spring_solve -sERROR_ON_UNDEFINED_SYMBOLS=0 \
     -sWARN_ON_UNDEFINED_SYMBOLS=0 -sMALLOC=none -sFILESYSTEM=0 -sTOTAL_STACK=65536 -sINITIAL_MEMORY=1MB -sALLOW_MEMORY_GROWTH \
     -o "$build/solver.wasm"

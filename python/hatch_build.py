@@ -27,7 +27,7 @@ class LibraryHook(BuildHookInterface):
         name = "wiggly.dll" if platform.startswith("win") else "libwiggly.dylib" if platform.startswith("macosx") else "libwiggly.so"
         self.folder = tempfile.TemporaryDirectory()
         library = Path(self.folder.name) / name
-        sources = [*sorted((tree / "src" / "spline").glob("*.c")), tree / "src" / "base" / "status.c"]
+        sources = [*sorted((tree / "src" / "spline").glob("*.c")), tree / "src" / "maths" / "maths.c", tree / "src" / "base" / "status.c"]
         compiler = shlex.split(os.environ.get("CC") or "cc")
         if not shutil.which(compiler[0]):
             raise SystemExit(f"wiggly is written in C, and the compiler {compiler[0]!r} was not found: install one, or set CC to yours")

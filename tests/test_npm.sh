@@ -8,7 +8,7 @@ place=$(mkdir -p "$B/npm" && realpath "$B/npm")
 export WIGGLY_NPM=$place/wiggly VECTORS_WASM=$place/vectors.wasm NO_COLOR=1
 
 newest() { # <file>: whether it is newer than what it is made of
-    [ -e "$1" ] && [ -z "$(find npm src/spline include/wiggly -type f -newer "$1" | head -n 1)" ]
+    [ -e "$1" ] && [ -z "$(find npm src/maths src/spline include/wiggly -type f -newer "$1" | head -n 1)" ]
 }
 newest "$WIGGLY_NPM/wasm.js" || expect 0 "the package is built" npm/build.sh "$B"
 newest "$VECTORS_WASM" || expect 0 "and the whole solver" npm/tests/build-vectors.sh "$VECTORS_WASM"

@@ -10,7 +10,7 @@ function load() {
   const module = new WebAssembly.Module(bytes)
   const env = {}
   for (const { name } of WebAssembly.Module.imports(module))
-    env[name] = name === 'variation_is_set' ? () => 0 : Math[name.replace('js_', '')] ?? absent
+    env[name] = name === 'variation_is_set' ? () => 0 : absent
   return new WebAssembly.Instance(module, { env }).exports
 }
 

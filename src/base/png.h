@@ -3,7 +3,7 @@
 #define BASE_PNG_H
 
 #include "base/error.h"
-#include <math.h>
+#include "maths/maths.h"
 #include <stddef.h>
 
 /// Writes width × height pixels of four bytes (R, G, B, A; top row first) as a PNG, atomically like file_write_atomic().
@@ -18,16 +18,18 @@ void png_encode(void (*store)(void *user, const void *bytes, size_t size), void 
 
 // The transfer function of sRGB (IEC 61966-2-1), a channel of 0 … 1 at a time.
 
+static inline float srgb_power(float x, double power) { return (float)maths_exp(power * maths_log((double)x)); }
+
 /// Light from what is encoded.
 static inline float srgb_to_linear(float encoded)
 {
-    return encoded <= 0.04045f ? encoded / 12.92f : powf((encoded + 0.055f) / 1.055f, 2.4f);
+    return encoded <= 0.04045f ? encoded / 12.92f : srgb_power((encoded + 0.055f) / 1.055f, 2.4);
 }
 
 /// What encodes light; the inverse of srgb_to_linear().
 static inline float srgb_from_linear(float linear)
 {
-    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * powf(linear, 1.0f / 2.4f) - 0.055f;
+    return linear <= 0.0031308f ? 12.92f * linear : 1.055f * srgb_power(linear, 1 / 2.4) - 0.055f;
 }
 
 #endif

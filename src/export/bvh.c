@@ -2,6 +2,7 @@
 /// parent has channels for its place, too.
 #include "base/need.h"
 #include "export/form.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include <ctype.h>
 #include <math.h>
@@ -73,14 +74,15 @@ static void to_angles(const float q[4], double angle[3])
     const double x = (double)q[0], y = (double)q[1], z = (double)q[2], w = (double)q[3];
     const double degrees = 180 / 3.14159265358979323846;
     const double across = 2 * (x * z + w * y), along = 1 - 2 * (x * x + y * y);
-    const double a = atan2(across, along) / 2, b = atan2(2 * (w * x - y * z), hypot(across, along)) / 2;
-    const double ca = cos(a), sa = sin(a), cb = cos(b), sb = sin(b);
+    const double a = maths_atan2(across, along) / 2,
+                 b = maths_atan2(2 * (w * x - y * z), maths_hypot(across, along)) / 2;
+    const double ca = maths_cos(a), sa = maths_sin(a), cb = maths_cos(b), sb = maths_sin(b);
     // the inverse of R_y · R_x = (ca·sb, sa·cb, −sa·sb, ca·cb), times q
     const double rest_z = ca * cb * z - ca * sb * y + sa * cb * x + sa * sb * w;
     const double rest_w = ca * cb * w + ca * sb * x + sa * cb * y - sa * sb * z;
     angle[0] = 2 * degrees * a;
     angle[1] = 2 * degrees * b;
-    angle[2] = 2 * degrees * atan2(rest_z, rest_w);
+    angle[2] = 2 * degrees * maths_atan2(rest_z, rest_w);
 }
 
 /// The joints in the order in which write_joint() names them.

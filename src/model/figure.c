@@ -1,6 +1,7 @@
 /// Prepares a character for drawing: normals, a coarser mesh, bounds; poses it; and applies painted phases and amplitudes.
 #include "model/figure.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdio.h>
@@ -356,7 +357,7 @@ static void turn(struct painted *painted, int coordinate, int vertex, const floa
     const struct coordinate *from = &painted->plain->character.coordinates[coordinate];
     struct coordinate *to = &painted->figure.character.coordinates[coordinate];
     const struct adjacency *edges = &painted->figure.edges;
-    const float size = expf(value[0]), re = size * cosf(value[1]), im = size * sinf(value[1]);
+    const float size = maths_expf(value[0]), re = size * maths_cosf(value[1]), im = size * maths_sinf(value[1]);
     for (int k = 0; k < 3; k++) {
         to->re[vertex][k] = re * from->re[vertex][k] - im * from->im[vertex][k];
         to->im[vertex][k] = re * from->im[vertex][k] + im * from->re[vertex][k];

@@ -5,6 +5,7 @@
 #include "model/fox.h"
 #include "base/embedded.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include <assert.h>
 #include <math.h>
@@ -202,7 +203,7 @@ void limbs_base_slope(double stretch, double scale, double slope[3])
 {
     slope[0] = 0.0;
     slope[1] = scale * (double)FOX_BASE_HEIGHT;
-    slope[2] = 0.5 * scale * FEET * pow(1.0 + stretch, -1.5);
+    slope[2] = 0.5 * scale * FEET / ((1.0 + stretch) * sqrt(1.0 + stretch));
 }
 
 /// Centre of the head, its turn to look over the shoulder, and its tilt (radians).
@@ -212,7 +213,8 @@ static const float HEAD_TILT = 0.12f;
 
 void fox_head_from_bind(float matrix[16])
 {
-    const float ct = cosf(HEAD_TURN), st = sinf(HEAD_TURN), ci = cosf(HEAD_TILT), si = sinf(HEAD_TILT);
+    const float ct = maths_cosf(HEAD_TURN), st = maths_sinf(HEAD_TURN), ci = maths_cosf(HEAD_TILT),
+                si = maths_sinf(HEAD_TILT);
     const float column[3][3] = {{ct * ci, -ct * si, -st}, {si, ci, 0}, {st * ci, -st * si, ct}};
     const float middle[3] = {head_middle[0], head_middle[1] - FOX_BASE_HEIGHT, head_middle[2]};
     memset(matrix, 0, 16 * sizeof *matrix);
@@ -351,7 +353,7 @@ static struct shadow_blob tail_blob(const struct pose *pose, vec2s slope, float 
     const float radius = scale * fox_tail_radius(along * FOX_TAIL_LENGTH);
     const float above = fmaxf(p.y - radius - ground, 0.0f), height = above / (scale * FADE_HEIGHT);
     return (struct shadow_blob){p.x + slope.x * above, p.z + slope.y * above,
-                                1.6f * radius + 0.12f * scale * (1.0f + height), 0.45f * expf(-height)};
+                                1.6f * radius + 0.12f * scale * (1.0f + height), 0.45f * maths_expf(-height)};
 }
 
 int pose_blobs(const struct pose *pose, const float from[3], struct shadow_blob *blobs, int capacity)
@@ -363,7 +365,8 @@ int pose_blobs(const struct pose *pose, const float from[3], struct shadow_blob 
     int count = 0;
     for (int b = 0; b < body_count && count < capacity; b++) {
         const struct shadow_blob *blob = &body_blobs[b].blob;
-        const float fade = expf(-above / (scale * BODY_FADE_HEIGHT)), height = scale * body_blobs[b].height + above;
+        const float fade = maths_expf(-above / (scale * BODY_FADE_HEIGHT)),
+                    height = scale * body_blobs[b].height + above;
         blobs[count++] = (struct shadow_blob){pose->matrix[0][12] + scale * blob->x + slope.x * height,
                                               pose->matrix[0][14] + scale * blob->z + slope.y * height,
                                               scale * blob->radius * (1.5f - 0.5f * fade), blob->strength * fade};

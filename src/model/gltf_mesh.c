@@ -1,4 +1,5 @@
 /// Reads meshes: vertices and morph targets, triangles, strips and fans.
+#include "maths/maths.h"
 #include "model/gltf_read.h"
 #include "model/surface.h"
 #include "model/vector.h"
@@ -151,7 +152,7 @@ static bool read_vertices(struct gltf_reader *r, const json_t *primitive, int ta
 /// Moves texture coordinates to where the material has them on its texture (KHR_texture_transform).
 static void place_uv(const struct gltf_uv *uv, float (*at)[2], int count)
 {
-    float c = cosf(uv->rotation), s = sinf(uv->rotation);
+    float c = maths_cosf(uv->rotation), s = maths_sinf(uv->rotation);
     for (int i = 0; at && i < count; i++) {
         float u = at[i][0] * uv->scale[0], v = at[i][1] * uv->scale[1];
         at[i][0] = c * u + s * v + uv->offset[0];

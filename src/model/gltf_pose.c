@@ -1,5 +1,6 @@
 /// Poses of glTF characters: clips, matrices of nodes and joints, the vertices v′ = Σ wⱼ Jⱼ (v + Σ wₜ Δₜ v), normals by the cofactors of the
 /// same matrix, and bounding boxes.
+#include "maths/maths.h"
 #include "model/gltf.h"
 #include "model/vector.h"
 #include <math.h>
@@ -175,9 +176,9 @@ static void slerp(const float a[4], const float b[4], float s, float out[4])
     float cosine = a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3];
     float sign = cosine < 0 ? -1.0f : 1.0f, from = 1 - s, to = s;
     if (cosine * sign < 0.9999f) {
-        float angle = acosf(cosine * sign);
-        from = sinf(from * angle) / sinf(angle);
-        to = sinf(to * angle) / sinf(angle);
+        float angle = maths_acosf(cosine * sign);
+        from = maths_sinf(from * angle) / maths_sinf(angle);
+        to = maths_sinf(to * angle) / maths_sinf(angle);
     }
     for (int k = 0; k < 4; k++) out[k] = from * a[k] + to * sign * b[k];
 }

@@ -2,10 +2,18 @@
 #ifndef MODEL_VECTOR_H
 #define MODEL_VECTOR_H
 
-#define CGLM_ALL_UNALIGNED // ours lie in arrays of vertices and on the heap
-#include <cglm/struct.h>
+#include "maths/maths.h"
 #include <math.h>
 #include <string.h>
+
+#define CGLM_ALL_UNALIGNED // ours lie in arrays of vertices and on the heap
+#define sinf maths_sinf
+#define cosf maths_cosf
+#define tanf maths_tanf
+#include <cglm/struct.h>
+#undef sinf
+#undef cosf
+#undef tanf
 
 static inline vec3s vec3_from(const float v[3]) { return (vec3s){.raw = {v[0], v[1], v[2]}}; }
 

@@ -1,5 +1,6 @@
 /// Orbits, pans, zooms and projects.
 #include "rig/camera.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include <math.h>
 #include <string.h>
@@ -20,8 +21,8 @@ struct axes {
 
 static struct axes camera_axes(const struct camera *camera)
 {
-    const float ca = cosf(camera->azimuth), sa = sinf(camera->azimuth);
-    const float ce = cosf(camera->elevation), se = sinf(camera->elevation);
+    const float ca = maths_cosf(camera->azimuth), sa = maths_sinf(camera->azimuth);
+    const float ce = maths_cosf(camera->elevation), se = maths_sinf(camera->elevation);
     return (struct axes){{{-sa, 0.0f, -ca}}, {{-ca * se, ce, sa * se}}, {{ca * ce, se, -sa * ce}}};
 }
 
@@ -159,7 +160,8 @@ void camera_ray(const float view[16], const float projection[16], const float vi
 static void stay_above_floor(struct camera *camera)
 {
     const float least = (camera->floor - camera->target[1]) / camera->distance + LEAST_HEIGHT;
-    if (least > sinf(camera->elevation)) camera->elevation = fminf(asinf(fminf(least, 1.0f)), CAMERA_MAX_ELEVATION);
+    if (least > maths_sinf(camera->elevation))
+        camera->elevation = fminf(maths_asinf(fminf(least, 1.0f)), CAMERA_MAX_ELEVATION);
 }
 
 void camera_orbit(struct camera *camera, float azimuth, float elevation)

@@ -1,5 +1,6 @@
 /// Makes chains with their own splines.
 #include "rig/chain_make.h"
+#include "maths/maths.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
 #include "scene/edit.h"
@@ -45,7 +46,7 @@ static double length_of(const struct imported *imported, const struct chain_bone
     chain_points_at_rest(imported, bones, point);
     for (int n = 1; n <= bones->count; n++) {
         const float *a = point[n - 1], *b = point[n];
-        sum += hypot(hypot((double)(b[0] - a[0]), (double)(b[1] - a[1])), (double)(b[2] - a[2]));
+        sum += maths_hypot(maths_hypot((double)(b[0] - a[0]), (double)(b[1] - a[1])), (double)(b[2] - a[2]));
     }
     return fmax(scale * sum, 1e-3);
 }

@@ -1,5 +1,6 @@
 /// The lowest vertices of a soft character, for its floor: several samples at a time, so that most vertices can be excluded for all of them
 /// at once.
+#include "maths/maths.h"
 #include "rig/posing_kind.h"
 #include "spline/wide.h"
 #include <math.h>
@@ -32,7 +33,7 @@ static double *take(double **room, int count)
 static void find_weights(const struct drive *drive, const wiggly_curve *curve, int samples, struct driven *driven,
                          int room)
 {
-    const double lag = radians(drive->lag), c = cos(lag), s = sin(lag);
+    const double lag = radians(drive->lag), c = maths_cos(lag), s = maths_sin(lag);
     for (int i = 0; i < room; i++) {
         const int at = i < samples ? i : samples - 1;
         driven->re[i] = drive->amplitude * (curve->y[at] + curve->re[at] * c + curve->im[at] * s);

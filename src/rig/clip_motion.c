@@ -1,4 +1,5 @@
 /// Follows joints through clips.
+#include "maths/maths.h"
 #include "model/vector.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
@@ -59,7 +60,7 @@ static double turn_of(struct followed *followed)
     const vec3s axis = vec3_from(followed->axes.side), before = vec3_from(followed->axes.along);
     const vec3s after = glms_mat3_mulv(now, glms_mat3_mulv(mat3_inverse(rest), before));
     const vec3s across = glms_vec3_cross(axis, before);
-    double turn = DEGREES * atan2((double)glms_vec3_dot(after, across), (double)glms_vec3_dot(after, before));
+    double turn = DEGREES * maths_atan2((double)glms_vec3_dot(after, across), (double)glms_vec3_dot(after, before));
     turn += 360 * round((followed->seen - turn) / 360);
     return followed->seen = turn;
 }

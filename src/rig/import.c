@@ -2,6 +2,7 @@
 #include "rig/import.h"
 #include "base/file.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include "model/character.h"
 #include "rig/posing_kind.h"
 #include "scene/edit.h"
@@ -67,7 +68,7 @@ static double scale_of(const struct gltf *gltf)
     double size = 0;
     for (int k = 0; k < 3; k++) size = fmax(size, (double)(gltf->hi[k] - gltf->lo[k]));
     if (!(size > 0) || (size >= SMALLEST && size <= LARGEST)) return 1;
-    const double scale = USUAL / size, digit = pow(10, floor(log10(scale)));
+    const double scale = USUAL / size, digit = maths_power_of_ten(maths_decade(scale));
     return round(scale / digit) * digit;
 }
 

@@ -1,6 +1,7 @@
 /// Reads imported characters, and finds their bones.
 #include "rig/imported.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include <ctype.h>
 #include <stdio.h>
@@ -142,8 +143,8 @@ bool imported_back(const struct imported *imported, float back[2])
         if (!strcasestr(gltf->nodes[bone->node].name, "tail")) continue;
         skeleton_ends(bone, &imported->rest, ends);
         const float x = ends[1][0] - 0.5f * (lo[0] + hi[0]), z = ends[1][2] - 0.5f * (lo[2] + hi[2]);
-        if (hypotf(x, z) <= farthest) continue;
-        farthest = hypotf(x, z);
+        if (maths_hypotf(x, z) <= farthest) continue;
+        farthest = maths_hypotf(x, z);
         back[0] = x;
         back[1] = z;
         found = true;

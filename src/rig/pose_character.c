@@ -1,4 +1,5 @@
 /// Soft characters: coordinates' weights from splines' values, and the models' vertices as points for pins.
+#include "maths/maths.h"
 #include "rig/posing_kind.h"
 #include <math.h>
 
@@ -15,8 +16,8 @@ void pose_character(const struct character_rig *rig, const struct figure *figure
         if (coordinate < 0) continue;
         const bool stiff = look == LOOK_STIFF;
         const double lag = stiff ? 0.0 : radians(drive->lag);
-        const double re = x->y + x->re * cos(lag) + x->im * sin(lag);
-        const double im = stiff ? 0.0 : x->im * cos(lag) - x->re * sin(lag);
+        const double re = x->y + x->re * maths_cos(lag) + x->im * maths_sin(lag);
+        const double im = stiff ? 0.0 : x->im * maths_cos(lag) - x->re * maths_sin(lag);
         morph->coordinate[morph->count] = coordinate;
         morph->weight[morph->count][0] = (float)(drive->amplitude * re);
         morph->weight[morph->count][1] = (float)(drive->amplitude * im);
@@ -33,8 +34,8 @@ static const struct figure *figure_of(const struct posing *posing, int rig)
 static void turn_of(const struct drive *drive, double turn[2])
 {
     const double lag = radians(drive->lag);
-    turn[0] = drive->amplitude * cos(lag);
-    turn[1] = -drive->amplitude * sin(lag);
+    turn[0] = drive->amplitude * maths_cos(lag);
+    turn[1] = -drive->amplitude * maths_sin(lag);
 }
 
 /// Adds z Ñ of a coordinate at a vertex.
@@ -70,7 +71,7 @@ static bool find(const struct posing *posing, int rig, double sample, int which,
     posing_values(posing, rig, sample, NULL, values);
     *point = (struct pin_point){.is_linear = true};
     for (int k = 0; k < 3; k++) {
-        point->size = hypot(point->size, (double)(figure->hi[k] - figure->lo[k]));
+        point->size = maths_hypot(point->size, (double)(figure->hi[k] - figure->lo[k]));
         point->at[k] = character->position[k] + (double)figure->character.position[which][k];
     }
     point->at[1] -= (double)figure->lo[1];
@@ -105,7 +106,8 @@ static double area_of(const struct figure *figure, const uint32_t corner[3])
     const float *a = position[corner[0]], *b = position[corner[1]], *c = position[corner[2]];
     const double u[3] = {(double)(b[0] - a[0]), (double)(b[1] - a[1]), (double)(b[2] - a[2])};
     const double v[3] = {(double)(c[0] - a[0]), (double)(c[1] - a[1]), (double)(c[2] - a[2])};
-    return hypot(hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]), u[0] * v[1] - u[1] * v[0]) / 2;
+    return maths_hypot(maths_hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2]), u[0] * v[1] - u[1] * v[0]) /
+           2;
 }
 
 /// The coarse mesh is enough for a mean.

@@ -1,4 +1,5 @@
 /// Poses an imported character, or a tail's fox: its clip, and the bends on top.
+#include "maths/maths.h"
 #include "model/fox.h"
 #include "model/vector.h"
 #include "rig/posing_kind.h"
@@ -43,7 +44,7 @@ void posing_root(const struct posing *posing, int rig, const struct by_hand *by_
     const struct model_rig *model = &document->rigs[rig]->model;
     const struct imported *imported = models_imported(posing->models, document, rig);
     const double turn = radians(model->turn);
-    const double c = model->scale * cos(turn), s = model->scale * sin(turn);
+    const double c = model->scale * maths_cos(turn), s = model->scale * maths_sin(turn);
     const double columns[9] = {c, 0, -s, 0, model->scale, 0, s, 0, c};
     memcpy(root, columns, sizeof columns);
     posing_base(posing, rig, by_hand, root + 9);

@@ -1,5 +1,6 @@
 /// Poses any rig at any time, by its kind; and provides what the scene needs for solving.
 #include "rig/posing.h"
+#include "maths/maths.h"
 #include "rig/posing_kind.h"
 #include <string.h>
 
@@ -85,8 +86,8 @@ void pinning_add_channel(const struct channel *channel, int n, int joints, const
     const double lag = to_radians * angles_lag(&channel->lag, n, joints);
     const double gain = to_radians * angles_at(&channel->gain, n, joints);
     for (int k = 0; k < 3; k++) {
-        c[k][0] += way[k] * gain * cos(lag);
-        c[k][1] -= way[k] * gain * sin(lag);
+        c[k][0] += way[k] * gain * maths_cos(lag);
+        c[k][1] -= way[k] * gain * maths_sin(lag);
     }
 }
 

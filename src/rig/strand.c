@@ -1,5 +1,6 @@
 /// Bends tails and chains, and follows the nodes from a root to their tips.
 #include "rig/strand.h"
+#include "maths/maths.h"
 #include "model/fox.h"
 #include "model/vector.h"
 #include "rig/posing_kind.h"
@@ -169,7 +170,8 @@ static void vector_cross(const double a[3], const double b[3], double across[3])
 /// rotation ← rotation · exp(angle · axis)
 static void turn_about(const double axis[3], double angle, double rotation[4])
 {
-    const double c = cos(angle / 2), s = sin(angle / 2), x = s * axis[0], y = s * axis[1], z = s * axis[2];
+    const double c = maths_cos(angle / 2), s = maths_sin(angle / 2), x = s * axis[0], y = s * axis[1],
+                 z = s * axis[2];
     const double before[4] = {rotation[0], rotation[1], rotation[2], rotation[3]};
     rotation[0] = before[3] * x + before[0] * c + before[1] * z - before[2] * y;
     rotation[1] = before[3] * y - before[0] * z + before[1] * c + before[2] * x;
@@ -208,7 +210,7 @@ void strand_turned_axes(const struct strand *strand, const wiggly_value *values,
     find_angles(strand, values, LOOK_WIGGLY, joint, angle);
     for (int a = 1; a < 3; a++) {
         if (angle[a] == 0.0) continue;
-        const double *about = axis[a], c = cos(angle[a]), s = -sin(angle[a]);
+        const double *about = axis[a], c = maths_cos(angle[a]), s = -maths_sin(angle[a]);
         for (int before = 0; before < a; before++) {
             double *v = axis[before], across[3];
             const double share = (1 - c) * (about[0] * v[0] + about[1] * v[1] + about[2] * v[2]);
@@ -377,7 +379,7 @@ double path_length(const struct path *path, int count)
     double sum = 0;
     for (int n = 0; n < count; n++) {
         const double *from = path->nodes[path->first + n].at, *to = path_end(path, n);
-        sum += hypot(hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
+        sum += maths_hypot(maths_hypot(to[0] - from[0], to[1] - from[1]), to[2] - from[2]);
     }
     return sum;
 }

@@ -1,5 +1,6 @@
 /// Steps a spline's response while you move its base by hand.
 #include "rig/swing.h"
+#include "maths/maths.h"
 #include "rig/strand.h"
 #include "spline/poles.h"
 #include <math.h>
@@ -27,7 +28,7 @@ static double step_peak(const struct swing_filter *filter)
 {
     const double sigma = -filter->s[0][0], beta = 0.5 * fabs(filter->s[0][1] - filter->s[1][1]);
     if (!filter->is_complex || filter->oscillates) return 1;
-    const double t = beta > 1e-6 * sigma ? atan2(beta, sigma) / beta : 1 / sigma;
+    const double t = beta > 1e-6 * sigma ? maths_atan2(beta, sigma) / beta : 1 / sigma;
     return fmax(1, filter->natural * sqrt(cplx_norm(response(filter, t))));
 }
 
@@ -82,8 +83,8 @@ void swing_step(struct swing *swing, const struct swing_filter *filter, double k
 
 bool swing_settled(const struct swing *swing, const struct swing_filter *filter)
 {
-    const double to_come = hypot(swing->z[0], swing->z[1]) * filter->peak / filter->natural;
-    return hypot(swing->x[0], swing->x[1]) + to_come < STILL;
+    const double to_come = maths_hypot(swing->z[0], swing->z[1]) * filter->peak / filter->natural;
+    return maths_hypot(swing->x[0], swing->x[1]) + to_come < STILL;
 }
 
 bool swing_hangs(const struct channel *channels, int count, const struct channel *channel)
@@ -128,7 +129,7 @@ bool swing_arm(const struct posing *posing, int rig, struct swing_arm *arm)
         const wiggly_value values[RIG_MAX_INPUTS] = {{0}};
         strand_turned_axes(&strand, values, 0, turned);
         path_way(base, turned[axis], way);
-        const double length = hypot(hypot(way[0], way[1]), way[2]);
+        const double length = maths_hypot(maths_hypot(way[0], way[1]), way[2]);
         for (int k = 0; k < 3; k++) way[k] = length > 0 ? strand_sign(&strand, axis) * way[k] / length : 0;
     }
     return true;

@@ -4,6 +4,7 @@
 /// pins, and each round uses the pulls at the pose of the last one. No round is undone, so that the motion depends continuously on the
 /// pins' places (pin_aim()). A soft character needs one round.
 #include "base/need.h"
+#include "maths/maths.h"
 #include "scene/pins.h"
 #include "scene/storage.h"
 #include <math.h>
@@ -378,7 +379,7 @@ static void aim(const struct pinned *pinned)
 
 static double distance(const double a[3], const double b[3])
 {
-    return hypot(hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+    return maths_hypot(maths_hypot(a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
 }
 
 /// Whether each point is at its place, or no longer moves.

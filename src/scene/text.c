@@ -113,7 +113,8 @@ void text_json(struct text *text, json_t *value)
     }
 }
 
-enum { MAX_DIGITS = 17, SURE_DIGITS = 15, TINY_EXPONENT = -300, LEAST_POINT = -4, MOST_POINT = 15 };
+enum { MAX_DIGITS = 17, SURE_DIGITS = 15, LEAST_POINT = -4, MOST_POINT = 15 };
+static const double tiny = 1e-300;
 
 /// A decimal number: 0.d1 d2 d3 … · 10^point.
 struct decimal {
@@ -128,7 +129,7 @@ static struct decimal shortest_decimal(double magnitude)
     struct decimal d = {0};
     char text[48];
     int exponent = 0;
-    int from = magnitude < pow(10, TINY_EXPONENT) ? 1 : SURE_DIGITS;
+    int from = magnitude < tiny ? 1 : SURE_DIGITS;
     for (int precision = from; precision <= MAX_DIGITS; precision++) {
         snprintf(text, sizeof text, "%.*e", precision - 1, magnitude);
         if (strtod(text, NULL) == magnitude) break;

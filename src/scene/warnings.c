@@ -1,5 +1,6 @@
 /// Finds the problems of a solved spline and puts them into words.
 #include "scene/warnings.h"
+#include "maths/maths.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -39,7 +40,7 @@ static double knot_height(const struct look *look, const struct knot *knot)
 {
     const double height_of_value = knot->still ? 0 : height(look->curve, sample_of(look, knot));
     const bool is_pose = knot->has_phase && spline_mode(look->spline) == WIGGLY_COMPLEX;
-    return is_pose ? hypot(height_of_value, knot->phase) : height_of_value;
+    return is_pose ? maths_hypot(height_of_value, knot->phase) : height_of_value;
 }
 
 /// How far a spline is expected to swing.
@@ -121,7 +122,7 @@ static void set_limits(const struct look *look, struct warning *warning)
 {
     const struct measure all = measure(look);
     const double room = 1.15 * (all.value > 0 ? all.value : all.knots);
-    const double digits = pow(10, 1 - floor(log10(room)));
+    const double digits = maths_power_of_ten(1 - maths_decade(room));
     warning->low = floor((all.low - room) * digits) / digits;
     warning->high = ceil((all.high + room) * digits) / digits;
 }
@@ -262,7 +263,7 @@ static double degrees_forced(const struct look *look, const struct knot_span *sp
     for (int e = 0; e < 2; e++) {
         if (!ends[e]->has_phase || knot_height(look, ends[e]) < LEAST_FORCED * largest) return 0;
         y[e] = look->curve->y[sample_of(look, ends[e])];
-        angle[e] = atan2(ends[e]->phase, ends[e]->value - y[e]);
+        angle[e] = maths_atan2(ends[e]->phase, ends[e]->value - y[e]);
     }
     const double miss = degrees_between(angle[1] - angle[0], turn);
     const double freed = fmin(degrees_if_free(angle[0] + turn, ends[1], y[1]), //
@@ -297,7 +298,7 @@ static double swing_lost(const struct look *look, const struct warning *warning)
     double least = INFINITY, ends = INFINITY;
     for (int i = 0; i <= span.length; i++) {
         const int sample = sample_in(look, &span, i);
-        const double here = hypot(look->curve->re[sample], look->curve->im[sample]);
+        const double here = maths_hypot(look->curve->re[sample], look->curve->im[sample]);
         least = fmin(least, here);
         if (i == 0 || i == span.length) ends = fmin(ends, here);
     }

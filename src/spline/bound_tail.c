@@ -4,6 +4,7 @@
 // e = G r is the filter run forward over the jets r, each of which costs weight |r|²/(h³|g|²). So a push f causes e = G W⁻¹ Gᵀ f: run the
 // filter backwards over f, scale, and run it forward.
 #include "spline/bound_tail.h"
+#include "maths/maths.h"
 #include "spline/oscillator.h"
 #include <math.h>
 
@@ -57,7 +58,7 @@ static step step_at(const bound_tail *tail, int sample)
     const poles at = poles_at(&tail->desc, sample, 0);
     const double h = tail->desc.step;
     const coefficients c = poles_coefficients(&at, h);
-    const double g2 = tail->desc.passive == WIGGLY_FILTER ? 1 : exp(-poles_weight_exponent(&at, h));
+    const double g2 = tail->desc.passive == WIGGLY_FILTER ? 1 : maths_exp(-poles_weight_exponent(&at, h));
     return (step){2 + c.m.re, -(1 + c.m.re + c.p.re), h * h * h * g2 / tail->weight};
 }
 

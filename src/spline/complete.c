@@ -1,4 +1,5 @@
 /// The steps after x is found: a plausibility check, the samples outside the system, the total and the rest of the curve.
+#include "maths/maths.h"
 #include "spline/problem.h"
 #include "spline/wide.h"
 #include <math.h>
@@ -53,10 +54,10 @@ bool problem_blew_up(const problem *p, const chain *solved, const wiggly_curve *
     bool is_complex = p->desc->mode == WIGGLY_COMPLEX;
     const double *re = curve->re + p->first, *im = curve->im + p->first;
     double bound = largest_magnitude(re, p->count);
-    if (is_complex) bound = hypot(bound, largest_magnitude(im, p->count));
+    if (is_complex) bound = maths_hypot(bound, largest_magnitude(im, p->count));
     if (!(scale > 0) || bound <= blow_up * scale) return false;
     for (int k = 0; k < p->count && is_complex; k++) {
-        if (hypot(re[k], im[k]) > blow_up * scale) return true;
+        if (maths_hypot(re[k], im[k]) > blow_up * scale) return true;
     }
     return !is_complex;
 }

@@ -1,6 +1,7 @@
 /// Values between samples (docs/mathematics.md, Phase): Catmull-Rom in a frame that turns with the band's centre,
 ///     x(t) = e^{jω_c t} · CatmullRom(e^{−jω_c t_i} x_i),
 /// so that it follows a free oscillation. In cubic and real mode, and for y, it is plain Catmull-Rom.
+#include "maths/maths.h"
 #include "spline/poles.h"
 #include <float.h>
 #include <math.h>
@@ -63,7 +64,8 @@ static bend interpolate(const wiggly_curve *curve, const double *array, int i, i
 /// x of a sample minus `base`, turned.
 static cplx turned(const wiggly_curve *curve, int i, cplx base, double angle)
 {
-    return cplx_mul((cplx){cos(angle), sin(angle)}, (cplx){curve->re[i] - base.re, curve->im[i] - base.im});
+    const maths_point by = maths_turn(angle);
+    return cplx_mul((cplx){by.cos, by.sin}, (cplx){curve->re[i] - base.re, curve->im[i] - base.im});
 }
 
 static cplx interpolate_complex(const wiggly_curve *curve, int i, double u, cplx *rate)
@@ -77,7 +79,8 @@ static cplx interpolate_complex(const wiggly_curve *curve, int i, double u, cplx
     cplx after = a < 0 ? (cplx){2 * to.re - from.re, 2 * to.im - from.im} : turned(curve, a, base, -2 * turn);
     const bend re = catmull_rom(before.re, from.re, to.re, after.re, u),
                im = catmull_rom(before.im, from.im, to.im, after.im, u);
-    const cplx frame = {cos(turn * u), sin(turn * u)};
+    const maths_point by = maths_turn(turn * u);
+    const cplx frame = {by.cos, by.sin};
     if (rate) *rate = cplx_mul(frame, (cplx){re.rate - turn * im.at, im.rate + turn * re.at});
     return cplx_add(base, cplx_mul(frame, (cplx){re.at, im.at}));
 }
@@ -135,7 +138,11 @@ wiggly_value wiggly_evaluate_at(const wiggly_curve *curve, double seconds, wiggl
     return per_second ? evaluate_moving(curve, position, per_second) : wiggly_evaluate(curve, position);
 }
 
-double wiggly_lagged(wiggly_value value, double lag) { return value.y + cos(lag) * value.re + sin(lag) * value.im; }
+double wiggly_lagged(wiggly_value value, double lag)
+{
+    const maths_point turn = maths_turn(lag);
+    return value.y + turn.cos * value.re + turn.sin * value.im;
+}
 
 void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, int count, float *out, size_t stride)
 {

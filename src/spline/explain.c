@@ -1,4 +1,5 @@
 /// The frequency and damping that explain knots best (docs/mathematics.md, Frequency).
+#include "maths/maths.h"
 #include "spline/desc.h"
 #include "spline/symmetric.h"
 #include <math.h>
@@ -53,9 +54,10 @@ static sight sight_of(const wiggly_desc *desc)
 /// Correlation of values this far apart in time: noise through the filter without bandwidth.
 static double kinship(const sight *s, double decay, double turn, double apart)
 {
-    double t = fabs(apart), fading = exp(-decay * t);
-    if (s->is_real) return fading * (cos(turn * t) + decay / turn * sin(turn * t));
-    return fading * (1 + decay * t) * cos(turn * t);
+    double t = fabs(apart), fading = maths_exp(-decay * t);
+    const maths_point at = maths_turn(turn * t);
+    if (s->is_real) return fading * (at.cos + decay / turn * at.sin);
+    return fading * (1 + decay * t) * at.cos;
 }
 
 /// m/2 log vᵀK⁻¹v + ½ log|K|; infinite if K is numerically singular, or v is 0.
@@ -69,14 +71,14 @@ static double cost_of(const sight *s, double frequency, double damping)
     for (int i = 0; i < n; i++) {
         for (int j = 0; j <= i; j++) {
             const double apart = s->time[i] - s->time[j], age = s->time[i] + s->time[j] - 2 * s->time[0];
-            k[n * i + j] = kinship(s, decay, turn, apart) + pluck * exp(-decay * age) * cos(turn * apart);
+            k[n * i + j] = kinship(s, decay, turn, apart) + pluck * maths_exp(-decay * age) * maths_cos(turn * apart);
         }
         k[n * i + i] += missed * missed;
     }
     symmetric_reduce(n, n, k);
     symmetric_solve(n, k, y);
-    for (int i = 0; i < n; i++) size += s->value[i] * y[i], volume += log(k[n * i + i]);
-    return size > 0 ? 0.5 * n * log(size) + volume : INFINITY;
+    for (int i = 0; i < n; i++) size += s->value[i] * y[i], volume += maths_log(k[n * i + i]);
+    return size > 0 ? 0.5 * n * maths_log(size) + volume : INFINITY;
 }
 
 static wiggly_explanation explain_at(const sight *s, double frequency)
@@ -113,10 +115,10 @@ int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2])
     const sight s = sight_of(&own);
     if (s.count < WIGGLY_FEWEST_EXPLAINED) return 0;
     const double lowest = 0.5 / (s.mean * (s.count - 1)), highest = fmax(headroom * 0.5 / s.smallest, 2 * lowest);
-    const double ratio = pow(highest / lowest, 1.0 / (PITCHES - 1));
+    const double pitch = maths_log(highest / lowest) / (PITCHES - 1), ratio = maths_exp(pitch);
     wiggly_explanation all[PITCHES];
     int count = 0;
-    for (int n = 0; n < PITCHES; n++) all[n] = explain_at(&s, lowest * pow(ratio, n));
+    for (int n = 0; n < PITCHES; n++) all[n] = explain_at(&s, lowest * maths_exp(pitch * n));
     for (int n = 0; n < PITCHES; n++) {
         const double below = n > 0 ? all[n - 1].cost : INFINITY, above = n + 1 < PITCHES ? all[n + 1].cost : INFINITY;
         if (!isfinite(all[n].cost) || !(all[n].cost < below && all[n].cost <= above)) continue;

@@ -4,6 +4,7 @@
 // rest at L, through the held samples' remaining distances. These are linear in v = Im w_L, so its energy is quadratic:
 // E(v) = E₀ + D₀ v + ½ D₁ v², and D = dE/dv follows from the pulls at the held samples. For the part up to the last knot this is a slope there
 // (its speed Re(p w_L) is linear in v, too), with stiffness ½ D₁ / (Im p)² and target v = −D₀ / D₁.
+#include "maths/maths.h"
 #include "spline/bound_tail.h"
 #include "spline/limits.h"
 #include <math.h>
@@ -14,7 +15,7 @@ static wiggly_knot at_rest(const wiggly_desc *desc)
 {
     const poles at = poles_at(desc, 0, 0);
     const double seen = poles_speed(&at, desc->step, false).on_e.re;
-    const double weight = exp(poles_weight_exponent(&at, desc->step)) / (seen * seen);
+    const double weight = maths_exp(poles_weight_exponent(&at, desc->step)) / (seen * seen);
     return (wiggly_knot){.has_slope = true, .stiffness = weight / (1 - 0.5 * weight) / desc->step};
 }
 

@@ -2,6 +2,8 @@
 #ifndef SPLINE_OSCILLATOR_H
 #define SPLINE_OSCILLATOR_H
 
+#include "maths/maths.h"
+
 #include <math.h>
 
 /// d = ζω_n and k = ω_n².
@@ -18,14 +20,15 @@ typedef struct step_matrix {
 static inline step_matrix oscillator_step(oscillator o, double h)
 {
     double r2 = (o.d - sqrt(o.k)) * (o.d + sqrt(o.k)), r = sqrt(fabs(r2)), c, s; // s: sinh(rh)/r times e^{−dh}
-    double decay = exp(-o.d * h);
+    double decay = maths_exp(-o.d * h);
     if (r2 > 0) {
-        double slow = exp((r - o.d) * h), fast = exp(-(r + o.d) * h);
+        double slow = maths_exp((r - o.d) * h), fast = maths_exp(-(r + o.d) * h);
         c = 0.5 * (slow + fast);
         s = r * h < 1e-3 ? decay * h * (1 + r2 * h * h / 6) : 0.5 * (slow - fast) / r;
     } else {
-        c = decay * cos(r * h);
-        s = decay * (r * h < 1e-3 ? h * (1 + r2 * h * h / 6) : sin(r * h) / r);
+        const maths_point turn = maths_turn(r * h);
+        c = decay * turn.cos;
+        s = decay * (r * h < 1e-3 ? h * (1 + r2 * h * h / 6) : turn.sin / r);
     }
     return (step_matrix){c + o.d * s, s, -o.k * s, c - o.d * s};
 }

@@ -1,5 +1,6 @@
 /// Poles, coefficients and cost of the start from parameters: for one sample, and for a block.
 #include "spline/poles.h"
+#include "maths/maths.h"
 #include "spline/dd.h"
 #include "spline/desc.h"
 #include "spline/wide.h"
@@ -95,8 +96,9 @@ bool poles_are_constant(const wiggly_desc *desc)
 
 cplx cplx_exp(cplx z)
 {
-    double size = exp(z.re), c = cos(z.im), s = sin(z.im);
-    return (cplx){size * c, size * s};
+    const double size = maths_exp(z.re);
+    const maths_point turn = maths_turn(z.im);
+    return (cplx){size * turn.cos, size * turn.sin};
 }
 
 static cplx cplx_divide(cplx a, cplx b)
@@ -108,21 +110,21 @@ static cplx cplx_divide(cplx a, cplx b)
 /// exp(z) − 1 without cancellation, from exp(Re z) − 1 and Im z.
 static cplx cplx_expm1_of(double grown, double angle)
 {
-    double s = sin(angle), c = cos(angle);
-    double versine = c > 0 ? s * s / (1 + c) : 1 - c;
-    return (cplx){grown * c - versine, (1 + grown) * s};
+    const maths_point turn = maths_turn(angle);
+    const double versine = turn.cos > 0 ? turn.sin * turn.sin / (1 + turn.cos) : 1 - turn.cos;
+    return (cplx){grown * turn.cos - versine, (1 + grown) * turn.sin};
 }
 
-static cplx cplx_expm1(cplx z) { return cplx_expm1_of(expm1(z.re), z.im); }
+static cplx cplx_expm1(cplx z) { return cplx_expm1_of(maths_expm1(z.re), z.im); }
 
 /// μ = exp(s h) − 1 of both poles, which often decay equally or are conjugates.
 static void distances(const poles *at, double step, cplx mu[2])
 {
     const cplx *s = at->s;
-    double grown = expm1(s[0].re * step);
+    double grown = maths_expm1(s[0].re * step);
     bool alike = s[1].re == s[0].re, conjugate = alike && s[1].im == -s[0].im;
     mu[0] = cplx_expm1_of(grown, s[0].im * step);
-    if (!alike) grown = expm1(s[1].re * step);
+    if (!alike) grown = maths_expm1(s[1].re * step);
     mu[1] = conjugate ? cplx_conj(mu[0]) : cplx_expm1_of(grown, s[1].im * step);
 }
 
@@ -173,14 +175,15 @@ static double distance_from_one(cplx z) { return cplx_norm(cplx_expm1(z)); }
 start_cost poles_start_cost(const poles *at, double step)
 {
     const cplx *s = at->s;
-    double h00 = -expm1(2 * step * (s[0].re + s[1].re)); // 1 − |b|²
+    double h00 = -maths_expm1(2 * step * (s[0].re + s[1].re)); // 1 − |b|²
     if (!(h00 > negligible)) return (start_cost){0};
     // H₁₀ = −(a + a* b) = m + m* + 2p + |m|² + m* p, so H₀₀ + H₁₀ = 2j Im p − m p* − |p|²: no term of order 1 is left.
     cplx mu[2];
     distances(at, step, mu);
     cplx m = cplx_add(mu[0], mu[1]), p = cplx_mul(mu[0], mu[1]), mp = cplx_mul(m, cplx_conj(p));
     cplx sum = {-mp.re - cplx_norm(p), 2 * p.im - mp.im};
-    double decay = -expm1(2 * step * s[0].re), other = s[1].re == s[0].re ? decay : -expm1(2 * step * s[1].re);
+    double decay = -maths_expm1(2 * step * s[0].re),
+           other = s[1].re == s[0].re ? decay : -maths_expm1(2 * step * s[1].re);
     double det = decay * other * distance_from_one((cplx){step * (s[0].re + s[1].re), step * (s[0].im - s[1].im)});
     cplx e = {sum.re / h00, -sum.im / h00}; // |x₀ + (e−1) x₁|², x₁ = x₀ + e₀
     return (start_cost){{{h00, e, {e.re - 1, e.im}}, {det / h00, {1, 0}, {1, 0}}}};
@@ -196,7 +199,7 @@ static double z_over_sinh(double z2)
 {
     if (fabs(z2) < 1e-4) return 1 - z2 * (1.0 / 6 - z2 * (7.0 / 360 - z2 * (31.0 / 15120)));
     double z = sqrt(fabs(z2));
-    return z2 > 0 ? z / sinh(z) : z / sin(z);
+    return z2 > 0 ? z / maths_sinh(z) : z / maths_sin(z);
 }
 
 /// Limit for the coefficient of a speed; it would be infinite if two poles alias to the same λ.
@@ -250,11 +253,11 @@ wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)
     if (desc_read(desc, &own) != WIGGLY_OK) return out;
     const poles at = poles_at(&own, sample, 0);
     for (int k = 0; k < 2; k++) {
-        double size = exp(at.s[k].re * own.step), angle = at.s[k].im * own.step;
+        const cplx z = cplx_exp(cplx_scale(own.step, at.s[k]));
         out.s[k][0] = at.s[k].re;
         out.s[k][1] = at.s[k].im;
-        out.z[k][0] = size * cos(angle);
-        out.z[k][1] = size * sin(angle);
+        out.z[k][0] = z.re;
+        out.z[k][1] = z.im;
     }
     return out;
 }

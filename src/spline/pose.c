@@ -1,5 +1,6 @@
 /// Sets up the problem from a description (docs/mathematics.md, Constraints): where the domain starts and ends, the level that knots are
 /// measured from, and the cost of the start.
+#include "maths/maths.h"
 #include "spline/problem.h"
 #include "spline/wide.h"
 #include <float.h>
@@ -143,7 +144,7 @@ static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
     poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
     start_cost cost = poles_start_cost(&damped, desc->step);
     if (!problem_oscillates(p)) return cost;
-    double weight = exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&here, desc->step));
+    double weight = maths_exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&here, desc->step));
     for (int i = 0; i < 2; i++) cost.row[i].weight *= weight;
     return poles_start_seen_from(cost, &damped, &here, desc->step);
 }
@@ -153,7 +154,7 @@ static double unit_of(wiggly_solver *solver, const problem *p)
     if (!problem_oscillates(p)) return 1;
     if (poles_are_constant(p->desc)) return problem_filter(solver, p)->unit;
     poles at = poles_at(p->desc, p->first, problem_least_damping(p));
-    return exp(-poles_weight_exponent(&at, p->desc->step));
+    return maths_exp(-poles_weight_exponent(&at, p->desc->step));
 }
 
 /// c·H of the start, for the problem's present calm.

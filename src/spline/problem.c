@@ -1,5 +1,6 @@
 /// Sets up the chain from a problem: whether it can be used, and its nodes.
 #include "spline/problem.h"
+#include "maths/maths.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -52,7 +53,8 @@ static bool knots_fit(wiggly_solver *solver, const problem *p, int begin)
 {
     const wiggly_desc *desc = p->desc;
     const poles *at = &problem_filter(solver, p)->at;
-    bool oscillates = problem_oscillates(p), faint = exp(2 * desc->step * (at->s[0].re + at->s[1].re)) < least_b;
+    bool oscillates = problem_oscillates(p),
+         faint = maths_exp(2 * desc->step * (at->s[0].re + at->s[1].re)) < least_b;
     bool second = false;
     for (int i = 0; i < desc->knot_count; i++) {
         int n = in_turn(p, begin + i);

@@ -1,5 +1,6 @@
 /// A solver's memory: one block with a fixed layout. And the cached filter.
 #include "spline/solver.h"
+#include "maths/maths.h"
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
@@ -166,13 +167,13 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
     poles damped = poles_at(desc, 0, fmax(floor, LEAST_DAMPING));
     f->start = poles_start_cost(&damped, desc->step);
     if (desc->passive != WIGGLY_OSCILLATOR) return f;
-    f->unit = exp(-poles_weight_exponent(&f->at, desc->step));
+    f->unit = maths_exp(-poles_weight_exponent(&f->at, desc->step));
     f->ahead = poles_speed(&f->at, desc->step, false);
     f->passive = cplx_scale(desc->step, poles_passive(&own));
     f->tail = poles_tail(poles_passive(&own), &f->ahead, desc->step);
     if (damped.decay == f->at.decay) return f;
     f->start = poles_start_seen_from(f->start, &damped, &f->at, desc->step);
-    double weight = exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
+    double weight = maths_exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&f->at, desc->step));
     for (int i = 0; i < 2; i++) f->start.row[i].weight *= weight;
     return f;
 }

@@ -2,6 +2,7 @@
 #include "ui/drawlist.h"
 #include "base/hash.h"
 #include "base/need.h"
+#include "maths/maths.h"
 #include "ui/font.h"
 #include <math.h>
 #include <stdlib.h>
@@ -164,8 +165,8 @@ static int rounded_outline(struct rect r, float radius, float *xy)
         for (int i = 0; i < steps; i++) {
             float turn = (float)corner + (steps > 1 ? (float)i / (float)(steps - 1) : 0.5f);
             float angle = (turn - 2.0f) * (float)M_PI_2;
-            xy[2 * count] = center_x[corner] + used * cosf(angle);
-            xy[2 * count + 1] = center_y[corner] + used * sinf(angle);
+            xy[2 * count] = center_x[corner] + used * maths_cosf(angle);
+            xy[2 * count + 1] = center_y[corner] + used * maths_sinf(angle);
             count++;
         }
     }

@@ -1,4 +1,5 @@
 /// Icon buttons. Icons are drawn in 14 × 14 pixels around (0, 0), y down.
+#include "maths/maths.h"
 #include "ui/widgets_internal.h"
 #include <math.h>
 
@@ -71,8 +72,8 @@ static void draw_part(struct drawlist *list, const struct part *part, float x, f
     for (int i = 0; i < part->count; i++) {
         const float angle = 6.2831853f * (at[4] + (at[5] - at[4]) * (float)i / (float)(part->count - 1));
         const bool is_arc = part->shape == ARC;
-        xy[2 * i] = x + (is_arc ? at[0] + at[2] * cosf(angle) : at[2 * i]);
-        xy[2 * i + 1] = y + (is_arc ? at[1] + at[3] * sinf(angle) : at[2 * i + 1]);
+        xy[2 * i] = x + (is_arc ? at[0] + at[2] * maths_cosf(angle) : at[2 * i]);
+        xy[2 * i + 1] = y + (is_arc ? at[1] + at[3] * maths_sinf(angle) : at[2 * i + 1]);
     }
     drawlist_line(list, xy, part->count, THIN, color);
 }

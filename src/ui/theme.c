@@ -1,6 +1,7 @@
 /// The dark and the light theme.
 #include "ui/theme.h"
 #include "base/png.h"
+#include "maths/maths.h"
 #include <math.h>
 #include <string.h>
 
@@ -137,7 +138,7 @@ static const float LIGHTNESS = 0.70f, CHROMA = 0.10f, SWING_RE = 0.09298f, SWING
 /// Oklab → cube roots of cone responses → linear RGB.
 void phase_color_linear(float re, float im, float rgb[3])
 {
-    const float shown = powf(fmaxf(hypotf(re, im), 1e-6f), SPREAD - 1.0f), x = shown * re, y = shown * im;
+    const float shown = powf(fmaxf(maths_hypotf(re, im), 1e-6f), SPREAD - 1.0f), x = shown * re, y = shown * im;
     const float lightness = LIGHTNESS + SWING_RE * x + SWING_IM * y, a = -CHROMA * y, b = CHROMA * x;
     float l = lightness + 0.3963377774f * a + 0.2158037573f * b;
     float m = lightness - 0.1055613458f * a - 0.0638541728f * b;

@@ -1,4 +1,5 @@
 /// Handles that are dragged in two directions.
+#include "maths/maths.h"
 #include "ui/widgets_internal.h"
 #include <math.h>
 
@@ -11,7 +12,7 @@ static int nearest(const struct ui_handle *handles, int count, float x, float y)
     int best = -1;
     float least = REACH;
     for (int i = 0; i < count; i++) {
-        float away = hypotf(handles[i].x - x, handles[i].y - y);
+        float away = maths_hypotf(handles[i].x - x, handles[i].y - y);
         if (away < least) {
             least = away;
             best = i;
@@ -26,7 +27,7 @@ static enum ui_change held_event(struct ui *ui, struct ui_handle *handle)
     const struct event *event = ui->event;
     if (event->kind != EVENT_POINTER) return ui_held_change(ui);
     ui->used = true;
-    if (!ui->moved && hypotf(event->x - ui->press_x, event->y - ui->press_y) < DRAG_THRESHOLD) return UI_NONE;
+    if (!ui->moved && maths_hypotf(event->x - ui->press_x, event->y - ui->press_y) < DRAG_THRESHOLD) return UI_NONE;
     float rate = event->mods & MOD_SHIFT ? 0.1f : 1;
     ui->moved = true;
     ui->handle_x += rate * (event->x - ui->press_x);

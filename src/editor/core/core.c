@@ -2,10 +2,12 @@
 #include "editor/core/core.h"
 #include "base/file.h"
 #include "editor/core/selection.h"
+#include "maths/maths.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const double MESSAGE_SECONDS = 5;
@@ -283,8 +285,9 @@ double core_position(const struct document *document, double frame)
 
 double core_round(double value, double resolution)
 {
-    double exponent = floor(log10(resolution));
-    double power = pow(10, fabs(exponent));
+    if (!isfinite(resolution)) return value;
+    int exponent = maths_decade(resolution);
+    double power = maths_power_of_ten(abs(exponent));
     double rounded = exponent < 0 ? round(value * power) / power : round(value / power) * power;
     return isfinite(rounded) && fabs(value) < 1e15 * resolution ? rounded : value;
 }

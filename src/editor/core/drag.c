@@ -3,6 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
 #include "editor/core/selection.h"
+#include "maths/maths.h"
 #include <math.h>
 
 static const float CLICK_REACH = 3; ///< pixels a click may move
@@ -50,7 +51,7 @@ static void move(struct core *core, const struct event *event)
     drag->moved_y += dy * fine;
     drag->snap = drag_snaps(core, event->mods);
     drag->stale = true;
-    if (!drag->moved && hypotf(event->x - drag->start_x, event->y - drag->start_y) < CLICK_REACH) return;
+    if (!drag->moved && maths_hypotf(event->x - drag->start_x, event->y - drag->start_y) < CLICK_REACH) return;
     drag_start_moving(core);
     if (drag->owner->move) drag->owner->move(drag->room, core);
 }

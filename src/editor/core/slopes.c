@@ -93,8 +93,10 @@ void slopes_turn(struct core *core, int direction)
 
 void slopes_stiffen(struct core *core, int direction)
 {
-    struct knot_change change = {
-        .label = "Change stiffness", .kind = NUDGE_STIFFNESS, .on = true, .stiffness = pow(FIRMER, direction)};
+    struct knot_change change = {.label = "Change stiffness",
+                                 .kind = NUDGE_STIFFNESS,
+                                 .on = true,
+                                 .stiffness = direction > 0 ? FIRMER : 1 / FIRMER};
     change_knots(core, &change);
 }
 

@@ -4,6 +4,7 @@
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/curves/state.h"
+#include "maths/maths.h"
 #include <limits.h>
 #include <math.h>
 #include <string.h>
@@ -88,7 +89,7 @@ static int fan_lags(const struct core *core, double lags[CURVES_FAN])
     const int joints = bones_joints(core, rig);
     for (int i = 0; i < CURVES_FAN; i++) {
         int joint = (joints - 1) * (i + 1) / CURVES_FAN;
-        lags[i] = angles_lag(&channel->lag, joint, joints) * (acos(-1.0) / 180);
+        lags[i] = angles_lag(&channel->lag, joint, joints) * (M_PI / 180);
     }
     return CURVES_FAN;
 }
@@ -159,8 +160,8 @@ static void draw_active(struct curves *curves, const struct core *core)
     const bool fans = core->look == LOOK_WIGGLY && !is_crowded(curves, core);
     cache->fan_count = fans ? fan_lags(core, lags) : 0;
     for (int i = 0; i < cache->fan_count; i++) {
-        turn[i][0] = cos(lags[i]);
-        turn[i][1] = sin(lags[i]);
+        turn[i][0] = maths_cos(lags[i]);
+        turn[i][1] = maths_sin(lags[i]);
     }
     for (int c = 0; c < cache->count; c++) {
         wiggly_value v = evaluation_at(core->evaluation, core->active, cache->position[c]);

@@ -5,6 +5,7 @@
 #include "editor/core/pins.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
+#include "maths/maths.h"
 #include "ui/theme.h"
 #include <math.h>
 #include <stdlib.h>
@@ -44,7 +45,7 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
         const struct knot *knot = &spline->knots[k];
         float at = curves_knot_x(curves, core, knot);
         if (at > x + reach) break;
-        if (is_nearest(hypotf(x - at, isnan(row) ? y - curves_knot_y(curves, core, of, knot) : 0), &best))
+        if (is_nearest(maths_hypotf(x - at, isnan(row) ? y - curves_knot_y(curves, core, of, knot) : 0), &best))
             *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
     }
     return best;
@@ -80,7 +81,7 @@ static void nearest_handle(const struct curves *curves, const struct core *core,
         for (int end = 0; end < 2; end++) {
             float xy[2];
             curves_handle(curves, core, knot, end, xy);
-            if (is_nearest(hypotf(x - xy[0], y - xy[1]), &best))
+            if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
                 *hover = (struct hover){.kind = HOVER_SLOPE, .spline = core->active, .knot = knot->id, .handle = end};
         }
     }
@@ -92,7 +93,7 @@ static void nearest_warning(const struct curves *curves, const struct core *core
     for (int i = 0; i < curves->warnings.count; i++) {
         float xy[2];
         if (!warning_place(curves, core, &curves->warnings.list[i], xy) ||
-            hypotf(x - xy[0], y - xy[1]) > WARNING_REACH) {
+            maths_hypotf(x - xy[0], y - xy[1]) > WARNING_REACH) {
             continue;
         }
         *hover = (struct hover){.kind = HOVER_WARNING, .handle = i};
@@ -292,7 +293,7 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
 {
     if (sheet_wheel(curves, core, event)) return;
     double notches = event->dy != 0 ? event->dy : event->dx; /* some systems turn Shift+wheel sideways */
-    double factor = exp(-ZOOM_STEP * fmin(fmax(notches, -20), 20));
+    double factor = maths_exp(-ZOOM_STEP * fmin(fmax(notches, -20), 20));
     double time = event->mods & MOD_SHIFT && !(event->mods & MOD_CTRL) ? 1 : factor;
     double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
     if (rect_contains(sheet_area(core), event->x, event->y)) value = 1; // the dope sheet zooms time only

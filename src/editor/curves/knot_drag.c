@@ -3,6 +3,7 @@
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
+#include "maths/maths.h"
 #include <assert.h>
 #include <math.h>
 #include <stdio.h>
@@ -124,7 +125,7 @@ static void apply_slope(void *of, struct core *core)
     struct knot turned = *knot;
     turned.slope =
         core_round(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->visible);
-    double length = handle_length(knot->stiffness), longer = hypot(across, down) - length;
+    double length = handle_length(knot->stiffness), longer = maths_hypot(across, down) - length;
     if (fabs(longer) > LENGTH_SLACK) {
         turned.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
     }

@@ -2,6 +2,7 @@
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
 #include "editor/curves/state.h"
+#include "maths/maths.h"
 #include "scene/pins.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -21,7 +22,7 @@ struct grid_step {
 /// The smallest of 1, 2, 5 · 10ⁿ that is not below `least`.
 static struct grid_step round_step(double least)
 {
-    double power = pow(10, floor(log10(least)));
+    double power = maths_power_of_ten(maths_decade(least));
     double factor = least / power;
     struct grid_step step = {power, 5, 0};
     if (factor > 5) {
@@ -31,7 +32,7 @@ static struct grid_step round_step(double least)
     } else if (factor > 1) {
         step = (struct grid_step){2 * power, 4, 0};
     }
-    step.decimals = (int)fmin(fmax(-floor(log10(step.size) + 1e-9), 0), 9);
+    step.decimals = (int)fmin(fmax(-maths_decade((1 + 1e-9) * step.size), 0), 9);
     return step;
 }
 

@@ -5,6 +5,7 @@
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
+#include "maths/maths.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -165,8 +166,9 @@ static struct factors pulled_freely(const struct curves *curves, const struct co
     const struct scaling *scaling = &curves->scaling;
     double x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value);
     double to_x = drag->start_x + drag->moved_x, to_y = drag->start_y + drag->moved_y;
-    double before = fmax(hypot(drag->start_x - x, drag->start_y - y), LEAST_REACH);
-    double factor = 1 + (hypot(to_x - x, to_y - y) - hypot(drag->start_x - x, drag->start_y - y)) / before;
+    double before = fmax(maths_hypot(drag->start_x - x, drag->start_y - y), LEAST_REACH);
+    double factor =
+        1 + (maths_hypot(to_x - x, to_y - y) - maths_hypot(drag->start_x - x, drag->start_y - y)) / before;
     if (drag->lock_x) factor = along(x, drag->start_x, to_x);
     if (drag->lock_y) factor = along(y, drag->start_y, to_y);
     return (struct factors){factor, factor};
@@ -463,7 +465,7 @@ void scale_box_hover(const struct curves *curves, const struct core *core, float
     if (!find_knot_box(curves, core, &box)) return;
     for (int i = 0; i < BOX_HANDLES; i++) {
         if (!handle_place(&box, i, xy)) continue;
-        if (is_nearest(hypotf(x - xy[0], y - xy[1]), &best))
+        if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
             *hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = i};
     }
 }

@@ -3,6 +3,7 @@
 #include "editor/core/rigs.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
+#include "maths/maths.h"
 #include "scene/pins.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -82,12 +83,12 @@ static void show_lines(struct curves *curves, struct core *core)
 
 double handle_length(double stiffness)
 {
-    return fmin(fmax(FIRM_LENGTH + DECADE_LENGTH * log10(stiffness / KNOT_DEFAULT_STIFFNESS), 12), 120);
+    return fmin(fmax(FIRM_LENGTH + DECADE_LENGTH * maths_log(stiffness / KNOT_DEFAULT_STIFFNESS) / M_LN10, 12), 120);
 }
 
 double handle_stiffness(double length)
 {
-    double stiffness = KNOT_DEFAULT_STIFFNESS * pow(10, (length - FIRM_LENGTH) / DECADE_LENGTH);
+    double stiffness = KNOT_DEFAULT_STIFFNESS * maths_exp(M_LN10 * (length - FIRM_LENGTH) / DECADE_LENGTH);
     return core_round(stiffness, 0.05 * stiffness);
 }
 
@@ -96,7 +97,7 @@ void curves_handle(const struct curves *curves, const struct core *core, const s
 {
     double across = curves_pixels_per_frame(curves, core) * core->document->fps; /* pixels a second */
     double down = -curves_pixels_per_value(curves, core) * knot->slope;
-    double length = hypot(across, down);
+    double length = maths_hypot(across, down);
     double factor = (end ? 1 : -1) * handle_length(knot->stiffness) / (isfinite(length) && length > 0 ? length : 1);
     xy[0] = curves_knot_x(curves, core, knot) + (float)fmin(fmax(across * factor, -1e3), 1e3);
     xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);

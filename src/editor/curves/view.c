@@ -3,6 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
+#include "maths/maths.h"
 #include <limits.h>
 #include <math.h>
 
@@ -347,7 +348,7 @@ void curves_advance(struct curves *curves, struct core *core, double dt)
     struct following *following = &curves->following;
     const bool is_measured = core->drag.owner && core->drag.room == curves; // curves must not rescale during a drag
     if (!following->moves || is_measured) return;
-    const double share = 1 - exp(-RATE * fmax(dt, 0));
+    const double share = 1 - maths_exp(-RATE * fmax(dt, 0));
     const struct view *view = &curves->view, *goal = &following->goal;
     const double left[4] = {goal->frame0 - view->frame0, goal->frame1 - view->frame1, goal->value0 - view->value0,
                             goal->value1 - view->value1};

@@ -1,6 +1,7 @@
 /// Shows an audience the pressed keys and buttons in a fading pill. A demo also shows a pointer and captions.
 #include "editor/core/command.h"
 #include "editor/dialogs/state.h"
+#include "maths/maths.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -43,7 +44,7 @@ static void note_pointer(struct pressed *pressed, const struct event *event)
     static const char *const drags[] = {
         [BUTTON_LEFT] = "drag", [BUTTON_RIGHT] = "right drag", [BUTTON_MIDDLE] = "middle drag"};
     if (!pressed->is_down || pressed->is_drag) return;
-    pressed->is_drag = hypotf(event->x - pressed->x, event->y - pressed->y) > DRAG_FROM;
+    pressed->is_drag = maths_hypotf(event->x - pressed->x, event->y - pressed->y) > DRAG_FROM;
     if (pressed->is_drag) tell(pressed, event->mods, drags[pressed->button], false);
 }
 
@@ -63,7 +64,7 @@ void dialogs_note(struct dialogs *dialogs, const struct event *event)
 
 void dialogs_advance(struct dialogs *dialogs, const struct core *core, double dt)
 {
-    const float share = (float)(1 - exp(-dt / GLIDE));
+    const float share = (float)(1 - maths_exp(-dt / GLIDE));
     struct pressed *pressed = &dialogs->pressed;
     pressed->pointer[0] += share * (core->pointer_x - pressed->pointer[0]);
     pressed->pointer[1] += share * (core->pointer_y - pressed->pointer[1]);

@@ -4,6 +4,7 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/parts.h"
+#include "maths/maths.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -324,7 +325,7 @@ static int removed_point(const struct inspector *in, const struct angle_view *vi
     for (int i = 0; i < view->angles->count; i++) {
         const struct ui_handle *handle = &view->handles[i];
         if (key && in->ui.focus == ui_id(handle->name)) return i;
-        if (click && hypotf(event->x - handle->x, event->y - handle->y) < REACH) return i;
+        if (click && maths_hypotf(event->x - handle->x, event->y - handle->y) < REACH) return i;
     }
     return -1;
 }

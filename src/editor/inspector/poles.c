@@ -1,6 +1,7 @@
 /// The inspector's view of the active spline's poles: draggable in an inset, on the unit circle, and their response.
 #include "editor/core/core.h"
 #include "editor/inspector/parts.h"
+#include "maths/maths.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -38,7 +39,8 @@ static void poles_update(struct poles_view *view, const struct pole_setting *set
 static void poles_fit(struct poles_view *view, const struct pole_setting *setting)
 {
     static const double nice[] = {1, 1.5, 2, 3, 4, 6, 8, 10};
-    double wanted = fmax(0.05, 1.3 * setting->hz * (1 + setting->bandwidth)), decade = pow(10, floor(log10(wanted)));
+    double wanted = fmax(0.05, 1.3 * setting->hz * (1 + setting->bandwidth)),
+           decade = maths_power_of_ten(maths_decade(wanted));
     int i = 0;
     while (i < 7 && nice[i] * decade < wanted) i++;
     view->reach = nice[i] * decade;
@@ -87,16 +89,17 @@ static void poles_draw_circle(const struct pole_setting *setting, struct rect r,
     float radius = fminf(r.w, r.h) / 2 - 6, cx = r.x + r.w / 2, cy = r.y + r.h / 2, circle[POINTS][2];
     for (int i = 0; i < POINTS; i++) {
         double angle = 2 * M_PI * (i % (POINTS - 1)) / (POINTS - 1);
-        circle[i][0] = cx + radius * (float)cos(angle);
-        circle[i][1] = cy - radius * (float)sin(angle);
+        circle[i][0] = cx + radius * (float)maths_cos(angle);
+        circle[i][1] = cy - radius * (float)maths_sin(angle);
     }
     draw_straight(list, cx - radius - 5, cy, cx + radius + 5, cy, theme()->grid_major);
     draw_straight(list, cx, cy - radius - 5, cx, cy + radius + 5, theme()->grid_major);
     drawlist_line(list, circle[0], POINTS, 1.25f, theme()->equilibrium);
     struct filter filter = filter_of(setting->kind, setting->hz, setting->damping, setting->bandwidth, setting->step);
     for (int i = 0; i < filter.count; i++) {
-        double size = radius * exp(filter.s[i][0] * setting->step), angle = filter.s[i][1] * setting->step;
-        draw_cross(list, cx + (float)(size * cos(angle)), cy - (float)(size * sin(angle)), 3, theme()->accent);
+        double size = radius * maths_exp(filter.s[i][0] * setting->step), angle = filter.s[i][1] * setting->step;
+        draw_cross(list, cx + (float)(size * maths_cos(angle)), cy - (float)(size * maths_sin(angle)), 3,
+                   theme()->accent);
     }
 }
 

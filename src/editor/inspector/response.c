@@ -1,5 +1,6 @@
 /// The filter's frequency response, and the settling time of a spline.
 #include "editor/inspector/response.h"
+#include "maths/maths.h"
 #include <complex.h>
 #include <math.h>
 
@@ -37,10 +38,10 @@ double filter_decibels(const struct filter *filter, double hz)
 {
     double decibels = 0;
     for (int i = 0; i < filter->count; i++) {
-        double size = exp(filter->s[i][0] * filter->step);
+        double size = maths_exp(filter->s[i][0] * filter->step);
         double half = 0.5 * (filter->s[i][1] - 2 * M_PI * hz) * filter->step;
-        double away = (1 - size) * (1 - size) + 4 * size * sin(half) * sin(half); // |1 − λ z⁻¹|²
-        decibels -= 10 * log10(fmax(away, least));
+        double away = (1 - size) * (1 - size) + 4 * size * maths_sin(half) * maths_sin(half); // |1 − λ z⁻¹|²
+        decibels -= 10 / M_LN10 * maths_log(fmax(away, least));
     }
     return decibels;
 }
@@ -128,13 +129,16 @@ static bool filter_of_spline(const struct spline *spline, double step, struct fi
 static double settled_sample(const struct filter *filter, bool is_complex, int count)
 {
     const double(*s)[2] = filter->s;
-    double complex l0 = cexp((s[0][0] + I * s[0][1]) * filter->step),
-                   l1 = cexp((s[1][0] + I * s[1][1]) * filter->step);
-    double complex a = l0 + l1, b = -l0 * l1;
+    double complex l[2];
+    for (int k = 0; k < 2; k++) {
+        const maths_point turn = maths_turn(s[k][1] * filter->step);
+        l[k] = maths_exp(s[k][0] * filter->step) * (turn.cos + I * turn.sin);
+    }
+    double complex a = l[0] + l[1], b = -l[0] * l[1];
     double complex before = 1, now = is_complex ? a / 2 : 1;
     double size = 1, settled = 0;
     for (int i = 0; i < count; i++) {
-        double next_size = is_complex ? cabs(now) : fabs(creal(now));
+        double next_size = is_complex ? maths_hypot(creal(now), cimag(now)) : fabs(creal(now));
         if (size > LEFT) settled = next_size < size ? i + fmin(1, (size - LEFT) / (size - next_size)) : i + 1;
         double complex next = a * now + b * before;
         before = now;
@@ -152,7 +156,7 @@ struct settling settle_alone(const struct spline *spline, double step)
     if (spline->parameter[PARAMETER_FREQUENCY].value == 0) return (struct settling){.kind = SETTLE_CUBIC};
     if (spline->parameter[PARAMETER_DAMPING].value == 0) return (struct settling){.kind = SETTLE_NEVER};
     double rate = fmin(-filter.s[0][0], -filter.s[1][0]); // of the slower pole
-    double expected = log(1 / LEFT) / rate;
+    double expected = maths_log(1 / LEFT) / rate;
     if (expected > SETTLE_LIMIT) return (struct settling){.kind = SETTLE_LATE};
     double samples = 3 * expected / step + 8; // a double pole takes 1.6 times as long as its radius suggests
     bool is_complex = spline_mode(spline) == WIGGLY_COMPLEX;
@@ -166,10 +170,11 @@ struct settling settle_alone(const struct spline *spline, double step)
 static struct settling settle_seen(const wiggly_curve *curve, int from, struct settling alone)
 {
     int end = (int)fmin(curve->samples, (double)from + MAX_SAMPLES), last = from;
-    double size = hypot(curve->re[from], curve->im[from]), left = hypot(curve->re[end - 1], curve->im[end - 1]);
+    double size = maths_hypot(curve->re[from], curve->im[from]),
+           left = maths_hypot(curve->re[end - 1], curve->im[end - 1]);
     for (int i = from; curve->mode == WIGGLY_REAL && i < end; i++) size = fmax(size, fabs(curve->re[i]));
     for (int i = from; i < end; i++) {
-        if (hypot(curve->re[i], curve->im[i]) > LEFT * size) last = i + 1;
+        if (maths_hypot(curve->re[i], curve->im[i]) > LEFT * size) last = i + 1;
     }
     if (last == end && end < curve->samples) return alone;
     if (last == end) return (struct settling){.kind = SETTLE_LEFT, .left = left / size};
@@ -180,7 +185,7 @@ static struct settling settle_seen(const wiggly_curve *curve, int from, struct s
 static bool swings_behind(const wiggly_curve *curve, int last_knot)
 {
     if (curve->mode == WIGGLY_CUBIC || last_knot < 0 || last_knot + 1 >= curve->samples) return false;
-    double size = hypot(curve->re[last_knot], curve->im[last_knot]) + fabs(curve->re[last_knot + 1]);
+    double size = maths_hypot(curve->re[last_knot], curve->im[last_knot]) + fabs(curve->re[last_knot + 1]);
     return size > 1e-9 * fabs(curve->total[last_knot]) && size > 0;
 }
 

@@ -2,6 +2,7 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
+#include "maths/maths.h"
 #include "model/fox.h"
 #include "model/reach.h"
 #include "model/vector.h"
@@ -302,7 +303,7 @@ static bool find_stand(const struct stage *stage, const struct core *core, int r
     *stand = (struct stand){{at[0], 0.5f * (lo[1] + hi[1]), at[2]},
                             {middle[0], middle[1]},
                             pose.model.ground,
-                            0.5f * hypotf(hi[0] - lo[0], hi[2] - lo[2])};
+                            0.5f * maths_hypotf(hi[0] - lo[0], hi[2] - lo[2])};
     return true;
 }
 
@@ -407,8 +408,8 @@ void body_drag_show(struct stage *stage, struct core *core)
     float point[RING_POINTS + 1][2];
     for (int i = 0; i <= RING_POINTS; i++) { // from the right of the screen over the near half
         float angle = 6.2831853f * (float)i / RING_POINTS - stage->camera.azimuth;
-        const float place[3] = {stand.middle[0] - stand.radius * sinf(-angle), stand.ground,
-                                stand.middle[1] - stand.radius * cosf(-angle)};
+        const float place[3] = {stand.middle[0] - stand.radius * maths_sinf(-angle), stand.ground,
+                                stand.middle[1] - stand.radius * maths_cosf(-angle)};
         if (!stage_project_point(stage, core->layout.stage, place, point[i])) return;
     }
     show_arc(core, (const float(*)[2])point, 0, RING_POINTS / 2, color);
@@ -479,11 +480,11 @@ void body_drag_begin(struct stage *stage, struct core *core, int rig, const stru
     *hold = (struct body_drag){.rig = rig, .axis = -1};
     find_stand(stage, core, rig, &stand);
     hold->pixels_per_metre = stage_pixels_per_metre(stage, core, stand.base);
-    double pitch = sin((double)camera->elevation);
+    double pitch = maths_sin((double)camera->elevation);
     hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
-    hold->rise = fmax(cos((double)camera->elevation), LEAST_RISE);
-    hold->right[0] = -sin((double)camera->azimuth);
-    hold->right[1] = -cos((double)camera->azimuth);
+    hold->rise = fmax(maths_cos((double)camera->elevation), LEAST_RISE);
+    hold->right[0] = -maths_sin((double)camera->azimuth);
+    hold->right[1] = -maths_cos((double)camera->azimuth);
     const struct tail *tail = tail_of(core->document, rig);
     if (!tail) return; // a character stays on its ground
     hold->lifts = event->mods & MOD_CTRL;

@@ -3,6 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -97,7 +98,7 @@ static bool measure(const struct stage *stage, const struct core *core, int bone
     found->bone = bone;
     found->fraction = segment_nearest(ends[0], ends[1], p);
     for (int k = 0; k < 2; k++) found->xy[k] = ends[0][k] + (ends[1][k] - ends[0][k]) * found->fraction;
-    found->distance = hypotf(p[0] - found->xy[0], p[1] - found->xy[1]) + (shown->carries ? 0 : OVERLAP);
+    found->distance = maths_hypotf(p[0] - found->xy[0], p[1] - found->xy[1]) + (shown->carries ? 0 : OVERLAP);
     const vec3s at = glms_vec3_lerp(vec3_from(shown->ends[0]), vec3_from(shown->ends[1]), found->fraction);
     found->depth = camera_depth(stage->view.view, stage->view.eye, at.raw);
     return found->distance < REACH;
@@ -195,7 +196,7 @@ static int model_under(const struct stage *stage, const struct core *core)
 static void show_bone(struct drawlist *list, const float a[2], const float b[2], uint32_t color, uint32_t edge,
                       float opacity)
 {
-    const float dx = b[0] - a[0], dy = b[1] - a[1], length = hypotf(dx, dy);
+    const float dx = b[0] - a[0], dy = b[1] - a[1], length = maths_hypotf(dx, dy);
     const float half = fmaxf(THINNEST, fminf(THICKEST, SHARE * length));
     const float ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
     const float x = a[0] + WIDEST_AT * dx, y = a[1] + WIDEST_AT * dy;

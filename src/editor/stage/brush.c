@@ -4,6 +4,7 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -87,7 +88,7 @@ static int find_way(const struct stage *stage, const struct core *core, const st
     const float dx = core->pointer_x - painting->x, dy = core->pointer_y - painting->y;
     const float metres = 2 * stage->camera.distance / stage->view.projection[5] / core->layout.stage.h;
     const float stride = fmaxf(1, STRIDE * radius_of(&core->brush, figure) / metres);
-    const int steps = (int)fminf(REACH_MAX_SPOTS, fmaxf(1, ceilf(hypotf(dx, dy) / stride)));
+    const int steps = (int)fminf(REACH_MAX_SPOTS, fmaxf(1, ceilf(maths_hypotf(dx, dy) / stride)));
     int count = 0;
     for (int i = 1; i <= steps; i++) {
         const float share = (float)i / (float)steps;
@@ -154,8 +155,8 @@ static bool difference(const struct brush_work *work, const struct figure *figur
     }
     size = sqrtf(size);
     if (!(size > STILL * largest) || !(mean > STILL * largest)) return false;
-    out[0] = logf(mean / size);
-    out[1] = atan2f(turn[1], turn[0]);
+    out[0] = maths_logf(mean / size);
+    out[1] = maths_atan2f(turn[1], turn[0]);
     return true;
 }
 
@@ -178,8 +179,8 @@ static void smooth_once(struct painting *painting, const struct figure *figure, 
         float *value = work->values[i], *turned = work->turned[work->vertices[i]];
         const float swell = glm_clamp(value[0] + work->steps[i][0], LEAST_SWELL, MOST_SWELL) - value[0];
         const float lead = glm_clamp(value[1] + work->steps[i][1], -MOST_LEAD, MOST_LEAD) - value[1];
-        const float size = expf(swell);
-        multiply(turned, (const float[2]){size * cosf(lead), size * sinf(lead)}, turned);
+        const float size = maths_expf(swell);
+        multiply(turned, (const float[2]){size * maths_cosf(lead), size * maths_sinf(lead)}, turned);
         value[0] += swell;
         value[1] += lead;
     }
@@ -304,7 +305,7 @@ bool brush_press(struct stage *stage, struct core *core, const struct event *eve
 bool brush_wheel(struct core *core, const struct event *event)
 {
     struct brush *brush = &core->brush;
-    const double factor = exp(WHEEL_STEP * fmin(fmax(event->dy, -20), 20));
+    const double factor = maths_exp(WHEEL_STEP * fmin(fmax(event->dy, -20), 20));
     if (!brush->on || !(event->mods & (MOD_CTRL | MOD_SHIFT))) return false;
     if (event->mods & MOD_CTRL) {
         brush->radius = fmin(fmax(brush->radius * factor, RADIUS_LEAST), RADIUS_MOST);
@@ -386,7 +387,7 @@ static void describe_spot(const struct stage *stage, const struct paint *paint, 
     const float *value = paint->values[(size_t)coordinate * (size_t)paint->vertices + spot->corner[nearest]];
     if (value[0] == 0 && value[1] == 0) return;
     snprintf(text, size, "painted here: %+.0f°, × %.2f", printable_number((double)value[1] * DEGREES, 1),
-             exp((double)value[0]));
+             maths_exp((double)value[0]));
 }
 
 static void show_state(const struct stage *stage, struct core *core, const struct paint *paint, int coordinate)

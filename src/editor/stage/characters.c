@@ -3,6 +3,7 @@
 #include "base/hash.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
+#include "maths/maths.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -101,7 +102,7 @@ static int front_vertex(const struct figure *figure, const double uv[2])
     int found = 0;
     for (int i = 0; i < figure->character.vertex_count; i++) {
         const float *p = figure->character.position[i];
-        const float cost = hypotf(p[0] - x, p[1] - y) - FRONT_SHARE * p[2];
+        const float cost = maths_hypotf(p[0] - x, p[1] - y) - FRONT_SHARE * p[2];
         if (!(cost < best)) continue;
         best = cost;
         found = i;
@@ -131,9 +132,13 @@ static void show_wheel(struct drawlist *list, float x, float y)
         const float radius = WHEEL * (float)ring / RINGS, amplitude = ((float)ring - 0.5f) / (RINGS - 0.5f);
         for (int s = 0; s < SECTORS; s++) {
             const float middle = step * (float)s, from = middle - 0.62f * step, to = middle + 0.62f * step;
-            const float xy[] = {
-                x, y, x + radius * cosf(from), y - radius * sinf(from), x + radius * cosf(to), y - radius * sinf(to)};
-            drawlist_convex(list, xy, 3, phase_color(amplitude * cosf(middle), amplitude * sinf(middle)));
+            const float xy[] = {x,
+                                y,
+                                x + radius * maths_cosf(from),
+                                y - radius * maths_sinf(from),
+                                x + radius * maths_cosf(to),
+                                y - radius * maths_sinf(to)};
+            drawlist_convex(list, xy, 3, phase_color(amplitude * maths_cosf(middle), amplitude * maths_sinf(middle)));
         }
     }
 }
@@ -142,7 +147,7 @@ static void show_wheel(struct drawlist *list, float x, float y)
 static void show_spokes(struct drawlist *list, float x, float y)
 {
     for (int i = 0; i < 8; i++) {
-        const float angle = 0.785398163f * ((float)i + 0.5f), along = cosf(angle), up = sinf(angle),
+        const float angle = 0.785398163f * ((float)i + 0.5f), along = maths_cosf(angle), up = maths_sinf(angle),
                     from = 0.2f * WHEEL;
         const float xy[] = {x + from * along, y - from * up, x + WHEEL * along, y - WHEEL * up};
         drawlist_line(list, xy, 2, 1.25f, 0x000000A0u);

@@ -3,6 +3,7 @@
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -39,7 +40,7 @@ static const struct character_rig *floors_find(const struct stage *stage, const 
 static float distance_to(const float a[2], const float b[2], float x, float y)
 {
     const float along = segment_nearest(a, b, (const float[2]){x, y});
-    return hypotf(a[0] + along * (b[0] - a[0]) - x, a[1] + along * (b[1] - a[1]) - y);
+    return maths_hypotf(a[0] + along * (b[0] - a[0]) - x, a[1] + along * (b[1] - a[1]) - y);
 }
 
 struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y)
@@ -80,7 +81,7 @@ void floors_begin(struct stage *stage, struct core *core, const struct hover *ho
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply, .end = stage_click};
     const struct character_rig *rig = &core->document->rigs[hover->rig]->character;
     const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
-    const double rise = fmax(cos((double)stage->camera.elevation), LEAST_RISE);
+    const double rise = fmax(maths_cos((double)stage->camera.elevation), LEAST_RISE);
     core->hover = *hover;
     drag_begin(core, &owner, stage, "Set floor", event);
     stage->floor_drag = (struct floor_drag){

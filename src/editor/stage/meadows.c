@@ -1,6 +1,7 @@
 /// Meadows on the stage: reeds in the wind, pushed by bodies, and swinging after a body was dragged past.
 #include "base/hash.h"
 #include "editor/stage/parts.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include <math.h>
 #include <string.h>
@@ -26,9 +27,9 @@ static void push_of(const struct stage *stage, const float place[3], double push
         const float *base = pose->matrix[0] + 12;
         const double scale = (double)pose->scale;
         const double x = (double)(place[0] - base[0]), z = (double)(place[2] - base[2]) - MIDDLE * scale;
-        const double far = hypot(x, 0.75 * z) / (REACH * scale); // an ellipse along the body
+        const double far = maths_hypot(x, 0.75 * z) / (REACH * scale); // an ellipse along the body
         if (!(far < 1) || !(far > 0)) continue;
-        const double share = FARTHEST * (1 - far * far) * (1 - far * far) / hypot(x, z);
+        const double share = FARTHEST * (1 - far * far) * (1 - far * far) / maths_hypot(x, z);
         pushed[0] += share * x;
         pushed[1] += share * z;
     }
@@ -93,7 +94,8 @@ static void brush_all(struct stage *stage, const struct core *core, const struct
 static void add_shadow(struct stage_view *view, const double area[2])
 {
     enum { ACROSS = 3, DEEP = 2 };
-    const float wide = (float)area[0] / ACROSS, deep = (float)area[1] / DEEP, radius = 0.68f * hypotf(wide, deep);
+    const float wide = (float)area[0] / ACROSS, deep = (float)area[1] / DEEP,
+                radius = 0.68f * maths_hypotf(wide, deep);
     for (int b = 0; b < ACROSS * DEEP; b++)
         stage_add_blob(view, wide * ((float)(b % ACROSS) - 0.5f * (ACROSS - 1)),
                        deep * ((float)(b / ACROSS) - 0.5f * (DEEP - 1)), radius, SHADOW);
@@ -115,8 +117,8 @@ static void pose(struct stage *stage, const struct core *core, int rig, int n)
         const double lag = core->look == LOOK_STIFF ? 0 : ROLL * (double)reed->place[0];
         shown->reeds[r] = (struct stage_reed){.height = reed->height,
                                               .still = (float)value.y,
-                                              .re = (float)(cos(lag) * value.re + sin(lag) * value.im),
-                                              .im = (float)(cos(lag) * value.im - sin(lag) * value.re),
+                                              .re = (float)(maths_cos(lag) * value.re + maths_sin(lag) * value.im),
+                                              .im = (float)(maths_cos(lag) * value.im - maths_sin(lag) * value.re),
                                               .turn = reed->turn,
                                               .shade = reed->shade,
                                               .width = WIDTH * (0.5f + 0.5f * reed->height)};

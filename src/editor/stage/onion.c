@@ -3,6 +3,7 @@
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
 #include "editor/stage/parts.h"
+#include "maths/maths.h"
 #include "model/fox.h"
 #include "model/reach.h"
 #include "model/vector.h"
@@ -107,7 +108,7 @@ static void show_open(struct stage *stage, struct core *core, int count, const s
     int longest = 0, start = 0, run = 0;
     memcpy(points[whole], points[0], (size_t)whole * sizeof points[0]);
     for (int i = 0; i < 2 * whole; i++) {
-        run = hypotf(points[i][0] - root->middle[0], points[i][1] - root->middle[1]) < reach ? run + 1 : 0;
+        run = maths_hypotf(points[i][0] - root->middle[0], points[i][1] - root->middle[1]) < reach ? run + 1 : 0;
         if (run > longest && run < whole) longest = run, start = (i + 1) % whole;
     }
     drawlist_line(&core->list, points[start], longest > 0 ? whole - longest : count, width, color);
@@ -130,7 +131,7 @@ static bool show_tail(struct stage *stage, struct core *core, const struct pose 
     if (count > 0) show_open(stage, core, count, &discs[0], width, color);
     const struct disc *last = &discs[STATIONS - 1], *before = &discs[STATIONS - 3];
     const float dx = last->middle[0] - before->middle[0], dy = last->middle[1] - before->middle[1];
-    const float share = last->radius / fmaxf(hypotf(dx, dy), 1);
+    const float share = last->radius / fmaxf(maths_hypotf(dx, dy), 1);
     tip[0] = last->middle[0] + share * dx;
     tip[1] = last->middle[1] + share * dy;
     return true;

@@ -5,6 +5,7 @@
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include "scene/pins.h"
 #include "ui/theme.h"
@@ -103,7 +104,7 @@ static struct hover marker_hover(const struct stage *stage, const struct core *c
     for (const struct pin *pin; (pin = next_marker(core, &place));) {
         float xy[2];
         if (!project(stage, core, pin->to, xy)) continue;
-        float distance = hypotf(xy[0] - x, xy[1] - y);
+        float distance = maths_hypotf(xy[0] - x, xy[1] - y);
         if (distance < MARKER_REACH && core->pin.any && core->pin.id == pin->id) distance = 0;
         if (distance >= best) continue;
         best = distance;
@@ -272,7 +273,7 @@ static void show_marker(const struct stage *stage, struct core *core, struct pin
     float line[2][2];
     if (!project(stage, core, pin->to, line[0])) return;
     const bool has_end = left && left->is_found && project(stage, core, left->at, line[1]);
-    if (has_end && hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
+    if (has_end && maths_hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
         drawlist_line(list, line[0], 2, 1.25f, color);
         drawlist_disc(list, line[1], END, color);
     }

@@ -6,6 +6,7 @@
 #include "editor/core/drag.h"
 #include "editor/core/pins.h"
 #include "editor/stage/parts.h"
+#include "maths/maths.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -43,7 +44,7 @@ static const double ZOOM_STEP = 0.12; ///< per wheel notch, as a power of e
 static struct hover nearer(struct hover a, struct hover b, float x, float y)
 {
     if (b.kind == HOVER_NONE) return a;
-    return a.kind == HOVER_NONE || hypotf(b.x - x, b.y - y) < hypotf(a.x - x, a.y - y) ? b : a;
+    return a.kind == HOVER_NONE || maths_hypotf(b.x - x, b.y - y) < maths_hypotf(a.x - x, a.y - y) ? b : a;
 }
 
 struct hover stage_hover(struct stage *stage, const struct core *core, float x, float y)
@@ -168,7 +169,7 @@ void stage_wheel(struct stage *stage, struct core *core, const struct event *eve
     if (brush_wheel(core, event)) return;
     const struct rect *r = &core->layout.stage;
     const float before = stage->camera.distance;
-    camera_zoom(&stage->camera, (float)exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
+    camera_zoom(&stage->camera, (float)maths_exp(-ZOOM_STEP * fmin(fmax(event->dy, -20), 20)));
     const float share = 1 - before / stage->camera.distance; // the place under the pointer stays there
     camera_pan(&stage->camera, share * (event->x - r->x - r->w / 2), share * (event->y - r->y - r->h / 2), r->h);
     stage_orbit(stage, TURN_STEP * (float)fmin(fmax(event->dx, -20), 20), 0);
@@ -294,7 +295,7 @@ static float azimuth_of_models(const struct core *core)
     const int rig = document_next_rig(core->document, RIG_MODEL, -1);
     const struct imported *imported = models_imported(core->models, core->document, rig);
     float back[2];
-    return imported && imported_back(imported, back) ? atan2f(-back[1], back[0]) - FROM_BEHIND : AZIMUTH_OF_ONE;
+    return imported && imported_back(imported, back) ? maths_atan2f(-back[1], back[0]) - FROM_BEHIND : AZIMUTH_OF_ONE;
 }
 
 void stage_fit(struct stage *stage, const struct core *core)

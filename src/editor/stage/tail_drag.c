@@ -11,6 +11,7 @@
 #include "editor/core/selection.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
+#include "maths/maths.h"
 #include <math.h>
 
 static const double DAMPING = 12; ///< √λ, pixels per radian; channels that move the point less are hardly used
@@ -106,7 +107,7 @@ static void damped_step(const double column[2][2], const double miss[2], double 
     double determinant = a * d - b * b; /* at least λ² */
     step[0] = (d * p - b * q) / determinant;
     step[1] = (a * q - b * p) / determinant;
-    double size = hypot(step[0], step[1]);
+    double size = maths_hypot(step[0], step[1]);
     double factor = size > LARGEST_STEP ? LARGEST_STEP / size : 1;
     step[0] *= factor;
     step[1] *= factor;
@@ -179,7 +180,7 @@ static void apply(void *room, struct core *core)
     if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
     if (!strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
-    if (grab->applied && hypot(miss[0], miss[1]) < CLOSE) return;
+    if (grab->applied && maths_hypot(miss[0], miss[1]) < CLOSE) return;
     double column[2][2] = {{0}}, step[2];
     for (int a = 0; a < 2; a++) {
         if (!grab->axis[a].active) continue;

@@ -2,6 +2,7 @@
 #include "editor/core/bones.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
+#include "maths/maths.h"
 #include "model/vector.h"
 #include <assert.h>
 #include <math.h>
@@ -115,7 +116,7 @@ void strand_nearer(const struct stage *stage, const struct core *core, int rig, 
         if (!strand_project(stage, core, strand, n, 0, a) || !strand_project(stage, core, strand, n, 1, b)) continue;
         float fraction = segment_nearest(a, b, p);
         float at[2] = {a[0] + (b[0] - a[0]) * fraction, a[1] + (b[1] - a[1]) * fraction};
-        float distance = hypotf(p[0] - at[0], p[1] - at[1]);
+        float distance = maths_hypotf(p[0] - at[0], p[1] - at[1]);
         if (distance >= *nearest) continue;
         *nearest = distance;
         *hover =
