@@ -21,11 +21,24 @@ static inline dd dd_sum(double a, double b)
 /// a − b exactly.
 static inline dd dd_difference(double a, double b) { return dd_sum(a, -b); }
 
-/// a·b exactly (where it neither overflows nor underflows).
+/// The upper 26 bits of a.
+static inline double dd_upper(double a)
+{
+    double c = 0x8000001p0 * a;
+    return c - (c - a);
+}
+
+/// a·b exactly (where it neither overflows nor underflows), by a fused multiply-add where that is fast, else with the factors' halves: the same
+/// bits.
 static inline dd dd_product(double a, double b)
 {
     double p = a * b;
+#if defined(__FP_FAST_FMA) || (defined(__x86_64__) && defined(__gnu_linux__))
     return (dd){p, fma(a, b, -p)};
+#else
+    double a1 = dd_upper(a), b1 = dd_upper(b), a2 = a - a1, b2 = b - b1;
+    return (dd){p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
+#endif
 }
 
 static inline dd dd_add(dd a, dd b)
@@ -45,6 +58,23 @@ static inline dd dd_scale(double a, dd b)
 {
     dd p = dd_product(a, b.hi);
     return (dd){p.hi, p.lo + a * b.lo};
+}
+
+static inline dd dd_multiply(dd a, dd b)
+{
+    dd p = dd_product(a.hi, b.hi);
+    double lo = p.lo + (a.hi * b.lo + a.lo * b.hi);
+    double hi = p.hi + lo;
+    return (dd){hi, lo - (hi - p.hi)};
+}
+
+static inline dd dd_divide(dd a, dd b)
+{
+    double first = a.hi / b.hi;
+    dd left = dd_subtract(a, dd_scale(first, b));
+    double second = left.hi / b.hi;
+    double hi = first + second;
+    return (dd){hi, second - (hi - first)};
 }
 
 static inline dd dd_from(double a) { return (dd){a, 0.0}; }

@@ -7,6 +7,7 @@
 //
 // u is q with the imaginary part that an oscillation on one side of the axis has, u' = p u: Im u = −(q' + d q)/ω_d.
 #include "spline/forced_response.h"
+#include "spline/dd.h"
 #include "spline/oscillator.h"
 #include "spline/problem.h"
 #include "spline/wide.h"
@@ -97,88 +98,109 @@ static void run(const wiggly_desc *desc, double floor, double q, double v, const
     end[0] = q, end[1] = v;
 }
 
-typedef long double wide_matrix[2][2];
+typedef struct wide_matrix {
+    dd at[2][2];
+} wide_matrix;
 
-/// d ← I − (I − d)(I − e) = d + e − d e.
-static void compose(wide_matrix d, const wide_matrix e)
+/// I − (I − d)(I − e) = d + e − d e.
+static inline wide_matrix compose(const wide_matrix *d, const wide_matrix *e)
 {
-    wide_matrix sum;
+    wide_matrix out;
     for (int r = 0; r < 2; r++) {
-        for (int c = 0; c < 2; c++) sum[r][c] = d[r][c] + e[r][c] - (d[r][0] * e[0][c] + d[r][1] * e[1][c]);
+        for (int c = 0; c < 2; c++) {
+            const dd product = dd_add(dd_multiply(d->at[r][0], e->at[0][c]), dd_multiply(d->at[r][1], e->at[1][c]));
+            out.at[r][c] = dd_subtract(dd_add(d->at[r][c], e->at[r][c]), product);
+        }
     }
-    for (int r = 0; r < 2; r++) {
-        for (int c = 0; c < 2; c++) d[r][c] = sum[r][c];
-    }
+    return out;
 }
 
-/// The step in extended precision.
-static void wide_step(oscillator o, double h, wide_matrix s)
+static wide_matrix less_than_one(step_matrix s)
 {
-    const long double d = o.d, k = o.k, r2 = d * d - k, r = sqrtl(fabsl(r2)), decay = expl(-d * h);
-    const long double slow = r2 > 0 ? expl((r - d) * h) : 0, fast = r2 > 0 ? expl(-(r + d) * h) : 0;
-    const long double c = r2 > 0 ? 0.5L * (slow + fast) : decay * cosl(r * h);
-    long double sine = r2 > 0 ? 0.5L * (slow - fast) : decay * sinl(r * h); // r s
-    sine = r * h < 1e-4L ? decay * h * (1 + r2 * h * h / 6) : sine / r;
-    s[0][0] = c + d * sine, s[0][1] = sine;
-    s[1][0] = -k * sine, s[1][1] = c - d * sine;
+    return (wide_matrix){{{dd_difference(1, s.q_q), dd_from(-s.q_v)}, {dd_from(-s.v_q), dd_difference(1, s.v_v)}}};
 }
 
-/// The step over the interval after sample i, in extended precision if `wide`; a constant one is computed once, at i = 0.
-static void step_of_loop(path *p, int i, bool wide, wide_matrix s)
+/// I − the step, in double-double: I − exp(A) of A = h [0 1; −k −2d], halved until a series of ten terms suffices, then composed with itself.
+static wide_matrix wide_step(oscillator o, double h)
+{
+    enum { TERMS = 10 };
+    int halvings = 0;
+    double time = h;
+    while (o.k * time * time + 2 * o.d * time > 0x1p-10 && halvings < 24) time *= 0.5, halvings++;
+    if (halvings == 24) return less_than_one(oscillator_step(o, h)); // what it moves fades at once
+    // In units in which A = [0 1; spring brake], so A² = spring I + brake A, and each power of A is a I + b A.
+    const dd pull = dd_product(-o.k, time), spring = dd_scale(time, pull), brake = dd_product(-2 * o.d, time);
+    dd a = {1, 0}, b = {0, 0};
+    double c = 1; // TERMS! / j!
+    for (int j = TERMS - 1; j >= 0; j--) {
+        c *= j > 0 ? j + 1 : 1;
+        const dd next = dd_multiply(spring, b);
+        b = dd_add(a, dd_multiply(brake, b));
+        a = j > 0 ? dd_add(next, dd_from(c)) : next;
+    }
+    a = dd_divide(dd_negate(a), dd_from(c)), b = dd_divide(dd_negate(b), dd_from(c));
+    for (int i = 0; i < halvings; i++) { // D ← 2 D − D²
+        const dd b2 = dd_multiply(b, b), ab = dd_multiply(a, b), a2 = dd_multiply(a, a);
+        a = dd_subtract(dd_scale(2, a), dd_add(a2, dd_multiply(spring, b2)));
+        b = dd_subtract(dd_scale(2, b), dd_add(dd_scale(2, ab), dd_multiply(brake, b2)));
+    }
+    return (wide_matrix){{{a, dd_scale(time, b)}, {dd_multiply(pull, b), dd_add(a, dd_multiply(brake, b))}}};
+}
+
+/// I − the step over the interval after sample i, in extended precision if `wide`; a constant one is computed once, at i = 0.
+static void step_of_loop(path *p, int i, bool wide, wide_matrix *s)
 {
     if (p->constant && i > 0) return;
     const oscillator here = p->here;
     const step_matrix plain = next_step(p, i);
-    if (wide) {
-        wide_step((oscillator){0.5 * (here.d + p->here.d), 0.5 * (here.k + p->here.k)}, p->desc->step, s);
-    } else {
-        s[0][0] = plain.q_q, s[0][1] = plain.q_v, s[1][0] = plain.v_q, s[1][1] = plain.v_v;
-    }
+    const oscillator mean = {0.5 * (here.d + p->here.d), 0.5 * (here.k + p->here.k)};
+    *s = wide ? wide_step(mean, p->desc->step) : less_than_one(plain);
 }
 
 /// I − the product of a loop's steps, in extended precision, because for slow poles it is a small difference. Equal steps by squaring.
-static void around(const wiggly_desc *desc, double floor, bool wide, wide_matrix a)
+static wide_matrix around(const wiggly_desc *desc, double floor, bool wide)
 {
     path p = begin(desc, floor);
-    int period = desc->samples - 1;
-    wide_matrix s, step;
-    for (int i = 0; i < 4; i++) a[i / 2][i % 2] = 0;
+    const int period = desc->samples - 1;
+    wide_matrix s, a = {0};
     for (int i = 0; !p.constant && i < period; i++) {
-        step_of_loop(&p, i, wide, s);
-        wide_matrix whole = {{1 - s[0][0], -s[0][1]}, {-s[1][0], 1 - s[1][1]}};
-        compose(whole, (const long double(*)[2])a);
-        for (int e = 0; e < 4; e++) a[e / 2][e % 2] = whole[e / 2][e % 2];
+        step_of_loop(&p, i, wide, &s);
+        a = compose(&s, &a);
     }
-    if (!p.constant) return;
-    step_of_loop(&p, 0, wide, s);
-    step[0][0] = 1 - s[0][0], step[0][1] = -s[0][1], step[1][0] = -s[1][0], step[1][1] = 1 - s[1][1];
+    if (!p.constant) return a;
+    step_of_loop(&p, 0, wide, &s);
     for (int bit = 1; bit <= period && bit > 0; bit *= 2) {
-        if (period & bit) compose(a, (const long double(*)[2])step);
-        wide_matrix same = {{step[0][0], step[0][1]}, {step[1][0], step[1][1]}};
-        compose(step, (const long double(*)[2])same);
+        if (period & bit) a = compose(&a, &s);
+        s = compose(&s, &s);
     }
+    return a;
 }
 
+/// q and q' in extended precision.
+typedef struct wide_state {
+    dd q, v;
+} wide_state;
+
 /// run() in extended precision, with jumps that are not rounded to double; does not read u's `im`.
-static void run_wide(const wiggly_desc *desc, const double *y, double floor, const long double from[2],
-                     const forced_response *u, long double end[2])
+static wide_state run_wide(const wiggly_desc *desc, const double *y, double floor, wide_state x,
+                           const forced_response *u)
 {
     path p = begin(desc, floor);
+    const dd rate = dd_divide(dd_from(1), dd_from(desc->step));
     wide_matrix s;
-    long double q = from[0], v = from[1];
     for (int i = 0;; i++) {
-        const long double here = y[i],
-                          kick = ((here - y_beyond(desc, y, i - 1)) - (y_beyond(desc, y, i + 1) - here)) / desc->step;
-        u->total[i] = (double)q;
-        u->speed[i] = (double)(v + 0.5L * kick);
-        if (i + 1 == desc->samples) break;
-        step_of_loop(&p, i, true, s);
-        v += kick;
-        const long double moved = s[0][0] * q + s[0][1] * v;
-        v = s[1][0] * q + s[1][1] * v;
-        q = moved;
+        const dd behind = dd_difference(y[i], y_beyond(desc, y, i - 1)),
+                 ahead = dd_difference(y_beyond(desc, y, i + 1), y[i]);
+        const dd kick = dd_multiply(rate, dd_subtract(behind, ahead));
+        u->total[i] = x.q.hi;
+        u->speed[i] = dd_add(x.v, dd_scale(0.5, kick)).hi;
+        if (i + 1 == desc->samples) return x;
+        step_of_loop(&p, i, true, &s);
+        x.v = dd_add(x.v, kick);
+        const dd lost_q = dd_add(dd_multiply(s.at[0][0], x.q), dd_multiply(s.at[0][1], x.v));
+        const dd lost_v = dd_add(dd_multiply(s.at[1][0], x.q), dd_multiply(s.at[1][1], x.v));
+        x = (wide_state){dd_subtract(x.q, lost_q), dd_subtract(x.v, lost_v)};
     }
-    end[0] = q, end[1] = v;
 }
 
 /// A pull that brings q back by less than this per round cannot close a circle.
@@ -204,39 +226,48 @@ static forces forces_of(const wiggly_desc *desc, double floor)
     return f;
 }
 
+static dd determinant(const wide_matrix *a)
+{
+    return dd_subtract(dd_multiply(a->at[0][0], a->at[1][1]), dd_multiply(a->at[0][1], a->at[1][0]));
+}
+
 /// The state that returns to itself, given the state reached from rest. If nothing pulls back, only q' returns. False if there is no such
 /// state.
-static bool close_circle(double seconds, forces f, const wide_matrix a, const long double end[2],
-                         long double state[2])
+static bool close_circle(double seconds, forces f, const wide_matrix *a, wide_state end, wide_state *state)
 {
+    *state = (wide_state){{0, 0}, {0, 0}};
     if (!f.pull) {
-        state[0] = 0, state[1] = f.brake ? end[1] / a[1][1] : -end[0] / seconds;
+        state->v = f.brake ? dd_divide(end.v, a->at[1][1]) : dd_divide(dd_negate(end.q), dd_from(seconds));
         return true;
     }
-    const long double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-    if (!(fabsl(det) > 1e-16L * (fabsl(a[0][0] * a[1][1]) + fabsl(a[0][1] * a[1][0])))) return false;
-    state[0] = (a[1][1] * end[0] - a[0][1] * end[1]) / det;
-    state[1] = (a[0][0] * end[1] - a[1][0] * end[0]) / det;
+    const dd det = determinant(a);
+    const double terms = fabs(a->at[0][0].hi * a->at[1][1].hi) + fabs(a->at[0][1].hi * a->at[1][0].hi);
+    if (!(fabs(det.hi) > 1e-16 * terms)) return false;
+    const dd q = dd_subtract(dd_multiply(a->at[1][1], end.q), dd_multiply(a->at[0][1], end.v));
+    const dd v = dd_subtract(dd_multiply(a->at[0][0], end.v), dd_multiply(a->at[1][0], end.q));
+    *state = (wide_state){dd_divide(q, det), dd_divide(v, det)};
     return true;
 }
 
 /// How far the rounding of steps, jumps and parameters (which a resonance amplifies) may change the periodic q.
-static double error_of_circle(const forced_response *u, int period, double step, forces f, const wide_matrix a,
-                              long double epsilon)
+static double error_of_circle(const forced_response *u, int period, double step, forces f, const wide_matrix *a,
+                              double epsilon)
 {
-    const long double seconds = period * (long double)step, rounding = 4 * epsilon;
-    long double q = 0, v = 0;
-    for (int i = 0; i < period; i++) q += fabsl(u->total[i]), v += fabsl(u->speed[i]) + fabsl(u->im[i]);
-    const long double of_q = rounding * q, of_v = rounding * v + 4 * DBL_EPSILON * step * (f.k * q + 2 * f.d * v);
-    if (!f.pull) return (double)(of_q + seconds * of_v * (1 + (f.brake ? 1 / fabsl(a[1][1]) : 0)));
-    const long double det = a[0][0] * a[1][1] - a[0][1] * a[1][0];
-    return (double)((fabsl(a[1][1]) * of_q + fabsl(a[0][1]) * of_v +
-                     seconds * (fabsl(a[0][0]) * of_v + fabsl(a[1][0]) * of_q)) /
-                    fabsl(det));
+    const double seconds = period * step, rounding = 4 * epsilon;
+    double q = 0, v = 0;
+    for (int i = 0; i < period; i++) q += fabs(u->total[i]), v += fabs(u->speed[i]) + fabs(u->im[i]);
+    const double of_q = rounding * q, of_v = rounding * v + 4 * DBL_EPSILON * step * (f.k * q + 2 * f.d * v);
+    if (!f.pull) return of_q + seconds * of_v * (1 + (f.brake ? 1 / fabs(a->at[1][1].hi) : 0));
+    return (fabs(a->at[1][1].hi) * of_q + fabs(a->at[0][1].hi) * of_v +
+            seconds * (fabs(a->at[0][0].hi) * of_v + fabs(a->at[1][0].hi) * of_q)) /
+           fabs(determinant(a).hi);
 }
 
 /// As a share of y's range: a loop whose error may be larger is solved in extended precision.
 static const double narrow = 1e-11;
+
+/// Of extended precision, with what the series leaves out.
+static const double finest = 0x1p-74;
 
 /// The periodic q. False if there is none, or only one far too large.
 static bool run_loop(const wiggly_desc *desc, const double *y, double floor, forced_response *u)
@@ -247,26 +278,23 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, for
     const double range = all.high - all.low;
     const double seconds = period * desc->step;
     double end[2];
-    long double wide_end[2], state[2] = {0, 0};
-    wide_matrix a;
+    wide_state state;
     run(desc, floor, 0, 0, u, end);
-    around(desc, floor, false, a);
-    wide_end[0] = end[0], wide_end[1] = end[1];
-    if (!close_circle(seconds, f, a, wide_end, state)) return false;
-    run(desc, floor, (double)state[0], (double)state[1], u, end);
-    u->error = error_of_circle(u, period, desc->step, f, a, DBL_EPSILON);
+    wide_matrix a = around(desc, floor, false);
+    if (!close_circle(seconds, f, &a, (wide_state){dd_from(end[0]), dd_from(end[1])}, &state)) return false;
+    run(desc, floor, state.q.hi, state.v.hi, u, end);
+    u->error = error_of_circle(u, period, desc->step, f, &a, DBL_EPSILON);
     if (u->error > narrow * range) {
-        const long double rest[2] = {0, 0};
-        run_wide(desc, y, floor, rest, u, wide_end);
-        around(desc, floor, true, a);
-        if (!close_circle(seconds, f, a, wide_end, state)) return false;
-        run_wide(desc, y, floor, state, u, wide_end);
-        u->error = error_of_circle(u, period, desc->step, f, a, LDBL_EPSILON);
+        const wide_state rest = {{0, 0}, {0, 0}}, reached = run_wide(desc, y, floor, rest, u);
+        a = around(desc, floor, true);
+        if (!close_circle(seconds, f, &a, reached, &state)) return false;
+        run_wide(desc, y, floor, state, u);
+        u->error = error_of_circle(u, period, desc->step, f, &a, finest);
     }
     if (!f.pull) { // it is determined up to a constant: take mean 0
-        long double mean = 0;
-        for (int i = 0; i < period; i++) mean += u->total[i];
-        for (int i = 0; i <= period; i++) u->total[i] -= (double)(mean / period);
+        dd mean = {0, 0};
+        for (int i = 0; i < period; i++) mean = dd_add(mean, dd_from(u->total[i]));
+        for (int i = 0; i <= period; i++) u->total[i] -= mean.hi / period;
         return true;
     }
     return extent_size(extent_of(u->total, period)) <= blow_up * range;

@@ -8,6 +8,8 @@
 //
 // Refinement cannot see the rounding of the coefficients themselves. If the system amplifies it, the coefficients are changed by that much
 // once; the change of x, solved with the existing factor, becomes part of the error.
+#include "maths/maths.h"
+#include "spline/ddc.h"
 #include "spline/solver.h"
 #include "spline/wide.h"
 #include <float.h>
@@ -52,7 +54,7 @@ WIDEST static double largest_modulus(const double *x, int count, bool is_complex
 static double estimated_error(const system_rows *rows, const pentadiagonal *m)
 {
     double g2 = rows->stretch * rows->stretch;
-    return (rows->is_complex ? 40 : 16) * DBL_EPSILON * fmax(m->lost * cbrt(m->lost), g2 * g2 / 31);
+    return (rows->is_complex ? 40 : 16) * DBL_EPSILON * fmax(maths_exp(4.0 / 3 * maths_log(m->lost)), g2 * g2 / 31);
 }
 
 static double enough(const system_rows *rows) { return rows->is_complex ? enough_complex : enough_real; }
@@ -307,18 +309,15 @@ minimum solver_minimise(wiggly_solver *solver)
 void solver_run_forward(wiggly_solver *solver, int from)
 {
     system_rows *rows = &solver->rows;
-    // x is a double sum of small steps; extended precision keeps the rounding of N² additions below its last digit.
-    const double *x = rows->x + 2 * from, *before = x - 2;
-    long double x_re = x[0], x_im = x[1], step_re = x_re - before[0], step_im = x_im - before[1];
+    // x is a double sum of small steps; double-double keeps the rounding of N² additions below its last digit.
+    const double *before = rows->x + 2 * (from - 1);
+    ddc x = ddc_from((cplx){before[2], before[3]});
+    ddc step = ddc_subtract(x, ddc_from((cplx){before[0], before[1]}));
     for (int i = from; i < rows->count - 1; i++) {
-        coefficients at = rows->at[i];
-        long double before_re = x_re - step_re, before_im = x_im - step_im;
-        long double re = step_re + (at.m.re * step_re - at.m.im * step_im) -
-                         (at.p.re * before_re - at.p.im * before_im) - rows->drive[i].re;
-        long double im = step_im + (at.m.re * step_im + at.m.im * step_re) -
-                         (at.p.re * before_im + at.p.im * before_re) - rows->drive[i].im;
-        step_re = re, step_im = im;
-        x_re += step_re, x_im += step_im;
-        rows->x[2 * i + 2] = (double)x_re, rows->x[2 * i + 3] = (double)x_im;
+        const coefficients at = rows->at[i];
+        const ddc kept = ddc_add(step, ddc_scale(at.m, step)), lost = ddc_scale(at.p, ddc_subtract(x, step));
+        step = ddc_subtract(ddc_subtract(kept, lost), ddc_from(rows->drive[i]));
+        x = ddc_add(x, step);
+        rows->x[2 * i + 2] = x.re.hi, rows->x[2 * i + 3] = x.im.hi;
     }
 }

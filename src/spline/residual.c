@@ -7,23 +7,9 @@
 //
 // Both are sums of nearly equal numbers: over a gap of G samples r is G² times smaller than x, and g again than r. In
 // double-double the cancellation leaves full double precision for any G that a double can count.
-#include "spline/dd.h"
+#include "spline/ddc.h"
 #include "spline/system.h"
 #include <string.h>
-
-typedef struct ddc {
-    dd re, im;
-} ddc;
-
-/// z·w for a double z.
-static inline ddc ddc_scale(cplx z, ddc w)
-{
-    return (ddc){dd_subtract(dd_scale(z.re, w.re), dd_scale(z.im, w.im)),
-                 dd_add(dd_scale(z.re, w.im), dd_scale(z.im, w.re))};
-}
-
-static inline ddc ddc_add(ddc a, ddc b) { return (ddc){dd_add(a.re, b.re), dd_add(a.im, b.im)}; }
-static inline ddc ddc_subtract(ddc a, ddc b) { return (ddc){dd_subtract(a.re, b.re), dd_subtract(a.im, b.im)}; }
 
 /// A sample of x; 0 before the first, the tail after the last.
 static inline cplx sample_of(const system_rows *rows, int k)
@@ -40,7 +26,7 @@ static inline ddc drive_of(const system_rows *rows, int i)
 {
     const int last = rows->count - 1;
     const cplx plain = rows->drive[i];
-    if (!rows->driven || (!rows->loop && (i == 0 || i == last))) return (ddc){dd_from(plain.re), dd_from(plain.im)};
+    if (!rows->driven || (!rows->loop && (i == 0 || i == last))) return ddc_from(plain);
     const double *y = rows->driven, here = y[i];
     const dd ahead = dd_difference(y[i < last ? i + 1 : 0], here),
              behind = dd_difference(here, y[i > 0 ? i - 1 : last]);
@@ -54,11 +40,11 @@ static inline ddc jet_of(const system_rows *rows, int i)
     if (rows->fixed[i] & FIXED_STILL) after = here;
     ddc step = {dd_difference(here.re, before.re), dd_difference(here.im, before.im)};
     ddc next = {dd_difference(after.re, here.re), dd_difference(after.im, here.im)};
-    if (!rows->loop && i == rows->count - 1) next = ddc_scale(rows->tail, (ddc){dd_from(here.re), dd_from(here.im)});
+    if (!rows->loop && i == rows->count - 1) next = ddc_scale(rows->tail, ddc_from(here));
     ddc base = {dd_from(before.re), dd_from(before.im)};
     ddc spring = ddc_subtract(ddc_scale(rows->at[i].p, base), ddc_scale(rows->at[i].m, step));
     if (rows->fast) {
-        ddc own = ddc_scale(rows->at[i].a_rest, (ddc){dd_from(here.re), dd_from(here.im)});
+        ddc own = ddc_scale(rows->at[i].a_rest, ddc_from(here));
         spring = ddc_add(spring, ddc_subtract(ddc_scale(rows->at[i].b_rest, base), own));
     }
     return ddc_add(ddc_subtract(next, step), ddc_add(spring, drive_of(rows, i)));
