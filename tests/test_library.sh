@@ -19,6 +19,12 @@ for kind in static shared; do
 done
 says "the shared library's soname has the major version" "[libwiggly.so.${version%%.*}]" "$(readelf -d "$shared" | grep SONAME)"
 
+# --- the same bits everywhere: of libm only what IEEE rounds exactly, sqrt or remainder
+
+libm='(a?(sin|cos|tan)h?|sincos|atan2|exp(2|10|m1)?|log(2|10|1p|b)?|pow|hypot|cbrt|erfc?|[lt]gamma|c(exp|log|pow|sqrt|abs|arg))[fl]?'
+find "$B"/obj/src/{maths,spline,scene,rig,editor,model,export} -name '*.o' -exec nm -u {} + | grep -wE "U $libm" >"$scratch/inexact"
+holds "curves and documents need no function of libm that differs between machines" [ ! -s "$scratch/inexact" ]
+
 # --- other compilers and machines. The library is built as SANITIZE=1 asks already: then this would be the same once more.
 
 if [ -n "${SANITIZE:-}" ] || ! thorough; then exit 0; fi
