@@ -9,8 +9,7 @@ function load() {
   const bytes = new Uint8Array(text.length / 2).map((_, i) => 16 * digit(2 * i) + digit(2 * i + 1))
   const module = new WebAssembly.Module(bytes)
   const env = {}
-  for (const { name } of WebAssembly.Module.imports(module))
-    env[name] = name === 'variation_is_set' ? () => 0 : absent
+  for (const { name } of WebAssembly.Module.imports(module)) env[name] = name === 'variation_is_set' ? () => 0 : absent
   return new WebAssembly.Instance(module, { env }).exports
 }
 

@@ -6,7 +6,7 @@
 // u begins as the spring does, with the first key's value and the given speed. Its goal steps to the next key half way. w begins at rest
 // (WIGGLY_REST) and passes through what is left at the keys. After the last sample all is one free swing about the last key.
 // A key need not lie on a sample: the knot is on the nearest one, with the value for which the cubics between samples meet the key.
-#include <math.h>
+#include "maths/maths.h"
 #include <wiggly/wiggly.h>
 
 typedef struct motion {
@@ -58,11 +58,11 @@ static motion swing(motion m, double d, double k, double t)
     const double r2 = d * d - k, r = sqrt(fabs(r2)), x = r2 * t * t;
     double c, s;
     if (fabs(x) < 1e-6) {
-        c = exp(-d * t) * (1 + x / 2), s = exp(-d * t) * t * (1 + x / 6);
+        c = maths_exp(-d * t) * (1 + x / 2), s = maths_exp(-d * t) * t * (1 + x / 6);
     } else if (x < 0) {
-        c = exp(-d * t) * cos(r * t), s = exp(-d * t) * sin(r * t) / r;
+        c = maths_exp(-d * t) * maths_cos(r * t), s = maths_exp(-d * t) * maths_sin(r * t) / r;
     } else {
-        const double slow = exp((r - d) * t), fast = exp(-(r + d) * t);
+        const double slow = maths_exp((r - d) * t), fast = maths_exp(-(r + d) * t);
         c = (slow + fast) / 2, s = (slow - fast) / (2 * r);
     }
     const double push = m.rate + d * m.at, at = c * m.at + s * push;
