@@ -10,8 +10,8 @@ WEB_OBJECTS := $(WEB_SOURCES:%.c=$(WASM)/%.o) \
     $(patsubst %,$(WASM)/jansson-%.o,dump error hashtable hashtable_seed load memory pack_unpack strbuffer strconv utf value version) \
     $(addprefix $(WASM)/generated/,build.o embedded_table.o embedded_data.o)
 
-# SSE2 as on x86-64, because cglm adds in another order without it.
-WEB_CFLAGS := -Os -msimd128 -msse2 $(WARNINGS) $(filter-out -fPIC -fno-semantic-interposition -fsanitize% -fno-sanitize%,$(FIXED_CFLAGS))
+# SSE2 as on x86-64, and as -msse2 means to emcc: cglm adds in another order without it.
+WEB_CFLAGS := -Os -msimd128 -D__SSE__=1 -D__SSE2__=1 $(WARNINGS) $(filter-out -fPIC -fno-semantic-interposition -fsanitize% -fno-sanitize%,$(FIXED_CFLAGS))
 WEB_CPPFLAGS = $(OWN_CPPFLAGS) -isystem src/platform/web -isystem $(WASM)/include -isystem $(JANSSON)/src
 JANSSON_CFLAGS := -w -DHAVE_UNISTD_H -DHAVE_STDINT_H -Dutf8_encode=jansson_utf8_encode# which is a name of ours
 WEB_LDFLAGS := -Os -lidbfs.js -lnodefs.js -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB \
