@@ -160,7 +160,7 @@ void app_open_editor(struct app *app)
 {
     editor_destroy(app->table.editor);
     app->table.editor = editor_create();
-    app->table.editor->core.in_page = platform_in_page(app->platform);
+    app->table.editor->core.in_page = platform_in_page();
     app->table.editor->core.still = app->options->still;
     app->table.evaluation.solver = app->options->solver;
     app_connect_files(app);

@@ -269,13 +269,12 @@ static bool may_replace(struct app *app, const char *path, struct error *error)
     return fail(error, ERROR_INPUT, "%s already exists: press Enter again to replace it", path);
 }
 
-static bool share(struct app *app)
+static void share(struct app *app)
 {
     size_t size;
     char *scene = scene_print(app->table.document, &size);
     platform_share(app->platform, scene);
     free(scene);
-    return true;
 }
 
 static bool carry_out(struct app *app, const struct request *request, struct error *error)
@@ -292,8 +291,9 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_FIGURE:
         return open_figure(app, request->number, error);
     case REQUEST_OPEN:
-        if (strcmp(request->path, ELSEWHERE) == 0) return platform_choose_file(app->platform);
-        return app_open(app, request->path, error);
+        if (strcmp(request->path, ELSEWHERE) != 0) return app_open(app, request->path, error);
+        platform_choose_file(app->platform);
+        return true;
     case REQUEST_ADD:
         return add_file(app, request->path, error);
     case REQUEST_SAVE:
@@ -322,7 +322,8 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_SCREENSHOT:
         return take_picture(app, error);
     case REQUEST_SHARE:
-        return share(app);
+        share(app);
+        return true;
     case REQUEST_FULLSCREEN:
         platform_toggle_fullscreen(app->platform);
         return true;
@@ -405,8 +406,7 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
 
 static int list_recent(void *user, struct dialog_recent *list, int max)
 {
-    const struct app *app = user;
-    const int first = platform_in_page(app->platform);
+    const int first = platform_in_page();
     if (first) list[0] = (struct dialog_recent){.path = ELSEWHERE};
     return first + personal_recent(user, list + first, max - first);
 }

@@ -6,7 +6,6 @@
 #include "draw/draw.h"
 #include "editor/editor.h"
 #include "platform/platform.h"
-#include "platform/process.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -62,7 +61,7 @@ bool film_knows(const char *path) { return find_format(path) != NULL; }
 bool film_can(const char *ending)
 {
     for (int f = 0; f < FORMATS; f++) {
-        if (strcmp(formats[f].ending, ending) == 0) return !process_is_alone() || formats[f].kind == &film_gif;
+        if (strcmp(formats[f].ending, ending) == 0) return !platform_in_page() || formats[f].kind == &film_gif;
     }
     return true;
 }

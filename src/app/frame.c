@@ -225,7 +225,7 @@ static void measure(struct app *app)
         .draw = 1e-3 * (row->upload_us + row->draw_us), .swap = 1e-3 * row->swap_us, .gpu = 1e-3 * app->gpu_us};
     cost.before = row->frame_ms - cost.draw - cost.swap;
     // A browser draws after the frame, and calls for the next when it keeps up.
-    if (platform_in_page(app->platform)) cost.swap = row->frame_interval_ms - cost.before - cost.draw;
+    if (platform_in_page()) cost.swap = row->frame_interval_ms - cost.before - cost.draw;
     resolution_measure(&app->resolution, &cost);
 }
 

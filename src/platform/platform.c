@@ -92,22 +92,10 @@ void platform_run(struct platform *platform, bool (*frame)(void *), void *user)
     while (frame(user)) continue;
 }
 
-bool platform_in_page(const struct platform *platform)
-{
-    (void)platform;
-    return false;
-}
+bool platform_in_page(void) { return false; }
 
-bool platform_share(struct platform *platform, const char *scene)
-{
-    (void)platform, (void)scene;
-    return true;
-}
+void platform_share(struct platform *platform, const char *scene) { (void)platform, (void)scene; }
 
-bool platform_choose_file(struct platform *platform)
-{
-    (void)platform;
-    return true;
-}
+void platform_choose_file(struct platform *platform) { (void)platform; }
 
 bool platform_keeps(const struct platform *platform) { return platform->keeps; }

@@ -50,11 +50,11 @@ void platform_toggle_fullscreen(struct platform *platform);
 const char *platform_clipboard(struct platform *platform);
 void platform_set_clipboard(struct platform *platform, const char *text);
 
-/// Whether this is a page in a browser. The other two do nothing elsewhere: offer a link to a scene, given as JSON, and let the user choose
-/// a file, which arrives as EVENT_DROP. They return true.
-bool platform_in_page(const struct platform *platform);
-bool platform_share(struct platform *platform, const char *scene);
-bool platform_choose_file(struct platform *platform);
+/// Whether this is a program for a browser, where no other can be started. The other two do nothing elsewhere: offer a link to a scene, given as
+/// JSON, and let the user choose a file, which arrives as EVENT_DROP.
+bool platform_in_page(void);
+void platform_share(struct platform *platform, const char *scene);
+void platform_choose_file(struct platform *platform);
 
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor);
 

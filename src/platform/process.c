@@ -40,8 +40,6 @@ void process_sleep(double seconds)
     nanosleep(&left, NULL);
 }
 
-bool process_is_alone(void) { return false; }
-
 static volatile sig_atomic_t told_to_end;
 
 static void on_signal(int signal)

@@ -12,9 +12,6 @@ double process_peak_memory(void);
 
 void process_sleep(double seconds);
 
-/// Whether no other program can be started, as in a browser.
-bool process_is_alone(void);
-
 /// Makes the first SIGINT, SIGTERM or SIGHUP only set process_was_told_to_end(); a second one of the same kind ends the process.
 void process_catch_end(void);
 bool process_was_told_to_end(void);

@@ -72,7 +72,7 @@ const through = (bytes, stream) => new Response(new Blob([bytes]).stream().pipeT
 export async function writeLink(scene) {
   const text = JSON.stringify(JSON.parse(scene));
   const [, own] = /"((?!\.\.\/models\/)[^"]*\.(?:glb|gltf|obj))"/i.exec(text) ?? [];
-  if (own) throw new RangeError(`A link holds no characters: export or save ${own.slice(own.lastIndexOf('/') + 1)} and the scene.`);
+  if (own) throw new RangeError(`A link holds no characters: send ${own.slice(own.lastIndexOf('/') + 1)} and the saved scene instead.`);
   const bytes = new Uint8Array(await through(new TextEncoder().encode(text), new CompressionStream('deflate-raw')));
   const link = '#' + btoa(Array.from(bytes, byte => String.fromCharCode(byte)).join('')).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
   if (link.length > LARGEST_LINK) throw new RangeError('The scene is too large for a link: save it and send the file.');

@@ -3,6 +3,7 @@
 const SHIFT = 1, CTRL = 2, ALT = 4, SUPER = 8;
 const RELEASE = 0, PRESS = 1, REPEAT = 2;
 const LEFT = 0, RIGHT = 1, MIDDLE = 2;
+const TURN = 0.08, ZOOM = 0.12; // of the stage for a notch of the wheel: radians, and a power of e
 const BUTTONS = [LEFT, MIDDLE, RIGHT]; // by the browser's numbers
 const NAMES = { ' ': 'Space', ArrowLeft: 'Left', ArrowRight: 'Right', ArrowUp: 'Up', ArrowDown: 'Down' };
 const isMac = /Mac|iPhone|iPad/.test(navigator.platform);
@@ -59,7 +60,7 @@ export function listen(canvas, app) {
   canvas.addEventListener('pointerdown', event => {
     if (!isFinger(event) || fingers.size === 2) return;
     event.preventDefault(); // no mouse events besides
-    if (held === LEFT) { key('Escape', PRESS); key('Escape', RELEASE); } // a second finger takes back what the first began
+    if (held === LEFT) tap('Escape'); // a second finger takes back what the first began
     if (fingers.size) release(middle());
     fingers.set(event.pointerId, place(event));
     press(fingers.size === 1 ? LEFT : MIDDLE);
@@ -72,7 +73,7 @@ export function listen(canvas, app) {
     if (!two) return;
     const [distance, angle] = spread();
     const turned = Math.atan2(Math.sin(angle - before[1]), Math.cos(angle - before[1]));
-    app._web_wheel(turned / 0.08, Math.log(distance / before[0]) / 0.12, 0, ...middle());
+    app._web_wheel(turned / TURN, Math.log(distance / before[0]) / ZOOM, 0, ...middle());
   });
   for (const name of ['pointerup', 'pointercancel']) canvas.addEventListener(name, event => {
     if (!fingers.has(event.pointerId)) return;

@@ -85,12 +85,13 @@ const app = await createWiggly({
 });
 globalThis.wiggly = app;
 await keep(app.FS);
-const linked = await readLink(app.FS, location.hash).catch(error => (say(error.message), null));
+const findLinked = () => readLink(app.FS, location.hash).catch(error => (say(error.message), null));
+const linked = await findLinked();
 listen(canvas, app);
 for (const type of ['dragover', 'drop']) addEventListener(type, event => event.preventDefault());
 addEventListener('drop', event => receive(app, event.dataTransfer.files).catch(error => say(error.message)));
 addEventListener('hashchange', async () => {
-  const path = await readLink(app.FS, location.hash).catch(error => (say(error.message), null));
+  const path = await findLinked();
   if (path) app.ccall('web_drop', null, ['string'], [path]);
 });
 canvas.addEventListener('webglcontextlost', () => say('The graphics driver was reset. Reload the page: what you did is kept.'));

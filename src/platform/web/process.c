@@ -13,7 +13,6 @@
 double process_age(void) { return 1e-3 * emscripten_get_now(); }
 double process_peak_memory(void) { return NAN; }
 void process_sleep(double seconds) { (void)seconds; }
-bool process_is_alone(void) { return true; }
 void process_catch_end(void) {}
 bool process_was_told_to_end(void) { return false; }
 

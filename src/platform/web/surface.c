@@ -157,18 +157,16 @@ void platform_set_clipboard(struct platform *platform, const char *text)
     if (platform->context) page_copy(text);
 }
 
-bool platform_in_page(const struct platform *platform) { return platform->context != 0; }
+bool platform_in_page(void) { return true; }
 
-bool platform_share(struct platform *platform, const char *scene)
+void platform_share(struct platform *platform, const char *scene)
 {
     if (platform->context) page_share(scene);
-    return true;
 }
 
-bool platform_choose_file(struct platform *platform)
+void platform_choose_file(struct platform *platform)
 {
     if (platform->context) page_choose();
-    return true;
 }
 
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor)
@@ -259,6 +257,3 @@ EMSCRIPTEN_KEEPALIVE void web_clipboard(const char *text)
     free(shown->clipboard);
     shown->clipboard = need_text(text);
 }
-
-/// The window's content was lost.
-EMSCRIPTEN_KEEPALIVE void web_expose(void) { push((struct event){.kind = EVENT_EXPOSE}); }
