@@ -50,9 +50,10 @@ void platform_toggle_fullscreen(struct platform *platform);
 const char *platform_clipboard(struct platform *platform);
 void platform_set_clipboard(struct platform *platform, const char *text);
 
-/// Whether this is a program for a browser, where no other can be started. The other two do nothing elsewhere: offer a link to a scene, given as
-/// JSON, and let the user choose a file, which arrives as EVENT_DROP.
+/// Whether this is the build for browsers, which cannot start other programs.
 bool platform_in_page(void);
+
+/// In a browser: offers a link to a scene, given as JSON; lets the user choose a file, which arrives as EVENT_DROP.
 void platform_share(struct platform *platform, const char *scene);
 void platform_choose_file(struct platform *platform);
 
