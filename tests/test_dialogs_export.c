@@ -182,6 +182,22 @@ SESSION_TEST(test_size_of_pictures, open_session(s, "walk.json", 1280, 720))
     assert_int_equal(request.wish.height, 360);
 }
 
+/// A loop's last frame is its first, which a .gif does not show twice; nor does it show more than 50 pictures a second.
+TEST(test_pictures_of_a_loop)
+{
+    static const char loop[] = "{\"fps\": 60, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", "
+                               "\"start\": \"loop\", \"knots\": [{\"frame\": 0, \"value\": 1}]}]}";
+    struct session s;
+    open_other(&s, loop, "walk.json", 1280, 720);
+    click(&s, ".png");
+    assert_non_null(
+        shown_text(s.editor, "121 pictures, 60 a second. ↑ ↓ choose the format, Tab goes to the choices."));
+    click(&s, ".gif");
+    assert_non_null(
+        shown_text(s.editor, "100 pictures, 50 a second. ↑ ↓ choose the format, Tab goes to the choices."));
+    session_close(&s);
+}
+
 SESSION_TEST(test_cancelling, open_session(s, "walk.json", 1280, 720))
 {
     session_key(s, KEY_ENTER, 0);

@@ -22,10 +22,11 @@ const struct dialog_format exporting_formats[] = {
     {".pc2", "every vertex at every key: Blender's Mesh Cache", .choices = POINTS},
     {".mdd", "the same for Maya, LightWave and others", .choices = POINTS},
     {".npy", "the same as an array: Python", .choices = POINTS},
-    {".gif", "a small film that repeats: messages, README files", CHOICE_SIZE, SMALL_WIDTH, SMALL_HEIGHT},
-    {".mp4", "a film that plays everywhere", CHOICE_SIZE, WIDTH, HEIGHT},
-    {".webm", "a film for web pages", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT},
-    {".png", "one numbered picture per frame", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT},
+    {".gif", "a small film that repeats: messages, README files", CHOICE_SIZE, SMALL_WIDTH, SMALL_HEIGHT,
+     film_pictures},
+    {".mp4", "a film that plays everywhere", CHOICE_SIZE, WIDTH, HEIGHT, film_pictures},
+    {".webm", "a film for web pages", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT, film_pictures},
+    {".png", "one numbered picture per frame", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT, film_pictures},
 };
 enum { FORMATS = sizeof exporting_formats / sizeof *exporting_formats };
 

@@ -18,15 +18,15 @@ static const struct film_format {
     const struct film_file_kind *kind;
     char *const *coding, *const *alpha; ///< ffmpeg's arguments (film_file.h); with transparency
     int width, height;                  ///< defaults
-    double most_rate;                   ///< pictures per second that players show; 0: any
+    double most_rate;                   ///< pictures per second that players show
     bool is_even;                       ///< only even sizes
     bool has_alpha;
     bool repeats; ///< players loop it
 } formats[] = {
-    {".mp4", &film_ffmpeg, film_mp4, NULL, 1280, 720, .is_even = true},
-    {".webm", &film_ffmpeg, film_webm, film_webm_alpha, 1280, 720, .is_even = true, .has_alpha = true},
-    {".gif", &film_gif, NULL, NULL, 640, 360, .most_rate = 50, .repeats = true},
-    {".png", &film_png, NULL, NULL, 1280, 720, .has_alpha = true},
+    {".mp4", &film_ffmpeg, film_mp4, NULL, 1280, 720, INFINITY, .is_even = true},
+    {".webm", &film_ffmpeg, film_webm, film_webm_alpha, 1280, 720, INFINITY, .is_even = true, .has_alpha = true},
+    {".gif", &film_gif, NULL, NULL, 640, 360, 50, .repeats = true},
+    {".png", &film_png, NULL, NULL, 1280, 720, INFINITY, .has_alpha = true},
 };
 
 enum { FORMATS = sizeof formats / sizeof *formats };
@@ -55,21 +55,40 @@ static const struct film_format *find_format(const char *path)
     return NULL;
 }
 
+static const struct film_format *find_ending(const char *ending)
+{
+    for (int f = 0; f < FORMATS; f++) {
+        if (strcmp(formats[f].ending, ending) == 0) return &formats[f];
+    }
+    return NULL;
+}
+
 bool film_knows(const char *path) { return find_format(path) != NULL; }
 
 /// A browser has no ffmpeg, and would make a download of each picture of many.
 bool film_can(const char *ending)
 {
-    for (int f = 0; f < FORMATS; f++) {
-        if (strcmp(formats[f].ending, ending) == 0) return !platform_in_page() || formats[f].kind == &film_gif;
-    }
-    return true;
+    const struct film_format *format = find_ending(ending);
+    return !format || !platform_in_page() || format->kind == &film_gif;
 }
 
 /// Whether the scene's end meets its start, by a spline or an imported clip.
 static bool loops(const struct document *document)
 {
     return document_loops(document) || document_find_rig(document, RIG_MODEL, 0) >= 0;
+}
+
+/// Of a film from start to end, or of `rounds` of a loop, whose end is its start.
+static double count_pictures(double steps, int rounds)
+{
+    return rounds > 0 && steps > 0 ? fmax(1, round(rounds * steps)) : floor(steps + 1e-6) + 1;
+}
+
+double film_pictures(const char *ending, const struct document *document, double first, double last, double *rate)
+{
+    const struct film_format *format = find_ending(ending);
+    *rate = fmin(document->fps, format->most_rate);
+    return count_pictures((last - first) / document->fps * *rate, format->repeats && loops(document));
 }
 
 static bool choose_frames(struct film *film, const struct document *document, const struct export_options *options,
@@ -84,7 +103,7 @@ static bool choose_frames(struct film *film, const struct document *document, co
                     document->first_frame, document->last_frame, first, last);
     if (options->loops > 0 && !loops(document))
         return fail(error, ERROR_INPUT, "--loops: nothing in this scene loops: its end does not meet its start");
-    const double most = film->format->most_rate > 0 ? film->format->most_rate : INFINITY;
+    const double most = film->format->most_rate;
     if (options->rate > most)
         return fail(error, ERROR_INPUT, "--fps: expected at most %g pictures a second in a %s file, got %g", most,
                     film->format->ending, options->rate);
@@ -92,8 +111,7 @@ static bool choose_frames(struct film *film, const struct document *document, co
     film->first = first;
     film->spacing = document->fps / film->shape.rate;
     film->period = in_rounds ? last - first : 0;
-    const double steps = (last - first) / film->spacing;
-    const double count = in_rounds && last > first ? fmax(1, round(rounds * steps)) : floor(steps + 1e-6) + 1;
+    const double count = count_pictures((last - first) / film->spacing, in_rounds ? rounds : 0);
     if (count > MAX_PICTURES)
         return fail(error, ERROR_INPUT, "expected at most %d pictures, got %.0f: choose fewer frames or loops",
                     MAX_PICTURES, count);

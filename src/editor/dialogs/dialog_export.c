@@ -418,8 +418,6 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
     const struct dialog_format *format = format_of(dialogs);
     struct ui *ui = &dialogs->dialog.ui;
     const float top = ui->y;
-    const int keys = format->choices & CHOICE_SIZE ? 1 : wish->keys > 0 ? wish->keys : document->substeps;
-    const double count = (wish->last - wish->first) * keys + 1;
     char text[160];
     if (is_running(dialog) && exporting->total > 0) {
         snprintf(text, sizeof text, "%ld of %ld. Esc cancels and leaves nothing behind.", exporting->done,
@@ -427,8 +425,11 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
     } else if (is_running(dialog)) {
         snprintf(text, sizeof text, "Getting ready. Esc cancels and leaves nothing behind.");
     } else {
+        const int keys = wish->keys > 0 ? wish->keys : document->substeps;
+        double rate = document->fps * keys, count = (wish->last - wish->first) * keys + 1;
+        if (format->pictures) count = format->pictures(format->ending, document, wish->first, wish->last, &rate);
         snprintf(text, sizeof text, "%.0f %s%s, %g a second. ↑ ↓ choose the format, Tab goes to the choices.", count,
-                 format->choices & CHOICE_SIZE ? "picture" : "key", count == 1 ? "" : "s", document->fps * keys);
+                 format->pictures ? "picture" : "key", count == 1 ? "" : "s", rate);
     }
     if (is_running(dialog)) {
         const struct rect bar = ui_row(ui, 8);

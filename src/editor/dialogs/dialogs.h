@@ -35,6 +35,8 @@ struct dialog_format {
     const char *ending, *holds; ///< ".glb", and one line about its use
     unsigned choices;           ///< of enum dialog_choice
     int width, height;          ///< default size for CHOICE_SIZE
+    /// How many pictures these frames are, and how many a second; NULL: it has keys.
+    double (*pictures)(const char *ending, const struct document *document, double first, double last, double *rate);
 };
 
 struct dialog_files {
