@@ -5,8 +5,8 @@ unset DISPLAY WAYLAND_DISPLAY
 scene=tests/replays/session.json
 replay=tests/replays/session.replay
 
-# Rows without times: what was solved, keyed and edited in each frame.
-counters() { grep -v '^#' "$1" | cut -d, -f1,14-17; }
+# Rows without times: what was solved, keyed and edited in each frame that did any of it.
+counters() { grep -v '^#' "$1" | cut -d, -f1,14-17 | grep -v ',0,0,0,0$'; }
 
 play() { # <replay> <scene> <name> [option]...
     local file=$1 start=$2 name=$3
