@@ -257,13 +257,17 @@ static bool is_own_character(const struct document *document, const char *path)
     return false;
 }
 
-/// Refuses "Save as" over another existing file once, and allows it when repeated.
-static bool may_replace(struct app *app, const char *path, struct error *error)
+/// Refuses to write over another existing file once, and allows it when repeated.
+static bool may_replace(struct app *app, const struct request *request, struct error *error)
 {
-    if (access(path, F_OK) != 0 || strcmp(path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0)
+    const char *path = request->path;
+    const bool is_character = is_own_character(app->table.document, path);
+    const bool is_download = platform_in_page() && request->kind == REQUEST_EXPORT; // the browser replaces no file
+    if (access(path, F_OK) != 0 || strcmp(path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0 ||
+        (is_download && !is_character))
         return true;
     snprintf(app->replaceable, sizeof app->replaceable, "%s", path);
-    if (is_own_character(app->table.document, path))
+    if (is_character)
         return fail(error, ERROR_INPUT,
                     "%s is this scene's character: press Enter again to replace it, or change the name", path);
     return fail(error, ERROR_INPUT, "%s already exists: press Enter again to replace it", path);
@@ -300,7 +304,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_OVERWRITE:
         return save(app, app_path(app), error);
     case REQUEST_SAVE_AS:
-        return may_replace(app, request->path, error) && save(app, request->path, error);
+        return may_replace(app, request, error) && save(app, request->path, error);
     case REQUEST_KEEP_MINE:
         file_watch_note_now(app);
         history_mark_unsaved(app->table.history);
@@ -308,7 +312,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_THEIRS:
         return take_theirs(app, error);
     case REQUEST_EXPORT:
-        return may_replace(app, request->path, error) && exporting_start(app, request, error);
+        return may_replace(app, request, error) && exporting_start(app, request, error);
     case REQUEST_EXPORT_STOP:
         exporting_stop(app);
         return true;
