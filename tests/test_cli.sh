@@ -98,14 +98,14 @@ EOF
 expect 0 "check of a character that a knot holds below its floor" "$WIGGLY" check "$scratch/sunk.json"
 says "says how deep, and when" "sunk.json: rigs[0].floor: knots and pins hold the character up to " "$out"
 
-# --- some broken scenes, of which test_bad.c has all: exit status 1, one sentence that names the file and the fault
+# --- some broken files, of which test_bad.c has all: exit status 1, one sentence that names the file and the fault
 
 number=0
 if [ -s tests/bad/expected.txt ]; then
     while IFS=$'\t' read -r file fragment; do
-        case $file in "" | "#"*) continue ;; esac
+        case $file in *.json) ;; *) continue ;; esac
         number=$((number + 1))
-        [ $((number % 16)) -eq 1 ] || continue
+        [ $((number % 2)) -eq 1 ] || continue
         expect 1 "solve refuses $file" "$WIGGLY" solve "tests/bad/$file"
         one_sentence "$file: one sentence" "$err"
         says "$file: names the file" "$file" "$err"
