@@ -207,19 +207,6 @@ TEST(all_that_a_spline_may_have_at_once)
     assert_memory_equal(seen[1], seen[2], sizeof seen[1]);
 }
 
-TEST(splines_without_a_swing_are_refused)
-{
-    static const char *const splines[][2] = {{", \"mode\": \"cubic\"", "which is cubic"},
-                                             {", \"calm\": 0", "whose calm is 0"}};
-    for (int n = 0; n < 2; n++) {
-        struct opened opened;
-        struct error error = {0};
-        assert_false(read_scene(&opened, "free", "", splines[n][0], ", \"floor\": 0", &error));
-        assert_non_null(strstr(error.text, "floor: expected splines with a swing of their own, got \"up\", "));
-        assert_non_null(strstr(error.text, splines[n][1]));
-    }
-}
-
 TEST_OF(struct opened, opened, *opened = open_scene("free", "", ", \"floor\": -0.5, \"carpet\": \"red\""),
         opened_free(opened), a_floor_is_saved_with_what_is_not_known)
 {

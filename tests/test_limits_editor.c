@@ -1,4 +1,4 @@
-/// Limits in the app: their lines are dragged, knots stop at them, the inspector switches them, files say what is wrong.
+/// Limits in the app: their lines are dragged, knots stop at them, the inspector switches them.
 
 #include "panel_session.h"
 
@@ -125,25 +125,4 @@ SESSION_TEST(the_inspector_switches_each, panel_open(s, swinging, 1280, 1000))
     panel_click(s, "limit.low");
     text = session_saved(s);
     assert_null(strstr(text, "limits"));
-}
-
-TEST(a_file_with_wrong_limits_says_so)
-{
-    static const char *const wrong[][2] = {
-        {"[1, -1]", "s:1: splines[0].limits: expected the low limit below the high one, got 1 and -1"},
-        {"[null, 0.5]", "s:1: splines[0].knots[0].value: expected at most the high limit, 0.5, got 0.75"},
-        {"[1, null]", "s:1: splines[0].knots[0].value: expected at least the low limit, 1, got 0.75"},
-        {"[0]", "s:1: splines[0].limits: expected two numbers, or null for none, got 1 elements"},
-        {"[0, \"a\"]", "s:1: splines[0].limits[1]: expected a number, got a string"},
-    };
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        char text[256];
-        struct error error = {0};
-        snprintf(text, sizeof text,
-                 "{\"wiggly\": 1, \"frames\": [0, 9], \"splines\": [{\"name\": \"a\", \"limits\": %s, \"knots\": "
-                 "[{\"frame\": 2, \"value\": 0.75}]}]}",
-                 wrong[i][0]);
-        assert_null(scene_parse("s", text, strlen(text), NULL, &error));
-        assert_string_equal(error.text, wrong[i][1]);
-    }
 }

@@ -1,4 +1,4 @@
-/// Paint on characters as data: strokes and their undo, files that are saved, read and refused, what a recovery file keeps.
+/// Paint on characters as data: strokes and their undo, files that are saved and read, what a recovery file keeps.
 #include "app/recovery.h"
 #include "base/npy.h"
 #include "commands/commands.h"
@@ -203,33 +203,6 @@ STUDIO_TEST(paint_beside_a_scene_is_read_and_stays)
     assert_true(is_there("walk-paint.npy"));
     document_destroy(document);
     studio_close(&old);
-}
-
-TEST(paint_that_is_broken_in_its_scene_is_refused)
-{
-    static const struct {
-        const char *members, *says;
-    } cases[] = {
-        {"\"paint\": [\"AAAA\"]", "expected \"vertices\", how many there are, beside it, got nothing"},
-        {"\"vertices\": 0, \"paint\": [\"AAAA\"]", "expected a whole number from 1 to "},
-        {"\"vertices\": 1, \"paint\": []", "expected a string for each coordinate, got none"},
-        {"\"vertices\": 1, \"paint\": [null, 7]", "paint[1]: expected a string in base64 or null, got a number"},
-        {"\"vertices\": 1, \"paint\": [\"AA*A\"]", "paint[0]: expected base64, got something else"},
-        {"\"vertices\": 2, \"paint\": [\"AAAAAAAAAAA=\"]", "paint[0]: expected the 16 bytes of 2 vertices, got 8"},
-        {"\"vertices\": 1, \"paint\": [\"AADAfwAAAAA=\"]",
-         "paint[0]: coordinate 0, vertex 0: expected the logarithm of an amplitude within ±10, got "},
-        {"\"vertices\": 134217728, \"paint\": [null, null]",
-         "vertices: expected at most 134217728 vertices over all"},
-        {"\"paint\": {}", "paint: expected a string, got an object"},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        char text[512];
-        snprintf(text, sizeof text,
-                 "{\"wiggly\": 2, \"frames\": [0, 48], \"splines\": [], \"rigs\": [{\"type\": \"character\", "
-                 "\"model\": \"m.glb\", \"coordinates\": [], %s}]}",
-                 cases[i].members);
-        assert_refusal(scene_parse("test", text, strlen(text), NULL, &error), cases[i].says);
-    }
 }
 
 /// Writes x.npy with this dictionary, and `size` bytes of numbers.
