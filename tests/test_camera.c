@@ -82,6 +82,26 @@ TEST(a_fitted_box_fills_the_picture_from_any_side)
     }
 }
 
+/// A narrower picture shows what was fitted, and the first one looks as before.
+TEST(a_picture_of_another_shape_shows_what_was_fitted)
+{
+    const float lo[3] = {-1.0f, 0.0f, -0.7f}, hi[3] = {1.1f, 1.3f, 1.5f}, narrow[4] = {0, 0, 100, 300};
+    struct camera camera = camera_default();
+    camera_fit(&camera, lo, hi, 2.5f, 0);
+    const float distance = camera.distance;
+    camera_reshape(&camera, narrow[2] / narrow[3]);
+    struct view view;
+    camera_matrices(&camera, narrow[2] / narrow[3], view.view, view.projection, view.eye);
+    for (int face = 0; face < 6; face++) {
+        float place[3], screen[2];
+        for (int k = 0; k < 3; k++) place[k] = face / 2 == k ? (face % 2 ? hi : lo)[k] : 0.5f * (lo[k] + hi[k]);
+        assert_true(camera_project(view.view, view.projection, narrow, place, screen));
+        assert_true(screen[0] > 5 && screen[0] < 95 && screen[1] > 5 && screen[1] < 295);
+    }
+    camera_reshape(&camera, 2.5f);
+    assert_near(camera.distance, distance, 1e-5);
+}
+
 TEST(a_broken_box_changes_nothing)
 {
     const float lo[3] = {0.0f, 0.0f, 0.0f}, flat[3] = {1.0f, 0.0f, 1.0f}, endless[3] = {1.0f, INFINITY, 1.0f};

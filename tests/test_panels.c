@@ -350,3 +350,47 @@ SESSION_TEST(test_figures_change_twice_a_second, panel_open(s, small_scene, 1280
     }
     assert_in_range(changes, 3, 5);
 }
+
+// --- upright windows --------------------------------------------------------------------------------------------------
+
+SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_open(s, small_scene, 1280, 720))
+{
+    static const float sizes[][2] = {{390, 792}, {360, 560}, {768, 972}};
+    const struct layout *l = &s->editor->core.layout;
+    for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {
+        const struct rect *const panels[] = {&l->stage, &l->curves, &l->inspector, &l->status};
+        float y = 0;
+        editor_resize(s->editor, sizes[i][0], sizes[i][1], 1);
+        for (int p = 0; p < 4; p++) {
+            assert_near(panels[p]->w, sizes[i][0], 0);
+            assert_near(panels[p]->y, y, 0);
+            assert_true(p == 3 || panels[p]->h >= 120);
+            y += panels[p]->h;
+        }
+        assert_near(y, sizes[i][1], 0);
+    }
+    editor_resize(s->editor, 390, 792, 1);
+    const float middle = l->curves.y, low = l->inspector.y;
+    session_move(s, 195, low + 6); // as near as a finger gets
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 0, -56, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_near(l->inspector.y, low - 50, 2);
+    session_move(s, 195, l->curves.y);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 0, middle - 40 - l->curves.y, 4);
+    session_release(s, BUTTON_LEFT);
+    assert_near(l->curves.y, middle - 40, 1);
+    editor_resize(s->editor, 792, 390, 1);
+    assert_true(l->inspector.x > 400);
+}
+
+/// There is no room for it beside the controls.
+SESSION_TEST(test_a_message_takes_the_whole_of_a_narrow_status_line, panel_open(s, small_scene, 390, 792))
+{
+    assert_true(session_shows(s, "Auto-key"));
+    core_message(&s->editor->core, false, "%s", "Saved as walk.json");
+    session_frame(s);
+    assert_true(session_shows(s, "Saved as walk.json"));
+    assert_false(session_shows(s, "Auto-key"));
+}

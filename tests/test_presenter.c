@@ -131,6 +131,27 @@ BLIND_TEST(test_a_panel_comes_when_the_pointer_does, blind_open(b, NULL))
     assert_false(core_of(b)->presenter.on);
 }
 
+/// There they come and go together.
+BLIND_TEST(test_in_an_upright_window_all_panels_come_from_below, blind_open(b, NULL))
+{
+    blind_send(b, (struct event){.kind = EVENT_SIZE, .x = 390, .y = 792, .scale = 1});
+    blind_key(b, KEY_F5, 0);
+    frames(b, 30);
+    const struct layout *l = &core_of(b)->layout;
+    assert_near(l->stage.h, 792, 0);
+    assert_true(l->curves.y >= 792 && l->inspector.y >= 792);
+    point(b, 200, 785);
+    frames(b, 30);
+    assert_near(l->status.y + l->status.h, 792, 0);
+    assert_near(l->inspector.y + l->inspector.h, l->status.y, 0);
+    point(b, 200, l->inspector.y + 20);
+    frames(b, 30);
+    assert_near(l->status.y + l->status.h, 792, 0);
+    point(b, 200, 100);
+    frames(b, 30);
+    assert_true(l->curves.y >= 792 && l->inspector.y >= 792);
+}
+
 BLIND_TEST(test_what_is_pressed_is_shown_and_fades, blind_open(b, NULL))
 {
     blind_key(b, 'Z', MOD_CTRL);

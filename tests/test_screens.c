@@ -86,6 +86,8 @@ static void open_open(struct session *s) { session_key(s, 'O', MOD_CTRL); }
 
 static void open_save(struct session *s) { session_key(s, 'S', MOD_CTRL | MOD_SHIFT); }
 
+static void open_export(struct session *s) { session_key(s, 'E', MOD_CTRL); }
+
 static void open_quit(struct session *s)
 {
     panel_click(s, "preset.heavy");
@@ -248,12 +250,12 @@ TEST(test_the_tail_on_every_screen)
 /// In windows as narrow as they can be made, words may be cut short, but stay apart and inside.
 TEST(test_narrow_windows)
 {
-    static const float sizes[][3] = {{640, 480, 1}, {560, 400, 1}, {480, 320, 1}};
+    static const float sizes[][3] = {{640, 480, 1}, {560, 400, 1}, {480, 320, 1}, {390, 792, 3}, {360, 560, 2}};
     static const struct screen narrow[] = {
         {"start", open_start, true},     {"help", open_help, true},       {"open", open_open, true},
         {"save as", open_save, true},    {"quit", open_quit, true},       {"save failed", open_failed, true},
         {"changed", open_changed, true}, {"recover", open_recover, true}, {"message", open_message, true},
-        {"busy", open_busy, true},
+        {"busy", open_busy, true},       {"palette", open_palette, true}, {"export", open_export, true},
     };
     int problems = 0;
     for (size_t i = 0; i < sizeof sizes / sizeof *sizes; i++) {

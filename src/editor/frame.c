@@ -18,6 +18,7 @@ static void move_divider(void *room, struct core *core);
 static const struct drag_owner divider_drags[] = {
     [DIVIDER_STAGE] = {.cursor = CURSOR_VERTICAL, .move = move_divider},
     [DIVIDER_INSPECTOR] = {.cursor = CURSOR_HORIZONTAL, .move = move_divider},
+    [DIVIDER_BELOW] = {.cursor = CURSOR_VERTICAL, .move = move_divider},
 };
 
 static void move_divider(void *room, struct core *core)
@@ -211,10 +212,11 @@ static void show_divider(struct editor *editor, enum divider divider)
     enum { LENGTH = 36, THICKNESS = 3 };
     struct core *core = &editor->core;
     const struct rect *curves = &core->layout.curves, *inspector = &core->layout.inspector;
-    const bool across = divider == DIVIDER_STAGE, held = core->drag.owner == &divider_drags[divider];
+    const bool across = divider != DIVIDER_INSPECTOR, held = core->drag.owner == &divider_drags[divider];
     const bool hot = !core->drag.owner && core_divider_at(core, core->pointer_x, core->pointer_y) == divider;
+    const float y = divider == DIVIDER_STAGE ? curves->y : inspector->y;
     const struct rect line =
-        across ? (struct rect){0, curves->y, curves->w, 1} : (struct rect){inspector->x, 0, 1, inspector->h};
+        across ? (struct rect){0, y, curves->w, 1} : (struct rect){inspector->x, 0, 1, inspector->h};
     const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
     const struct rect grip = {roundf(line.x + (line.w - w) / 2), roundf(line.y + (line.h - h) / 2), w, h};
     drawlist_rect(&core->list, line, theme()->border);
@@ -248,7 +250,7 @@ static void show_panels(struct editor *editor)
     if (below) curves_show(editor->curves, &editor->core);
     if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
     if (side) inspector_show(editor->inspector, dialogs_cover(editor->dialogs));
-    if (side) show_divider(editor, DIVIDER_INSPECTOR);
+    if (side) show_divider(editor, editor->core.layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
     if (!hint) hint = editor->core.drag.hint;
     if (below) transport_show(&editor->core, hint);
 }

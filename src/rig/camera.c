@@ -36,7 +36,7 @@ struct camera camera_default(void)
 {
     const float degree = 0.0174532925f;
     return (struct camera){
-        .azimuth = 35.0f * degree, .elevation = 12.0f * degree, .distance = 4.0f, .floor = -INFINITY};
+        .azimuth = 35.0f * degree, .elevation = 12.0f * degree, .distance = 4.0f, .floor = -INFINITY, .back = 1.0f};
 }
 
 void camera_lamp(const struct camera *camera, float from[3])
@@ -119,11 +119,20 @@ void camera_fit(struct camera *camera, const float lo[3], const float hi[3], flo
     top = glm_clamp(top, 0.0f, 0.5f);
     const float high = fit_axis(up, depth, HALF_FIELD * (1.0f - top) / FIT_MARGIN, &shift_up);
     camera->distance = glm_clamp(fmaxf(wide, high), MIN_DISTANCE, MAX_DISTANCE);
+    camera->aspect = aspect * fminf(wide / camera->distance, 1.0f);
+    camera->back = 1.0f;
     shift_up += top * HALF_FIELD * camera->distance; // centre of the free part
     camera->floor = lo[1];
     vec3s target = glms_vec3_center(vec3_from(lo), vec3_from(hi));
     target = glms_vec3_muladds(axes.up, shift_up, glms_vec3_muladds(axes.right, shift_right, target));
     glm_vec3_copy(target.raw, camera->target);
+}
+
+void camera_reshape(struct camera *camera, float aspect)
+{
+    const float back = fmaxf(camera->aspect / aspect, 1.0f);
+    if (back != camera->back) camera_zoom(camera, back / camera->back);
+    camera->back = back;
 }
 
 /// Vectors, not matrices: drags on the screen change documents, and cglm's matrix products round differently on different machines.

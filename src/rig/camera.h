@@ -12,7 +12,9 @@ struct camera {
     float elevation; ///< above the target, within ±CAMERA_MAX_ELEVATION
     float distance;  ///< eye to target
     float target[3];
-    float floor; ///< height that the eye stays above
+    float floor;  ///< height that the eye stays above
+    float aspect; ///< least width/height at which what was fitted is in the picture
+    float back;   ///< camera_reshape()'s factor of the distance
 };
 
 /// Just short of the poles, where "up" is undefined.
@@ -23,6 +25,9 @@ struct camera camera_default(void);
 
 /// World → eye, eye → clip (for width/height = `aspect`) and where the eye is.
 void camera_matrices(const struct camera *camera, float aspect, float view[16], float projection[16], float eye[3]);
+
+/// For a picture of another shape: moves back as far as what was fitted needs.
+void camera_reshape(struct camera *camera, float aspect);
 
 /// Direction towards a lamp at the upper left of the camera: world, unit length.
 void camera_lamp(const struct camera *camera, float from[3]);

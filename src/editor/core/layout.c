@@ -1,10 +1,13 @@
-/// Panel layout: stage above curves at the left, inspector at the right, status line below. While presenting, panels slide in.
+/// Panel layout: stage above curves at the left, inspector at the right, in upright windows at the bottom; status line below. While
+/// presenting, panels slide in.
 #include "editor/core/core.h"
 #include "ui/theme.h"
 #include <math.h>
 
-static const float RULER_HEIGHT = 22, AXIS_WIDTH = 52, LABEL_WIDTH = 76, DIVIDER_REACH = 4;
+static const float RULER_HEIGHT = 22, AXIS_WIDTH = 52, LABEL_WIDTH = 76;
 static const float MIN_STAGE = 120, MIN_CURVES = 140, MIN_LEFT = 480, MIN_INSPECTOR = 240, MAX_INSPECTOR = 480;
+static const float UPRIGHT = 800; ///< narrower windows that are higher than wide have the inspector at the bottom
+static const float WHOLE = 800;   ///< inspector_width that would take all of their height
 
 static float clamped(float value, float lo, float hi) { return fmaxf(lo, fminf(value, hi)); }
 
@@ -13,8 +16,8 @@ static float eased(float share) { return share * share * (3 - 2 * share); }
 /// Offsets sliding panels, and gives the stage the window.
 static void presenter_arrange(const struct presenter *presenter, struct layout *l)
 {
-    const float across = roundf((1 - eased(presenter->side)) * l->inspector.w);
-    const float down = roundf((1 - eased(presenter->below)) * (l->curves.h + l->status.h));
+    const float across = l->upright ? 0 : roundf((1 - eased(presenter->side)) * l->inspector.w);
+    const float down = roundf((1 - eased(presenter->below)) * (l->window.h - l->curves.y));
     l->inspector.x += across;
     l->curves.w += across;
     l->ruler.w += across;
@@ -24,19 +27,24 @@ static void presenter_arrange(const struct presenter *presenter, struct layout *
     struct rect *const lower[] = {&l->curves, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
     l->stage = presenter->shares ? l->open : l->window;
     for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
+    if (l->upright) l->inspector.y += down;
 }
 
 void core_layout(struct core *core)
 {
     struct layout *l = &core->layout;
-    float height = fmaxf(l->window.h - THEME_STATUS_HEIGHT, 2);
-    float right = clamped(l->inspector_width, MIN_INSPECTOR, fminf(MAX_INSPECTOR, fmaxf(l->window.w - MIN_LEFT, 0)));
-    float left = fmaxf(l->window.w - right, 1);
+    const float all = fmaxf(l->window.h - THEME_STATUS_HEIGHT, 2);
+    const bool upright = l->window.w < UPRIGHT && l->window.h > l->window.w;
+    l->upright = upright;
+    const float most = upright ? MAX_INSPECTOR : fminf(MAX_INSPECTOR, fmaxf(l->window.w - MIN_LEFT, 0));
+    const float size = clamped(l->inspector_width, MIN_INSPECTOR, most);
+    const float below = upright ? roundf(all * size / WHOLE) : 0, height = all - below;
+    const float right = upright ? 0 : size, left = fmaxf(l->window.w - right, 1);
     float stage = roundf(clamped(height * l->stage_share, MIN_STAGE, fmaxf(height - MIN_CURVES, 1)));
     l->stage = (struct rect){0, 0, left, stage};
     l->curves = (struct rect){0, stage, left, fmaxf(height - stage, 1)};
-    l->inspector = (struct rect){left, 0, right, height};
-    l->status = (struct rect){0, height, l->window.w, THEME_STATUS_HEIGHT};
+    l->inspector = upright ? (struct rect){0, height, left, below} : (struct rect){left, 0, right, height};
+    l->status = (struct rect){0, all, l->window.w, THEME_STATUS_HEIGHT};
     float width = fmaxf(left - AXIS_WIDTH - LABEL_WIDTH, 16);
     float sheet = fminf(l->sheet_height, fmaxf(l->curves.h - RULER_HEIGHT - 17, 0));
     float plot = fmaxf(l->curves.h - RULER_HEIGHT - 1 - sheet, 16);
@@ -68,19 +76,21 @@ enum divider core_divider_at(const struct core *core, float x, float y)
 {
     const struct layout *l = &core->layout;
     if (core->presenter.on) return DIVIDER_NONE;
-    if (y < l->status.y && fabsf(x - l->inspector.x) < DIVIDER_REACH) return DIVIDER_INSPECTOR;
-    if (x < l->inspector.x && fabsf(y - l->curves.y) < DIVIDER_REACH) return DIVIDER_STAGE;
+    const float reach = l->upright ? 8 : 4, off = l->upright ? y - l->inspector.y : x - l->inspector.x;
+    if (y < l->status.y && fabsf(off) < reach) return l->upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR;
+    if (x < l->curves.w && fabsf(y - l->curves.y) < reach) return DIVIDER_STAGE;
     return DIVIDER_NONE;
 }
 
 void core_divider_move(struct core *core, enum divider divider, float x, float y)
 {
     struct layout *l = &core->layout;
-    float height = fmaxf(l->status.y, 1);
+    const float height = fmaxf(l->curves.y + l->curves.h, 1);
+    const float across = divider == DIVIDER_BELOW ? WHOLE * (1 - y / fmaxf(l->status.y, 1)) : l->window.w - x;
     if (divider == DIVIDER_STAGE) {
         l->stage_share = clamped(y, MIN_STAGE, fmaxf(height - MIN_CURVES, 1)) / height;
     } else {
-        l->inspector_width = roundf(clamped(l->window.w - x, MIN_INSPECTOR, MAX_INSPECTOR));
+        l->inspector_width = roundf(clamped(across, MIN_INSPECTOR, MAX_INSPECTOR));
     }
     core_layout(core);
 }
@@ -95,8 +105,9 @@ static bool is_wanted(const struct core *core, enum panel panel)
     const enum panel at = core_panel_at(core, x, y);
     if (core->presenter.pinned) return true;
     if (!core->presenter.pointed) return false;
-    if (panel == PANEL_INSPECTOR) return at == PANEL_INSPECTOR || x > l->window.w - NEAR;
-    return at == PANEL_CURVES || at == PANEL_STATUS || y > l->window.h - NEAR;
+    if (panel == PANEL_INSPECTOR && !l->upright) return at == PANEL_INSPECTOR || x > l->window.w - NEAR;
+    return at == PANEL_CURVES || at == PANEL_STATUS || (l->upright && at == PANEL_INSPECTOR) ||
+           y > l->window.h - NEAR;
 }
 
 void presenter_toggle(struct core *core, int argument)

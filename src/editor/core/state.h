@@ -81,10 +81,11 @@ struct layout {
     struct rect sheet;      ///< the dope sheet's rows below the ruler; empty if closed
     struct rect value_axis; ///< numbers left of the plot
     struct rect plot;
-    struct rect open;  ///< part of the stage no panel covers
-    float stage_share; ///< of the height above the status line
-    float inspector_width;
-    float sheet_height; ///< set by the curves
+    struct rect open;      ///< part of the stage no panel covers
+    float stage_share;     ///< of the height above the status line
+    float inspector_width; ///< when upright it stands for a height
+    bool upright;          ///< the inspector lies below the curves
+    float sheet_height;    ///< set by the curves
 };
 
 /// F5: the stage fills the window, and panels slide in over it.
@@ -97,8 +98,8 @@ struct presenter {
     float side, below; ///< 0 … 1: visible part of the inspector; of curves and status line
 };
 
-/// Edges that resize panels: above the curves, left of the inspector.
-enum divider { DIVIDER_NONE, DIVIDER_STAGE, DIVIDER_INSPECTOR };
+/// Edges that resize panels: above the curves, left of the inspector, above the inspector.
+enum divider { DIVIDER_NONE, DIVIDER_STAGE, DIVIDER_INSPECTOR, DIVIDER_BELOW };
 
 enum panel { PANEL_NONE, PANEL_STAGE, PANEL_CURVES, PANEL_INSPECTOR, PANEL_STATUS };
 

@@ -386,7 +386,7 @@ static struct rect dialog_box(struct dialogs *dialogs, struct core *core)
     struct rect window = core->layout.window;
     struct ui *ui = &dialogs->dialog.ui;
     const bool narrow = is_question(&dialogs->dialog) && dialogs->dialog.question.count < 4;
-    float w = fminf(narrow ? 440 : 560, window.w - 48);
+    float w = fminf(narrow ? 440 : 560, window.w - 16);
     ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
     build(dialogs, core);
     float h = fminf(ui->y, window.h - 16);

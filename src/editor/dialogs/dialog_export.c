@@ -365,10 +365,11 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
     struct export_memory *memory = &dialogs->exporting.memory;
     struct ui *ui = &dialogs->dialog.ui;
     const struct dialog_format *format = format_of(dialogs);
-    struct rect rows[CHOICE_ROWS];
-    for (int i = 0; i < CHOICE_ROWS; i++) rows[i] = ui_row(ui, UI_ROW);
+    const bool narrow = ui->area.w < 480; // one choice a row
+    struct rect rows[CHOICE_ROWS + 2];
+    for (int i = 0; i < CHOICE_ROWS + 2 * narrow; i++) rows[i] = ui_row(ui, UI_ROW);
     build_frames(dialogs, document, &rows[0]);
-    if (format->choices & CHOICE_KEYS) build_keys(dialogs, document, &rows[0]);
+    if (format->choices & CHOICE_KEYS) build_keys(dialogs, document, &rows[narrow ? CHOICE_ROWS : 0]);
     if (format->choices & CHOICE_SIZE) build_size(dialogs, format, &rows[1]);
     if (format->choices & CHOICE_CLIP) {
         const struct rect r = labelled(ui, &rows[1], PAIR_WIDTH, "clip");
@@ -377,7 +378,8 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
         if (!memory->wish.clip[0] && ui->focus != ui_id(clip_field))
             ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual_clip(document), theme()->text_dim);
     }
-    if (format->choices & CHOICE_RIG) build_rig(dialogs, document, format->choices, &rows[1]);
+    if (format->choices & CHOICE_RIG)
+        build_rig(dialogs, document, format->choices, &rows[narrow ? CHOICE_ROWS + 1 : 1]);
     build_flags(dialogs, document, format->choices, rows[2]);
 }
 
@@ -456,7 +458,8 @@ static void build_buttons(struct dialogs *dialogs, struct core *core)
     struct ui *ui = &dialogs->dialog.ui;
     char label[64], full[PATH_LIMIT] = "";
     const struct rect row = ui_row(ui, 28);
-    const struct rect right = {row.x + row.w - WRITE_WIDTH, row.y, WRITE_WIDTH, row.h};
+    const float width = fminf(WRITE_WIDTH, row.w - CANCEL_WIDTH - UI_GAP);
+    const struct rect right = {row.x + row.w - width, row.y, width, row.h};
     const float end = is_running(dialog) ? row.x + row.w : right.x - UI_GAP;
     const struct rect left = {end - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
     with_ending(&dialog->files, dialogs->exporting.memory.path, dialogs->exporting.format, full);

@@ -20,7 +20,8 @@ enum {
     HERE = 10, ///< rows about the place under the pointer
     MARGIN = 24,
     KEYS_GAP = 12,
-    WHEEL = 48 ///< pixels per notch
+    WHEEL = 48, ///< pixels per notch
+    LEAST_NOTE = 120
 };
 
 /// Groups per column: column c holds groups first[c] … first[c + 1] − 1.
@@ -223,8 +224,9 @@ static void show_title(struct drawlist *list, const struct page *page, const str
     const float title = ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_TITLE, "Keys")) + MARGIN;
     drawlist_text_fit(list, left, box->y + 40, field.x - left - 8, FONT_LABEL_BOLD, THEME_TEXT_TITLE, theme()->text,
                       "Keys");
-    paint_line(list, (struct rect){left + title, box->y + 22, fmaxf(field.x - left - title - 8, 0), FIELD - 8},
-               FONT_LABEL, theme()->text_dim, "Esc closes. F3 runs any command by its name.");
+    const struct rect rest = {left + title, box->y + 22, field.x - left - title - 8, FIELD - 8};
+    if (rest.w >= LEAST_NOTE)
+        paint_line(list, rest, FONT_LABEL, theme()->text_dim, "Esc closes. F3 runs any command by its name.");
     commands_show_field(list, field, &help->filter, "Type to search");
 }
 

@@ -201,6 +201,8 @@ static bool concerns(const struct inspector *in, const struct event *event)
     const struct ui *ui = &in->ui;
     struct rect area = in->core->layout.inspector;
     bool input = event->kind <= EVENT_WHEEL;
+    const bool inside =
+        rect_contains(area, event->x, event->y) && core_divider_at(in->core, event->x, event->y) == DIVIDER_NONE;
     if (event->kind == EVENT_KEY && event->action == ACTION_RELEASE) return false;
     if (ui->popup.id) return input;
     switch (event->kind) {
@@ -212,7 +214,7 @@ static bool concerns(const struct inspector *in, const struct event *event)
     case EVENT_POINTER:
         return ui->held || rect_contains(area, event->x, event->y);
     case EVENT_BUTTON:
-        return ui->held || ui->typing || rect_contains(area, event->x, event->y);
+        return ui->held || ui->typing || inside;
     case EVENT_WHEEL:
         return rect_contains(area, event->x, event->y);
     default:
@@ -276,7 +278,6 @@ void inspector_show(struct inspector *in, bool covered)
     ui_begin_draw(&in->ui, area, &in->core->list);
     build(in, area);
     ui_end(&in->ui);
-    drawlist_rect(&in->core->list, (struct rect){area.x, area.y, 1, area.h}, theme()->border);
 }
 
 void inspector_let_go(struct inspector *in)

@@ -382,6 +382,7 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     view->has_tail = stage->tail_count > 0;
     view->viewport = core->layout.stage;
     view->colors = theme()->stage;
+    camera_reshape(&stage->camera, view->viewport.w / view->viewport.h);
     camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
     view->hash = view_hash(view);
     skin_reserve(stage);

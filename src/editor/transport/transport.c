@@ -245,7 +245,7 @@ static void figures_text(const struct core *core, char *text, size_t size)
              fps[0] && solve[0] ? "  " : "", solve);
 }
 
-enum { GAP = 24, STATUS_MARGIN = 12 };
+enum { GAP = 24, STATUS_MARGIN = 12, NARROW = 640 }; ///< NARROW: a message takes the whole of such a bar
 
 static const char unkept[] = "Autosave fails: save now (Ctrl+S)";
 
@@ -271,7 +271,8 @@ void transport_show(struct core *core, const char *hint)
     const struct message *message = &core->message;
     drawlist_rect(&core->list, bar, theme()->panel);
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
-    float x = show_time(core, bar, controls_show(core)) + GAP;
+    const bool alone = message->text[0] && bar.w < NARROW;
+    float x = alone ? bar.x + STATUS_MARGIN : show_time(core, bar, controls_show(core)) + GAP;
     char figures[160];
     figures_text(core, figures, sizeof figures);
     const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;

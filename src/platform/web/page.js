@@ -15,7 +15,7 @@ function say(text) {
 }
 
 // The canvas's size in device pixels, which a frame takes over just before it is drawn. On a phone, all of the app is smaller.
-const LEAST = { width: 720, height: 420 }; // logical pixels
+const LEAST = { width: 360, height: 380 }; // logical pixels
 const sized = (width, height) => ({ width, height, scale: Math.min(devicePixelRatio, width / LEAST.width, height / LEAST.height) });
 const measured = ({ width, height }) => sized(...[width, height].map(side => Math.max(1, Math.round(side * devicePixelRatio))));
 let ratio = devicePixelRatio, wanted = measured(canvas.getBoundingClientRect());
