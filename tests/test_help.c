@@ -67,8 +67,31 @@ SESSION_TEST(test_esc_enter_f1_and_a_click_close_the_help, panel_open(s, scene, 
     }
     session_key(s, KEY_F1, 0);
     session_move(s, 500, 500);
-    session_press(s, BUTTON_LEFT, 1);
+    session_click_here(s, 1);
     assert_false(s->editor->dialogs->help.open);
+}
+
+/// As a finger does; it stays open, and no row is clicked.
+SESSION_TEST(test_a_drag_scrolls_the_lists, open_help(s, 390, 792))
+{
+    static const float from[] = {200, 300};
+    session_move(s, from[0], from[1]);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 0, -160, 8);
+    session_release(s, BUTTON_LEFT);
+    assert_near(s->editor->dialogs->help.offset, 160, 1);
+    session_key(s, KEY_F3, 0);
+    session_move(s, from[0], from[1]);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 0, -160, 8);
+    assert_int_equal(s->editor->dialogs->palette.first, 10);
+    session_drag(s, 0, 80, 8);
+    session_release(s, BUTTON_LEFT);
+    assert_int_equal(s->editor->dialogs->palette.first, 5);
+    assert_true(s->editor->dialogs->palette.open);
+    session_move(s, 5, 5);
+    session_click_here(s, 1);
+    assert_false(s->editor->dialogs->palette.open);
 }
 
 SESSION_TEST(test_typing_searches_the_help, panel_open(s, scene, 1280, 720))

@@ -385,6 +385,21 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
     assert_true(l->inspector.x > 400);
 }
 
+SESSION_TEST(test_a_drag_beside_its_controls_scrolls_the_inspector, panel_open(s, small_scene, 390, 792))
+{
+    struct ui_scroll *scroll = &s->editor->inspector->scroll;
+    session_move(s, 30, s->editor->core.layout.inspector.y + 150);
+    session_press(s, BUTTON_LEFT, 1);
+    session_drag(s, 0, -80, 4);
+    assert_near(scroll->offset, 80, 0);
+    session_drag(s, 0, 500, 4);
+    assert_near(scroll->offset, 0, 0);
+    session_release(s, BUTTON_LEFT);
+    session_move(s, 30, 400);
+    assert_near(scroll->offset, 0, 0);
+    assert_true(history_is_saved(s->history));
+}
+
 /// There is no room for it beside the controls.
 SESSION_TEST(test_a_message_takes_the_whole_of_a_narrow_status_line, panel_open(s, small_scene, 390, 792))
 {

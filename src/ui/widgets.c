@@ -158,16 +158,32 @@ void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view)
     if (ui->pass == UI_PASS_DRAW) drawlist_push_clip(ui->list, view);
 }
 
+/// Pixels by which the event scrolls: the wheel, or a drag beside the widgets.
+static float scrolled(struct ui *ui, struct rect view)
+{
+    const uint32_t held = ui_id("scroll");
+    const struct event *event = ui->event;
+    if (ui_pressed(ui, view, BUTTON_LEFT)) ui_hold(ui, held);
+    if (ui->held == held && !ui->blocked) {
+        const float by = event->kind == EVENT_POINTER ? ui->press_y - event->y : 0;
+        ui_keep(ui, held);
+        ui_held_change(ui);
+        ui->press_y -= by;
+        return by;
+    }
+    if (event->kind != EVENT_WHEEL || ui->used || !ui_hovered(ui, view)) return 0;
+    ui->used = true;
+    return -2 * UI_ROW * event->dy;
+}
+
 void ui_scroll_end(struct ui *ui)
 {
     struct rect view = ui->scroll_area;
     struct ui_scroll *scroll = ui->scroll;
     scroll->content = ui->y + scroll->offset - view.y;
     float room = fmaxf(0, scroll->content - view.h);
-    if (ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_WHEEL && !ui->used && ui_hovered(ui, view)) {
-        scroll->offset = fmaxf(0, fminf(room, scroll->offset - 2 * UI_ROW * ui->event->dy));
-        ui->used = true;
-    }
+    const float by = ui->pass == UI_PASS_EVENT ? scrolled(ui, view) : 0;
+    if (by != 0) scroll->offset = fmaxf(0, fminf(room, scroll->offset + by));
     if (ui->pass == UI_PASS_DRAW) {
         if (room > 0) {
             float length = view.h * view.h / scroll->content;

@@ -120,7 +120,7 @@ bool ui_is_typing_key(const struct ui *ui, const struct event *event);
 struct rect ui_row(struct ui *ui, float height);
 void ui_space(struct ui *ui, float height);
 
-/// Widgets between these two scroll inside `view`, by the wheel and to show the focus.
+/// Widgets between these two scroll inside `view`: by the wheel, by a drag beside them, and to show the focus.
 void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view);
 void ui_scroll_end(struct ui *ui);
 

@@ -449,11 +449,35 @@ void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
 
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
 
+/// In F1's page and the palette a drag scrolls, and a click counts when it ends. false: the event does nothing else.
+static bool drag_list(struct dialogs *dialogs, struct event *event)
+{
+    static const float STEP = 16; // pixels
+    struct list_drag *drag = &dialogs->list_drag;
+    const bool button = event->kind == EVENT_BUTTON, open = dialogs->help.open || dialogs->palette.open;
+    if (button && event->action == ACTION_PRESS && open && !dialogs_are_asking(dialogs)) {
+        *drag = (struct list_drag){.held = true, .y = event->y};
+        return false;
+    }
+    if (!drag->held || !open || (!button && event->kind != EVENT_POINTER)) return true;
+    drag->held = !button;
+    event->action = ACTION_PRESS;
+    if (button) return !drag->moved;
+    const float steps = truncf((event->y - drag->y) / STEP);
+    drag->y += steps * STEP;
+    drag->moved |= steps != 0;
+    event->kind = EVENT_WHEEL;
+    event->dy = steps / 3;
+    return steps != 0;
+}
+
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event)
 {
-    const bool calm = event->kind == EVENT_POINTER && dialogs->dialog.kind == DIALOG_NONE;
-    return !calm && (dialog_event(dialogs, core, event) || palette_event(dialogs, core, event) ||
-                     help_event(dialogs, core, event) || welcome_event(dialogs, event));
+    struct event meant = *event;
+    if (!drag_list(dialogs, &meant)) return true;
+    const bool calm = meant.kind == EVENT_POINTER && dialogs->dialog.kind == DIALOG_NONE;
+    return !calm && (dialog_event(dialogs, core, &meant) || palette_event(dialogs, core, &meant) ||
+                     help_event(dialogs, core, &meant) || welcome_event(dialogs, &meant));
 }
 
 void dialogs_show(struct dialogs *dialogs, struct core *core)

@@ -109,6 +109,15 @@ static void choose(struct palette *palette, int choice, int count, int rows)
     if (palette->first < palette->choice - rows + 1) palette->first = palette->choice - rows + 1;
 }
 
+/// The choice stays in sight.
+static void scroll(struct palette *palette, int by, int count, int rows)
+{
+    const int last = count > rows ? count - rows : 0, first = palette->first + by;
+    palette->first = first < 0 ? 0 : first > last ? last : first;
+    const int choice = palette->choice < palette->first ? palette->first : palette->choice;
+    choose(palette, choice < palette->first + rows ? choice : palette->first + rows - 1, count, rows);
+}
+
 /// Runs the row's command if it can run.
 static void take(struct palette *palette, const struct commands_found *found)
 {
@@ -155,7 +164,7 @@ bool palette_event(struct dialogs *dialogs, const struct core *core, const struc
     } else if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
         press(palette, &found, event, &sheet);
     } else if (event->kind == EVENT_WHEEL) {
-        choose(palette, palette->choice + (event->dy > 0 ? -3 : 3), found.count, sheet.rows);
+        scroll(palette, (int)lroundf(-3 * event->dy), found.count, sheet.rows);
     }
     return true;
 }

@@ -95,12 +95,19 @@ struct pressed {
     bool is_demo;     ///< also shows the pointer
 };
 
+/// Of a pressed button over the help or the palette.
+struct list_drag {
+    bool held, moved;
+    float y; ///< scrolled up to here
+};
+
 struct dialogs {
     struct command_list commands;
     struct dialog dialog;
     struct exporting exporting;
     struct help help;
     struct palette palette;
+    struct list_drag list_drag;
     struct pressed pressed;
     char caption[160]; ///< of a demo
     bool welcome;      ///< the card for new users is shown
@@ -136,7 +143,7 @@ void commands_show_field(struct drawlist *list, struct rect r, const struct ui_f
 bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
 void help_show(const struct dialogs *dialogs, struct core *core);
 
-/// Typing searches, ↑ ↓ and the wheel choose, Enter or a click runs a command, Esc closes. true for the same events while it is open.
+/// Typing searches, ↑ ↓ choose, the wheel scrolls, Enter or a click runs a command, Esc closes. true for the same events while it is open.
 bool palette_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
 void palette_show(const struct dialogs *dialogs, struct core *core);
 

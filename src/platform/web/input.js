@@ -4,6 +4,7 @@ const SHIFT = 1, CTRL = 2, ALT = 4, SUPER = 8;
 const RELEASE = 0, PRESS = 1, REPEAT = 2;
 const LEFT = 0, RIGHT = 1, MIDDLE = 2;
 const TURN = 0.08, ZOOM = 0.12; // of the stage for a notch of the wheel: radians, and a power of e
+const STILL = 6; // logical pixels that a finger may shake
 const BUTTONS = [LEFT, MIDDLE, RIGHT]; // by the browser's numbers
 const NAMES = { ' ': 'Space', ArrowLeft: 'Left', ArrowRight: 'Right', ArrowUp: 'Up', ArrowDown: 'Down' };
 const isMac = /Mac|iPhone|iPad/.test(navigator.platform);
@@ -50,11 +51,12 @@ export function listen(canvas, app) {
     app._web_wheel(sideways ? 0 : -event.deltaX / notch, -(sideways ? event.deltaX : event.deltaY) / notch, modsOf(event), ...place(event));
   }, { passive: false });
 
-  // Fingers: one is the left button; two pan as the middle button, zoom as the wheel, and turn as the wheel sideways.
+  // Fingers: one is the left button, once it has moved or is lifted; two pan as the middle button, zoom as the wheel, and turn as the wheel sideways.
   const fingers = new Map();
   let held = null; // LEFT, MIDDLE or null
+  let waits = null; // where a single finger was put down, until it is the left button
   const middle = () => { const all = [...fingers.values()]; return [0, 1].map(k => all.reduce((sum, at) => sum + at[k], 0) / all.length); };
-  const press = button => { held = button; app._web_pointer(...middle(), 0); app._web_button(button, PRESS, 0, ...middle()); };
+  const press = (button, at) => { [held, waits] = [button, null]; app._web_button(button, PRESS, 0, ...at); };
   const release = at => { if (held !== null) app._web_button(held, RELEASE, 0, ...at); held = null; };
   const spread = () => { const [a, b] = [...fingers.values()]; return [Math.hypot(b[0] - a[0], b[1] - a[1]), Math.atan2(b[1] - a[1], b[0] - a[0])]; };
   canvas.addEventListener('pointerdown', event => {
@@ -63,13 +65,18 @@ export function listen(canvas, app) {
     if (held === LEFT) tap('Escape'); // a second finger takes back what the first began
     if (fingers.size) release(middle());
     fingers.set(event.pointerId, place(event));
-    press(fingers.size === 1 ? LEFT : MIDDLE);
+    app._web_pointer(...middle(), 0);
+    if (fingers.size === 1) waits = middle();
+    else press(MIDDLE, middle());
   });
   canvas.addEventListener('pointermove', event => {
     if (!fingers.has(event.pointerId)) return;
     const two = fingers.size === 2, before = two && spread();
     fingers.set(event.pointerId, place(event));
-    app._web_pointer(...middle(), 0);
+    const at = middle();
+    if (waits && Math.hypot(at[0] - waits[0], at[1] - waits[1]) < STILL) return;
+    if (waits) press(LEFT, waits);
+    app._web_pointer(...at, 0);
     if (!two) return;
     const [distance, angle] = spread();
     const turned = Math.atan2(Math.sin(angle - before[1]), Math.cos(angle - before[1]));
@@ -79,6 +86,8 @@ export function listen(canvas, app) {
     if (!fingers.has(event.pointerId)) return;
     const at = middle();
     fingers.delete(event.pointerId);
+    if (waits && name === 'pointerup') press(LEFT, waits);
+    waits = null;
     release(at); // a finger that stays does nothing more
   });
 
