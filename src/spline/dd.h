@@ -60,23 +60,6 @@ static inline dd dd_scale(double a, dd b)
     return (dd){p.hi, p.lo + a * b.lo};
 }
 
-static inline dd dd_multiply(dd a, dd b)
-{
-    dd p = dd_product(a.hi, b.hi);
-    double lo = p.lo + (a.hi * b.lo + a.lo * b.hi);
-    double hi = p.hi + lo;
-    return (dd){hi, lo - (hi - p.hi)};
-}
-
-static inline dd dd_divide(dd a, dd b)
-{
-    double first = a.hi / b.hi;
-    dd left = dd_subtract(a, dd_scale(first, b));
-    double second = left.hi / b.hi;
-    double hi = first + second;
-    return (dd){hi, second - (hi - first)};
-}
-
 static inline dd dd_from(double a) { return (dd){a, 0.0}; }
 
 #endif

@@ -56,7 +56,7 @@ typedef struct path {
     double floor;
     bool constant;
     oscillator here; ///< of the sample before, if they vary
-    step_matrix step;
+    step_matrix step, loss;
 } path;
 
 static path begin(const wiggly_desc *desc, double floor)
@@ -67,15 +67,15 @@ static path begin(const wiggly_desc *desc, double floor)
     return p;
 }
 
-/// The step over the interval after sample i.
-static step_matrix next_step(path *p, int i)
+/// The mean parameters of the interval after sample i.
+static oscillator mean_over(path *p, int i)
 {
-    if (p->constant) return p->step;
+    if (p->constant) return p->here;
     bool closes = p->desc->start == WIGGLY_LOOP && i + 2 == p->desc->samples;
     oscillator next = oscillator_at(p->desc, closes ? 0 : i + 1, p->floor);
     oscillator mean = {0.5 * (p->here.d + next.d), 0.5 * (p->here.k + next.k)};
     p->here = next;
-    return oscillator_step(mean, p->desc->step);
+    return mean;
 }
 
 /// Writes q to `total`, and q' in the middle of its jumps to `speed`, from a state before sample 0, with the jumps in `im`. Returns the state
@@ -89,7 +89,7 @@ static void run(const wiggly_desc *desc, double floor, double q, double v, const
         u->total[i] = q;
         u->speed[i] = v + 0.5 * kick;
         if (i + 1 == n) break;
-        step_matrix m = p.constant ? p.step : next_step(&p, i);
+        step_matrix m = p.constant ? p.step : oscillator_step(mean_over(&p, i), desc->step);
         v += kick;
         double moved = m.q_q * q + m.q_v * v;
         v = m.v_q * q + m.v_v * v;
@@ -98,109 +98,65 @@ static void run(const wiggly_desc *desc, double floor, double q, double v, const
     end[0] = q, end[1] = v;
 }
 
-typedef struct wide_matrix {
-    dd at[2][2];
-} wide_matrix;
+/// What the step over the interval after sample i takes from the state; a constant one is computed once.
+static step_matrix next_loss(path *p, int i)
+{
+    if (!p->constant || i == 0) p->loss = oscillator_loss(mean_over(p, i), p->desc->step);
+    return p->loss;
+}
 
 /// I − (I − d)(I − e) = d + e − d e.
-static inline wide_matrix compose(const wide_matrix *d, const wide_matrix *e)
+static step_matrix compose(step_matrix d, step_matrix e)
 {
-    wide_matrix out;
-    for (int r = 0; r < 2; r++) {
-        for (int c = 0; c < 2; c++) {
-            const dd product = dd_add(dd_multiply(d->at[r][0], e->at[0][c]), dd_multiply(d->at[r][1], e->at[1][c]));
-            out.at[r][c] = dd_subtract(dd_add(d->at[r][c], e->at[r][c]), product);
-        }
-    }
-    return out;
+    return (step_matrix){
+        .q_q = d.q_q + e.q_q - (d.q_q * e.q_q + d.q_v * e.v_q),
+        .q_v = d.q_v + e.q_v - (d.q_q * e.q_v + d.q_v * e.v_v),
+        .v_q = d.v_q + e.v_q - (d.v_q * e.q_q + d.v_v * e.v_q),
+        .v_v = d.v_v + e.v_v - (d.v_q * e.q_v + d.v_v * e.v_v),
+    };
 }
 
-static wide_matrix less_than_one(step_matrix s)
-{
-    return (wide_matrix){{{dd_difference(1, s.q_q), dd_from(-s.q_v)}, {dd_from(-s.v_q), dd_difference(1, s.v_v)}}};
-}
-
-/// I − the step, in double-double: I − exp(A) of A = h [0 1; −k −2d], halved until a series of ten terms suffices, then composed with itself.
-static wide_matrix wide_step(oscillator o, double h)
-{
-    enum { TERMS = 10 };
-    int halvings = 0;
-    double time = h;
-    while (o.k * time * time + 2 * o.d * time > 0x1p-10 && halvings < 24) time *= 0.5, halvings++;
-    if (halvings == 24) return less_than_one(oscillator_step(o, h)); // what it moves fades at once
-    // In units in which A = [0 1; spring brake], so A² = spring I + brake A, and each power of A is a I + b A.
-    const dd pull = dd_product(-o.k, time), spring = dd_scale(time, pull), brake = dd_product(-2 * o.d, time);
-    dd a = {1, 0}, b = {0, 0};
-    double c = 1; // TERMS! / j!
-    for (int j = TERMS - 1; j >= 0; j--) {
-        c *= j > 0 ? j + 1 : 1;
-        const dd next = dd_multiply(spring, b);
-        b = dd_add(a, dd_multiply(brake, b));
-        a = j > 0 ? dd_add(next, dd_from(c)) : next;
-    }
-    a = dd_divide(dd_negate(a), dd_from(c)), b = dd_divide(dd_negate(b), dd_from(c));
-    for (int i = 0; i < halvings; i++) { // D ← 2 D − D²
-        const dd b2 = dd_multiply(b, b), ab = dd_multiply(a, b), a2 = dd_multiply(a, a);
-        a = dd_subtract(dd_scale(2, a), dd_add(a2, dd_multiply(spring, b2)));
-        b = dd_subtract(dd_scale(2, b), dd_add(dd_scale(2, ab), dd_multiply(brake, b2)));
-    }
-    return (wide_matrix){{{a, dd_scale(time, b)}, {dd_multiply(pull, b), dd_add(a, dd_multiply(brake, b))}}};
-}
-
-/// I − the step over the interval after sample i, in extended precision if `wide`; a constant one is computed once, at i = 0.
-static void step_of_loop(path *p, int i, bool wide, wide_matrix *s)
-{
-    if (p->constant && i > 0) return;
-    const oscillator here = p->here;
-    const step_matrix plain = next_step(p, i);
-    const oscillator mean = {0.5 * (here.d + p->here.d), 0.5 * (here.k + p->here.k)};
-    *s = wide ? wide_step(mean, p->desc->step) : less_than_one(plain);
-}
-
-/// I − the product of a loop's steps, in extended precision, because for slow poles it is a small difference. Equal steps by squaring.
-static wide_matrix around(const wiggly_desc *desc, double floor, bool wide)
+/// I − the product of a loop's steps, which for slow poles is a small difference. Equal steps by squaring.
+static step_matrix around(const wiggly_desc *desc, double floor)
 {
     path p = begin(desc, floor);
     const int period = desc->samples - 1;
-    wide_matrix s, a = {0};
-    for (int i = 0; !p.constant && i < period; i++) {
-        step_of_loop(&p, i, wide, &s);
-        a = compose(&s, &a);
+    step_matrix all = {0};
+    if (!p.constant) {
+        for (int i = 0; i < period; i++) all = compose(next_loss(&p, i), all);
+        return all;
     }
-    if (!p.constant) return a;
-    step_of_loop(&p, 0, wide, &s);
+    step_matrix some = next_loss(&p, 0);
     for (int bit = 1; bit <= period && bit > 0; bit *= 2) {
-        if (period & bit) a = compose(&a, &s);
-        s = compose(&s, &s);
+        if (period & bit) all = compose(all, some);
+        some = compose(some, some);
     }
-    return a;
+    return all;
 }
 
-/// q and q' in extended precision.
-typedef struct wide_state {
-    dd q, v;
-} wide_state;
-
-/// run() in extended precision, with jumps that are not rounded to double; does not read u's `im`.
-static wide_state run_wide(const wiggly_desc *desc, const double *y, double floor, wide_state x,
-                           const forced_response *u)
+/// run() of a loop, with sums and jumps in double-double, and h q' in place of q'. Does not read u's `im`. `missed` receives the change of the
+/// state over the round.
+static void run_exactly(const wiggly_desc *desc, const double *y, double floor, const double from[2],
+                        const forced_response *u, double missed[2])
 {
     path p = begin(desc, floor);
-    const dd rate = dd_divide(dd_from(1), dd_from(desc->step));
-    wide_matrix s;
+    const int last = desc->samples - 1;
+    const double h = desc->step;
+    const dd q0 = dd_from(from[0]), v0 = dd_product(h, from[1]);
+    dd q = q0, v = v0, behind = dd_difference(y[0], y[last - 1]);
     for (int i = 0;; i++) {
-        const dd behind = dd_difference(y[i], y_beyond(desc, y, i - 1)),
-                 ahead = dd_difference(y_beyond(desc, y, i + 1), y[i]);
-        const dd kick = dd_multiply(rate, dd_subtract(behind, ahead));
-        u->total[i] = x.q.hi;
-        u->speed[i] = dd_add(x.v, dd_scale(0.5, kick)).hi;
-        if (i + 1 == desc->samples) return x;
-        step_of_loop(&p, i, true, &s);
-        x.v = dd_add(x.v, kick);
-        const dd lost_q = dd_add(dd_multiply(s.at[0][0], x.q), dd_multiply(s.at[0][1], x.v));
-        const dd lost_v = dd_add(dd_multiply(s.at[1][0], x.q), dd_multiply(s.at[1][1], x.v));
-        x = (wide_state){dd_subtract(x.q, lost_q), dd_subtract(x.v, lost_v)};
+        const dd ahead = dd_difference(y[i < last ? i + 1 : 1], y[i]), kick = dd_subtract(behind, ahead);
+        u->total[i] = q.hi;
+        u->speed[i] = (v.hi + 0.5 * kick.hi) / h;
+        if (i == last) break;
+        const step_matrix loss = next_loss(&p, i);
+        behind = ahead;
+        v = dd_add(v, kick);
+        const double of_q = loss.q_q * q.hi + loss.q_v / h * v.hi, of_v = loss.v_q * h * q.hi + loss.v_v * v.hi;
+        q = dd_subtract(q, dd_from(of_q));
+        v = dd_subtract(v, dd_from(of_v));
     }
+    missed[0] = dd_subtract(q, q0).hi, missed[1] = dd_subtract(v, v0).hi / h;
 }
 
 /// A pull that brings q back by less than this per round cannot close a circle.
@@ -226,48 +182,37 @@ static forces forces_of(const wiggly_desc *desc, double floor)
     return f;
 }
 
-static dd determinant(const wide_matrix *a)
-{
-    return dd_subtract(dd_multiply(a->at[0][0], a->at[1][1]), dd_multiply(a->at[0][1], a->at[1][0]));
-}
+static double determinant(const step_matrix *a) { return a->q_q * a->v_v - a->q_v * a->v_q; }
 
-/// The state that returns to itself, given the state reached from rest. If nothing pulls back, only q' returns. False if there is no such
-/// state.
-static bool close_circle(double seconds, forces f, const wide_matrix *a, wide_state end, wide_state *state)
+/// The state that is `missed` more after a round without y. If nothing pulls back, only q' returns. False if there is no such state.
+static bool close_circle(double seconds, forces f, const step_matrix *a, const double missed[2], double state[2])
 {
-    *state = (wide_state){{0, 0}, {0, 0}};
     if (!f.pull) {
-        state->v = f.brake ? dd_divide(end.v, a->at[1][1]) : dd_divide(dd_negate(end.q), dd_from(seconds));
+        state[0] = 0, state[1] = f.brake ? missed[1] / a->v_v : -missed[0] / seconds;
         return true;
     }
-    const dd det = determinant(a);
-    const double terms = fabs(a->at[0][0].hi * a->at[1][1].hi) + fabs(a->at[0][1].hi * a->at[1][0].hi);
-    if (!(fabs(det.hi) > 1e-16 * terms)) return false;
-    const dd q = dd_subtract(dd_multiply(a->at[1][1], end.q), dd_multiply(a->at[0][1], end.v));
-    const dd v = dd_subtract(dd_multiply(a->at[0][0], end.v), dd_multiply(a->at[1][0], end.q));
-    *state = (wide_state){dd_divide(q, det), dd_divide(v, det)};
+    const double det = determinant(a);
+    if (!(fabs(det) > 1e-16 * (fabs(a->q_q * a->v_v) + fabs(a->q_v * a->v_q)))) return false;
+    state[0] = (a->v_v * missed[0] - a->q_v * missed[1]) / det;
+    state[1] = (a->q_q * missed[1] - a->v_q * missed[0]) / det;
     return true;
 }
 
-/// How far the rounding of steps, jumps and parameters (which a resonance amplifies) may change the periodic q.
-static double error_of_circle(const forced_response *u, int period, double step, forces f, const wide_matrix *a,
-                              double epsilon)
+/// How far the rounding of steps, jumps and parameters (which a resonance amplifies) may change the periodic q. `rounding`: of its sums.
+static double error_of_circle(const forced_response *u, int period, double step, forces f, const step_matrix *a,
+                              double rounding)
 {
-    const double seconds = period * step, rounding = 4 * epsilon;
+    const double seconds = period * step, small = 4 * DBL_EPSILON * step;
     double q = 0, v = 0;
     for (int i = 0; i < period; i++) q += fabs(u->total[i]), v += fabs(u->speed[i]) + fabs(u->im[i]);
-    const double of_q = rounding * q, of_v = rounding * v + 4 * DBL_EPSILON * step * (f.k * q + 2 * f.d * v);
-    if (!f.pull) return of_q + seconds * of_v * (1 + (f.brake ? 1 / fabs(a->at[1][1].hi) : 0));
-    return (fabs(a->at[1][1].hi) * of_q + fabs(a->at[0][1].hi) * of_v +
-            seconds * (fabs(a->at[0][0].hi) * of_v + fabs(a->at[1][0].hi) * of_q)) /
-           fabs(determinant(a).hi);
+    const double of_q = rounding * q + small * v, of_v = rounding * v + small * (f.k * q + 2 * f.d * v);
+    if (!f.pull) return of_q + seconds * of_v * (1 + (f.brake ? 1 / fabs(a->v_v) : 0));
+    return (fabs(a->v_v) * of_q + fabs(a->q_v) * of_v + seconds * (fabs(a->q_q) * of_v + fabs(a->v_q) * of_q)) /
+           fabs(determinant(a));
 }
 
-/// As a share of y's range: a loop whose error may be larger is solved in extended precision.
+/// As a share of y's range: a loop whose error may be larger is refined.
 static const double narrow = 1e-11;
-
-/// Of extended precision, with what the series leaves out.
-static const double finest = 0x1p-74;
 
 /// The periodic q. False if there is none, or only one far too large.
 static bool run_loop(const wiggly_desc *desc, const double *y, double floor, forced_response *u)
@@ -277,19 +222,18 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, for
     const extent all = extent_of(y, period);
     const double range = all.high - all.low;
     const double seconds = period * desc->step;
-    double end[2];
-    wide_state state;
+    const step_matrix a = around(desc, floor);
+    double end[2], state[2], more[2];
     run(desc, floor, 0, 0, u, end);
-    wide_matrix a = around(desc, floor, false);
-    if (!close_circle(seconds, f, &a, (wide_state){dd_from(end[0]), dd_from(end[1])}, &state)) return false;
-    run(desc, floor, state.q.hi, state.v.hi, u, end);
-    u->error = error_of_circle(u, period, desc->step, f, &a, DBL_EPSILON);
+    if (!close_circle(seconds, f, &a, end, state)) return false;
+    run(desc, floor, state[0], state[1], u, end);
+    u->error = error_of_circle(u, period, desc->step, f, &a, 4 * DBL_EPSILON);
     if (u->error > narrow * range) {
-        const wide_state rest = {{0, 0}, {0, 0}}, reached = run_wide(desc, y, floor, rest, u);
-        a = around(desc, floor, true);
-        if (!close_circle(seconds, f, &a, reached, &state)) return false;
-        run_wide(desc, y, floor, state, u);
-        u->error = error_of_circle(u, period, desc->step, f, &a, finest);
+        run_exactly(desc, y, floor, state, u, end);
+        close_circle(seconds, f, &a, end, more);
+        state[0] += more[0], state[1] += more[1];
+        run_exactly(desc, y, floor, state, u, end);
+        u->error = error_of_circle(u, period, desc->step, f, &a, 0);
     }
     if (!f.pull) { // it is determined up to a constant: take mean 0
         dd mean = {0, 0};

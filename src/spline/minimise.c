@@ -9,7 +9,7 @@
 // Refinement cannot see the rounding of the coefficients themselves. If the system amplifies it, the coefficients are changed by that much
 // once; the change of x, solved with the existing factor, becomes part of the error.
 #include "maths/maths.h"
-#include "spline/ddc.h"
+#include "spline/dd.h"
 #include "spline/solver.h"
 #include "spline/wide.h"
 #include <float.h>
@@ -311,13 +311,14 @@ void solver_run_forward(wiggly_solver *solver, int from)
     system_rows *rows = &solver->rows;
     // x is a double sum of small steps; double-double keeps the rounding of N² additions below its last digit.
     const double *before = rows->x + 2 * (from - 1);
-    ddc x = ddc_from((cplx){before[2], before[3]});
-    ddc step = ddc_subtract(x, ddc_from((cplx){before[0], before[1]}));
+    dd re = dd_from(before[2]), im = dd_from(before[3]);
+    dd step_re = dd_difference(before[2], before[0]), step_im = dd_difference(before[3], before[1]);
     for (int i = from; i < rows->count - 1; i++) {
         const coefficients at = rows->at[i];
-        const ddc kept = ddc_add(step, ddc_scale(at.m, step)), lost = ddc_scale(at.p, ddc_subtract(x, step));
-        step = ddc_subtract(ddc_subtract(kept, lost), ddc_from(rows->drive[i]));
-        x = ddc_add(x, step);
-        rows->x[2 * i + 2] = x.re.hi, rows->x[2 * i + 3] = x.im.hi;
+        const cplx step = {step_re.hi, step_im.hi}, behind = {re.hi - step.re, im.hi - step.im};
+        const cplx more = cplx_sub(cplx_sub(cplx_mul(at.m, step), cplx_mul(at.p, behind)), rows->drive[i]);
+        step_re = dd_add(step_re, dd_from(more.re)), step_im = dd_add(step_im, dd_from(more.im));
+        re = dd_add(re, step_re), im = dd_add(im, step_im);
+        rows->x[2 * i + 2] = re.hi, rows->x[2 * i + 3] = im.hi;
     }
 }

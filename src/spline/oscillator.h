@@ -16,21 +16,35 @@ typedef struct step_matrix {
     double q_q, q_v, v_q, v_v;
 } step_matrix;
 
+/// What a step over h seconds takes from the state, I − the step, without cancellation where it is small.
+static inline step_matrix oscillator_loss(oscillator o, double h)
+{
+    const double r2 = (o.d - sqrt(o.k)) * (o.d + sqrt(o.k)), r = sqrt(fabs(r2)), z = r2 * h * h;
+    if (z > 1e-4) {
+        const double sum = o.d + r, difference = o.k / sum;
+        const double slow = maths_expm1(-difference * h), fast = maths_expm1(-sum * h), s = 0.5 * (slow - fast) / r;
+        return (step_matrix){0.5 * (difference * fast - sum * slow) / r, -s, o.k * s,
+                             0.5 * (difference * slow - sum * fast) / r};
+    }
+    double s, versine; // sinh(rh)/r, 1 − cosh rh
+    if (z < -1e-4) {
+        const maths_point half = maths_turn(0.5 * r * h);
+        s = 2 * half.sin * half.cos / r;
+        versine = 2 * half.sin * half.sin;
+    } else {
+        s = h * (1 + 1.0 / 6 * z * (1 + 1.0 / 20 * z));
+        versine = -0.5 * z * (1 + 1.0 / 12 * z * (1 + 1.0 / 30 * z));
+    }
+    const double grown = maths_expm1(-o.d * h), less = versine - grown * (1 - versine);
+    s *= 1 + grown;
+    return (step_matrix){less - o.d * s, -s, o.k * s, less + o.d * s};
+}
+
 /// A step over h seconds.
 static inline step_matrix oscillator_step(oscillator o, double h)
 {
-    double r2 = (o.d - sqrt(o.k)) * (o.d + sqrt(o.k)), r = sqrt(fabs(r2)), c, s; // s: sinh(rh)/r times e^{−dh}
-    double decay = maths_exp(-o.d * h);
-    if (r2 > 0) {
-        double slow = maths_exp((r - o.d) * h), fast = maths_exp(-(r + o.d) * h);
-        c = 0.5 * (slow + fast);
-        s = r * h < 1e-3 ? decay * h * (1 + r2 * h * h / 6) : 0.5 * (slow - fast) / r;
-    } else {
-        const maths_point turn = maths_turn(r * h);
-        c = decay * turn.cos;
-        s = decay * (r * h < 1e-3 ? h * (1 + r2 * h * h / 6) : turn.sin / r);
-    }
-    return (step_matrix){c + o.d * s, s, -o.k * s, c - o.d * s};
+    const step_matrix loss = oscillator_loss(o, h);
+    return (step_matrix){1 - loss.q_q, -loss.q_v, -loss.v_q, 1 - loss.v_v};
 }
 
 /// The factor of q' + d q that gives the imaginary part of an oscillation on one side of the axis. It fades out where it would diverge: if ω_d
@@ -41,7 +55,7 @@ static inline double oscillator_turn(oscillator o, double seconds)
     if (!(omega2 > 0)) return 0;
     double phase2 = omega2 * seconds * seconds, phase4 = phase2 * phase2, turns = phase4 * phase4;
     double part = omega2 / o.k, ratio = part * part * (part * part);
-    return -ratio / (ratio + 1e-8) / (1 + 1 / turns) / sqrt(omega2);
+    return -ratio / ((ratio + 1e-8) * (1 + 1 / turns) * sqrt(omega2));
 }
 
 #endif

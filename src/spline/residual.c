@@ -7,9 +7,25 @@
 //
 // Both are sums of nearly equal numbers: over a gap of G samples r is G² times smaller than x, and g again than r. In
 // double-double the cancellation leaves full double precision for any G that a double can count.
-#include "spline/ddc.h"
+#include "spline/dd.h"
 #include "spline/system.h"
 #include <string.h>
+
+typedef struct ddc {
+    dd re, im;
+} ddc;
+
+static inline ddc ddc_from(cplx z) { return (ddc){dd_from(z.re), dd_from(z.im)}; }
+
+/// z·w for a double z.
+static inline ddc ddc_scale(cplx z, ddc w)
+{
+    return (ddc){dd_subtract(dd_scale(z.re, w.re), dd_scale(z.im, w.im)),
+                 dd_add(dd_scale(z.re, w.im), dd_scale(z.im, w.re))};
+}
+
+static inline ddc ddc_add(ddc a, ddc b) { return (ddc){dd_add(a.re, b.re), dd_add(a.im, b.im)}; }
+static inline ddc ddc_subtract(ddc a, ddc b) { return (ddc){dd_subtract(a.re, b.re), dd_subtract(a.im, b.im)}; }
 
 /// A sample of x; 0 before the first, the tail after the last.
 static inline cplx sample_of(const system_rows *rows, int k)
