@@ -1,6 +1,7 @@
 # wiggly export from the outside: what it says, what it refuses, Ctrl+C; and the Khronos validator on every glTF file, where npm can fetch
 # it (at a pinned version, into the build folder).
 . tests/check.sh
+. tests/box.sh
 validator=gltf-validator@2.0.0-dev.3.10
 folder=${B:-build}/gltf-validator
 scenes=assets/scenes
@@ -95,6 +96,11 @@ holds "without a complaint" [ "$(grep -c "0 errors, 0 warnings, 0 infos, 0 hints
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.glb" --quiet
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog.gltf" --quiet
 "$WIGGLY" export $scenes/dog.json -o "$scratch/dog-cubic.glb" --keys cubic --quiet
-expect 0 "the validator reads an imported character with a new clip" node tests/others/validate.js "$folder" \
-    "$scratch/dog.glb" "$scratch/dog.gltf" "$scratch/dog-cubic.glb"
-holds "without an error or a warning" [ "$(grep -c "0 errors, 0 warnings" <<<"$out")" -eq 3 ]
+# A box with colours, shaken; and the dog of the tree.
+write_box "$scratch/plain.obj"
+sed -e 's/^v 0 0 0$/& 1 0.5 0/' -e 's/^v 0 2 0$/& 0.2 0.1 0/' "$scratch/plain.obj" >"$scratch/box.obj"
+expect 0 "simulate" "$WIGGLY" simulate "$scratch/box.obj" --tets 60 --seconds 1 --substeps 2 -o "$scratch/up.npy"
+expect 0 "analyze" "$WIGGLY" analyze "$scratch/up.npy" --rest "$scratch/box.obj" --fps 24 --modes 2 -o "$scratch/box.glb"
+expect 0 "the validator reads an imported character with a new clip, and what wiggly analyze writes" node tests/others/validate.js \
+    "$folder" "$scratch/dog.glb" "$scratch/dog.gltf" "$scratch/dog-cubic.glb" "$scratch/box.glb" assets/models/dog.glb
+holds "without an error or a warning" [ "$(grep -c "0 errors, 0 warnings" <<<"$out")" -eq 5 ]
