@@ -262,10 +262,9 @@ TEST(limits_of_edits)
 WORLD_TEST(rigs_of_an_edit, world_open(world))
 {
     while (world->document->rig_count < 1024) {
-        world_must(world, edit_tail_add(world_edit(world), world->document->rig_count - 1, -1, AXIS_SIDE, PART_TOTAL,
-                                        &world->error));
+        world_must(world, edit_tail_add(world_edit(world), world->document->rig_count - 1, -1, &world->error));
     }
-    assert_false(world_step(world, edit_tail_add(world_edit(world), 0, -1, AXIS_SIDE, PART_TOTAL, &world->error)));
+    assert_false(world_step(world, edit_tail_add(world_edit(world), 0, -1, &world->error)));
     assert_string_equal(world->error.text, "there are 1024 rigs, and no more fit");
     const char *text = world_print(world);
     takes(text);

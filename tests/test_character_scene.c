@@ -108,7 +108,7 @@ TEST(rigs_keep_their_order)
                                " \"a.glb\"}, {\"type\": \"tail\", \"name\": \"b\"}"));
     struct history *history = history_create(document);
     assert_order(document, "tct");
-    end(history, edit_tail_add(begin(history, document), 2, 0, AXIS_SIDE, PART_TOTAL, NULL));
+    end(history, edit_tail_add(begin(history, document), 2, 0, NULL));
     assert_order(document, "tctt");
     end(history, edit_rig_remove(begin(history, document), 0, NULL));
     assert_order(document, "ctt");

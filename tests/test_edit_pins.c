@@ -45,7 +45,7 @@ PINNED_TEST(test_every_edit_is_undone)
     assert_int_equal(world->document->rigs[0]->pins[0].point, 23);
     assert_reversible(world, edit_fps(world_edit(world), 48, true, &world->error));
     assert_near(world->document->rigs[0]->pins[1].frame, 80, 0);
-    assert_reversible(world, edit_tail_add(world_edit(world), 0, 0, AXIS_SIDE, PART_TOTAL, &world->error));
+    assert_reversible(world, edit_tail_add(world_edit(world), 0, 0, &world->error));
     assert_int_equal(world->document->rigs[2]->pin_count, 0);
     assert_reversible(world, edit_range(world_edit(world), 0, 70, RANGE_MOVE, &world->error));
     assert_near(world->document->rigs[0]->pins[1].frame, 70, 0);

@@ -44,7 +44,7 @@ WORLD_TEST(test_channels, world_open(world))
 WORLD_TEST(test_which_tails_there_are, world_open(world))
 {
     const char *before = world_print(world);
-    assert_reversible(world, edit_tail_add(world_edit(world), 0, 0, AXIS_SIDE, PART_TOTAL, &world->error));
+    assert_reversible(world, edit_tail_add(world_edit(world), 0, 0, &world->error));
     assert_int_equal(document_count_rigs(world->document, RIG_TAIL), 2);
     const struct tail *copy = document_tail(world->document, 1);
     assert_string_equal(world->document->rigs[1]->name, "tail");
@@ -62,7 +62,7 @@ WORLD_TEST(test_which_tails_there_are, world_open(world))
     assert_reversible(world, edit_rig_remove(world_edit(world), 0, &world->error));
     assert_string_equal(world->document->rigs[0]->name, "other");
     assert_reversible(world, edit_rig_remove(world_edit(world), 0, &world->error));
-    assert_reversible(world, edit_tail_add(world_edit(world), -1, PLUCK, AXIS_SIDE, PART_TOTAL, &world->error));
+    assert_reversible(world, edit_tail_add(world_edit(world), -1, PLUCK, &world->error));
     assert_int_equal(document_tail(world->document, 0)->channels[0].spline, PLUCK);
     world_undo_all(world);
     assert_document(world, before);

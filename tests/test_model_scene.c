@@ -312,7 +312,7 @@ static bool random_edit(struct world *world)
     case 10:
         return edit_parameter(document, spline, PARAMETER_EQUILIBRIUM, &param, error);
     case 11:
-        return edit_tail_add(document, r, spline, channel.axis, PART_TOTAL, error);
+        return edit_tail_add(document, r, spline, error);
     case 12:
         return edit_channel(document, at, &channel, error);
     case 13:

@@ -75,8 +75,8 @@ TEST_WITH(folder_make, folder_remove, test_broken)
 TEST_WITH(folder_make, folder_remove, test_unstorable)
 {
     struct settings *settings = load("recent = /a\n");
-    settings_push(settings, "recent", "/b\nrecent = /c", 12);
-    settings_push(settings, "recent", " /d", 12);
+    recent_note(settings, folder_file("b\nrecent = c", "{}"));
+    recent_note(settings, folder_file("d ", "{}"));
     settings_set(settings, "theme", "light\n");
     assert_saved(settings, "recent = /a\n");
     settings_free(settings);

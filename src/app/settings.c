@@ -170,21 +170,6 @@ void settings_set_number(struct settings *settings, const char *key, double valu
     settings_set(settings, key, text);
 }
 
-void settings_push(struct settings *settings, const char *key, const char *value, int most)
-{
-    if (!is_storable(value)) return;
-    int first = find(settings, key, 0);
-    for (int n = 0, at; (at = find(settings, key, n)) >= 0;) {
-        if (strcmp(settings->lines[at].value, value) == 0) {
-            drop(settings, at);
-        } else {
-            n++;
-        }
-    }
-    insert(settings, first >= 0 ? first : settings->count, key, value);
-    for (int at; (at = find(settings, key, most)) >= 0;) drop(settings, at);
-}
-
 bool settings_save(const struct settings *settings, const char *path, struct error *error)
 {
     struct file_output output;
@@ -198,8 +183,19 @@ bool settings_save(const struct settings *settings, const char *path, struct err
 
 void recent_note(struct settings *settings, const char *path)
 {
+    static const char key[] = "recent";
     char full[PATH_MAX];
-    if (realpath(path, full)) settings_push(settings, "recent", full, DIALOG_MAX_RECENT);
+    if (!realpath(path, full) || !is_storable(full)) return;
+    int first = find(settings, key, 0);
+    for (int n = 0, at; (at = find(settings, key, n)) >= 0;) {
+        if (strcmp(settings->lines[at].value, full) == 0) {
+            drop(settings, at);
+        } else {
+            n++;
+        }
+    }
+    insert(settings, first >= 0 ? first : settings->count, key, full);
+    for (int at; (at = find(settings, key, DIALOG_MAX_RECENT)) >= 0;) drop(settings, at);
 }
 
 int recent_list(const struct settings *settings, struct dialog_recent *files, int most)

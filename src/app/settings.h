@@ -28,8 +28,6 @@ double settings_number(const struct settings *settings, const char *key, double 
 /// Replaces all values of a key. Ignores a value with a line break.
 void settings_set(struct settings *settings, const char *key, const char *value);
 void settings_set_number(struct settings *settings, const char *key, double value);
-/// Moves a value to the front of a key's values, of which the first `most` stay.
-void settings_push(struct settings *settings, const char *key, const char *value, int most);
 
 /// Writes atomically.
 bool settings_save(const struct settings *settings, const char *path, struct error *error);

@@ -117,14 +117,12 @@ double npy_number(const struct npy *npy, const char *at)
     return number_read(at, npy->number_size == 4 ? NUMBER_FLOAT32 : NUMBER_FLOAT64, npy->swapped);
 }
 
-void npy_print_header(const int *lengths, int count, char header[NPY_HEADER])
+void npy_print_header(const int lengths[3], char header[NPY_HEADER])
 {
     enum { PRELUDE = 10 };
-    char shape[NPY_HEADER] = "", text[NPY_HEADER - PRELUDE + 1];
-    int used = 0;
-    for (int i = 0; i < count; i++)
-        used += snprintf(shape + used, sizeof shape - (size_t)used, i > 0 ? ", %d" : "%d", lengths[i]);
-    int length = snprintf(text, sizeof text, "{'descr': '<f4', 'fortran_order': False, 'shape': (%.40s), }", shape);
+    char text[NPY_HEADER - PRELUDE + 1];
+    int length = snprintf(text, sizeof text, "{'descr': '<f4', 'fortran_order': False, 'shape': (%d, %d, %d), }",
+                          lengths[0], lengths[1], lengths[2]);
     memcpy(header, npy_magic, sizeof npy_magic);
     memcpy(header + sizeof npy_magic, (const char[]){1, 0, NPY_HEADER - PRELUDE, 0}, 4);
     memset(header + PRELUDE, ' ', NPY_HEADER - PRELUDE); // so that the numbers start at a multiple of 64 bytes

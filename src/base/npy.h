@@ -55,6 +55,6 @@ bool npy_read_header(struct npy *npy, const char *path, const char *data, size_t
 double npy_number(const struct npy *npy, const char *at);
 
 /// The header of a float32 array in C order; the numbers follow.
-void npy_print_header(const int *lengths, int count, char header[NPY_HEADER]);
+void npy_print_header(const int lengths[3], char header[NPY_HEADER]);
 
 #endif

@@ -275,7 +275,7 @@ bool motion_columns(const struct motion *motion, int first, int count, double *s
 static void print_npy_start(FILE *out, const struct motion_span *span)
 {
     char header[NPY_HEADER];
-    npy_print_header((const int[]){span->frames, span->vertices, 3}, 3, header);
+    npy_print_header((const int[]){span->frames, span->vertices, 3}, header);
     fwrite(header, 1, sizeof header, out);
 }
 

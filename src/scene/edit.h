@@ -76,9 +76,8 @@ bool edit_channel_remove(struct document *document, struct channel_place at, str
 
 /// The tail keeps its shape.
 bool edit_joints(struct document *document, int rig, int count, struct error *error);
-/// A copy of the rig goes beside it; if it is no tail, a plain one bent by `spline` (-1: by nothing).
-bool edit_tail_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
-                   struct error *error);
+/// A copy of the rig goes beside it; if it is no tail, a plain one bent to the side by `spline` (-1: by nothing).
+bool edit_tail_add(struct document *document, int rig, int spline, struct error *error);
 
 /// Replaces the drive of a character's coordinate, except its name; index -1 appends one.
 bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error);

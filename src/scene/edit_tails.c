@@ -17,8 +17,7 @@ static struct rig *plain_tail(void)
     return rig;
 }
 
-bool edit_tail_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
-                   struct error *error)
+bool edit_tail_add(struct document *document, int rig, int spline, struct error *error)
 {
     const bool is_tail = rig >= 0 && rig < document->rig_count && document->rigs[rig]->kind == RIG_TAIL;
     struct rig *added = is_tail ? rig_clone(document->rigs[rig]) : plain_tail();
@@ -26,7 +25,8 @@ bool edit_tail_add(struct document *document, int rig, int spline, enum axis axi
     added->name = NULL;
     added->pin_count = 0; // both tails follow the same splines, so one set of pins is enough
     if (is_tail && added->tail.position[0].track < 0) added->tail.position[0].value += ASIDE * added->tail.length;
-    if (!is_tail && edit_has_spline(document, spline, NULL)) edit_append_channel(added, spline, axis, of);
+    if (!is_tail && edit_has_spline(document, spline, NULL))
+        edit_append_channel(added, spline, AXIS_SIDE, PART_TOTAL);
     const bool good = edit_rig_add(document, added, error);
     rig_drop(added);
     return good;

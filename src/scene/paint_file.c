@@ -94,7 +94,7 @@ bool paint_write(const struct paint *paint, const char *path, struct error *erro
     struct file_output output;
     char header[NPY_HEADER];
     if (!file_output_open(&output, path, error)) return false;
-    npy_print_header((const int[]){paint->coordinates, paint->vertices, 2}, 3, header);
+    npy_print_header((const int[]){paint->coordinates, paint->vertices, 2}, header);
     fwrite(header, 1, sizeof header, output.stream);
     fwrite(paint->values, 1, paint_bytes(paint) - sizeof *paint, output.stream);
     return file_output_commit(&output, error);

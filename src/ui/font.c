@@ -115,8 +115,8 @@ float font_width(enum font font, float size, const char *utf8)
 
 float font_cap_height(enum font font, float size) { return faces[font].cap_height * size; }
 
-/// Bytes of text that fit into `width`, up to a space if possible, at least one character.
-static size_t line_length(enum font font, float size, const char *utf8, float width)
+/// Bytes of a label that fit into `width`, up to a space if possible, at least one character.
+static size_t line_length(float size, const char *utf8, float width)
 {
     float ems = 0.0f;
     size_t fits = 0;
@@ -126,16 +126,16 @@ static size_t line_length(enum font font, float size, const char *utf8, float wi
         size_t length = (size_t)(at - utf8);
         if (length >= 256) break;
         bool whole = *at == ' ' || *at == '\0';
-        ems += faces[font].glyphs[slot_of(c)].advance;
+        ems += faces[FONT_LABEL].glyphs[slot_of(c)].advance;
         if (ems * size > width) return fits ? fits : length;
         if (whole) fits = length;
     }
     return fits ? fits : (size_t)(at - utf8);
 }
 
-size_t font_take_line(enum font font, float size, float width, const char **utf8)
+size_t font_take_line(float size, float width, const char **utf8)
 {
-    const size_t length = line_length(font, size, *utf8, width);
+    const size_t length = line_length(size, *utf8, width);
     *utf8 += length;
     while (**utf8 == ' ') ++*utf8;
     return length;

@@ -11,9 +11,9 @@ void font_init(void);
 /// Width of a text in logical pixels; the second is the height of its capitals, for centring.
 float font_width(enum font font, float size, const char *utf8);
 float font_cap_height(enum font font, float size);
-/// Takes the next line of a text, as many bytes as fit into `width`, up to a space if possible, at least one character. Moves `*utf8` to
+/// Takes the next line of a label, as many bytes as fit into `width`, up to a space if possible, at least one character. Moves `*utf8` to
 /// the next line.
-size_t font_take_line(enum font font, float size, float width, const char **utf8);
+size_t font_take_line(float size, float width, const char **utf8);
 
 /// A glyph: texels [x0, x1) × [y0, y1), drawn at pen + (xoff, yoff) device pixels, y down.
 struct glyph {

@@ -44,7 +44,7 @@ struct rect tooltip_box(const struct tooltip *tooltip, struct rect window)
     const float width = text_width(window), whole = font_width(FONT_LABEL, THEME_TEXT_SMALL, tooltip->text);
     const char *rest = tooltip->text;
     int lines = 0;
-    for (; *rest; lines++) font_take_line(FONT_LABEL, THEME_TEXT_SMALL, width, &rest);
+    for (; *rest; lines++) font_take_line(THEME_TEXT_SMALL, width, &rest);
     const float w = fminf(ceilf(whole), width) + 2 * PAD_X, h = (float)(lines * LINE + 2 * PAD_Y);
     const struct rect *at = &tooltip->at;
     const float below = at->y + at->h + BELOW, above = at->y - BELOW - h;
@@ -65,7 +65,7 @@ void tooltip_show(const struct tooltip *tooltip, struct rect window, struct draw
     for (; *rest; y += LINE) {
         const char *start = rest;
         char part[257];
-        const size_t length = font_take_line(FONT_LABEL, THEME_TEXT_SMALL, text_width(window), &rest);
+        const size_t length = font_take_line(THEME_TEXT_SMALL, text_width(window), &rest);
         snprintf(part, sizeof part, "%.*s", (int)length, start);
         drawlist_text(list, box.x + PAD_X, y, FONT_LABEL, THEME_TEXT_SMALL, theme()->text, part);
     }

@@ -53,7 +53,7 @@ void ui_paragraph(struct ui *ui, const char *text, uint32_t color)
     for (int line = 0; line < MAX_LINES && *text; line++) {
         struct rect r = ui_row(ui, LINE);
         const char *start = text;
-        const size_t length = font_take_line(FONT_LABEL, THEME_TEXT_SMALL, r.w, &text);
+        const size_t length = font_take_line(THEME_TEXT_SMALL, r.w, &text);
         if (ui->pass != UI_PASS_DRAW) continue;
         char part[257];
         snprintf(part, sizeof part, "%.*s", (int)length, start);

@@ -83,7 +83,7 @@ void rigs_add_tail(struct core *core)
     const double place = free_place(core, ROOM);
     if (!core_begin(core, "Add tail", 0)) return;
     const int spline = spline_to_use(core);
-    bool done = spline >= 0 && edit_tail_add(document, -1, spline, AXIS_SIDE, PART_TOTAL, &core->error);
+    bool done = spline >= 0 && edit_tail_add(document, -1, spline, &core->error);
     if (done) {
         struct rig added = *document->rigs[document->rig_count - 1];
         added.tail.position[0] = param_number(place);
@@ -156,9 +156,8 @@ void rigs_copy(struct core *core, int rig)
         return;
     }
     core_begin(core, "Add one more", 0);
-    bool done = copy.kind == RIG_TAIL
-                    ? edit_tail_add(document, rig, core->active, AXIS_SIDE, PART_TOTAL, &core->error)
-                    : edit_rig_add(document, &copy, &core->error);
+    bool done = copy.kind == RIG_TAIL ? edit_tail_add(document, rig, core->active, &core->error)
+                                      : edit_rig_add(document, &copy, &core->error);
     if (done && copy.kind == RIG_MODEL) done = copy_chains(core, rig, document->rigs[document->rig_count - 1]->name);
     finish(core, done);
 }

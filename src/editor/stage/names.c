@@ -91,7 +91,7 @@ static struct caption caption_of(struct rect place, const struct document *docum
     while (caption.count < MAX_LINES && *rest) {
         char *line = caption.line[caption.count++];
         const char *from = rest;
-        const size_t taken = font_take_line(FONT_LABEL, THEME_TEXT_NORMAL, room, &rest);
+        const size_t taken = font_take_line(THEME_TEXT_NORMAL, room, &rest);
         snprintf(line, sizeof caption.line[0], "%.*s", (int)taken, from);
         caption.width = fmaxf(caption.width, font_width(FONT_LABEL, THEME_TEXT_NORMAL, line));
     }
