@@ -162,13 +162,38 @@ def kept(browser, url):
     page.drag(KNOT, LOWER)
     told(page, 'a star in the title', lambda text: text.startswith('*'))
     changed = scene(page)
-    page.until('a recovery file', "wiggly.FS.analyzePath('/home/web_user/.local/state/wiggly/recovery-1').exists")
-    time.sleep(1.5)  # half a second, and some for the browser's storage
+    time.sleep(1.5)  # until that is kept
     reopened(page, url)
     page.key('Enter')
     told(page, 'the work as it was before the reload', lambda text: text.startswith('*'))
     expect(scene(page) == changed, 'it is the same scene')
     page.close()
+
+
+def tabs(browser, url):
+    one = opened(browser, url)
+    one.drag(KNOT, LOWER)
+    told(one, 'a star in the title', lambda text: text.startswith('*'))
+    changed = scene(one)
+    time.sleep(1.5)  # until that is kept
+    other = browser.page(beside=one)
+    other.prefer(**STILL)
+    reopened(other, url)
+    other.key('Enter')
+    frames(other)
+    expect(title(other) == 'untitled — wiggly', f"another tab's work is not offered: {title(other)}")
+    other.key('Ctrl+S')
+    frames(other)
+    other.key('Enter')
+    told(other, "the scene's name", lambda text: text.startswith('untitled.json'))
+    one.until('the scene that the other tab saved', "wiggly.FS.analyzePath('/home/web_user/untitled.json').exists")
+    one.close()
+    reopened(other, url)
+    other.key('Enter')
+    told(other, 'the work of the tab that was closed', lambda text: text.startswith('*untitled —'))
+    expect(scene(other) == changed, 'it is the same scene')
+    expect(other.evaluate("wiggly.FS.analyzePath('/home/web_user/untitled.json').exists"), 'and the saved scene is there')
+    other.close()
 
 
 def files(browser, url):
@@ -346,6 +371,7 @@ CASES = [
     ('mouse and keys edit the scene, and undo', edits),
     ('a link holds the scene', links),
     ('unsaved work is offered again after a reload', kept),
+    ('each tab keeps its own work, and all share what is saved', tabs),
     ('exports and scenes are downloads, and scenes come back by a drop', files),
     ('a character is dropped in, and the built-in dog opens', characters),
     ('fingers drag, pan, zoom and turn', touches),

@@ -69,9 +69,10 @@ class Chromium:
             raise RuntimeError(f'{method}: {answer["error"]["message"]}')
         return answer['result']
 
-    def page(self, width=1280, height=720, scale=1, fresh=False):
-        """`fresh`: with a profile of its own, that holds nothing yet."""
+    def page(self, width=1280, height=720, scale=1, fresh=False, beside=None):
+        """`fresh`: with a profile of its own, that holds nothing yet. `beside`: with that page's."""
         context = {'browserContextId': self.call('Target.createBrowserContext')['browserContextId']} if fresh else {}
+        context = beside.context if beside else context
         target = self.call('Target.createTarget', url='about:blank', **context)['targetId']
         return Page(self, target, context, (width, height, scale))
 

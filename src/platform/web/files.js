@@ -1,41 +1,16 @@
-// Files: kept in the browser, dropped in, downloaded, and scenes as links.
+// Files: dropped in, downloaded, and scenes as links.
+import { HOME, keep, put } from './store.js';
 
-const HOME = '/home/web_user', SCENES = '/usr/share/wiggly/scenes', MODELS = '/usr/share/wiggly/models';
+const SCENES = '/usr/share/wiggly/scenes', MODELS = '/usr/share/wiggly/models';
 const LARGEST_LINK = 32000;
-const wait = 500; // milliseconds from a change until it is kept
 
-const sync = (FS, fromBrowser) => new Promise(done => FS.syncfs(fromBrowser, done));
-
-/// Mounts the user's folder, kept in the browser's storage, and the program's own. A file that is put there by the user's wish, which is not
-/// a hidden one, is also downloaded.
-export async function keep(FS) {
+/// Makes the program's folders and the user's. A file that is put into the user's by the user's wish, which is not a hidden one, is also
+/// downloaded.
+export async function makeFolders(FS, onRefused) {
   for (const path of [SCENES, MODELS, '/usr/bin']) FS.mkdirTree(path);
   FS.writeFile('/usr/bin/wiggly', '');
   FS.symlink('/usr/bin/wiggly', '/proc/self/exe');
-  FS.mount(FS.filesystems.IDBFS, {}, HOME);
-  await sync(FS, true);
-  FS.chdir(HOME);
-  let timer, busy;
-  const later = () => {
-    clearTimeout(timer);
-    timer = setTimeout(async () => {
-      if (busy) return later();
-      busy = true;
-      await sync(FS, false);
-      busy = false;
-    }, wait);
-  };
-  const { rename, unlink } = FS;
-  FS.rename = (from, to) => {
-    rename(from, to);
-    later();
-    const path = FS.lookupPath(to).path;
-    if (path.startsWith(HOME) && !path.includes('/.')) download(FS, path);
-  };
-  FS.unlink = path => {
-    unlink(path);
-    later();
-  };
+  await keep(FS, path => path.includes('/.') || download(FS, path), onRefused);
 }
 
 /// Fetches the characters of the built-in scenes, but for the fox, which the program holds.
@@ -58,6 +33,7 @@ export async function receive(app, files) {
   for (const file of files) {
     const path = `${HOME}/${file.name}`;
     app.FS.writeFile(path, new Uint8Array(await file.arrayBuffer()));
+    put(app.FS, path);
     paths.push(path);
   }
   const first = paths.find(path => /\.(json|glb|gltf)$/i.test(path)) ?? paths[0];

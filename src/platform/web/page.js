@@ -1,6 +1,6 @@
 // Starts the app in its page, and does what it asks of a browser (surface.c's page_… functions).
 import { listen } from './input.js';
-import { fetchModels, keep, readLink, receive, writeLink } from './files.js';
+import { fetchModels, makeFolders, readLink, receive, writeLink } from './files.js';
 
 const canvas = document.getElementById('canvas');
 const prefers = what => matchMedia(`(prefers-${what})`).matches;
@@ -84,7 +84,7 @@ const app = await createWiggly({
   onAbort: () => say('wiggly has stopped. Reload the page: what you did is kept.'),
 });
 globalThis.wiggly = app;
-await keep(app.FS);
+await makeFolders(app.FS, () => say('The browser keeps no more files: save your work before you leave.'));
 const findLinked = () => readLink(app.FS, location.hash).catch(error => (say(error.message), null));
 const linked = await findLinked();
 listen(canvas, app);
