@@ -3,6 +3,7 @@
 #include "base/embedded.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/need.h"
 #include "base/png.h"
 #include "editor/editor.h"
@@ -95,9 +96,35 @@ static void show_title(struct app *app)
     platform_title(app->platform, title);
 }
 
+enum { DESCRIPTION = 1024, NAMED = 12 }; ///< bytes; names of a kind
+
+static void append(char text[DESCRIPTION], const char *between, const char *more)
+{
+    const size_t used = strlen(text);
+    snprintf(text + used, DESCRIPTION - used, "%s%s", between, more);
+}
+
+static const char *end_of_names(int count) { return count == 0 ? "nothing" : count > NAMED ? " and more" : ""; }
+
+/// In a page, for a screen reader: what is shown.
+static void describe(struct app *app)
+{
+    const struct document *document = app->table.document;
+    const int rigs = document->rig_count, splines = document->spline_count;
+    char text[DESCRIPTION] = "On the stage: ";
+    for (int r = 0; r < rigs && r < NAMED; r++) append(text, r ? ", " : "", rig_title(document->rigs[r]));
+    append(text, end_of_names(rigs), ". Splines: ");
+    for (int s = 0; s < splines && s < NAMED; s++) append(text, s ? ", " : "", document->splines[s]->name);
+    append(text, end_of_names(splines), app->table.editor->core.playback.playing ? ". It plays." : ". It is paused.");
+    const uint64_t hash = hash_bytes(HASH_START, text, strlen(text));
+    if (hash != app->described) platform_describe(app->platform, text);
+    app->described = hash;
+}
+
 void app_show_title(struct app *app)
 {
     if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
+    if (platform_in_page()) describe(app);
 }
 
 void app_adopt(struct app *app, struct document *document)

@@ -69,8 +69,9 @@ struct app {
     double process_start; ///< on this clock
     double last_time, next_time, stats_time;
     long frame, stats_frame;
-    bool shown_saved; ///< in the window's title
-    bool paste;       ///< clipboard text to deliver with the next events
+    bool shown_saved;   ///< in the window's title
+    uint64_t described; ///< hash of the last platform_describe()
+    bool paste;         ///< clipboard text to deliver with the next events
     bool quit;
     bool failed; ///< `error` ends the run
     struct error error;

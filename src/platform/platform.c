@@ -94,6 +94,8 @@ void platform_run(struct platform *platform, bool (*frame)(void *), void *user)
 
 bool platform_in_page(void) { return false; }
 
+void platform_describe(struct platform *platform, const char *text) { (void)platform, (void)text; }
+
 void platform_share(struct platform *platform, const char *scene) { (void)platform, (void)scene; }
 
 void platform_choose_file(struct platform *platform) { (void)platform; }

@@ -45,6 +45,8 @@ double platform_refresh_rate(struct platform *platform);
 
 bool platform_is_window(const struct platform *platform);
 void platform_title(struct platform *platform, const char *title);
+/// In a browser: sets what a screen reader says of the canvas.
+void platform_describe(struct platform *platform, const char *text);
 void platform_toggle_fullscreen(struct platform *platform);
 /// The clipboard as UTF-8: the system's, or without a window the process's own. NULL without text; valid until the next call.
 const char *platform_clipboard(struct platform *platform);

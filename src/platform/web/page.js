@@ -43,6 +43,7 @@ const page = {
     document.title = title;
     canvas.setAttribute('aria-label', title);
   },
+  describe: text => (document.getElementById('scene').textContent = text),
   cursor: name => (canvas.style.cursor = name),
   copy: text => navigator.clipboard?.writeText(text).catch(() => say('The browser refused the clipboard.')),
   fullscreen: () => (document.fullscreenElement ? document.exitFullscreen() : document.body.requestFullscreen()).catch(() => {}),

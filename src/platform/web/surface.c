@@ -29,6 +29,7 @@ EM_JS(int, page_width, (void), { return Module.page.size().width; });
 EM_JS(int, page_height, (void), { return Module.page.size().height; });
 EM_JS(double, page_scale, (void), { return Module.page.size().scale; });
 EM_JS(void, page_title, (const char *title), { Module.page.title(UTF8ToString(title)); });
+EM_JS(void, page_describe, (const char *text), { Module.page.describe(UTF8ToString(text)); });
 EM_JS(void, page_cursor, (const char *name), { Module.page.cursor(UTF8ToString(name)); });
 EM_JS(void, page_copy, (const char *text), { Module.page.copy(UTF8ToString(text)); });
 EM_JS(void, page_shown, (void), { Module.page.shown(); });
@@ -141,6 +142,11 @@ bool platform_is_window(const struct platform *platform) { return platform->cont
 void platform_title(struct platform *platform, const char *title)
 {
     if (platform->context) page_title(title);
+}
+
+void platform_describe(struct platform *platform, const char *text)
+{
+    if (platform->context) page_describe(text);
 }
 
 void platform_toggle_fullscreen(struct platform *platform)
