@@ -347,6 +347,8 @@ def without_webgl(_, url):
         page.open(url)
         says = "/no WebGL 2/.test(document.getElementById('said')?.textContent)"
         page.until('a word on WebGL', says)
+        text = page.evaluate("document.getElementById('said').textContent")
+        expect(text.startswith('This browser') and text.endswith('.'), f'it is a plain sentence: {text}')
         time.sleep(4.5)  # other words go after 4
         expect(page.evaluate(says), 'the word stays')
 

@@ -71,6 +71,9 @@ const page = {
   },
 };
 
+/// A message of the command line, for a page.
+const plain = text => text.replace(/^wiggly(?: live)?: (.)/, (_, first) => first.toUpperCase()).replace(/[^.]$/, '$&.');
+
 /// The command line: the user's theme if none was chosen, stillness if the system asks for it, and what the link holds.
 function commandLine(FS, linked) {
   const chosen = FS.analyzePath(SETTINGS).exists && /theme/.test(FS.readFile(SETTINGS, { encoding: 'utf8' }));
@@ -81,8 +84,11 @@ function commandLine(FS, linked) {
 }
 
 const app = await createWiggly({
-  canvas, page, print: text => console.log(text), printErr: text => (console.warn(text), say(text)),
+  canvas, page, print: text => console.log(text), printErr: text => (console.warn(text), say(plain(text))),
   onAbort: () => say('wiggly has stopped. Reload the page: what you did is kept.'),
+}).catch(error => {
+  say('wiggly could not start. It needs a browser from 2023 or later, and a network at the first visit.');
+  throw error;
 });
 globalThis.wiggly = app;
 await makeFolders(app.FS, () => say('The browser keeps no more files: save your work before you leave.'));

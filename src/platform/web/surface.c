@@ -76,7 +76,10 @@ struct platform *platform_offscreen(int width, int height, float scale, struct e
     (void)height;
     (void)scale;
     fail(error, ERROR_ENVIRONMENT,
-         shown ? "a browser draws only in its window: expected --no-draw" : "this browser has no WebGL 2");
+         shown
+             ? "a browser draws only in its window: expected --no-draw"
+             : "this browser has no WebGL 2, or it is turned off. Turn on hardware acceleration in its settings, or "
+               "open this page in another browser");
     return NULL;
 }
 
