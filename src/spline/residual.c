@@ -24,6 +24,8 @@ static inline ddc ddc_scale(cplx z, ddc w)
                  dd_add(dd_scale(z.re, w.im), dd_scale(z.im, w.re))};
 }
 
+static inline ddc ddc_weigh(double w, ddc z) { return (ddc){dd_scale(w, z.re), dd_scale(w, z.im)}; }
+
 static inline ddc ddc_add(ddc a, ddc b) { return (ddc){dd_add(a.re, b.re), dd_add(a.im, b.im)}; }
 static inline ddc ddc_subtract(ddc a, ddc b) { return (ddc){dd_subtract(a.re, b.re), dd_subtract(a.im, b.im)}; }
 
@@ -77,7 +79,7 @@ static inline ddc jet_at(const system_rows *rows, int i)
 static void set_jets(const system_rows *rows)
 {
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        ddc r = ddc_scale((cplx){rows->jet_weight[i], 0}, jet_of(rows, i));
+        const ddc r = ddc_weigh(rows->jet_weight[i], jet_of(rows, i));
         double *j = rows->jet + 4 * i;
         j[0] = r.re.hi, j[1] = r.re.lo, j[2] = r.im.hi, j[3] = r.im.lo;
     }
@@ -88,7 +90,7 @@ static inline ddc jet_from_rest(const system_rows *rows, int k)
 {
     const cplx from = sample_of(rows, k - 1), to = sample_of(rows, k);
     const double weight = rows->jet_weight[k > 0 ? k - 1 : rows->count - 1];
-    return ddc_scale((cplx){weight, 0}, (ddc){dd_difference(to.re, from.re), dd_difference(to.im, from.im)});
+    return ddc_weigh(weight, (ddc){dd_difference(to.re, from.re), dd_difference(to.im, from.im)});
 }
 
 /// The index of the jet at k, or -1.
