@@ -15,7 +15,7 @@ mkdir -p "$package"
 # shellcheck disable=SC2086 # the list is split on purpose
 emcc -std=gnu11 -O2 -flto -mbulk-memory -fno-math-errno -fno-trapping-math -ffp-contract=off -Wall -Wextra -Werror \
     -I../src -I../include $sources \
-    -sSTANDALONE_WASM --no-entry -sEXPORTED_FUNCTIONS=_spring_room,_spring_solve -sERROR_ON_UNDEFINED_SYMBOLS=0 \
+    -sSTANDALONE_WASM --no-entry -sEXPORTED_FUNCTIONS=_spring_room,_spring_solve,_spring_swing -sERROR_ON_UNDEFINED_SYMBOLS=0 \
     -sWARN_ON_UNDEFINED_SYMBOLS=0 -sMALLOC=none -sFILESYSTEM=0 -sTOTAL_STACK=65536 -sINITIAL_MEMORY=1MB -sALLOW_MEMORY_GROWTH \
     -o "$build/solver.wasm"
 # As text, so that nothing has to be fetched; hexadecimal, because that compresses best.

@@ -1,4 +1,4 @@
-import { solve } from './solver.js'
+import { solve, swing } from './solver.js'
 
 /** Refuses with one sentence. */
 const fail = (Kind, sentence) => { throw new Kind(`spring: ${sentence}`) }
@@ -32,28 +32,7 @@ function read(keys) {
   return keys.map(([, value], i) => numbers(`keys[${i}][1]`, value, first.length))
 }
 
-/** A free swing, [value, speed], after t seconds: q″ + 2d q′ + k q = 0. */
-function swing(q, v, d, k, t) {
-  const r2 = d * d - k, r = Math.sqrt(Math.abs(r2)), x = r2 * t * t
-  let c, s
-  if (Math.abs(x) < 1e-6) {
-    const decay = Math.exp(-d * t)
-    c = decay * (1 + x / 2)
-    s = decay * t * (1 + x / 6)
-  } else if (x < 0) {
-    const decay = Math.exp(-d * t)
-    c = decay * Math.cos(r * t)
-    s = (decay * Math.sin(r * t)) / r
-  } else {
-    const slow = Math.exp((r - d) * t), fast = Math.exp(-(r + d) * t)
-    c = (slow + fast) / 2
-    s = (slow - fast) / (2 * r)
-  }
-  const push = v + d * q, at = c * q + s * push
-  return [at, r2 * s * q + c * push - d * at]
-}
-
-/** Of a free swing, a bound of |q| that only falls. */
+/** Of a free swing, q″ + 2d q′ + k q = 0, a bound of |q| that only falls. */
 function envelope(q, v, d, k, t) {
   const r2 = d * d - k, r = Math.sqrt(Math.abs(r2)), push = Math.abs(v + d * q)
   if (r2 < 0 && r * t > 1) return Math.exp(-d * t) * Math.hypot(q, push / r)
@@ -106,7 +85,7 @@ class Spring {
     const t = time - this.#begin, x = t * this.#rate, last = this.#end
     if (!(x >= 0)) return x < 0 ? (moving ? 0 : first) : NaN
     if (x === Infinity) return moving ? 0 : goal
-    if (x >= last) return swing(curve[2 * last] - goal, curve[2 * last + 1] * this.#rate, this.#d, this.#k, t - last / this.#rate)[moving] + (moving ? 0 : goal)
+    if (x >= last) return swing(curve[2 * last] - goal, curve[2 * last + 1] * this.#rate, this.#d, this.#k, t - last / this.#rate, moving) + (moving ? 0 : goal)
     const i = Math.floor(x), u = x - i, a = curve[2 * i], slope = curve[2 * i + 1], step = curve[2 * i + 2] - a
     const square = 3 * step - 2 * slope - curve[2 * i + 3], cube = slope + curve[2 * i + 3] - 2 * step
     return moving ? (slope + u * (2 * square + u * 3 * cube)) * this.#rate : a + u * (slope + u * (square + u * cube))

@@ -34,3 +34,9 @@ export function solve(times, columns, speeds, rate, frequency, damping) {
     return memory.slice(2 * keys)
   })
 }
+
+/** A free swing from a value and a speed, t seconds later: its value or, if `moving`, its speed. */
+export function swing(value, speed, d, k, t, moving) {
+  wasm ??= load()
+  return wasm.spring_swing(value, speed, d, k, t, moving)
+}

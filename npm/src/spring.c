@@ -6,7 +6,7 @@
 // u begins as the spring does, with the first key's value and the given speed. Its goal steps to the next key half way. w begins at rest
 // (WIGGLY_REST) and passes through what is left at the keys. After the last sample all is one free swing about the last key.
 // A key need not lie on a sample: the knot is on the nearest one, with the value for which the cubics between samples meet the key.
-#include "maths/maths.h"
+#include "spline/oscillator.h"
 #include <wiggly/wiggly.h>
 
 typedef struct motion {
@@ -52,28 +52,30 @@ double *spring_room(int keys, int samples)
     return memory && wiggly_create_at(memory, solver, samples, keys, &room.solver) == WIGGLY_OK ? room.times : NULL;
 }
 
+/// A motion about 0, after what the step stands for.
+static motion moved(step_matrix step, motion m)
+{
+    return (motion){step.q_q * m.at + step.q_v * m.rate, step.v_q * m.at + step.v_v * m.rate};
+}
+
 /// After t seconds of a free swing.
 static motion swing(motion m, double d, double k, double t)
 {
-    const double r2 = d * d - k, r = sqrt(fabs(r2)), x = r2 * t * t;
-    double c, s;
-    if (fabs(x) < 1e-6) {
-        c = maths_exp(-d * t) * (1 + x / 2), s = maths_exp(-d * t) * t * (1 + x / 6);
-    } else if (x < 0) {
-        c = maths_exp(-d * t) * maths_cos(r * t), s = maths_exp(-d * t) * maths_sin(r * t) / r;
-    } else {
-        const double slow = maths_exp((r - d) * t), fast = maths_exp(-(r + d) * t);
-        c = (slow + fast) / 2, s = (slow - fast) / (2 * r);
-    }
-    const double push = m.rate + d * m.at, at = c * m.at + s * push;
-    return (motion){at, r2 * s * m.at + c * push - d * at};
+    return moved(oscillator_step((oscillator){d, k}, t), m);
+}
+
+/// Its value, or its speed.
+double spring_swing(double value, double speed, double d, double k, double t, bool moving)
+{
+    const motion m = swing((motion){value, speed}, d, k, t);
+    return moving ? m.rate : m.at;
 }
 
 /// u of all samples.
 static void move_alone(double rate, double d, double k, double speed)
 {
     const double *times = room.times, *values = room.values, h = 1 / rate;
-    const motion by_place = swing((motion){1, 0}, d, k, h), by_speed = swing((motion){0, 1}, d, k, h);
+    const step_matrix step = oscillator_step((oscillator){d, k}, h);
     motion m = {0, speed}; // about the goal
     int goal = 0;
     for (int i = 0; i < room.samples; i++) {
@@ -87,9 +89,7 @@ static void move_alone(double rate, double d, double k, double speed)
             m.at += values[goal] - values[goal + 1];
             from = half, steps = true;
         }
-        m = steps
-                ? swing(m, d, k, (i + 1) * h - from)
-                : (motion){by_place.at * m.at + by_speed.at * m.rate, by_place.rate * m.at + by_speed.rate * m.rate};
+        m = steps ? swing(m, d, k, (i + 1) * h - from) : moved(step, m);
     }
 }
 
@@ -98,7 +98,7 @@ static void add_solved(double rate, double d, double k)
 {
     const double *w = room.w;
     const int last = room.samples - 2;
-    const motion by_place = swing((motion){1, 0}, d, k, 1 / rate), by_speed = swing((motion){0, 1}, d, k, 1 / rate);
+    const step_matrix step = oscillator_step((oscillator){d, k}, 1 / rate);
     double below = 0, *part = room.spare;
     motion *at = room.curve;
     at[0].rate = 0;
@@ -106,12 +106,12 @@ static void add_solved(double rate, double d, double k)
         below = part[i] = 1 / (4 - below);
         at[i].rate = (3 * (w[i + 1] - w[i - 1]) - at[i - 1].rate) * below;
     }
-    at[last].rate = (w[last + 1] - by_place.at * w[last]) / (by_speed.at * rate);
+    at[last].rate = (w[last + 1] - step.q_q * w[last]) / (step.q_v * rate);
     for (int i = last - 1; i > 0; i--) at[i].rate -= part[i] * at[i + 1].rate;
     for (int i = 0; i <= last; i++) at[i] = (motion){room.u[i].at + w[i], room.u[i].rate / rate + at[i].rate};
 }
 
-/// The curve at a time up to the last sample, and a free swing after that: as wiggly.js reads it.
+/// The curve at a time up to the last sample, and a free swing after that: as index.js reads it.
 static double read(double time, double rate, double d, double k)
 {
     const int last = room.samples - 2, i = (int)(time * rate);
