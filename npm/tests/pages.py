@@ -9,11 +9,10 @@ from serve import Server
 
 PROBE = """
 const seen = window.seen = []
-let first
 requestAnimationFrame(function look() {
-  const output = document.querySelector('output'), box = document.querySelector('#box')
+  const output = document.querySelector('output'), box = document.querySelector('#box'), style = box && getComputedStyle(box)
   if (output?.value) seen.push(+output.value)
-  else if (box) seen.push(box.getBoundingClientRect().x - (first ??= box.getBoundingClientRect().x))
+  else if (box) seen.push(new DOMMatrix(style.transform).e + (parseFloat(style.translate) || 0))
   requestAnimationFrame(look)
 })
 """
@@ -44,7 +43,7 @@ def check(name, good, seen=""):
 
 
 def settled(page, goal):
-    return page.until(f"the box at {goal}", f"seen.length > 60 && seen.slice(-30).every((x) => Math.abs(x - {goal}) < 1)")
+    return page.until(f"the box at {goal}", f"seen.length > 10 && seen.slice(-10).every((x) => Math.abs(x - {goal}) < 1)")
 
 
 with Server(Path(sys.argv[1]).parent) as server, chromium.Chromium() as browser:
