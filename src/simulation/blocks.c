@@ -27,15 +27,15 @@ static size_t list_pairs(uint64_t *pairs, const struct element *elements, int co
     return kept;
 }
 
-void blocks_create(struct blocks *blocks, int nodes, const struct element *elements, int count)
+void blocks_create(struct blocks *blocks, int nodes, const struct element *elements, int count, struct pool *pool)
 {
     *blocks = (struct blocks){.rows = nodes};
     uint64_t *pairs = need((size_t)count * 16 + 1, sizeof *pairs);
     size_t kept = list_pairs(pairs, elements, count);
-    blocks->start = need_zeroed((size_t)nodes + 1, sizeof *blocks->start);
-    blocks->column = need_zeroed(kept + 1, sizeof *blocks->column);
-    blocks->block = need_zeroed(kept + 1, sizeof *blocks->block);
-    blocks->diagonal = need_zeroed((size_t)nodes, sizeof *blocks->diagonal);
+    blocks->start = pool_take(pool, (size_t)nodes + 1, sizeof *blocks->start);
+    blocks->column = pool_take(pool, kept + 1, sizeof *blocks->column);
+    blocks->block = pool_take(pool, kept + 1, sizeof *blocks->block);
+    blocks->diagonal = pool_take(pool, (size_t)nodes, sizeof *blocks->diagonal);
     for (size_t i = 0; i < kept; i++) {
         int row = (int)(pairs[i] >> 32), column = (int)(uint32_t)pairs[i];
         blocks->start[row + 1] = (int)i + 1;
@@ -43,15 +43,6 @@ void blocks_create(struct blocks *blocks, int nodes, const struct element *eleme
         if (row == column) blocks->diagonal[row] = (int)i;
     }
     free(pairs);
-}
-
-void blocks_free(struct blocks *blocks)
-{
-    free(blocks->start);
-    free(blocks->column);
-    free(blocks->block);
-    free(blocks->diagonal);
-    *blocks = (struct blocks){0};
 }
 
 int blocks_find(const struct blocks *blocks, int row, int column)
@@ -82,26 +73,16 @@ void blocks_multiply(const struct blocks *blocks, const double (*x)[3], double (
     }
 }
 
-void conjugate_create(struct conjugate *conjugate, int rows)
+void conjugate_create(struct conjugate *conjugate, int rows, struct pool *pool)
 {
     size_t n = (size_t)rows;
     *conjugate = (struct conjugate){
-        .r = need_zeroed(n, sizeof *conjugate->r),
-        .z = need_zeroed(n, sizeof *conjugate->z),
-        .p = need_zeroed(n, sizeof *conjugate->p),
-        .q = need_zeroed(n, sizeof *conjugate->q),
-        .inverse = need_zeroed(n, sizeof *conjugate->inverse),
+        .r = pool_take(pool, n, sizeof *conjugate->r),
+        .z = pool_take(pool, n, sizeof *conjugate->z),
+        .p = pool_take(pool, n, sizeof *conjugate->p),
+        .q = pool_take(pool, n, sizeof *conjugate->q),
+        .inverse = pool_take(pool, n, sizeof *conjugate->inverse),
     };
-}
-
-void conjugate_free(struct conjugate *conjugate)
-{
-    free(conjugate->r);
-    free(conjugate->z);
-    free(conjugate->p);
-    free(conjugate->q);
-    free(conjugate->inverse);
-    *conjugate = (struct conjugate){0};
 }
 
 /// Inverse of a symmetric definite 3×3 block by cofactors.

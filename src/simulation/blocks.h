@@ -6,6 +6,7 @@
 #ifndef SIMULATION_BLOCKS_H
 #define SIMULATION_BLOCKS_H
 
+#include "base/pool.h"
 #include "simulation/element.h"
 #include <stdbool.h>
 
@@ -17,9 +18,8 @@ struct blocks {
     int *diagonal;      ///< per row: index of block (i, i)
 };
 
-/// The pattern of a mesh: a block for each pair of nodes that share an element.
-void blocks_create(struct blocks *blocks, int nodes, const struct element *elements, int count);
-void blocks_free(struct blocks *blocks);
+/// The pattern of a mesh, in memory of `pool`: a block for each pair of nodes that share an element.
+void blocks_create(struct blocks *blocks, int nodes, const struct element *elements, int count, struct pool *pool);
 
 /// Index of the block (row, column), which must be in the pattern.
 int blocks_find(const struct blocks *blocks, int row, int column);
@@ -27,13 +27,12 @@ int blocks_find(const struct blocks *blocks, int row, int column);
 /// y = A x, one vector of three per row.
 void blocks_multiply(const struct blocks *blocks, const double (*x)[3], double (*y)[3]);
 
-/// Scratch: four vectors and the preconditioner. Made once for any number of solves.
+/// Scratch: four vectors and the preconditioner. Made once for any number of solves, in memory of `pool`.
 struct conjugate {
     double (*r)[3], (*z)[3], (*p)[3], (*q)[3];
     double (*inverse)[9]; ///< of the diagonal blocks
 };
-void conjugate_create(struct conjugate *conjugate, int rows);
-void conjugate_free(struct conjugate *conjugate);
+void conjugate_create(struct conjugate *conjugate, int rows, struct pool *pool);
 
 /// Solves A x = b for a definite A from the guess x, until the residual in the preconditioner's norm has fallen by
 /// `tolerance` relative to that of x = 0. Returns the iterations taken, at most `limit`.

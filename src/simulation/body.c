@@ -1,20 +1,18 @@
 /// Sums energy, forces and stiffness over the elements.
 #include "simulation/body.h"
-#include "base/need.h"
 #include "simulation/linear.h"
-#include <stdlib.h>
 #include <string.h>
 
 static void allocate(struct body *body)
 {
     size_t nodes = (size_t)body->node_count, elements = (size_t)body->element_count;
-    body->rest = need_zeroed(nodes + 1, sizeof *body->rest);
-    body->mass = need_zeroed(nodes + 1, sizeof *body->mass);
-    body->pinned = need_zeroed(nodes + 1, sizeof *body->pinned);
-    body->elements = need_zeroed(elements + 1, sizeof *body->elements);
-    body->svd = need_zeroed(elements + 1, sizeof *body->svd);
-    body->place = need_zeroed(elements + 1, sizeof *body->place);
-    conjugate_create(&body->scratch, body->node_count);
+    body->rest = pool_take(&body->pool, nodes + 1, sizeof *body->rest);
+    body->mass = pool_take(&body->pool, nodes + 1, sizeof *body->mass);
+    body->pinned = pool_take(&body->pool, nodes + 1, sizeof *body->pinned);
+    body->elements = pool_take(&body->pool, elements + 1, sizeof *body->elements);
+    body->svd = pool_take(&body->pool, elements + 1, sizeof *body->svd);
+    body->place = pool_take(&body->pool, elements + 1, sizeof *body->place);
+    conjugate_create(&body->scratch, body->node_count, &body->pool);
 }
 
 bool body_create(struct body *body, const double (*rest)[3], int node_count, const int (*tets)[4],
@@ -30,7 +28,7 @@ bool body_create(struct body *body, const double (*rest)[3], int node_count, con
         for (int a = 0; good && a < 4; a++) body->mass[tets[e][a]] += density * element->volume / 4;
     }
     if (good)
-        blocks_create(&body->stiffness, node_count, body->elements, element_count);
+        blocks_create(&body->stiffness, node_count, body->elements, element_count, &body->pool);
     else
         body_free(body);
     return good;
@@ -38,14 +36,7 @@ bool body_create(struct body *body, const double (*rest)[3], int node_count, con
 
 void body_free(struct body *body)
 {
-    free(body->rest);
-    free(body->mass);
-    free(body->pinned);
-    free(body->elements);
-    free(body->svd);
-    free(body->place);
-    blocks_free(&body->stiffness);
-    conjugate_free(&body->scratch);
+    pool_free(&body->pool);
     *body = (struct body){0};
 }
 

@@ -9,6 +9,7 @@
 #include <stdbool.h>
 
 struct body {
+    struct pool pool; ///< has all below
     int node_count, element_count;
     double (*rest)[3];        ///< m
     double *mass;             ///< kg

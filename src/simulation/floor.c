@@ -1,9 +1,7 @@
 /// Springs under the surface's vertices.
 #include "simulation/floor.h"
-#include "base/need.h"
 #include "simulation/linear.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 /// A vertex gets a third of the area of each of its triangles.
@@ -22,12 +20,12 @@ void floor_create(struct floor *f, const struct lattice *lattice, const struct s
     const double stiffer = 10; // than a layer of cells: the floor gives way a tenth as much as the feet
     size_t count = (size_t)surface->vertex_count + 1;
     *f = (struct floor){.lattice = lattice, .height = height};
-    f->spring = need_zeroed(count, sizeof *f->spring);
-    f->damper = need_zeroed(count, sizeof *f->damper);
-    f->origin = need_zeroed(count, sizeof *f->origin);
-    f->touched = need_zeroed(count, sizeof *f->touched);
-    f->damped = need_zeroed(count, sizeof *f->damped);
-    f->pushed = need_zeroed(count, sizeof *f->pushed);
+    f->spring = pool_take(&f->pool, count, sizeof *f->spring);
+    f->damper = pool_take(&f->pool, count, sizeof *f->damper);
+    f->origin = pool_take(&f->pool, count, sizeof *f->origin);
+    f->touched = pool_take(&f->pool, count, sizeof *f->touched);
+    f->damped = pool_take(&f->pool, count, sizeof *f->damped);
+    f->pushed = pool_take(&f->pool, count, sizeof *f->pushed);
     add_areas(surface, f->spring);
     for (int i = 0; i < surface->vertex_count; i++) {
         f->damper[i] = f->spring[i] * sqrt(young * density);
@@ -37,12 +35,7 @@ void floor_create(struct floor *f, const struct lattice *lattice, const struct s
 
 void floor_free(struct floor *f)
 {
-    free(f->spring);
-    free(f->damper);
-    free(f->origin);
-    free(f->touched);
-    free(f->damped);
-    free(f->pushed);
+    pool_free(&f->pool);
     *f = (struct floor){0};
 }
 

@@ -18,6 +18,7 @@
 #include "simulation/lattice.h"
 
 struct floor {
+    struct pool pool; ///< has all below
     const struct lattice *lattice;
     double height;  ///< y, m
     double *spring; ///< k per vertex, N/m

@@ -101,10 +101,10 @@ static void fit_volume(struct tiling *best, const struct solid *solid, double la
 static void number(struct lattice *lattice, const struct tiling *t, int *index, int *node_number)
 {
     size_t n = (size_t)t->kept;
-    lattice->node = need_zeroed(4 * n + 1, sizeof *lattice->node);
-    lattice->tet = need_zeroed(n + 1, sizeof *lattice->tet);
-    lattice->fraction = need_zeroed(n + 1, sizeof *lattice->fraction);
-    lattice->part = need_zeroed(n + 1, sizeof *lattice->part);
+    lattice->node = pool_take(&lattice->pool, 4 * n + 1, sizeof *lattice->node);
+    lattice->tet = pool_take(&lattice->pool, n + 1, sizeof *lattice->tet);
+    lattice->fraction = pool_take(&lattice->pool, n + 1, sizeof *lattice->fraction);
+    lattice->part = pool_take(&lattice->pool, n + 1, sizeof *lattice->part);
     const double whole = VOXELS_A_CELL * VOXELS_A_CELL * VOXELS_A_CELL / 12.0; // a tetrahedron's volume in voxels
     for (int e = 0; e < t->count; e++) {
         if (t->part[e] < 0) continue;
@@ -177,8 +177,8 @@ static void embed(struct lattice *lattice, const struct tiling *t, const int *in
 {
     size_t count = (size_t)surface->vertex_count;
     lattice->vertex_count = surface->vertex_count;
-    lattice->host = need_zeroed(count + 1, sizeof *lattice->host);
-    lattice->weight = need_zeroed(count + 1, sizeof *lattice->weight);
+    lattice->host = pool_take(&lattice->pool, count + 1, sizeof *lattice->host);
+    lattice->weight = pool_take(&lattice->pool, count + 1, sizeof *lattice->weight);
     double(*normal)[3] = normals_of(&solid->shape);
     uint8_t *used = surface_used_vertices(surface);
     for (int i = 0; i < surface->vertex_count; i++) {
@@ -257,12 +257,7 @@ bool lattice_create(struct lattice *lattice, const struct surface *surface, int 
 
 void lattice_free(struct lattice *lattice)
 {
-    free(lattice->node);
-    free(lattice->tet);
-    free(lattice->fraction);
-    free(lattice->part);
-    free(lattice->host);
-    free(lattice->weight);
+    pool_free(&lattice->pool);
     *lattice = (struct lattice){0};
 }
 

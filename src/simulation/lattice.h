@@ -14,6 +14,7 @@
 #define SIMULATION_LATTICE_H
 
 #include "base/error.h"
+#include "base/pool.h"
 #include "simulation/solid.h"
 #include <stdbool.h>
 
@@ -45,7 +46,8 @@ void tiling_free(struct tiling *tiling);
 void tiling_point(const struct tiling *tiling, int key, double position[3]);
 
 struct lattice {
-    double cell; ///< edge of the cubes, m
+    struct pool pool; ///< has all below
+    double cell;      ///< edge of the cubes, m
     int node_count, tet_count;
     double (*node)[3];
     int (*tet)[4];

@@ -17,6 +17,7 @@ enum { RIGID = 6, GRADIENTS_MAX = 20000 };
 
 struct lanczos {
     struct body *body;
+    struct pool pool;
     int node_count, steps, done;
     double shift;
     double (*basis)[3];       ///< (steps + 1) × node_count
@@ -29,20 +30,11 @@ static void lanczos_create(struct lanczos *l, struct body *body, int steps)
 {
     size_t nodes = (size_t)body->node_count, m = (size_t)steps;
     *l = (struct lanczos){.body = body, .node_count = body->node_count, .steps = steps};
-    l->basis = need_zeroed((m + 1) * nodes, sizeof *l->basis);
-    l->left = need_zeroed(nodes, sizeof *l->left);
-    l->small = need_zeroed(m * m, sizeof *l->small);
-    l->values = need_zeroed(m, sizeof *l->values);
-    l->vectors = need_zeroed(m * m, sizeof *l->vectors);
-}
-
-static void lanczos_free(struct lanczos *l)
-{
-    free(l->basis);
-    free(l->left);
-    free(l->small);
-    free(l->values);
-    free(l->vectors);
+    l->basis = pool_take(&l->pool, (m + 1) * nodes, sizeof *l->basis);
+    l->left = pool_take(&l->pool, nodes, sizeof *l->left);
+    l->small = pool_take(&l->pool, m * m, sizeof *l->small);
+    l->values = pool_take(&l->pool, m, sizeof *l->values);
+    l->vectors = pool_take(&l->pool, m * m, sizeof *l->vectors);
 }
 
 /// The body's matrix becomes K + sM. The shift is a small part of the stiffness.
@@ -192,7 +184,7 @@ void modes_create(struct modes *modes, struct body *body, int count)
     build(&lanczos);
     stage_tell("finding the modes", steps, steps);
     extract(&lanczos, modes, count);
-    lanczos_free(&lanczos);
+    pool_free(&lanczos.pool);
 }
 
 void modes_free(struct modes *modes)
