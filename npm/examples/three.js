@@ -8,8 +8,10 @@ const box = new Mesh(new BoxGeometry(60, 60, 60), new MeshNormalMaterial())
 scene.add(box)
 renderer.setSize(500, 300)
 document.querySelector('main').append(renderer.domElement, document.createElement('output'))
+renderer.render(scene, camera) // its first picture takes long
+const begin = performance.now()
 renderer.setAnimationLoop((now) => {
-  box.position.fromArray(s.at(now / 1000, place))
+  box.position.fromArray(s.at((now - begin) / 1000, place))
   document.querySelector('output').value = box.position.x.toFixed(2)
   renderer.render(scene, camera)
 })
