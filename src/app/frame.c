@@ -153,7 +153,7 @@ static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
     bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->table.editor) || app->paste ||
-                  app->export_job || app->demo.on;
+                  app->export_job || app->demo.on || app->fetches;
     app->was_idle = !wanted;
     int count = 0;
     const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
@@ -290,6 +290,23 @@ static void log_frame(struct app *app)
     if (!app_screenshot(app, path, &app->error)) app->failed = true;
 }
 
+/// Whether characters of a new document must be fetched first.
+static bool is_fetching(const struct table *table)
+{
+    const struct document *document = table->document;
+    bool any = false;
+    if (table->models_serial == document->serial) return false;
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        char path[PATH_LIMIT];
+        const char *model = rig->kind == RIG_MODEL       ? rig->model.model
+                            : rig->kind == RIG_CHARACTER ? rig->character.model
+                                                         : NULL;
+        any |= model && path_resolve(document->folder, model, path) && platform_fetches(path);
+    }
+    return any;
+}
+
 void app_frame(struct app *app)
 {
     struct table *table = &app->table;
@@ -304,7 +321,8 @@ void app_frame(struct app *app)
     app_show_title(app);
     ui_scale_update(app);
     personal_update(app);
-    if (app->failed) return;
+    app->fetches = is_fetching(table);
+    if (app->failed || app->fetches) return;
     table_solve(table, row);
     table_pose(table, row);
     choose_resolution(app);

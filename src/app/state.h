@@ -71,6 +71,7 @@ struct app {
     long frame, stats_frame;
     bool shown_saved;   ///< in the window's title
     uint64_t described; ///< hash of the last platform_describe()
+    bool fetches;       ///< no frame is drawn until the document's characters are there
     bool paste;         ///< clipboard text to deliver with the next events
     bool quit;
     bool failed; ///< `error` ends the run

@@ -100,4 +100,10 @@ void platform_share(struct platform *platform, const char *scene) { (void)platfo
 
 void platform_choose_file(struct platform *platform) { (void)platform; }
 
+bool platform_fetches(const char *path)
+{
+    (void)path;
+    return false;
+}
+
 bool platform_keeps(const struct platform *platform) { return platform->keeps; }

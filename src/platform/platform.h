@@ -59,6 +59,9 @@ bool platform_in_page(void);
 void platform_share(struct platform *platform, const char *scene);
 void platform_choose_file(struct platform *platform);
 
+/// In a browser, characters of the program's own are fetched once they are needed: whether this one is on its way. The next frame comes after it.
+bool platform_fetches(const char *path);
+
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor);
 
 /// Called when the display is lost or another program destroyed the window; then the process ends with exit status 3. Register it once the

@@ -23,6 +23,7 @@ STILL = {'color_scheme': 'light', 'reduced_motion': 'reduce'}
 KNOT, LOWER = (125, 470), (125, 530)  # the first knot of "sway" at 1280 × 720
 STAGE = (340, 20, 650, 370)  # x, y, width, height: beside the card
 FIRST_FRAME = "performance.getEntriesByName('first frame')[0]?.startTime"
+FETCHED = "performance.getEntriesByType('resource').some(({ name }) => name.endsWith('.glb'))"
 # How many pixels of the canvas differ from the last look at it.
 LOOK = '''(([x, y, width, height]) => {
     const [canvas, copy] = [document.getElementById('canvas'), new OffscreenCanvas(width, height)];
@@ -247,13 +248,19 @@ def characters(browser, url):
     page.key('Ctrl+Shift+L')
     page.until('a word that no link holds it', "/no characters/.test(document.getElementById('said').textContent)")
     reopened(page, url)
+    expect(not page.evaluate(FETCHED), 'no character is fetched before it is shown')
     look(page)
-    page.until("the dog's file", "wiggly.FS.analyzePath('/usr/share/wiggly/models/dog.glb').exists")
+    page.call('Network.emulateNetworkConditions', offline=False, latency=1000, downloadThroughput=-1, uploadThroughput=-1)
     page.key('Ctrl+8')
+    page.until('a word that it is fetched', "document.getElementById('said').textContent === 'Fetching dog.glb …'")
     until('the dog', lambda: look(page) > 5000)
     frames(page)
     page.screenshot(OUT / 'dog.png')
     expect('dog.glb' in json.dumps(scene(page)), 'the scene with the dog is shared by its name')
+    link = page.evaluate('location.hash')
+    page.close()
+    page = opened(browser, url + link)
+    expect(page.evaluate(FETCHED), "a link's character is there in the first frame")
     expect(not (found := page.problems()), f'the console says {found}')
     page.close()
 
@@ -312,7 +319,16 @@ def offline(browser, url):
         page.until('a service worker', 'navigator.serviceWorker.ready.then(() => true)')
         page.until('its cache', '''caches.keys().then(names => names.length && caches.open(names[0])).then(cache => cache && cache.keys())
             .then(files => files && files.some(file => file.url.endsWith('wiggly.wasm')))''')
+        look(page)
+        page.key('Ctrl+8')
+        until('the dog', lambda: look(page) > 5000)
     reopened(page, server.url)
+    look(page)
+    page.key('Ctrl+7')
+    page.until('a word that a character does not come', "/creature.glb could not/.test(document.getElementById('said').textContent)")
+    until('the scene without it', lambda: look(page) > 5000)
+    page.key('Ctrl+8')
+    until('the dog, which was kept', lambda: look(page) > 5000)
     page.close()
 
 

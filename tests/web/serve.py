@@ -10,6 +10,12 @@ class Handler(http.server.SimpleHTTPRequestHandler):
         '': 'application/octet-stream', '.css': 'text/css', '.html': 'text/html', '.js': 'text/javascript',
         '.json': 'application/json', '.mjs': 'text/javascript', '.svg': 'image/svg+xml', '.wasm': 'application/wasm'}
 
+    def do_GET(self):
+        if self.server.is_stopped:  # a connection that was opened before
+            self.close_connection = True
+        else:
+            super().do_GET()
+
     def log_message(self, *_):
         pass
 
@@ -20,12 +26,14 @@ class Server:
     def __init__(self, folder):
         self.http = http.server.ThreadingHTTPServer(('127.0.0.1', 0), functools.partial(Handler, directory=str(folder)))
         self.http.daemon_threads = True
+        self.http.is_stopped = False
         self.url = f'http://localhost:{self.http.server_port}/'
         self.thread = threading.Thread(target=self.http.serve_forever, args=(0.05,), daemon=True)
         self.thread.start()
 
     def stop(self):
         """From now on nobody answers at the address."""
+        self.http.is_stopped = True
         if self.thread.is_alive():
             self.http.shutdown()
             self.thread.join()

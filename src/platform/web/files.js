@@ -13,11 +13,33 @@ export async function makeFolders(FS, onRefused) {
   await keep(FS, path => path.includes('/.') || download(FS, path), onRefused);
 }
 
-/// Fetches the characters of the built-in scenes, but for the fox, which the program holds.
-export const fetchModels = FS => Promise.all(['dog.glb', 'creature.glb'].map(async name => {
-  const answer = await fetch(`models/${name}`);
-  if (answer.ok) FS.writeFile(`${MODELS}/${name}`, new Uint8Array(await answer.arrayBuffer()));
-}));
+// The built-in scenes' characters are fetched when a scene shows them. The fox is in the program.
+const coming = new Set(), refused = new Set(); // paths
+export const isFetching = () => coming.size > 0;
+
+// What came past the service worker, on a first visit, comes again for it to keep.
+navigator.serviceWorker?.addEventListener('controllerchange', () => performance.getEntriesByType('resource')
+  .forEach(({ name }) => name.endsWith('.glb') && fetch(name).catch(() => {})));
+
+/// Whether a file is on its way. One that does not come is asked for again the next time.
+export function fetches(FS, path, say) {
+  if (coming.has(path)) return true;
+  if (!path.startsWith(MODELS) || FS.analyzePath(path).exists || refused.delete(path)) return false;
+  const name = path.slice(MODELS.length + 1);
+  const bring = async () => {
+    const answer = await fetch(`models/${name}`);
+    if (!answer.ok) throw new Error(answer.statusText);
+    FS.writeFile(path, new Uint8Array(await answer.arrayBuffer()));
+    say('');
+  };
+  coming.add(path);
+  say(`Fetching ${name} …`);
+  bring().catch(() => {
+    refused.add(path);
+    say(`${name} could not be fetched: open the scene again when you have a network.`);
+  }).finally(() => coming.delete(path));
+  return true;
+}
 
 function download(FS, path) {
   const link = document.createElement('a');

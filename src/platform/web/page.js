@@ -1,6 +1,6 @@
 // Starts the app in its page, and does what it asks of a browser (surface.c's page_… functions).
 import { listen } from './input.js';
-import { fetchModels, makeFolders, readLink, receive, writeLink } from './files.js';
+import { fetches, isFetching, makeFolders, readLink, receive, writeLink } from './files.js';
 
 const canvas = document.getElementById('canvas');
 const prefers = what => matchMedia(`(prefers-${what})`).matches;
@@ -11,7 +11,8 @@ let timer;
 function say(text) {
   document.getElementById('said').textContent = text;
   clearTimeout(timer);
-  timer = setTimeout(() => app.isShown && (document.getElementById('said').textContent = ''), 4000); // else there is nothing but the word
+  const end = () => app.isShown && !isFetching() && (document.getElementById('said').textContent = ''); // else nothing moves but the word
+  timer = setTimeout(end, 4000);
 }
 
 // The canvas's size in device pixels, which a frame takes over just before it is drawn. On a phone, all of the app is smaller.
@@ -51,9 +52,10 @@ const page = {
     if (!timer) say(''); // "Loading …"
     app.isShown = true;
     performance.mark('first frame');
-    fetchModels(app.FS).catch(() => {});
     navigator.serviceWorker?.register('sw.js').catch(() => {});
   },
+  fetches: path => fetches(app.FS, path, say),
+  waits: isFetching,
   stopped: () => say('wiggly has ended. Reload the page to start it again.'),
   choose: () => Object.assign(document.createElement('input'), {
     type: 'file', multiple: true, accept: '.json,.glb,.gltf,.bin,.png,.jpg,.obj',
@@ -102,5 +104,4 @@ addEventListener('hashchange', async () => {
   if (path) app.ccall('web_drop', null, ['string'], [path]);
 });
 canvas.addEventListener('webglcontextlost', () => say('The graphics driver was reset. Reload the page: what you did is kept.'));
-if (linked) await fetchModels(app.FS).catch(() => {});
 app.callMain(commandLine(app.FS, linked));

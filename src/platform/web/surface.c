@@ -36,6 +36,8 @@ EM_JS(void, page_shown, (void), { Module.page.shown(); });
 EM_JS(void, page_fullscreen, (void), { Module.page.fullscreen(); });
 EM_JS(void, page_share, (const char *scene), { Module.page.share(UTF8ToString(scene)); });
 EM_JS(void, page_choose, (void), { Module.page.choose(); });
+EM_JS(bool, page_fetches, (const char *path), { return Module.page.fetches(UTF8ToString(path)); });
+EM_JS(bool, page_waits, (void), { return Module.page.waits(); });
 EM_JS(void, page_resize, (void), { Module.page.resize(); });
 EM_JS(void, page_stopped, (void), { Module.page.stopped(); });
 
@@ -96,7 +98,7 @@ static EM_BOOL on_frame(double time, void *user)
 {
     (void)time;
     struct platform *platform = user;
-    if (platform->frame(platform->user)) return EM_TRUE;
+    if (page_waits() || platform->frame(platform->user)) return EM_TRUE;
     page_stopped();
     return EM_FALSE;
 }
@@ -177,6 +179,8 @@ void platform_choose_file(struct platform *platform)
 {
     if (platform->context) page_choose();
 }
+
+bool platform_fetches(const char *path) { return shown && page_fetches(path); }
 
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor)
 {
