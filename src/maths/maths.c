@@ -108,13 +108,6 @@ double maths_expm1(double x)
     return less + (lost + scale * (e.root[1] + e.root[0] * e.rest));
 }
 
-double maths_sinh(double x)
-{
-    const double grown = maths_expm1(fabs(x));
-    if (isinf(grown)) return copysign(grown, x);
-    return copysign(0.5 * (grown + grown / (1 + grown)), x);
-}
-
 // --- sin and cos: angle = n π/2 + (r + rest), |r| ≤ π/4 -------------------------------------------------------------
 
 /// Of r, given r and what rounding it lost.

@@ -10,8 +10,6 @@ double maths_exp(double x);
 /// exp(x) − 1.
 double maths_expm1(double x);
 
-double maths_sinh(double x);
-
 /// A point of the unit circle.
 typedef struct maths_point {
     double cos, sin;

@@ -49,9 +49,7 @@ static inline dd dd_add(dd a, dd b)
     return (dd){hi, lo - (hi - s.hi)};
 }
 
-static inline dd dd_negate(dd a) { return (dd){-a.hi, -a.lo}; }
-
-static inline dd dd_subtract(dd a, dd b) { return dd_add(a, dd_negate(b)); }
+static inline dd dd_subtract(dd a, dd b) { return dd_add(a, (dd){-b.hi, -b.lo}); }
 
 /// a·b for a double a.
 static inline dd dd_scale(double a, dd b)

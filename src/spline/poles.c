@@ -199,7 +199,7 @@ static double z_over_sinh(double z2)
 {
     if (fabs(z2) < 1e-4) return 1 - z2 * (1.0 / 6 - z2 * (7.0 / 360 - z2 * (31.0 / 15120)));
     double z = sqrt(fabs(z2));
-    return z2 > 0 ? z / maths_sinh(z) : z / maths_sin(z);
+    return z2 > 0 ? -2 * z * maths_exp(-z) / maths_expm1(-2 * z) : z / maths_sin(z);
 }
 
 /// Limit for the coefficient of a speed; it would be infinite if two poles alias to the same λ.
