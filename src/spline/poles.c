@@ -27,7 +27,7 @@ static const double negligible = 1e-30;
 static double at_sample(wiggly_param param, int sample, double maximum)
 {
     double value = param.track ? param.track[sample] : param.value;
-    return value > 0 ? fmin(value, maximum) : 0.0;
+    return value > 0 ? value < maximum ? value : maximum : 0.0;
 }
 
 /// Roots of s² + 2σs + ω² = 0.
@@ -63,9 +63,10 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor)
 {
     if (desc->mode == WIGGLY_CUBIC) return (poles){0};
     double omega = 2 * pi * at_sample(desc->frequency, sample, sqrt(largest));
-    double zeta = fmax(at_sample(desc->damping, sample, sqrt(largest)), floor);
+    double zeta = at_sample(desc->damping, sample, sqrt(largest));
+    zeta = zeta > floor ? zeta : floor;
     if (desc->mode == WIGGLY_REAL) return real_poles(zeta * omega, omega);
-    return complex_poles(omega, fmin(zeta, 1.0), at_sample(desc->bandwidth, sample, 1.0));
+    return complex_poles(omega, zeta < 1 ? zeta : 1, at_sample(desc->bandwidth, sample, 1.0));
 }
 
 /// Bits of the largest number: positive numbers have the order of their bits, above negative ones.
