@@ -408,4 +408,10 @@ SESSION_TEST(test_a_message_takes_the_whole_of_a_narrow_status_line, panel_open(
     session_frame(s);
     assert_true(session_shows(s, "Saved as walk.json"));
     assert_false(session_shows(s, "Auto-key"));
+    session_move(s, 20, 780); // over the play button
+    session_click_here(s, 1);
+    assert_false(s->editor->core.playback.playing);
+    assert_true(session_shows(s, "Auto-key"));
+    session_click_here(s, 1);
+    assert_true(s->editor->core.playback.playing);
 }

@@ -140,10 +140,19 @@ BLIND_TEST(test_in_an_upright_window_all_panels_come_from_below, blind_open(b, N
     const struct layout *l = &core_of(b)->layout;
     assert_near(l->stage.h, 792, 0);
     assert_true(l->curves.y >= 792 && l->inspector.y >= 792);
+    struct event press = {.kind = EVENT_BUTTON, .action = ACTION_PRESS, .clicks = 1, .x = 200, .y = 785};
     point(b, 200, 785);
+    frames(b, 2);
+    press.y = l->ruler.y + 8; // as it comes by
+    blind_send(b, press);
+    blind_frame(b);
+    assert_null(core_of(b)->drag.owner);
+    press.action = ACTION_RELEASE;
+    blind_send(b, press);
     frames(b, 30);
     assert_near(l->status.y + l->status.h, 792, 0);
     assert_near(l->inspector.y + l->inspector.h, l->status.y, 0);
+    assert_near(l->stage.h, l->curves.y, 0); // they take their room from the stage
     point(b, 200, l->inspector.y + 20);
     frames(b, 30);
     assert_near(l->status.y + l->status.h, 792, 0);

@@ -25,7 +25,7 @@ static void presenter_arrange(const struct presenter *presenter, struct layout *
     l->sheet.w += across;
     l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
     struct rect *const lower[] = {&l->curves, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
-    l->stage = presenter->shares ? l->open : l->window;
+    l->stage = presenter->shares || l->upright ? l->open : l->window; // upright, nothing of it would be left
     for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
     if (l->upright) l->inspector.y += down;
 }

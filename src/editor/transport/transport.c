@@ -29,9 +29,12 @@ struct rect controls_rect(const struct core *core, enum hover_kind control)
     return r;
 }
 
+/// In a narrow window a message takes the whole line.
+static bool is_covered(const struct core *core) { return core->message.text[0] && core->layout.status.w < 640; }
+
 struct hover transport_hover(const struct core *core, float x, float y)
 {
-    for (enum hover_kind control = HOVER_PLAY; control <= HOVER_PRESENT; control++) {
+    for (enum hover_kind control = HOVER_PLAY; control <= HOVER_PRESENT && !is_covered(core); control++) {
         if (rect_contains(controls_rect(core, control), x, y)) return (struct hover){.kind = control};
     }
     return (struct hover){.kind = HOVER_NONE};
@@ -40,6 +43,7 @@ struct hover transport_hover(const struct core *core, float x, float y)
 bool transport_event(struct core *core, const struct event *event)
 {
     const enum hover_kind control = transport_hover(core, event->x, event->y).kind;
+    if (is_covered(core) && event->kind == EVENT_BUTTON) core->message.text[0] = '\0';
     const bool turns = event->kind == EVENT_WHEEL, left = event->button == BUTTON_LEFT;
     if (control == HOVER_NONE || (turns ? event->dy == 0 : event->button == BUTTON_MIDDLE)) return false;
     const int step = turns ? (event->dy > 0 ? 1 : -1) : !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
@@ -245,7 +249,7 @@ static void figures_text(const struct core *core, char *text, size_t size)
              fps[0] && solve[0] ? "  " : "", solve);
 }
 
-enum { GAP = 24, STATUS_MARGIN = 12, NARROW = 640 }; ///< NARROW: a message takes the whole of such a bar
+enum { GAP = 24, STATUS_MARGIN = 12 };
 
 static const char unkept[] = "Autosave fails: save now (Ctrl+S)";
 
@@ -271,8 +275,7 @@ void transport_show(struct core *core, const char *hint)
     const struct message *message = &core->message;
     drawlist_rect(&core->list, bar, theme()->panel);
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
-    const bool alone = message->text[0] && bar.w < NARROW;
-    float x = alone ? bar.x + STATUS_MARGIN : show_time(core, bar, controls_show(core)) + GAP;
+    float x = is_covered(core) ? bar.x + STATUS_MARGIN : show_time(core, bar, controls_show(core)) + GAP;
     char figures[160];
     figures_text(core, figures, sizeof figures);
     const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
