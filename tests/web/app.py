@@ -21,6 +21,7 @@ FOLDER, OUT = map(pathlib.Path, sys.argv[1:3])
 MODELS = pathlib.Path(__file__).parents[2] / 'assets/models'
 STILL = {'color_scheme': 'light', 'reduced_motion': 'reduce'}
 KNOT, LOWER = (125, 470), (125, 530)  # the first knot of "sway" at 1280 × 720
+FOUND, PANELS = (150, 210), (60, 300, 250, 420)  # on a phone of 390 × 844: the first command found; x, y, width, height of the curves and settings
 STAGE = (340, 20, 650, 370)  # x, y, width, height: beside the card
 FIRST_FRAME = "performance.getEntriesByName('first frame')[0]?.startTime"
 FETCHED = "performance.getEntriesByType('resource').some(({ name }) => name.endsWith('.glb'))"
@@ -265,6 +266,16 @@ def characters(browser, url):
     page.close()
 
 
+def swipe(page, start, by=(0, 0)):
+    """By one finger; without a way a tap."""
+    page.touch('touchStart', start)
+    for n in range(1, 9) if any(by) else ():
+        page.touch('touchMove', tuple(a + b * n / 8 for a, b in zip(start, by)))
+        frames(page, 1)
+    page.touch('touchEnd')
+    frames(page)
+
+
 def touches(browser, url):
     page = opened(browser, url, size=(1280, 772, 1), fingers=True)  # the bar takes 52
     bar = page.evaluate("[...document.querySelectorAll('#bar button')].map(button => button.offsetHeight)")
@@ -286,29 +297,72 @@ def touches(browser, url):
     frames(page)
     expect(look(page) > 2000, 'two fingers pan')
     expect(scene(page) == start, 'and change nothing of the scene')
+    expect(not (found := page.problems()), f'the console says {found}')
     page.screenshot(OUT / 'fingers.png')
     page.close()
-    page = opened(browser, url, size=(1280, 772, 1), fingers=True)
-    page.touch('touchStart', KNOT)
-    for n in range(8):
-        page.touch('touchMove', (KNOT[0], KNOT[1] + 8 * n))
-        frames(page, 1)
-    page.touch('touchEnd')
-    told(page, 'a knot moved by a finger', lambda text: text.startswith('*'))
-    undo = page.evaluate('''(box => [box.x + box.width / 2, box.y + box.height / 2])(
-        document.querySelector('#bar [data-key=Z]').getBoundingClientRect())''')
-    page.touch('touchStart', undo)
-    page.touch('touchEnd')
-    told(page, 'Undo by the bar', lambda text: not text.startswith('*'))
-    page.touch('touchStart', (655, 250))
-    for n in range(10):
-        page.touch('touchMove', (655 - 12 * n, 250))
-        frames(page, 1)
-    page.touch('touchEnd')
-    told(page, 'the fox dragged by a finger', lambda text: text.startswith('*'))
-    expect(scene(page) != start, 'one finger drags the fox')
+
+
+def phone(browser, url):
+    page = browser.page(fresh=True)
+    page.resize(390, 844, mobile=True)
+    page.fingers()
+    page.prefer(**STILL)
+    reopened(page, url)
+    start = scene(page)
+    more, undo, type_key = (page.evaluate(f'''(box => [box.x + box.width / 2, box.y + box.height / 2])(
+        document.querySelector('#bar [data-{which}]').getBoundingClientRect())''') for which in ('key=F3', 'key=Z', 'does=type'))
+    for what, place, by in (('a knot', (74, 343), (0, 40)), ('the tail', (200, 130), (-40, 30)), ('the body', (258, 160), (-40, 0))):
+        swipe(page, place, by)
+        told(page, f'{what} dragged by a finger', lambda text: text.startswith('*'))
+        swipe(page, undo)
+        told(page, 'Undo by the bar', lambda text: not text.startswith('*'))
+    expect(scene(page) == start, 'all of it is undone')
+
+    swipe(page, more)
+    swipe(page, type_key)
+    page.call('Input.insertText', text='pin the point')
+    frames(page)
+    swipe(page, FOUND)
+    told(page, 'a pin put by a finger', lambda text: text.startswith('*'))
+    pin = scene(page)['rigs'][0]['pins'][0]
+    swipe(page, (188, 104), (-40, 30))
+    until('the pin dragged by a finger', lambda: scene(page)['rigs'][0]['pins'][0]['to'] != pin['to'])
+
+    look(page, PANELS)
+    page.key('F1')
+    frames(page)
+    expect(look(page, PANELS) > 2000, 'F1 shows all keys')
+    swipe(page, (195, 500), (0, -200))
+    expect(look(page, PANELS) > 2000, 'a finger scrolls them')
+    swipe(page, (195, 500))
+    frames(page)
+    look(page, PANELS)
+    page.evaluate('globalThis.before = lastLook')
+    same = 'lastLook.reduce((sum, value, k) => sum + (Math.abs(value - before[k]) > 16), 0) < 500'
+    swipe(page, (242, 780))
+    until('the stage alone', lambda: look(page, PANELS) == 0 and not page.evaluate(same))
+    page.screenshot(OUT / 'presenter.png')
+    swipe(page, (195, 785))  # the lower edge brings the panels
+    frames(page, 30)
+    swipe(page, (242, 780))
+    until('the panels again', lambda: look(page, PANELS) == 0 and page.evaluate(same))
     expect(not (found := page.problems()), f'the console says {found}')
     page.close()
+
+
+def pastes(browser, url):
+    pages = [opened(browser, url) for _ in range(2)]
+    for page in pages:
+        browser.call('Browser.grantPermissions', permissions=['clipboardReadWrite', 'clipboardSanitizedWrite'], **page.context)
+    pages[0].key('Ctrl+A')
+    pages[0].key('Ctrl+C')
+    pages[0].until('knots in the clipboard', "navigator.clipboard.readText().then(text => text.includes('frame'))")
+    pages[1].key('Ctrl+V')
+    told(pages[1], 'knots from the other page', lambda text: text.startswith('*'))
+    expect(len(scene(pages[1])['splines'][0]['knots']) == 10, 'five more')
+    for page in pages:
+        expect(not (found := page.problems()), f'the console says {found}')
+        page.close()
 
 
 def offline(browser, url):
@@ -399,7 +453,9 @@ CASES = [
     ('each tab keeps its own work, and all share what is saved', tabs),
     ('exports and scenes are downloads, and scenes come back by a drop', files),
     ('a character is dropped in, and the built-in dog opens', characters),
-    ('fingers drag, pan, zoom and turn', touches),
+    ('two fingers pan, zoom and turn', touches),
+    ('on a phone a finger drags, pins, reads the help and presents', phone),
+    ('knots are pasted from page to page', pastes),
     ('without a network it opens again', offline),
     ('the canvas follows the size and the display', sizes),
     ('the theme is the system\'s', themes),

@@ -188,7 +188,8 @@ class Page:
             name, number = ' ', 32
         typed = {'text': name} if len(name) == 1 and not mods & (ALT | CTRL | META) else {}
         what = {'key': name, 'code': code, 'modifiers': mods, 'windowsVirtualKeyCode': number}
-        self.call('Input.dispatchKeyEvent', type='keyDown', **what, **typed)
+        edits = {'commands': ['paste']} if code == 'KeyV' and held == ['Ctrl'] else {}
+        self.call('Input.dispatchKeyEvent', type='keyDown', **what, **typed, **edits)
         self.call('Input.dispatchKeyEvent', type='keyUp', **what)
 
     def type(self, text):
