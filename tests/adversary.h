@@ -7,7 +7,7 @@
 #include <stdint.h>
 #include <stdio.h>
 
-enum { ADVERSARY_TRACKS = 6 };
+enum { ADVERSARY_TRACKS = 6, ADVERSARY_MAX = 4096 }; ///< of a problem; its samples
 
 /// What makes a problem hard.
 typedef enum adversary_kind {
@@ -27,8 +27,8 @@ typedef enum adversary_kind {
 struct adversary_problem {
     wiggly_desc desc;
     double fps; ///< 1 / desc.step
-    wiggly_knot knots[TEXTBOOK_MAX];
-    double tracks[ADVERSARY_TRACKS][TEXTBOOK_MAX];
+    wiggly_knot knots[ADVERSARY_MAX];
+    double tracks[ADVERSARY_TRACKS][ADVERSARY_MAX];
     int tracks_used;
 };
 

@@ -5,7 +5,7 @@
 
 /// An answer of the textbook's, or the solver's, in arrays of its own.
 struct answer {
-    double total[TEXTBOOK_MAX], re[TEXTBOOK_MAX], im[TEXTBOOK_MAX];
+    double total[ADVERSARY_MAX], re[ADVERSARY_MAX], im[ADVERSARY_MAX];
 };
 
 static double size_of(const struct answer *a, int n)
@@ -53,7 +53,7 @@ static struct textbook book;
 static double condition_of(const struct adversary_problem *p, wiggly_status status, const struct answer *exact)
 {
     static struct answer changed;
-    static double track[TEXTBOOK_MAX];
+    static double track[ADVERSARY_MAX];
     const double change = 1e-12;
     wiggly_desc other = p->desc;
     wiggly_param *params[] = {&other.frequency, &other.damping};
@@ -75,12 +75,13 @@ static double tolerance(const wiggly_desc *d) { return d->mode == WIGGLY_CUBIC ?
 static void find_exact(const struct adversary_problem *p, struct adversary_verdict *v, struct answer *a)
 {
     bool asked = textbook_as(&p->desc, WIGGLY_OK, &book, a->total, a->re, a->im);
+    const double inverse = textbook_inverse(&book);
     v->pivot = book.pivot;
     v->growth = book.growth;
     v->undecided = book.open ? !asked && v->said != WIGGLY_CALMED && v->said != WIGGLY_LEVELLED
-                             : !asked || book.inverse > 1e26 || book.pivot < 1e-20; // what 34 digits can tell
-    v->borderline = book.open && ((asked && (book.pivot < 1e-11 || book.inverse > 1e14)) ||
-                                  (book.growth > 300 && book.growth < 3e5));
+                             : !asked || inverse > 1e26 || book.pivot < 1e-20; // what 34 digits can tell
+    v->borderline =
+        book.open && ((asked && (book.pivot < 1e-11 || inverse > 1e14)) || (book.growth > 300 && book.growth < 3e5));
     v->exists = textbook_curve(&p->desc, &book, &v->status, a->total, a->re, a->im);
     v->undecided = v->undecided || !v->exists;
     if (!v->borderline || v->said == v->status || v->said == WIGGLY_SINGULAR) return;
@@ -108,7 +109,7 @@ static const char *find_fault(const struct adversary_problem *p, struct adversar
     if (!inexact) return NULL;
     v->needless = true;
     if (!(v->estimate > tolerance(&p->desc))) return "INEXACT by no estimate";
-    if (v->error > 0.05 * tolerance(&p->desc) || v->pivot <= 1e-9 || book.inverse > 1e14)
+    if (v->error > 0.05 * tolerance(&p->desc) || v->pivot <= 1e-9 || textbook_inverse(&book) > 1e14)
         return NULL; // what is that far off may say so
     if (is_nothing(exact, p->desc.samples) || !is_tame(&p->desc)) return NULL;
     v->condition = condition_of(p, v->status, exact);

@@ -2,8 +2,8 @@
 #include "near.h"
 
 #include "curve.h"
-#include "quad.h"
 #include "spline/solver.h"
+#include "textbook.h"
 #include "uniform.h"
 #include <lapacke.h>
 
@@ -88,8 +88,9 @@ static wiggly_status solve(const struct subject *c, wiggly_curve *curve, double 
     *curve = curve_create(c->samples);
     wiggly_status status = wiggly_solve(solver, &desc, curve);
     wiggly_destroy(solver);
-    double *expected = malloc(2 * sizeof *expected * (size_t)c->samples);
-    quad_solve(&desc, expected, expected + c->samples);
+    static struct textbook book;
+    double *expected = malloc(3 * sizeof *expected * (size_t)c->samples), *total = expected + 2 * c->samples;
+    assert_true(textbook_as(&desc, WIGGLY_OK, &book, total, expected, expected + c->samples));
     *error = relative_error(expected, curve->re, curve->im, c->samples);
     *lapack = lapack_error(&desc, expected);
     free(expected);

@@ -183,7 +183,7 @@ TEST(two_samples_of_a_cubic)
     }
 }
 
-static int create(void **state) { return (int)wiggly_create(TEXTBOOK_MAX, TEXTBOOK_MAX, (wiggly_solver **)state); }
+static int create(void **state) { return (int)wiggly_create(ADVERSARY_MAX, ADVERSARY_MAX, (wiggly_solver **)state); }
 
 static int destroy(void **state)
 {

@@ -98,8 +98,8 @@ static double largest_difference(const wiggly_curve *exact, const wiggly_curve *
 static void solve_with_lapack(struct textbook *book)
 {
     enum { KD = 5 };
-    static double band[2 * TEXTBOOK_MAX][KD + 1], right[2 * TEXTBOOK_MAX];
-    int map[2 * TEXTBOOK_MAX], n = 0;
+    static double band[2 * MAX][KD + 1], right[2 * MAX];
+    int map[2 * MAX], n = 0;
     for (int i = 0; i < 2 * book->count; i++) {
         if (book->used[i] && !book->fixed[i]) map[n++] = i;
     }
@@ -111,7 +111,7 @@ static void solve_with_lapack(struct textbook *book)
         }
         for (int i = j; i < n && i <= j + KD; i++) band[j][i - j] = (double)textbook_entry(book, map[i], map[j]);
     }
-    assert_int_equal(LAPACKE_dpbsv(LAPACK_COL_MAJOR, 'L', n, KD, 1, &band[0][0], KD + 1, right, 2 * TEXTBOOK_MAX), 0);
+    assert_int_equal(LAPACKE_dpbsv(LAPACK_COL_MAJOR, 'L', n, KD, 1, &band[0][0], KD + 1, right, 2 * MAX), 0);
     for (int i = 0; i < n; i++) book->x[map[i]] = right[i];
 }
 

@@ -36,8 +36,8 @@ static void open_book(const wiggly_desc *desc, real calm, struct textbook *b)
     b->first = b->loop || b->rest || b->earliest < 0 ? 0 : b->earliest;
     b->count = b->loop ? b->samples - 1 : b->samples - b->first;
     b->pivot = 1;
-    b->growth = b->inverse = 0;
-    b->open = b->tied = b->swing_calmed = false;
+    b->growth = 0;
+    b->open = b->tied = b->swing_calmed = b->solved = false;
     for (int i = 0; i < b->samples; i++) {
         bool wraps = b->loop && i == b->samples - 1;
         b->y[i] = wraps ? b->y[0] : textbook_param(desc->equilibrium, i);
@@ -100,24 +100,26 @@ real textbook_entry(const struct textbook *b, int row, int column)
 
 /// L D Lᵀ of the band, place by place; what is fixed or not used has no row.
 struct factor {
+    int width; ///< entries per row: of three samples, or of five where a loop is folded
     real l[2 * TEXTBOOK_MAX][TEXTBOOK_BAND], d[2 * TEXTBOOK_MAX];
     int unknown[2 * TEXTBOOK_MAX]; ///< at each place; -1: no row
 };
 
-static int first_in_band(int i) { return i < TEXTBOOK_BAND ? 0 : i - TEXTBOOK_BAND + 1; }
+static int first_in_band(const struct factor *f, int i) { return i < f->width ? 0 : i - f->width + 1; }
 
 static bool factorise(struct textbook *b, int n, struct factor *f)
 {
+    f->width = b->loop ? TEXTBOOK_BAND : 6;
     for (int u = 0; u < n; u++) f->unknown[textbook_place(b, u)] = b->used[u] && !b->fixed[u] ? u : -1;
     for (int i = 0; i < n; i++) {
+        real ld[TEXTBOOK_BAND]; // l and d multiplied, of this row
         f->d[i] = 1;
         memset(f->l[i], 0, sizeof f->l[i]);
         if (f->unknown[i] < 0) continue;
-        for (int j = first_in_band(i); j <= i; j++) {
+        for (int j = first_in_band(f, i); j <= i; j++) {
             real sum = f->unknown[j] < 0 ? 0 : b->band[i][i - j];
-            for (int k = first_in_band(i); k < j; k++) {
-                if (j - k < TEXTBOOK_BAND) sum -= f->l[i][i - k] * f->l[j][j - k] * f->d[k];
-            }
+            for (int k = first_in_band(f, i); k < j; k++) sum -= ld[i - k] * f->l[j][j - k];
+            ld[i - j] = sum;
             if (j < i) f->l[i][i - j] = sum / f->d[j];
             if (j == i) f->d[i] = sum;
         }
@@ -131,40 +133,52 @@ static bool factorise(struct textbook *b, int n, struct factor *f)
 static void substitute(const struct factor *f, int n, real *z)
 {
     for (int i = 0; i < n; i++) {
-        for (int k = first_in_band(i); k < i; k++) z[i] -= f->l[i][i - k] * z[k];
+        for (int k = first_in_band(f, i); k < i; k++) z[i] -= f->l[i][i - k] * z[k];
     }
     for (int i = n - 1; i >= 0; i--) {
         z[i] /= f->d[i];
-        for (int k = i + 1; k < n && k < i + TEXTBOOK_BAND; k++) z[i] -= f->l[k][k - i] * z[k];
+        for (int k = i + 1; k < n && k < i + f->width; k++) z[i] -= f->l[k][k - i] * z[k];
     }
 }
 
+static struct factor factor; // of the book that was solved last
+
 static bool solve(struct textbook *b)
 {
-    static struct factor f;
     static real z[2 * TEXTBOOK_MAX];
-    const int n = 2 * b->count;
     static int at[2 * TEXTBOOK_MAX]; // unknown of each place, known ones too
-    if (!factorise(b, n, &f)) return false;
+    const struct factor *f = &factor;
+    const int n = 2 * b->count;
+    if (!factorise(b, n, &factor)) return false;
     for (int u = 0; u < n; u++) at[textbook_place(b, u)] = u;
     for (int i = 0; i < n; i++) {
-        const int u = f.unknown[i];
+        const int u = f->unknown[i];
         z[i] = u < 0 ? 0 : b->right[u];
-        for (int place = first_in_band(i); u >= 0 && place < n && place < i + TEXTBOOK_BAND; place++) {
+        for (int place = first_in_band(f, i); u >= 0 && place < n && place < i + f->width; place++) {
             const int k = at[place];
             if (b->fixed[k] && b->used[k]) z[i] -= textbook_entry(b, u, k) * b->x[k];
         }
     }
-    substitute(&f, n, z);
+    substitute(f, n, z);
     for (int i = 0; i < n; i++) {
-        if (f.unknown[i] >= 0) b->x[f.unknown[i]] = z[i];
+        if (f->unknown[i] >= 0) b->x[f->unknown[i]] = z[i];
     }
-    for (int signs = 1; signs <= 4; signs++) {
-        for (int i = 0; i < n; i++) z[i] = f.unknown[i] < 0 ? 0 : (i * 7 % 5 < signs ? -1 : 1) * sqrtq(b->band[i][0]);
-        substitute(&f, n, z);
-        for (int i = 0; i < n; i++) b->inverse = (double)fmaxq(b->inverse, fabsq(z[i]) * sqrtq(b->band[i][0]));
-    }
+    b->solved = true;
     return true;
+}
+
+double textbook_inverse(const struct textbook *b)
+{
+    static real z[2 * TEXTBOOK_MAX];
+    const int n = 2 * b->count;
+    double most = 0;
+    for (int signs = 1; b->solved && signs <= 4; signs++) {
+        for (int i = 0; i < n; i++)
+            z[i] = factor.unknown[i] < 0 ? 0 : (i * 7 % 5 < signs ? -1 : 1) * sqrtq(b->band[i][0]);
+        substitute(&factor, n, z);
+        for (int i = 0; i < n; i++) most = (double)fmaxq(most, fabsq(z[i]) * sqrtq(b->band[i][0]));
+    }
+    return most;
 }
 
 /// max |w| against the size of what was asked for.

@@ -3,11 +3,37 @@
 #ifndef TESTS_TEXTBOOK_H
 #define TESTS_TEXTBOOK_H
 
-#include "quad_math.h"
 #include <stdbool.h>
 #include <wiggly/more.h>
 
-enum { TEXTBOOK_MAX = 4096, TEXTBOOK_BAND = 10 }; ///< samples; entries per matrix row up to the diagonal
+// gcc's libquadmath. clang finds the library but has no header.
+#ifndef __clang__
+#include <quadmath.h>
+#else
+#define M_PIq 3.141592653589793238462643383279502884Q
+typedef _Complex float __attribute__((mode(TC))) __complex128;
+__float128 cabsq(__complex128);
+__complex128 cexpq(__complex128);
+__float128 cimagq(__complex128);
+__complex128 conjq(__complex128);
+__float128 cosq(__float128);
+__float128 coshq(__float128);
+__float128 crealq(__complex128);
+__float128 expm1q(__float128);
+__float128 expq(__float128);
+__float128 fabsq(__float128);
+__float128 fmaxq(__float128, __float128);
+__float128 fminq(__float128, __float128);
+__float128 powq(__float128, __float128);
+__float128 sinhq(__float128);
+__float128 sinq(__float128);
+__float128 sqrtq(__float128);
+#endif
+
+typedef __float128 real;
+typedef __complex128 number;
+
+enum { TEXTBOOK_MAX = 100000, TEXTBOOK_BAND = 10 }; ///< samples; entries per matrix row up to the diagonal
 
 /// A sample's poles, and its oscillator q″ + 2d q′ + k q = 0.
 struct textbook_poles {
@@ -21,9 +47,9 @@ struct textbook_poles {
 struct textbook {
     double
         pivot; ///< least pivot of the system, as a part of its diagonal entry; of a swing in a loop, its determinant too
-    double inverse;    ///< size of the inverse relative to the diagonal's, from four right-hand sides
     double growth;     ///< max |w| relative to the input; 0 if that is 0
     bool open;         ///< nothing determines the start (in a loop: the damping), so it may be singular
+    bool solved;       ///< by its matrix
     bool swing_calmed; ///< an undamped loop has almost no swing of its own: u is that of calm 0.05
 
     bool is_complex, loop, rest, filter; ///< filter: the paper's filter moves by itself
@@ -55,6 +81,9 @@ bool textbook_as(const wiggly_desc *desc, wiggly_status status, struct textbook 
 /// WIGGLY_SINGULAR and the result false.
 bool textbook_curve(const wiggly_desc *desc, struct textbook *book, wiggly_status *status, double *total, double *re,
                     double *im);
+
+/// Size of the inverse relative to the diagonal's, from four right-hand sides: of the book that was solved last. 0 if it needed no matrix.
+double textbook_inverse(const struct textbook *book);
 
 /// A matrix entry by the numbers of its unknowns.
 real textbook_entry(const struct textbook *book, int row, int column);

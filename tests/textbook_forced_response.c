@@ -54,7 +54,8 @@ static struct state periodic_without_spring(const struct textbook *b)
 {
     int period = b->samples - 1;
     struct state driven = run(b, (struct state){0}, 1, NULL);
-    struct state at[TEXTBOOK_MAX], start = {0, -driven.q / (period * b->h)};
+    static struct state at[TEXTBOOK_MAX];
+    struct state start = {0, -driven.q / (period * b->h)};
     run(b, start, 1, at);
     real sum = 0;
     for (int i = 0; i < period; i++) sum += at[i].q;
@@ -97,7 +98,8 @@ static real imaginary(const struct textbook *b, const struct textbook_poles *p, 
 
 static bool swing_at_calm(const wiggly_desc *desc, struct textbook *b, real calm)
 {
-    struct state at[TEXTBOOK_MAX], start = {0};
+    static struct state at[TEXTBOOK_MAX];
+    struct state start = {0};
     textbook_fill_poles(desc, b->loop ? calm / 20 : 0, b->loop, b->swing);
     if (b->loop && !find_periodic(b, &start)) return false;
     run(b, start, 1, at);

@@ -19,7 +19,7 @@ static struct tally search(uint64_t seed, long first, long count, int step)
     static struct adversary_problem problem;
     struct tally tally = {.needless = 0};
     wiggly_solver *solver = NULL;
-    if (wiggly_create(TEXTBOOK_MAX, TEXTBOOK_MAX, &solver) != WIGGLY_OK) exit(2);
+    if (wiggly_create(ADVERSARY_MAX, ADVERSARY_MAX, &solver) != WIGGLY_OK) exit(2);
     for (long n = first; n < first + count; n += step) {
         const adversary_kind kind = adversary_make_nth(&problem, seed, (uint64_t)n);
         struct adversary_verdict verdict;
