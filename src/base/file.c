@@ -379,12 +379,8 @@ bool file_write_atomic(const char *path, const void *data, size_t size, struct e
 {
     struct file_output output;
     if (!file_output_open(&output, path, error)) return false;
-    if (fwrite(data, 1, size, output.stream) != size) {
-        int cause = errno;
-        file_output_discard(&output);
-        return fail_to(error, ERROR_ENVIRONMENT, "be written", path, cause);
-    }
-    return file_output_commit(&output, error);
+    fwrite(data, 1, size, output.stream);
+    return file_output_commit(&output, error); // which sees what went wrong
 }
 
 uint64_t file_content(const char *path)
