@@ -86,23 +86,7 @@ static const struct convergence {
 };
 static const char *const mode_names[] = {"complex", "real", "cubic"};
 
-static wiggly_solver *solver;
-static wiggly_curve curve;
-
-static int set_up(void **state)
-{
-    (void)state;
-    curve = curve_create(SAMPLES);
-    return (int)wiggly_create(SAMPLES, KNOTS, &solver);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    curve_destroy(&curve);
-    wiggly_destroy(solver);
-    return 0;
-}
+SHARED_SOLVER_AND_CURVE(SAMPLES, KNOTS)
 
 /// A function as a track of so many samples a frame.
 static wiggly_param track_of(function_of_time *function, double otherwise, int substeps, double *numbers)

@@ -2,6 +2,7 @@
 /// groups in other orders, and what is refused.
 #include "documents.h"
 
+#include "curve.h"
 #include "scene/evaluate.h"
 #include "vectors.h"
 #include <jansson.h>
@@ -63,16 +64,6 @@ static struct document *document_of(const json_t *file)
     return document;
 }
 
-static wiggly_curve curve_of(double *memory, int samples)
-{
-    return (wiggly_curve){.size = sizeof(wiggly_curve),
-                          .total = memory,
-                          .y = memory + samples,
-                          .re = memory + 2 * samples,
-                          .im = memory + 3 * samples,
-                          .omega = memory + 4 * samples};
-}
-
 static void check_group(const char *name, struct sheet *sheet, const struct document *document,
                         const double *expected, wiggly_method method)
 {
@@ -88,7 +79,7 @@ static void check_group(const char *name, struct sheet *sheet, const struct docu
     double *memory = calloc((size_t)(5 * samples * sheet->splines), sizeof *memory);
     for (int s = 0; s < sheet->splines; s++) {
         descs[s] = evaluation_describe(&evaluation, document, sheet->spline[s], knots[s]);
-        curves[s] = curve_of(memory + 5 * samples * s, samples);
+        curves[s] = curve_in(memory + 5 * samples * s, samples);
     }
     wiggly_status status =
         wiggly_group_solve(group, descs, sheet->weights, curves, sheet->splines, sheet->pin, sheet->pins);
@@ -223,7 +214,7 @@ static wiggly_status solve_group(struct random_group *g, wiggly_method method, d
     wiggly_group *group;
     assert_int_equal(wiggly_group_create(g->samples, KNOTS, g->splines, g->pins, &group), WIGGLY_OK);
     wiggly_group_set_method(group, method);
-    for (int s = 0; s < g->splines; s++) curves[s] = curve_of(memory + 5 * g->samples * s, g->samples);
+    for (int s = 0; s < g->splines; s++) curves[s] = curve_in(memory + 5 * g->samples * s, g->samples);
     wiggly_status status = wiggly_group_solve(group, g->descs, g->weights, curves, g->splines, g->pin, g->pins);
     wiggly_group_destroy(group);
     return status;
@@ -307,7 +298,7 @@ TEST(nothing_that_is_kept_changes_a_bit)
     for (unsigned n = 0; n < 20; n++) {
         struct random_group *g = make_group(n, 4, 6);
         for (int s = 0; s < 4; s++) {
-            for (int k = 1; k < 3; k++) curves[k][s] = curve_of(memory[k] + 5 * SAMPLES * s, SAMPLES);
+            for (int k = 1; k < 3; k++) curves[k][s] = curve_in(memory[k] + 5 * SAMPLES * s, SAMPLES);
         }
         assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory[0], curves[0]), WIGGLY_OK);
         assert_int_equal(wiggly_group_solve(group, g->descs, g->weights, curves[1], 4, g->pin, 6), WIGGLY_OK);
@@ -340,7 +331,7 @@ TEST(what_is_out_of_reach_is_left)
 TEST(who_is_not_pulled_is_as_alone)
 {
     static double memory[2][5 * SAMPLES * MOST_SPLINES];
-    wiggly_curve curves[MOST_SPLINES], alone = curve_of(memory[1], SAMPLES);
+    wiggly_curve curves[MOST_SPLINES], alone = curve_in(memory[1], SAMPLES);
     wiggly_solver *solver;
     assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
     for (unsigned n = 0; n < 20; n++) {
@@ -358,7 +349,7 @@ TEST(who_is_not_pulled_is_as_alone)
 TEST(a_pin_on_the_way_changes_nothing)
 {
     static double memory[2][5 * SAMPLES * MOST_SPLINES], frequency[SAMPLES];
-    wiggly_curve curves[MOST_SPLINES], alone = curve_of(memory[1], SAMPLES);
+    wiggly_curve curves[MOST_SPLINES], alone = curve_in(memory[1], SAMPLES);
     wiggly_solver *solver;
     assert_int_equal(wiggly_create(SAMPLES, KNOTS, &solver), WIGGLY_OK);
     for (int i = 0; i < SAMPLES; i++) frequency[i] = 2 + sin(0.03 * i);

@@ -6,23 +6,7 @@
 
 enum { MAX = 512 };
 
-static wiggly_solver *solver;
-static wiggly_curve curve;
-
-static int set_up(void **state)
-{
-    (void)state;
-    curve = curve_create(MAX);
-    return (int)wiggly_create(MAX, MAX, &solver);
-}
-
-static int tear_down(void **state)
-{
-    (void)state;
-    curve_destroy(&curve);
-    wiggly_destroy(solver);
-    return 0;
-}
+SHARED_SOLVER_AND_CURVE(MAX, MAX)
 
 static wiggly_desc describe(int samples, wiggly_mode mode, wiggly_start start, const wiggly_knot *knots, int count)
 {
