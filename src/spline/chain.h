@@ -112,16 +112,15 @@ typedef struct chain {
     chain_powers powers;
     cplx_array pulled[2]; ///< first row of W_i F*^{−i}, i = 0 … run − 1
     cplx_array back;      ///< (det F)*^{−i}, for these
-    int *stretch_of
-        [2]; ///< 1 + index of the stretch of each length, 0 where there is none yet; the second are those that settle
+    int *stretch_of[2];   ///< by length: 1 + index of the stretch, 0: none yet; the second are those that settle
     chain_stretch *stretches;
     int stretch_count, stretch_capacity;
     int powers_count; ///< k for which there are powers
     chain_node *nodes;
     int node_count;
     chain_row *rows;
-    double *
-        to_first; ///< a loop's: of each node's row but the first, the inverse of its pivot times its coupling to the first, 3×3 or 1
+    /// A loop's: for each row but the first, the inverse of its pivot times its coupling to the first, 3×3 or 1.
+    double *to_first;
     bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
     chain_rank rank;    ///< of the factor
     bool loose;         ///< the start is nearly free, so errors are larger

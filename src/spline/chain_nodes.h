@@ -210,11 +210,8 @@ ALWAYS_INLINE kernel_rank kernel_invert(const double *s, double *p)
     p[3] = (s[0] * s[5] - s[2] * s[2]) * inverse;
     p[4] = (s[1] * s[2] - s[0] * s[4]) * inverse;
     p[5] = (s[0] * s[3] - s[1] * s[1]) * inverse;
-    return (kernel_rank){
-        .sound = s[0] > 0.0 && s[3] > 0.0 && s[5] > 0.0 && det > 0.0 &&
-                 det<INFINITY, .firm = det> WEAKEST * (s[0] * s[3] * s[5]),
-        .lost = inverse,
-    };
+    const bool sound = s[0] > 0.0 && s[3] > 0.0 && s[5] > 0.0 && det > 0.0 && det < INFINITY;
+    return (kernel_rank){.sound = sound, .firm = det > WEAKEST * (s[0] * s[3] * s[5]), .lost = inverse};
 }
 
 /// d ← inverse of the pivot d − L N*, with L and N the coupling to the node before: L = N times the inverse of its pivot.

@@ -21,11 +21,10 @@ static const double lost = 1e-13;
 
 typedef struct walk {
     const system_rows *rows;
-    int interior; ///< samples before the seam
-    int k;        ///< the sample being eliminated
-    int slope;    ///< the next slope row
-    double u[COLUMNS]
-            [COLUMNS]; ///< of x_k, x_{k+1}, x_{k+2} and from SEAM on the seam's two samples, re and im of each
+    int interior;               ///< samples before the seam
+    int k;                      ///< the sample being eliminated
+    int slope;                  ///< the next slope row
+    double u[COLUMNS][COLUMNS]; ///< of x_k, x_{k+1}, x_{k+2} and, from SEAM on, the seam: re and im of each
 } walk;
 
 static bool is_fixed(const walk *w, int sample, int part)

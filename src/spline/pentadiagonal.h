@@ -12,15 +12,13 @@ typedef struct pentadiagonal {
     int count; ///< block rows
     bool is_complex;
     bool cyclic;
-    bool is_rooted; ///< diagonal holds inverses of the pivots' roots
-    double *
-        diagonal; ///< A_kk: (00, 01, 11)           → inverse of the pivot block, or [a b; 0 c] whose product with its transpose that is
-    double *below;  ///< A_{k+1,k}: 2×2 row-major       → L_{k+1,k}
-    double *below2; ///< A_{k+2,k}                      → L_{k+2,k}
-    double *border; ///< cyclic, of every row before the border BORDER_ROW numbers: 4×2 row-major → L_{border,k}
+    bool is_rooted;   ///< the diagonal holds roots [a b; 0 c]: times their transposes they are the inverses
+    double *diagonal; ///< A_kk: (00, 01, 11)           → inverse of the pivot block, or its root
+    double *below;    ///< A_{k+1,k}: 2×2 row-major       → L_{k+1,k}
+    double *below2;   ///< A_{k+2,k}                      → L_{k+2,k}
+    double *border;   ///< cyclic, of every row before the border BORDER_ROW numbers: 4×2 row-major → L_{border,k}
     double corner[BORDER_MAX][BORDER_MAX]; ///< → Cholesky factor of the eliminated corner
-    double
-        lost; ///< largest part of its diagonal entry that a pivot has lost, as entry / pivot; from the factorisation
+    double lost;                           ///< the largest ratio of a diagonal entry to its pivot
 } pentadiagonal;
 
 typedef enum pentadiagonal_rank {

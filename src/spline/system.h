@@ -35,20 +35,17 @@ typedef struct system_pulls {
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
-    bool fast;   ///< some coefficients have a rest
-    bool unlike; ///< jets' weights differ so much that a squared matrix would lose the light ones
-    bool cut;    ///< a jet would weigh more beside another than it does here
-    bool
-        is_held; ///< the start costs enough, or there is none, that no more than its knot-free stretches cost it digits
+    bool fast;            ///< some coefficients have a rest
+    bool unlike;          ///< jets' weights differ so much that a squared matrix would lose the light ones
+    bool cut;             ///< a jet would weigh more beside another than it does here
+    bool is_held;         ///< the start costs enough, or there is none: only knot-free stretches cost digits
     double noise;         ///< rounding of the known values, if they are differences to an equilibrium
     bool is_open;         ///< the start costs nothing
     int jet_from, jet_to; ///< a loop has a jet at every sample
-    double
-        stretch; ///< samples of the longest knot-free stretch, or as many as it takes to swing back where that is less
-    coefficients *at; ///< of row i, except g, which is included in `drive`
-    cplx *drive;      ///< f_i
-    const double
-        *driven; ///< the equilibrium of row 0 on, where f_i = g_i ÿ_i with all the digits that it has; or NULL
+    double stretch;       ///< samples of the longest knot-free stretch, or until x swings back if that is less
+    coefficients *at;     ///< of row i, except g, which is included in `drive`
+    cplx *drive;          ///< f_i
+    const double *driven; ///< y from row 0 on, for f_i = g_i ÿ_i with all its digits; or NULL
     double *jet_weight;
     double *im_weight;
     unsigned char *fixed;
