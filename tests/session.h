@@ -17,6 +17,7 @@ struct session {
     struct editor *editor;
     float x, y;    ///< pointer
     unsigned mods; ///< of pointer and buttons
+    bool finger;   ///< is the pointer
     char **saved;  ///< texts returned by session_saved()
     int saved_count;
 };
@@ -47,7 +48,9 @@ static inline void session_move(struct session *session, float x, float y)
 {
     session->x = x;
     session->y = y;
-    session_send(session, (struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = session->mods});
+    session_send(
+        session,
+        (struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = session->mods, .finger = session->finger});
 }
 
 /// Moves the pointer by (dx, dy) in `steps` events, with a frame after each.
@@ -88,6 +91,7 @@ static inline void session_button(struct session *session, enum event_button whi
                                          .button = which,
                                          .action = action,
                                          .clicks = clicks,
+                                         .finger = session->finger,
                                          .x = session->x,
                                          .y = session->y,
                                          .mods = session->mods});

@@ -371,6 +371,7 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
     }
     editor_resize(s->editor, 390, 792, 1);
     const float middle = l->curves.y, low = l->inspector.y;
+    s->finger = true;
     session_move(s, 195, low + 6); // as near as a finger gets
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, -56, 4);
@@ -381,6 +382,15 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
     session_drag(s, 0, middle - 40 - l->curves.y, 4);
     session_release(s, BUTTON_LEFT);
     assert_near(l->curves.y, middle - 40, 1);
+    float knot[2];
+    session_frame(s);
+    session_where(s, "knot(sway,1)", knot);
+    for (int finger = 0; finger < 2; finger++) {
+        s->finger = finger;
+        session_move(s, knot[0] + 14, knot[1]);
+        session_frame(s);
+        assert_int_equal(s->editor->core.hover.kind == HOVER_KNOT, finger);
+    }
     editor_resize(s->editor, 792, 390, 1);
     assert_true(l->inspector.x > 400);
 }

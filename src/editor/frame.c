@@ -95,6 +95,7 @@ static void note(struct editor *editor, const struct event *event)
     if (has_pointer) {
         editor->core.pointer_x = event->x;
         editor->core.pointer_y = event->y;
+        editor->core.finger = event->finger;
     }
     if (has_pointer || event->kind == EVENT_KEY) editor->core.mods = event->mods;
     bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;

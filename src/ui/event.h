@@ -67,7 +67,8 @@ struct event {
     enum event_action action; ///< of key and button
     unsigned mods;            ///< enum event_mods
     enum event_button button;
-    int clicks; ///< 2 for the second press of a double-click
+    int clicks;  ///< 2 for the second press of a double-click
+    bool finger; ///< of pointer and button: less exact than a mouse
     uint32_t codepoint;
     float x, y, dx, dy;
     float scale;      ///< device pixels per logical pixel

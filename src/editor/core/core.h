@@ -87,6 +87,8 @@ enum panel core_panel_at(const struct core *core, float x, float y);
 void core_set_panels(struct core *core, double stage_share, double inspector_width);
 /// Lays out all panels in the window.
 void core_layout(struct core *core);
+/// How near the pointer must be to something that a mouse hits within `pixels`.
+float core_reach(const struct core *core, float pixels);
 /// The divider at a point, or DIVIDER_NONE.
 enum divider core_divider_at(const struct core *core, float x, float y);
 void core_divider_move(struct core *core, enum divider divider, float x, float y);

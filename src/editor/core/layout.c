@@ -4,7 +4,7 @@
 #include "ui/theme.h"
 #include <math.h>
 
-static const float RULER_HEIGHT = 22, AXIS_WIDTH = 52, LABEL_WIDTH = 76;
+static const float RULER_HEIGHT = 22, AXIS_WIDTH = 52, LABEL_WIDTH = 76, DIVIDER_REACH = 4;
 static const float MIN_STAGE = 120, MIN_CURVES = 140, MIN_LEFT = 480, MIN_INSPECTOR = 240, MAX_INSPECTOR = 480;
 static const float UPRIGHT = 800; ///< narrower windows that are higher than wide have the inspector at the bottom
 static const float WHOLE = 800;   ///< inspector_width that would take all of their height
@@ -72,11 +72,13 @@ enum panel core_panel_at(const struct core *core, float x, float y)
     return rect_contains(l->stage, x, y) ? PANEL_STAGE : PANEL_NONE;
 }
 
+float core_reach(const struct core *core, float pixels) { return core->finger ? 1.75f * pixels : pixels; }
+
 enum divider core_divider_at(const struct core *core, float x, float y)
 {
     const struct layout *l = &core->layout;
     if (core->presenter.on) return DIVIDER_NONE;
-    const float reach = l->upright ? 8 : 4, off = l->upright ? y - l->inspector.y : x - l->inspector.x;
+    const float reach = core_reach(core, DIVIDER_REACH), off = l->upright ? y - l->inspector.y : x - l->inspector.x;
     if (y < l->status.y && fabsf(off) < reach) return l->upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR;
     if (x < l->curves.w && fabsf(y - l->curves.y) < reach) return DIVIDER_STAGE;
     return DIVIDER_NONE;

@@ -336,6 +336,7 @@ struct core {
     struct hover hover;
     enum look look;
     float pointer_x, pointer_y;
+    bool finger; ///< is the pointer
     unsigned mods;
     int held_key;   ///< F Z B C L while held, else 0
     bool held_used; ///< with an arrow

@@ -74,7 +74,7 @@ static void end(void *room, struct core *core, bool keep)
 static void nearest_handle(const struct curves *curves, const struct core *core, const struct spline *spline, float x,
                            float y, struct hover *hover)
 {
-    float best = CURVES_HIT_RADIUS;
+    float best = core_reach(core, CURVES_HIT_RADIUS);
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         if (!knot->has_slope || !selection_has(&core->selection, knot->id)) continue;
@@ -142,7 +142,7 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, x, y);
     if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
     bool seen = spline_list_seen(core) != NULL;
-    if (seen) nearest_knot(curves, core, core->active, NAN, x, y, CURVES_HIT_RADIUS, &hover);
+    if (seen) nearest_knot(curves, core, core->active, NAN, x, y, core_reach(core, CURVES_HIT_RADIUS), &hover);
     if (seen && hover.kind == HOVER_NONE) nearest_handle(curves, core, spline, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_warning(curves, core, x, y, &hover);
     if (hover.kind == HOVER_NONE) nearest_other_knot(curves, core, x, y, &hover);

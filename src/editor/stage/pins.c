@@ -99,13 +99,14 @@ static bool project(const struct stage *stage, const struct core *core, const do
 static struct hover marker_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.kind = HOVER_NONE};
-    float best = MARKER_REACH;
+    const float reach = core_reach(core, MARKER_REACH);
+    float best = reach;
     struct pin_place place = PINS_START;
     for (const struct pin *pin; (pin = next_marker(core, &place));) {
         float xy[2];
         if (!project(stage, core, pin->to, xy)) continue;
         float distance = maths_hypotf(xy[0] - x, xy[1] - y);
-        if (distance < MARKER_REACH && core->pin.any && core->pin.id == pin->id) distance = 0;
+        if (distance < reach && core->pin.any && core->pin.id == pin->id) distance = 0;
         if (distance >= best) continue;
         best = distance;
         hover = (struct hover){

@@ -1,6 +1,6 @@
 // Mouse, pen, fingers and keys, as the app's events (surface.c's web_… functions).
 
-const SHIFT = 1, CTRL = 2, ALT = 4, SUPER = 8;
+const SHIFT = 1, CTRL = 2, ALT = 4, SUPER = 8, FINGER = 16;
 const RELEASE = 0, PRESS = 1, REPEAT = 2;
 const LEFT = 0, RIGHT = 1, MIDDLE = 2;
 const TURN = 0.08, ZOOM = 0.12; // of the stage for a notch of the wheel: radians, and a power of e
@@ -56,8 +56,8 @@ export function listen(canvas, app) {
   let held = null; // LEFT, MIDDLE or null
   let waits = null; // where a single finger was put down, until it is the left button
   const middle = () => { const all = [...fingers.values()]; return [0, 1].map(k => all.reduce((sum, at) => sum + at[k], 0) / all.length); };
-  const press = (button, at) => { [held, waits] = [button, null]; app._web_button(button, PRESS, 0, ...at); };
-  const release = at => { if (held !== null) app._web_button(held, RELEASE, 0, ...at); held = null; };
+  const press = (button, at) => { [held, waits] = [button, null]; app._web_button(button, PRESS, FINGER, ...at); };
+  const release = at => { if (held !== null) app._web_button(held, RELEASE, FINGER, ...at); held = null; };
   const spread = () => { const [a, b] = [...fingers.values()]; return [Math.hypot(b[0] - a[0], b[1] - a[1]), Math.atan2(b[1] - a[1], b[0] - a[0])]; };
   canvas.addEventListener('pointerdown', event => {
     if (!isFinger(event) || fingers.size === 2) return;
@@ -65,7 +65,7 @@ export function listen(canvas, app) {
     if (held === LEFT) tap('Escape'); // a second finger takes back what the first began
     if (fingers.size) release(middle());
     fingers.set(event.pointerId, place(event));
-    app._web_pointer(...middle(), 0);
+    app._web_pointer(...middle(), FINGER);
     if (fingers.size === 1) waits = middle();
     else press(MIDDLE, middle());
   });
@@ -76,7 +76,7 @@ export function listen(canvas, app) {
     const at = middle();
     if (waits && Math.hypot(at[0] - waits[0], at[1] - waits[1]) < STILL) return;
     if (waits) press(LEFT, waits);
-    app._web_pointer(...at, 0);
+    app._web_pointer(...at, FINGER);
     if (!two) return;
     const [distance, angle] = spread();
     const turned = Math.atan2(Math.sin(angle - before[1]), Math.cos(angle - before[1]));

@@ -203,7 +203,9 @@ void platform_on_lost(platform_rescue *function, void *user)
 void platform_debug_gl(void) {}
 int platform_gl_complaints(void) { return 0; }
 
-// Events, called by page.js. Positions are logical pixels from the canvas's top left.
+// Events, called by input.js. Positions are logical pixels from the canvas's top left; the mods of a finger have FINGER, too.
+
+static const unsigned FINGER = 16;
 
 static void push(struct event event)
 {
@@ -213,7 +215,7 @@ static void push(struct event event)
 
 EMSCRIPTEN_KEEPALIVE void web_pointer(float x, float y, unsigned mods)
 {
-    push((struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = mods});
+    push((struct event){.kind = EVENT_POINTER, .x = x, .y = y, .mods = mods & ~FINGER, .finger = mods & FINGER});
 }
 
 EMSCRIPTEN_KEEPALIVE void web_button(int button, int action, unsigned mods, float x, float y)
@@ -221,7 +223,8 @@ EMSCRIPTEN_KEEPALIVE void web_button(int button, int action, unsigned mods, floa
     struct event event = {.kind = EVENT_BUTTON,
                           .button = (enum event_button)button,
                           .action = (enum event_action)action,
-                          .mods = mods,
+                          .mods = mods & ~FINGER,
+                          .finger = mods & FINGER,
                           .x = x,
                           .y = y,
                           .clicks = 1};
