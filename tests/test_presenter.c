@@ -63,6 +63,9 @@ BLIND_TEST(test_a_scale_without_room_is_refused, blind_open(b, NULL))
     blind_frame(b);
     assert_near(core_of(b)->scale, 3, 1e-6);
     assert_near(core_of(b)->layout.window.w, 2560 / 1.5, 1e-2);
+    blind_send(b, (struct event){.kind = EVENT_SIZE, .x = 600, .y = 1000, .scale = 1});
+    blind_frame(b);
+    assert_near(core_of(b)->scale, 1.5, 1e-6); // upright it needs less
 }
 
 BLIND_TEST(test_the_status_line_changes_it_by_mouse, blind_open(b, NULL))

@@ -8,14 +8,17 @@ enum { UI_LEAST_WIDTH = 320, UI_LEAST_HEIGHT = 240 };
 
 enum { STEPS = sizeof steps / sizeof *steps };
 
-static const double PRESENTING = 1.5;          ///< times the chosen scale
-static const double SHARPEST = 5;              ///< device pixels per logical pixel that the glyph atlas can hold
-static const double WIDTH = 760, HEIGHT = 400; ///< logical pixels that the panels need
+static const double PRESENTING = 1.5; ///< times the chosen scale
+static const double SHARPEST = 5;     ///< device pixels per logical pixel that the glyph atlas can hold
+
+/// Logical pixels that the panels need; in an upright window they lie below each other.
+static double least_width(const struct app *app) { return app->display.height > app->display.width ? 360 : 760; }
+static double least_height(const struct app *app) { return app->display.height > app->display.width ? 560 : 400; }
 
 static bool has_room(const struct app *app, double scale)
 {
-    return (double)app->display.width / scale >= WIDTH && (double)app->display.height / scale >= HEIGHT &&
-           (double)app->display.scale * scale <= SHARPEST;
+    return (double)app->display.width / scale >= least_width(app) &&
+           (double)app->display.height / scale >= least_height(app) && (double)app->display.scale * scale <= SHARPEST;
 }
 
 static double wanted(const struct app *app, double chosen)
@@ -68,7 +71,8 @@ bool ui_scale_step(struct app *app, int direction, struct error *error)
     const double shown = wanted(app, next);
     if (next > app->ui_scale && shown > 1 && !has_room(app, shown)) {
         return fail(error, ERROR_INPUT, "%.0f %% needs a window of %.0f × %.0f, not %.0f × %.0f", 100 * shown,
-                    WIDTH * shown, HEIGHT * shown, (double)app->display.width, (double)app->display.height);
+                    least_width(app) * shown, least_height(app) * shown, (double)app->display.width,
+                    (double)app->display.height);
     }
     app->ui_scale = next;
     ui_scale_update(app);
