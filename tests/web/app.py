@@ -320,6 +320,7 @@ def phone(browser, url):
 
     swipe(page, more)
     swipe(page, type_key)
+    page.until('the field that is typed into', "document.activeElement.id === 'typed'")
     page.call('Input.insertText', text='pin the point')
     frames(page)
     swipe(page, FOUND)
