@@ -1,14 +1,7 @@
 # `make web`: the page is small, complete, and offline whatever it is served by.
 . tests/check.sh
-[ -z "${SANITIZE:-}" ] || { echo "skip - wasm is not built with sanitizers"; exit 0; }
-for tool in emcc brotli; do
-    command -v $tool >/dev/null || { echo "skip - $tool is not installed"; exit 0; }
-done
-built=${B:-build}
-unset MAKEFLAGS SANITIZE DEBUG
+. tests/web/page.sh brotli
 
-expect 0 "the page is built" flock "$built" make --no-print-directory B="$built" web
-page=$built/web
 files=$(sed -n "s/.*'\(index.html [^']*\)'.*/\1/p" "$page/sw.js")
 missing=$(cd "$page" && ls $files 2>&1 >/dev/null)
 holds "what the worker keeps is there" [ -n "$files" -a -z "$missing" ]

@@ -1,10 +1,6 @@
 # The same program in WebAssembly: recorded sessions end in the native documents byte for byte, and every scene solves to the same bits.
 . tests/check.sh
-[ -z "${SANITIZE:-}" ] || { echo "skip - wasm is not built with sanitizers"; exit 0; }
-for tool in emcc node; do
-    command -v $tool >/dev/null || { echo "skip - $tool is not installed"; exit 0; }
-done
-expect 0 "the page is built" flock "$B" env -u LDFLAGS make -s B="$B" web
+. tests/web/page.sh node
 mkdir -p "$scratch/native" "$scratch/wasm"
 
 for replay in tests/replays/*.replay; do
@@ -19,7 +15,7 @@ for scene in assets/scenes/*.json tests/vectors/*.json; do
 done >>"$scratch/commands"
 
 sed "s|OUT|$scratch/native|" "$scratch/commands" | while read -r line; do "$WIGGLY" $line >/dev/null 2>&1; done
-sed "s|OUT|/here$scratch/wasm|" "$scratch/commands" | node --no-experimental-fetch tests/web/node.js "$(realpath "$B/web/wiggly.js")"
+sed "s|OUT|/here$scratch/wasm|" "$scratch/commands" | node --no-experimental-fetch tests/web/node.js "$(realpath "$page/wiggly.js")"
 holds "there are sessions and scenes" [ "$(ls "$scratch/native" | wc -l)" -gt 100 ]
 for file in "$scratch/native"/*; do
     holds "$(basename "$file") is the same" cmp "$file" "$scratch/wasm/$(basename "$file")"
