@@ -29,22 +29,21 @@ thorough || exit 0
 
 # --- two workers, of which one is killed
 
-place=$B/python
-{ [ -x "$place/bin/python" ] || python3 -m venv "$place"; } >"$scratch/fetch" 2>&1 &&
-    { "$place/bin/python" -c 'import distributed' || timeout 300 "$place/bin/pip" install --quiet --retries 0 distributed; } >"$scratch/fetch" 2>&1 ||
+. tests/venv.sh
+"$place/bin/python" -c 'import distributed' 2>/dev/null || pip_install distributed ||
     { echo "skip - dask.distributed could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
 for i in 2 3 4 5 6 7 8; do python3 examples/farm.py "$shots" "$scratch/one" --only $i >/dev/null; done
-at_end() { kill -9 "${processes[@]}" 2>/dev/null; wait; }
-processes=()
-start() { "$place/bin/dask" "$@" >>"$scratch/dask" 2>&1 & processes+=($!); }
+groups=()
+at_end() { kill -9 "${groups[@]/#/-}" 2>/dev/null; wait; }
+start() { setsid "$place/bin/dask" "$@" >>"$scratch/dask" 2>&1 & groups+=($!); }
 start scheduler --port 0 --no-dashboard --scheduler-file "$scratch/scheduler.json"
-for _ in 1 2; do start worker --scheduler-file "$scratch/scheduler.json" --nthreads 1 --no-nanny --no-dashboard --local-directory "$scratch"; done
-for _ in $(seq 300); do [ -s "$scratch/scheduler.json" ] && break; sleep 0.1; done
-address=$(sed -n 's/.*"address": "\([^"]*\)".*/\1/p' "$scratch/scheduler.json")
-"$place/bin/python" examples/farm.py "$shots" "$scratch/many" --scheduler "$address" >"$scratch/said" 2>&1 &
+address() { sed -n 's/.*"address": "\([^"]*\)".*/\1/p' "$scratch/scheduler.json" 2>/dev/null; }
+for _ in $(seq 600); do [ -n "$(address)" ] && break; sleep 0.1; done
+for _ in 1 2; do start worker "$(address)" --nthreads 1 --no-nanny --no-dashboard --local-directory "$scratch"; done
+timeout 600 "$place/bin/python" examples/farm.py "$shots" "$scratch/many" --scheduler "$(address)" >"$scratch/said" 2>&1 &
 farm=$!
 for _ in $(seq 600); do [ -n "$(ls "$scratch/many" 2>/dev/null)" ] && break; sleep 0.1; done
-kill -9 "${processes[1]}"
+kill -9 "-${groups[1]}" # with the command that it runs
 status=0
 wait $farm || status=$?
 ok "the farm ends although a worker was killed" "$([ $status = 1 ]; echo $?)"

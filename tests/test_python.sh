@@ -2,14 +2,12 @@
 . tests/check.sh
 [ -z "${SANITIZE:-}" ] || { echo "skip - Python loads no sanitized library"; exit 0; }
 command -v python3 >/dev/null || { echo "skip - python3 is not installed"; exit 0; }
-place=$PWD/$B/python
-case $B in /*) place=$B/python ;; esac
+. tests/venv.sh
 python=python3
 if ! python3 -c 'import numpy' 2>/dev/null; then
     python=$place/bin/python
-    "$python" -c 'import numpy' 2>/dev/null || {
-        python3 -m venv "$place" && timeout 120 "$place/bin/pip" install --quiet --retries 0 numpy
-    } >"$scratch/fetch" 2>&1 || { echo "skip - NumPy could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
+    "$python" -c 'import numpy' 2>/dev/null || pip_install numpy ||
+        { echo "skip - NumPy could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
 fi
 
 export PYTHONPATH=python/src PYTHONDONTWRITEBYTECODE=1 WIGGLY
@@ -25,8 +23,7 @@ case $(uname -m) in x86_64 | aarch64) own=manylinux_2_17_$(uname -m) ;; *) echo 
 platforms=("$own" macosx_11_0_arm64)
 ! ls "$B"/wheels/*-win_amd64.whl >/dev/null 2>&1 || platforms=()
 rm -rf "$B/wheels"
-[ -x "$place/bin/python" ] || python3 -m venv "$place" >/dev/null
-"$place/bin/pip" install --quiet --retries 0 hatchling ziglang numpy auditwheel mypy 2>"$scratch/fetch" ||
+pip_install hatchling ziglang numpy auditwheel mypy ||
     { echo "skip - the wheels, because zig could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
 expect 0 "the types are right" "$place/bin/mypy" --cache-dir "$scratch/mypy" --config-file python/pyproject.toml python/src/wiggly
 sed -n '/^```python$/,/^```$/{/^```/!p;}' docs/python.md >"$scratch/page.py"
