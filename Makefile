@@ -305,6 +305,8 @@ $(TOOLS:%=$(B)/%): $(B)/%: $(B)/obj/tools/%.o $(B)/tools.a $(B)/parts.a
 
 # Private: else it would be in the flags of all that a test is made of, where a test is what make is asked for.
 $(B)/obj/tests/%.o: private OWN_CPPFLAGS += -Itests -Itools
+# A test runs once for each time that it is compiled.
+$(B)/obj/tests/test_%.o: private OWN_CFLAGS += -O0
 $(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(B)/tests/libparts.so
 	$(Q)$(LINK) $^ -Wl,-rpath,'$$ORIGIN' $(TEST_LIBS) $(LIBS) -o $@
 
