@@ -302,6 +302,16 @@ static void make_long(struct adversary_problem *p, uint64_t *seed)
     make_regular_knots(p, seed, 2 + (int)(samples * power(seed, -2.5, -0.05)));
 }
 
+static void make_short(struct adversary_problem *p, uint64_t *seed)
+{
+    make_mixed(p, seed, pick(seed, 40) ? 4 + pick(seed, 37) : 1 + pick(seed, 3));
+}
+
+static void (*const makers[ADVERSARY_KINDS])(struct adversary_problem *p, uint64_t *seed) = {
+    [ADVERSARY_FILTER] = make_short, [ADVERSARY_OSCILLATOR] = make_short, [ADVERSARY_ADJACENT] = make_adjacent,
+    [ADVERSARY_NODAL] = make_nodal,  [ADVERSARY_NYQUIST] = make_nyquist,  [ADVERSARY_FROM_ZERO] = make_from_zero,
+    [ADVERSARY_SLOW] = make_slow,    [ADVERSARY_CHAIN] = make_chain,      [ADVERSARY_LONG] = make_long};
+
 static const double rates[] = {24, 60, 1000, 1, 15, 120, 24 * 16, 23.976 * 4, 30 * 256};
 
 void adversary_make(struct adversary_problem *p, adversary_kind kind, uint64_t seed)
@@ -312,33 +322,8 @@ void adversary_make(struct adversary_problem *p, adversary_kind kind, uint64_t s
     p->desc.knots = p->knots;
     p->fps = rates[pick(&seed, pick(&seed, 2) ? 4 : (int)(sizeof rates / sizeof *rates))];
     p->desc.step = 1 / p->fps;
-    switch (kind) {
-    case ADVERSARY_FILTER:
-    case ADVERSARY_OSCILLATOR:
-        p->desc.passive = kind == ADVERSARY_FILTER ? WIGGLY_FILTER : WIGGLY_OSCILLATOR;
-        make_mixed(p, &seed, pick(&seed, 40) ? 4 + pick(&seed, 37) : 1 + pick(&seed, 3));
-        return;
-    case ADVERSARY_ADJACENT:
-        make_adjacent(p, &seed);
-        return;
-    case ADVERSARY_NODAL:
-        make_nodal(p, &seed);
-        return;
-    case ADVERSARY_NYQUIST:
-        make_nyquist(p, &seed);
-        return;
-    case ADVERSARY_FROM_ZERO:
-        make_from_zero(p, &seed);
-        return;
-    case ADVERSARY_SLOW:
-        make_slow(p, &seed);
-        return;
-    case ADVERSARY_CHAIN:
-        make_chain(p, &seed);
-        return;
-    default:
-        make_long(p, &seed);
-    }
+    p->desc.passive = kind == ADVERSARY_FILTER ? WIGGLY_FILTER : WIGGLY_OSCILLATOR; // some kinds choose anew
+    makers[kind](p, &seed);
 }
 
 void adversary_hold(struct adversary_problem *p, uint64_t seed)
