@@ -349,7 +349,8 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_RECOVER:
         return personal_recover(app, error);
     case REQUEST_FORGET:
-        return personal_forget(app, error);
+        personal_forget(app);
+        return true;
     case REQUEST_SCREENSHOT:
         return take_picture(app, error);
     case REQUEST_SHARE:

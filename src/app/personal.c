@@ -274,15 +274,13 @@ bool personal_recover(struct app *app, struct error *error)
     return true;
 }
 
-bool personal_forget(struct app *app, struct error *error)
+void personal_forget(struct app *app)
 {
-    (void)error;
     struct personal *personal = app->personal;
-    if (!personal || !personal->is_offered) return true;
+    if (!personal || !personal->is_offered) return;
     recovery_remove(&personal->offered.slot);
     recovery_release(&personal->offered.slot);
     offer(app);
-    return true;
 }
 
 const char *personal_rescue(struct app *app)

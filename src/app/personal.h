@@ -30,7 +30,7 @@ void personal_note_export(struct app *app, const struct request *request);
 
 /// Opens the offered recovery file, or deletes it and offers the next.
 bool personal_recover(struct app *app, struct error *error);
-bool personal_forget(struct app *app, struct error *error);
+void personal_forget(struct app *app);
 
 /// Writes unsaved work to the recovery file and waits for it. Returns the path, or NULL if it failed.
 const char *personal_rescue(struct app *app);
