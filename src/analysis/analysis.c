@@ -93,15 +93,15 @@ static bool find_poles(struct work *w, struct basis *basis, struct error *error)
 static void create_components(struct analysis *a, const struct work *w, int count)
 {
     int frames = w->motion->frames, vertices = w->motion->vertices;
-    a->components = need_zeroed((size_t)count, sizeof *a->components);
+    a->components = pool_take(&a->pool, (size_t)count, sizeof *a->components);
     a->count = count;
     for (int k = 0; k < count; k++) {
         struct component *c = &a->components[k];
         c->frames = frames;
         c->vertices = vertices;
-        c->series = need((size_t)frames, sizeof *c->series);
-        c->shape = need((size_t)vertices, sizeof *c->shape);
-        c->metric.pull = need((size_t)frames, sizeof *c->metric.pull);
+        c->series = pool_take(&a->pool, (size_t)frames, sizeof *c->series);
+        c->shape = pool_take(&a->pool, (size_t)vertices, sizeof *c->shape);
+        c->metric.pull = pool_take(&a->pool, (size_t)frames, sizeof *c->metric.pull);
     }
 }
 
@@ -301,7 +301,7 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
                     ANALYSIS_FRAMES_MIN, motion->frames > plan->first ? motion->frames - plan->first : 0);
     const size_t numbers = plan->method == ANALYSIS_CPCA ? 13 : 5; // per pair of frames
     if (!need_has_room(numbers * n * n * sizeof *work.gram)) return fail_frames(error, motion);
-    a->mean = need((size_t)motion->vertices, sizeof *a->mean);
+    a->mean = pool_take(&a->pool, (size_t)motion->vertices, sizeof *a->mean);
     work.gram = need(n * n, sizeof *work.gram);
     work.weights = need(2 * (size_t)plan->modes * n, sizeof *work.weights);
     bool done =
@@ -316,12 +316,6 @@ bool analysis_create(struct analysis *a, const struct lapack *lapack, const stru
 
 void analysis_free(struct analysis *a)
 {
-    for (int k = 0; k < a->count; k++) {
-        free(a->components[k].series);
-        free(a->components[k].shape);
-        free(a->components[k].metric.pull);
-    }
-    free(a->components);
-    free(a->mean);
+    pool_free(&a->pool);
     *a = (struct analysis){0};
 }

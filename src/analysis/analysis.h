@@ -5,6 +5,7 @@
 #include "analysis/component.h"
 #include "analysis/poles.h"
 #include "analysis/rigid.h"
+#include "base/pool.h"
 
 enum {
     ANALYSIS_FRAMES_MIN = 8,
@@ -27,6 +28,7 @@ struct analysis_plan {
 };
 
 struct analysis {
+    struct pool pool;
     double pca1, pca2; ///< shares of the real variance that real PCA's first and first two explain, 0 … 1
     double (*mean)[3]; ///< each vertex's mean position, metres
     struct component *components;
