@@ -7,14 +7,24 @@
 
 static const double blow_up = 1e4;
 
-extent extent_of(const double *values, int count)
+WIDEST extent extent_of(const double *values, int count)
 {
-    extent e = {values[0], values[0]};
-    for (int i = 1; i < count; i++) {
-        e.low = values[i] < e.low ? values[i] : e.low;
-        e.high = values[i] > e.high ? values[i] : e.high;
+    enum { LANES = 8 };
+    double low[LANES], high[LANES];
+    for (int k = 0; k < LANES; k++) low[k] = high[k] = values[0];
+    for (int i = 0; i < count; i += LANES) {
+        const int lanes = count - i < LANES ? count - i : LANES;
+        for (int k = 0; k < lanes; k++) {
+            low[k] = values[i + k] < low[k] ? values[i + k] : low[k];
+            high[k] = values[i + k] > high[k] ? values[i + k] : high[k];
+        }
     }
-    return e;
+    extent all = {low[0], high[0]};
+    for (int k = 1; k < LANES; k++) {
+        all.low = low[k] < all.low ? low[k] : all.low;
+        all.high = high[k] > all.high ? high[k] : all.high;
+    }
+    return all;
 }
 
 /// The scale to compare max |x| with: the largest of |w| over knots, T·|slope| over slopes, and y's range.
@@ -34,27 +44,14 @@ static double problem_scale(const problem *p)
     return scale;
 }
 
-/// Largest |x|, in lanes of eight.
-WIDEST static double largest_magnitude(const double *x, int count)
-{
-    double largest[8] = {0}, all = 0;
-    int i = 0;
-    for (; i + 8 <= count; i += 8) {
-        for (int k = 0; k < 8; k++) largest[k] = fabs(x[i + k]) > largest[k] ? fabs(x[i + k]) : largest[k];
-    }
-    for (; i < count; i++) all = fmax(all, fabs(x[i]));
-    for (int k = 0; k < 8; k++) all = fmax(all, largest[k]);
-    return all;
-}
-
 bool problem_blew_up(const problem *p, const chain *solved, const wiggly_curve *curve)
 {
     double scale = problem_scale(p);
     if (solved && p->desc->mode == WIGGLY_CUBIC && solved->cubic_bound <= blow_up * scale) return false;
     bool is_complex = p->desc->mode == WIGGLY_COMPLEX;
     const double *re = curve->re + p->first, *im = curve->im + p->first;
-    double bound = largest_magnitude(re, p->count);
-    if (is_complex) bound = maths_hypot(bound, largest_magnitude(im, p->count));
+    double bound = extent_size(extent_of(re, p->count));
+    if (is_complex) bound = maths_hypot(bound, extent_size(extent_of(im, p->count)));
     if (!(scale > 0) || bound <= blow_up * scale) return false;
     for (int k = 0; k < p->count && is_complex; k++) {
         if (maths_hypot(re[k], im[k]) > blow_up * scale) return true;

@@ -126,7 +126,7 @@ void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from
 /// The same for all samples after the latest knot; arrays of the whole spline.
 void problem_settle(wiggly_solver *solver, const problem *p, double *re, double *im);
 
-/// Whether the chain can solve the document: constant parameters, a constant equilibrium, no seam.
+/// Whether the chain may solve it: constant parameters and, for the paper's filter, a constant equilibrium.
 bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 
 /// Whether a description has noise that its knots are solved over: some amount, an oscillator of constant poles that has a frequency.
