@@ -135,13 +135,14 @@ static bool finish(struct app *app, struct error *error)
     return close_files(app, good ? error : &other) && good;
 }
 
-/// The display and GL are gone: saves the document if possible. The process ends on return.
+/// The display and GL are gone: saves the document if possible. The process ends on return, but in a browser.
 static void on_lost(void *user)
 {
     struct app *app = user;
     struct error error, other = {0};
     fail(&error, ERROR_ENVIRONMENT, "the window or its display is gone");
     app_rescue(app, &error);
+    if (platform_in_page()) return; // which is only hidden
     close_files(app, &other);
     fflush(stdout);
     fprintf(stderr, "wiggly live: %s\n", error.text);

@@ -64,8 +64,8 @@ bool platform_fetches(const char *path);
 
 void platform_cursor(struct platform *platform, enum mouse_cursor cursor);
 
-/// Called when the display is lost or another program destroyed the window; then the process ends with exit status 3. Register it once the
-/// window is open; NULL: none.
+/// Called when the display is lost or another program destroyed the window; then the process ends with exit status 3. In a browser, called
+/// whenever the page is hidden. Register it once the window is open; NULL: none.
 typedef void platform_rescue(void *user);
 void platform_on_lost(platform_rescue *function, void *user);
 

@@ -103,5 +103,6 @@ addEventListener('hashchange', async () => {
   const path = await findLinked();
   if (path) app.ccall('web_drop', null, ['string'], [path]);
 });
+addEventListener('visibilitychange', () => document.hidden && app._web_hidden());
 canvas.addEventListener('webglcontextlost', () => say('The graphics driver was reset. Reload the page: what you did is kept.'));
 app.callMain(commandLine(app.FS, linked));

@@ -55,7 +55,11 @@ function place(FS, path, { bytes, time }) {
 /// Keeps a file as it is now.
 export function put(FS, path) {
   const file = { bytes: FS.readFile(path), time: Date.now() };
-  if (database) files().put(file, nameOf(path));
+  if (database) {
+    const all = files();
+    all.put(file, nameOf(path));
+    all.transaction.commit(); // at once, for the tab may be closing
+  }
   if (!path.startsWith(RECOVERY)) others.postMessage({ path, file });
 }
 

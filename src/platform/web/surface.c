@@ -192,13 +192,22 @@ void platform_cursor(struct platform *platform, enum mouse_cursor cursor)
     page_cursor(names[cursor]);
 }
 
-// A browser keeps its windows, and says itself what is wrong in WebGL.
+static platform_rescue *rescue;
+static void *rescue_user;
 
 void platform_on_lost(platform_rescue *function, void *user)
 {
-    (void)function;
-    (void)user;
+    rescue = function;
+    rescue_user = user;
 }
+
+/// A hidden page has no frames, and may never be shown again.
+EMSCRIPTEN_KEEPALIVE void web_hidden(void)
+{
+    if (rescue) rescue(rescue_user);
+}
+
+// A browser says itself what is wrong in WebGL.
 
 void platform_debug_gl(void) {}
 int platform_gl_complaints(void) { return 0; }
