@@ -48,5 +48,5 @@ expect 0 "the examples are bundled" bash -c "cd '$examples' && node_modules/.bin
 cp npm/compare.mjs "$examples"
 expect 0 "springs of two keys are compared" bash -c "cd '$examples' && node compare.mjs"
 holds "and the page says how they do" [ -n "$out" -a -z "$(grep -vxFf npm/README.md <<<"$out")" ]
-timeout 300 python3 npm/tests/pages.py "$examples"
+timeout 800 python3 npm/tests/pages.py "$examples"
 ok "the pages were looked at in Chromium" $?

@@ -169,7 +169,9 @@ def kept(browser, url):
     page.drag(KNOT, LOWER)
     told(page, 'a star in the title', lambda text: text.startswith('*'))
     changed = scene(page)
-    time.sleep(1.5)  # until that is kept
+    value, file = changed['splines'][0]['knots'][0]['value'], "'/home/web_user/.local/state/wiggly/recovery-1'"
+    page.until('a recovery file with the work', f"""wiggly.FS.analyzePath({file}).exists &&
+        JSON.parse(wiggly.FS.readFile({file}, {{ encoding: 'utf8' }})).splines[0].knots[0].value === {value}""")
     reopened(page, url)
     page.key('Enter')
     told(page, 'the work as it was before the reload', lambda text: text.startswith('*'))
