@@ -20,7 +20,7 @@ typedef struct step_matrix {
 static inline step_matrix oscillator_loss(oscillator o, double h)
 {
     const double r2 = (o.d - sqrt(o.k)) * (o.d + sqrt(o.k)), r = sqrt(fabs(r2)), z = r2 * h * h;
-    if (z > 1e-4) {
+    if (z > 1e-4 || r2 > 0.25 * o.d * o.d) {
         const double sum = o.d + r, difference = o.k / sum;
         const double slow = maths_expm1(-difference * h), fast = maths_expm1(-sum * h), s = 0.5 * (slow - fast) / r;
         return (step_matrix){0.5 * (difference * fast - sum * slow) / r, -s, o.k * s,
