@@ -6,10 +6,11 @@
 # the commands above put out); math and mermaid are for the renderer, and test_python.sh runs python. They are taken in order, in a folder that looks like the root of
 # a tree that was built. A function named in the text, `like_this()`, is one of src or of the library.
 . tests/check.sh
-[ -z "${SANITIZE:-}" ] || { echo "skip - other tests run all of it under sanitizers"; exit 0; }
 root=$PWD
 build=$(realpath "$B")
 CC=${CC:-gcc}
+sanitizers=""
+[ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
 documents="README.md CONTRIBUTING.md docs/*.md"
 commands=$("$build/wiggly" --help-all | sed -n '/^Commands:$/,/^$/s/^  \([a-z]*\) .*/\1/p' | tr '\n' ' ')
 unset DISPLAY WAYLAND_DISPLAY
@@ -17,7 +18,7 @@ unset DISPLAY WAYLAND_DISPLAY
 # --- what a command line finds, and how it is cut short where it would last
 
 mkdir "$scratch/bin" "$scratch/place" "$scratch/place/build"
-make BORROWED=yes B="$B" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
+make BORROWED=yes B="$B" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
 ok "make install" $?
 export PKG_CONFIG_PATH=$scratch/stage/opt/wiggly/lib/pkgconfig LD_LIBRARY_PATH=$scratch/stage/opt/wiggly/lib
 
@@ -48,14 +49,14 @@ models) set -- "$(thorough && echo models || echo "$B/models/creature.obj")" ;;
 figures) ;;
 *) set -- -n "\$@" ;;
 esac
-exec $(command -v make) --no-print-directory -C "$root" B="$B" "\$@"
+exec $(command -v make) --no-print-directory -C "$root" B="$B" SANITIZE="${SANITIZE:-}" "\$@"
 END
 cat >"$scratch/bin/timing_diff" <<END
 #!/bin/bash
 # 1 says that the second log is slower, which on a busy machine it may be.
 "$build/timing_diff" "\$@" || [ \$? -eq 1 ]
 END
-printf '#!/bin/bash\nexec %s "$@"\n' "$CC" >"$scratch/bin/cc"
+printf '#!/bin/bash\nexec %s %s "$@"\n' "$CC" "$sanitizers" >"$scratch/bin/cc"
 chmod +x "$scratch"/bin/*
 mkdir -p "$build/models" # which the first of the commands fills
 for file in "$build"/*; do ln -s "$file" "$scratch/place/build/"; done
