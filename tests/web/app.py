@@ -83,6 +83,13 @@ def told(page, what, condition):
     until(what, lambda: condition(title(page)))
 
 
+def changed(page):
+    """The scene once its first knot is dragged down."""
+    page.drag(KNOT, LOWER)
+    told(page, 'a star in the title', lambda text: text.startswith('*'))
+    return scene(page)
+
+
 def expect(value, what):
     if not value:
         raise AssertionError(what)
@@ -122,9 +129,7 @@ def edits(browser, url):
     time.sleep(0.5)
     expect(look(page) == 0, 'with reduced motion the fox stands still at first')
     start = scene(page)
-    page.drag(KNOT, LOWER)
-    told(page, 'a star in the title', lambda text: text.startswith('*'))
-    moved = scene(page)
+    moved = changed(page)
     values = [one['splines'][0]['knots'][0]['value'] for one in (start, moved)]
     expect(values[1] < values[0] - 0.3, f'a knot that is dragged down goes from {values[0]} to {values[1]}')
     expect(look(page) > 500, 'the tail follows the knot')
@@ -153,12 +158,10 @@ def links(browser, url):
     link = share(page)
     print(f'the link of the start scene: {len(link)} bytes')
     expect(len(link) <= 2048, 'the link of the start scene has at most 2 KB')
-    page.drag(KNOT, LOWER)
-    told(page, 'a star in the title', lambda text: text.startswith('*'))
-    changed, link = scene(page), page.evaluate('location.hash')
+    sent, link = changed(page), page.evaluate('location.hash')
     page.close()
     other = opened(browser, url + link)
-    expect(scene(other) == changed, 'a link holds the scene, for a stranger, too')
+    expect(scene(other) == sent, 'a link holds the scene, for a stranger, too')
     reopened(other, url + link[:-20])
     expect('cut off' in other.until('words', "document.getElementById('said').textContent"), 'a broken link is said to be one')
     other.close()
@@ -166,24 +169,20 @@ def links(browser, url):
 
 def kept(browser, url):
     page = opened(browser, url)
-    page.drag(KNOT, LOWER)
-    told(page, 'a star in the title', lambda text: text.startswith('*'))
-    changed = scene(page)
-    value, file = changed['splines'][0]['knots'][0]['value'], "'/home/web_user/.local/state/wiggly/recovery-1'"
+    work = changed(page)
+    value, file = work['splines'][0]['knots'][0]['value'], "'/home/web_user/.local/state/wiggly/recovery-1'"
     page.until('a recovery file with the work', f"""wiggly.FS.analyzePath({file}).exists &&
         JSON.parse(wiggly.FS.readFile({file}, {{ encoding: 'utf8' }})).splines[0].knots[0].value === {value}""")
     reopened(page, url)
     page.key('Enter')
     told(page, 'the work as it was before the reload', lambda text: text.startswith('*'))
-    expect(scene(page) == changed, 'it is the same scene')
+    expect(scene(page) == work, 'it is the same scene')
     page.close()
 
 
 def tabs(browser, url):
     one = opened(browser, url)
-    one.drag(KNOT, LOWER)
-    told(one, 'a star in the title', lambda text: text.startswith('*'))
-    changed = scene(one)
+    work = changed(one)
     one.key('Ctrl+Z')
     told(one, 'a title without a star', lambda text: not text.startswith('*'))
     time.sleep(1)  # so that the drag's begin is kept at once, but not its end
@@ -204,7 +203,7 @@ def tabs(browser, url):
     reopened(other, url)
     other.key('Enter')
     told(other, 'the work of the tab that was closed', lambda text: text.startswith('*untitled —'))
-    expect(scene(other) == changed, 'it is the same scene')
+    expect(scene(other) == work, 'it is the same scene')
     expect(other.evaluate("wiggly.FS.analyzePath('/home/web_user/untitled.json').exists"), 'and the saved scene is there')
     other.close()
 
@@ -224,13 +223,13 @@ def files(browser, url):
         expect(file.read_bytes().startswith(beginning), f'{file.name} begins as such files do')
         file.unlink()
     page.drag(KNOT, LOWER)
-    changed = scene(page)
+    saved = scene(page)
     page.key('Ctrl+S')
     frames(page)
     page.key('Enter')
     file = folder / 'untitled.json'
     until('the download of the scene', file.exists)
-    expect(json.loads(file.read_text())['splines'] == changed['splines'], 'the scene that is saved is the one that is shown')
+    expect(json.loads(file.read_text())['splines'] == saved['splines'], 'the scene that is saved is the one that is shown')
     told(page, "the scene's name", lambda text: text.startswith('untitled.json'))
     page.key('Alt+N')
     told(page, 'a new scene', lambda text: text == 'untitled — wiggly')
@@ -240,7 +239,7 @@ def files(browser, url):
     page.drop(600, 200, file)
     told(page, 'the scene that was dropped', lambda text: text.startswith('untitled.json'))
     frames(page)
-    expect(scene(page) == changed, 'the scene that was dropped is the one that was saved')
+    expect(scene(page) == saved, 'the scene that was dropped is the one that was saved')
     expect(not (found := page.problems()), f'the console says {found}')
     page.close()
 
