@@ -17,7 +17,7 @@ export async function makeFolders(FS, onRefused) {
 const coming = new Set(), refused = new Set(); // paths
 export const isFetching = () => coming.size > 0;
 
-// What came past the service worker, on a first visit, comes again for it to keep.
+// On a first visit characters come before the service worker does: they are fetched again, so that it keeps them.
 navigator.serviceWorker?.addEventListener('controllerchange', () => performance.getEntriesByType('resource')
   .forEach(({ name }) => name.endsWith('.glb') && fetch(name).catch(() => {})));
 

@@ -11,7 +11,7 @@ let timer;
 function say(text) {
   document.getElementById('said').textContent = text;
   clearTimeout(timer);
-  const end = () => app.isShown && !isFetching() && (document.getElementById('said').textContent = ''); // else nothing moves but the word
+  const end = () => app.isShown && !isFetching() && (document.getElementById('said').textContent = ''); // "Loading …" stays
   timer = setTimeout(end, 4000);
 }
 
