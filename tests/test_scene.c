@@ -117,6 +117,17 @@ TEST(test_defaults)
     document_destroy(document);
 }
 
+/// Windows programs begin texts with one; the lines of messages count as without it.
+TEST(test_a_byte_order_mark_is_skipped)
+{
+#define MARKED(frames) "\xEF\xBB\xBF{\n\"frames\": " frames "}"
+    struct document *document = document_of_text(MARKED("[0, 9]"));
+    assert_int_equal(document->last_frame, 9);
+    document_destroy(document);
+    assert_refusal(scene_parse("a.json", MARKED("0"), strlen(MARKED("0")), NULL, &error) != NULL, "a.json:2: frames");
+    assert_refusal(scene_parse("a.json", MARKED("0,"), strlen(MARKED("0,")), NULL, &error) != NULL, "a.json:2");
+}
+
 /// Unknown keys stay, wherever they are, behind the known ones and in their own order; those named like parameters as
 /// well.
 TEST(test_unknown_keys_are_kept)

@@ -177,7 +177,7 @@ struct replay *replay_load(const char *path, struct error *error)
 {
     size_t size = 0;
     struct replay *replay = create(path);
-    if (file_read(path, MAX_REPLAY, &replay->text, &size, error)) return finish(replay, size, error);
+    if (file_read_text(path, MAX_REPLAY, &replay->text, &size, error)) return finish(replay, size, error);
     replay_destroy(replay);
     return NULL;
 }

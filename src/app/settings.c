@@ -78,7 +78,7 @@ struct settings *settings_load(const char *path, struct error *error)
     size_t size;
     *error = (struct error){0};
     settings->lock = -1;
-    if (access(path, F_OK) != 0 || !file_read(path, LARGEST, &data, &size, error)) return settings;
+    if (access(path, F_OK) != 0 || !file_read_text(path, LARGEST, &data, &size, error)) return settings;
     rest = data;
     for (int number = 1; rest && *rest && number <= MAX_LINES; number++) {
         char *line = strsep(&rest, "\n");

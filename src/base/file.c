@@ -98,6 +98,17 @@ bool file_read(const char *path, size_t limit, char **data, size_t *size, struct
     return done;
 }
 
+size_t file_text_mark(const char *text) { return strncmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0; }
+
+bool file_read_text(const char *path, size_t limit, char **text, size_t *size, struct error *error)
+{
+    if (!file_read(path, limit, text, size, error)) return false;
+    const size_t mark = file_text_mark(*text);
+    *size -= mark;
+    memmove(*text, *text + mark, *size + 1);
+    return true;
+}
+
 /// `name` relative to the folder of `path`.
 static char *beside(const char *path, const char *name)
 {

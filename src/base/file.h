@@ -12,6 +12,12 @@
 /// `size` does not count. Errors name the path and say: no such file, a directory, no permission, too large.
 bool file_read(const char *path, size_t limit, char **data, size_t *size, struct error *error);
 
+/// Bytes of the UTF-8 byte order mark that a text begins with: 3, or 0 without one.
+size_t file_text_mark(const char *text);
+
+/// Reads a text without its byte order mark.
+bool file_read_text(const char *path, size_t limit, char **text, size_t *size, struct error *error);
+
 /// Writes a temporary file beside `path`, checks every call, fsyncs, renames. On failure the old file is intact and the temporary one is gone. A
 /// symbolic link's target is replaced, not the link. The old file's owner, group, mode and ACL are kept; if the system does not allow that, the
 /// new file gives others fewer rights, never more.

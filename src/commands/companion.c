@@ -65,7 +65,7 @@ bool companion_read(const char *motion, int frames, int vertices, struct compani
     size_t size;
     *c = (struct companion){0};
     if (!companion_path(motion, ".simulation.json", path) || access(path, F_OK) != 0) return true;
-    if (!file_read(path, FILE_LIMIT, &text, &size, error)) return false;
+    if (!file_read_text(path, FILE_LIMIT, &text, &size, error)) return false;
     const bool done = parse(path, text, size, c, error);
     free(text);
     if (done && (c->frames != frames || c->vertices != vertices)) {

@@ -78,7 +78,7 @@ bool glb_open(struct glb *glb, const char *path, struct error *error)
 {
     char *data;
     size_t size;
-    return file_read(path, GLB_FILE_LIMIT, &data, &size, error) && glb_open_bytes(glb, path, data, size, error);
+    return file_read_text(path, GLB_FILE_LIMIT, &data, &size, error) && glb_open_bytes(glb, path, data, size, error);
 }
 
 void glb_close(struct glb *glb)

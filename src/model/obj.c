@@ -74,7 +74,7 @@ static bool read_beside(const char *path, const char *name, size_t limit, char *
     for (char *c = plain; *c; c++) {
         if (*c == '\\') *c = '/';
     }
-    return path_resolve(folder, plain, place) && file_read(place, limit, data, size, NULL);
+    return path_resolve(folder, plain, place) && file_read_text(place, limit, data, size, NULL);
 }
 
 /// The rest of a map's line after its options, each followed by numbers or on/off.

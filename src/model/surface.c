@@ -24,7 +24,7 @@ bool surface_read(const char *path, struct surface *surface, struct error *error
     int i = 0;
     *surface = (struct surface){0};
     while (formats[i].end[0] && !path_has_end(path, formats[i].end)) i++;
-    if (formats[i].read != gltf_surface_read && !file_read(path, FILE_LIMIT, &data, &size, error)) return false;
+    if (formats[i].read != gltf_surface_read && !file_read_text(path, FILE_LIMIT, &data, &size, error)) return false;
     if (data) words.at = data, words.end = data + size; // the glTF reader opens the file itself
     const bool done = formats[i].read(&words, &builder);
     free(data);

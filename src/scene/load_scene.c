@@ -266,8 +266,9 @@ static void parse(struct reader *reader)
 static struct document *parse_document(const char *name, const char *text, size_t size, struct problems *problems,
                                        struct error *error)
 {
+    const size_t mark = file_text_mark(text);
     struct reader reader = {
-        .source = {.name = name, .text = text, .size = size}, .problems = problems, .error = error};
+        .source = {.name = name, .text = text + mark, .size = size - mark}, .problems = problems, .error = error};
     reader.document = document_create();
     parse(&reader);
     if (reader.errors == 0) return reader.document;

@@ -56,10 +56,6 @@ bool source_check_limits(const struct source *source, struct error *error)
     struct cursor c = start(source);
     int depth = 0;
     long objects = 0, values = 1;
-    if (strncmp(source->text, "\xEF\xBB\xBF", 3) == 0) {
-        return fail(error, ERROR_INPUT, "%s:1: scene: expected UTF-8 without a byte order mark, got one",
-                    source->name);
-    }
     for (; *c.at; skip_token(&c), skip_space(&c)) {
         bool opens = *c.at == '[' || *c.at == '{';
         depth += opens;

@@ -129,7 +129,7 @@ bool drive_read_track(struct drive *d, const char *path, struct error *error)
 {
     char *text;
     size_t size, lines = 1;
-    if (!file_read(path, FILE_LIMIT, &text, &size, error)) return false;
+    if (!file_read_text(path, FILE_LIMIT, &text, &size, error)) return false;
     for (size_t i = 0; i < size; i++) lines += text[i] == '\n';
     d->kind = DRIVE_TRACK;
     d->time = need_zeroed(lines, sizeof *d->time);

@@ -203,7 +203,7 @@ static bool weigh_painted(const char *path, int vertices, double *vertex, struct
 {
     char *data;
     size_t size;
-    if (!file_read(path, FILE_LIMIT, &data, &size, error)) return false;
+    if (!file_read_text(path, FILE_LIMIT, &data, &size, error)) return false;
     bool good = read_weights(path, data, size, vertices, vertex, error);
     free(data);
     return good;
