@@ -181,6 +181,60 @@ TEST(off_with_colours)
     assert_refused_text("b.off", "OFF BINARY\n", "expected an OFF file as text");
 }
 
+/// Ways in which programs write the same tetrahedron. Its merged vertices come in the order of the file, its faces in theirs.
+TEST(the_same_mesh_in_many_ways)
+{
+#define MARK "\xEF\xBB\xBF"
+#define PLACES "0 0 0\n1 0 0\n0 1 0\n0 0 1\n"
+#define FACES "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n"
+#define OBJ "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n"
+#define OFF_COUNTS(head, counts) head counts PLACES FACES
+#define FACES_FIRST "element face 4\nproperty list uchar int vertex_indices\nelement vertex 4\n"
+#define STL(solid, facet, outer, v, endloop, endfacet, endsolid)                                                     \
+    solid " a facet\n" STL_OF(facet, outer, v, "0 0 0 ", "0 1 0 ", "1 0 0 ", endloop, endfacet)                      \
+        STL_OF(facet, outer, v, "0 0 0 ", "1 0 0 ", "0 0 1 ", endloop, endfacet)                                     \
+            STL_OF(facet, outer, v, "1 0 0 ", "0 1 0 ", "0 0 1 ", endloop, endfacet)                                 \
+                STL_OF(facet, outer, v, "0 0 0 ", "0 0 1 ", "0 1 0 ", endloop, endfacet) endsolid " a facet\n"
+#define STL_OF(facet, outer, v, a, b, c, endloop, endfacet) facet " 0 0 nan " outer v a v b v c endloop endfacet
+    static const struct {
+        const char *name, *text;
+    } ways[] = {
+        {"a.obj", OBJ},
+        {"mark.obj", MARK OBJ},
+        {"mark.off", MARK OFF_COUNTS("OFF\n", "4 4 6\n")},
+        {"joined.off", OFF_COUNTS("OFF", "4 4 6\n")},
+        {"two.off", OFF_COUNTS("OFF\n", "4 4\n")},
+        {"two_joined.off", OFF_COUNTS("OFF", "4 4 # no edges\n")},
+        {"lines.off", OFF_COUNTS("OFF\n", "4\n4\n6\n")},
+        {"lower.off", OFF_COUNTS("off\n", "4 4 6\n")},
+        {"faces_first.ply", PLY FACES_FIRST XYZ "end_header\n" FACES PLACES},
+        {"mark.ply", MARK PLY "element vertex 4\n" XYZ
+                              "element face 4\nproperty list uchar int vertex_indices\nend_header\n" PLACES FACES},
+        {"a.stl", STL("solid", "facet normal", "\nouter loop\n", "vertex ", "\nendloop", "\nendfacet\n", "endsolid")},
+        {"mark.stl",
+         MARK STL("solid", "facet normal", "\nouter loop\n", "vertex ", "\nendloop", "\nendfacet\n", "endsolid")},
+        {"upper.stl",
+         STL("SOLID", "FACET NORMAL", "\nOUTER LOOP\n", "VERTEX ", "\nENDLOOP", "\nENDFACET\n", "ENDSOLID")},
+        {"two_words.stl",
+         STL("Solid", "facet normal", "\nouter loop\n", "vertex ", "\nend loop", "\nend facet\n", "end solid")},
+        {"one_line.stl",
+         STL("solid", " facet normal", " outer loop ", "vertex ", " endloop", " endfacet ", "endsolid")},
+    };
+    for (size_t i = 0; i < sizeof ways / sizeof *ways; i++) {
+        static const int faces[4][3] = {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}, {0, 3, 2}};
+        static const float places_of[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+        struct surface s = read_good(ways[i].name, ways[i].text, strlen(ways[i].text));
+        assert_int_equal(s.vertex_count, 4);
+        assert_int_equal(s.index_count, 12);
+        for (int n = 0; n < 12; n++)
+            assert_memory_equal(s.position[s.indices[n]], places_of[faces[n / 3][n % 3]], 12);
+        surface_free(&s);
+    }
+    assert_refused_text("short.ply", PLY FACES_FIRST XYZ "end_header\n" FACES "0 0 0\n", "got the end of the file");
+    assert_refused_text("far.ply", PLY FACES_FIRST XYZ "end_header\n3 0 1 4\n",
+                        "expected a vertex from 0 to 3, got 4");
+}
+
 /// Triangles that name a vertex twice are left out; in a strip they are how it jumps. A mesh of nothing else is refused.
 TEST(triangles_that_repeat_a_vertex_are_left_out)
 {

@@ -2,6 +2,7 @@
 #include "model/surface_readers.h"
 #include <limits.h>
 #include <string.h>
+#include <strings.h>
 
 enum { NUMBERS_MAX = 16 };
 
@@ -12,26 +13,37 @@ struct off {
     long vertices, faces;
 };
 
-/// The word [ST][C][N]OFF, which is optional.
+/// Whether the number of edges is there. Some programs leave it out: then the next line is the first vertex, of three numbers or more.
+static bool has_edges(struct words *w, int line)
+{
+    struct words ahead = *w;
+    if (!words_more(&ahead) || ahead.line == line) return true;
+    line = ahead.line;
+    words_skip(&ahead);
+    return !words_more(&ahead) || ahead.line != line;
+}
+
+/// The word [ST][C][N]OFF, which is optional; the counts may follow it without a space.
 static bool read_head(struct off *o)
 {
     long edges;
     struct words *w = o->words;
-    if (words_more(w) && strchr("SCNO", *w->at)) {
-        const char *end = w->at + strcspn(w->at, " \t\r\n");
-        o->uvs = strncmp(w->at, "ST", 2) == 0;
+    if (words_more(w) && strchr("SCNOscno", *w->at)) {
+        o->uvs = strncasecmp(w->at, "ST", 2) == 0;
         w->at += o->uvs ? 2 : 0;
-        o->colors = *w->at == 'C';
+        o->colors = *w->at == 'C' || *w->at == 'c';
         w->at += o->colors;
-        o->normals = *w->at == 'N';
+        o->normals = *w->at == 'N' || *w->at == 'n';
         w->at += o->normals;
-        if (end - w->at != 3 || !words_take(w, "OFF")) return words_expected(w, "OFF");
+        if (strncasecmp(w->at, "OFF", 3) != 0 || !strchr(" \t\r\n0123456789", w->at[3]))
+            return words_expected(w, "OFF");
+        w->at += 3;
         if (words_take(w, "BINARY"))
             return fail(w->error, ERROR_INPUT, "%s: expected an OFF file as text, got a binary one", w->path);
     }
     return words_integer(w, "the number of vertices", 0, INT_MAX, &o->vertices) &&
            words_integer(w, "the number of faces", 0, INT_MAX, &o->faces) &&
-           words_integer(w, "the number of edges", 0, LONG_MAX, &edges);
+           (!has_edges(w, w->line) || words_integer(w, "the number of edges", 0, LONG_MAX, &edges));
 }
 
 /// x y z [nx ny nz] [r g b a] [s t]; colours are 0 … 1, or 0 … 255.

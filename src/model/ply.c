@@ -31,6 +31,8 @@ struct ply {
     enum format format;
     struct element elements[ELEMENTS_MAX];
     int element_count;
+    long vertex_count; ///< in the file; its faces may come first
+    bool textured;     ///< vertices have texture coordinates
     struct surface_builder *builder;
 };
 
@@ -208,7 +210,7 @@ static void add_to_strip(struct surface_builder *b, struct strip *strip, long ve
     strip->length++;
 }
 
-static bool read_list(struct ply *ply, const struct property *p, bool textured)
+static bool read_list(struct ply *ply, const struct property *p)
 {
     struct words *w = ply->words;
     struct strip strip = {0};
@@ -218,15 +220,14 @@ static bool read_list(struct ply *ply, const struct property *p, bool textured)
     for (double i = 0; i < length && !ply->builder->failed; i++) {
         if (!next_number(ply, p->type, p->role != OTHER, &number)) return false;
         if (p->role != CORNERS && p->role != STRIPS) continue;
-        const int vertices = ply->builder->surface->vertex_count;
         const bool ends = p->role == STRIPS && number < 0;
-        if (!ends && !(number >= 0 && number < vertices && number == floor(number)))
-            return fail(w->error, ERROR_INPUT, "%s: expected a vertex from 0 to %d, got %g", w->path, vertices - 1,
-                        number);
+        if (!ends && !(number >= 0 && number < (double)ply->vertex_count && number == floor(number)))
+            return fail(w->error, ERROR_INPUT, "%s: expected a vertex from 0 to %ld, got %g", w->path,
+                        ply->vertex_count - 1, number);
         if (p->role == STRIPS) {
             add_to_strip(ply->builder, &strip, (long)number);
         } else {
-            builder_corner(ply->builder, (uint32_t)number, textured ? (uint32_t)number : LOOKS_NONE);
+            builder_corner(ply->builder, (uint32_t)number, ply->textured ? (uint32_t)number : LOOKS_NONE);
         }
     }
     if (p->role == CORNERS) builder_end_polygon(ply->builder);
@@ -238,13 +239,13 @@ static double largest_of(enum number_type type)
     return type == NUMBER_UINT8 ? 255 : type == NUMBER_UINT16 ? 65535 : 1;
 }
 
-static bool read_one(struct ply *ply, const struct element *e, bool textured)
+static bool read_one(struct ply *ply, const struct element *e)
 {
     double values[ROLES] = {0}, number;
     for (int i = 0; i < e->property_count; i++) {
         const struct property *p = &e->properties[i];
         if (p->count_type) {
-            if (!read_list(ply, p, textured)) return false;
+            if (!read_list(ply, p)) return false;
         } else {
             if (!next_number(ply, p->type, p->role != OTHER, &number)) return false;
             const bool color = p->role >= RED && p->role <= BLUE;
@@ -266,12 +267,16 @@ static bool read_one(struct ply *ply, const struct element *e, bool textured)
 
 static bool read_elements(struct ply *ply)
 {
-    bool textured = false;
     for (int i = 0; i < ply->element_count; i++) {
         const struct element *e = &ply->elements[i];
-        if (e->vertices) textured = e->has[U] && e->has[V];
+        if (!e->vertices) continue;
+        ply->vertex_count += e->count;
+        ply->textured = e->has[U] && e->has[V];
+    }
+    for (int i = 0; i < ply->element_count; i++) {
+        const struct element *e = &ply->elements[i];
         for (long n = 0; n < e->count && e->property_count > 0 && !ply->builder->failed; n++) {
-            if (!read_one(ply, e, textured)) return false;
+            if (!read_one(ply, e)) return false;
         }
     }
     return true;

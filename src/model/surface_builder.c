@@ -5,6 +5,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 
 enum { COUNT_LIMIT = 1 << 28, COLOR_LIMIT = 1000 };
 
@@ -201,6 +202,7 @@ bool builder_finish(struct surface_builder *b, const char *path, const char *kin
 
 enum { SHOWN_MAX = 24 };
 
+void words_skip(struct words *w) { w->at += strcspn(w->at, " \t\r\n"); }
 void words_skip_line(struct words *w) { w->at += strcspn(w->at, "\n"); }
 
 bool words_more(struct words *w)
@@ -225,7 +227,7 @@ bool words_expected(struct words *w, const char *what)
 bool words_take(struct words *w, const char *word)
 {
     const size_t length = strlen(word);
-    if (!words_more(w) || strncmp(w->at, word, length) != 0 || !strchr(" \t\r\n", w->at[length])) return false;
+    if (!words_more(w) || strncasecmp(w->at, word, length) != 0 || !strchr(" \t\r\n", w->at[length])) return false;
     w->at += length;
     return true;
 }

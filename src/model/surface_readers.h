@@ -58,8 +58,9 @@ struct words {
 /// Goes to the next word, past comments from "#" to the end of a line; false at the end of the text.
 bool words_more(struct words *words);
 
-/// Takes the next word if it is this one.
+/// Takes the next word if it is this one, in capitals or not.
 bool words_take(struct words *words, const char *word);
+void words_skip(struct words *words);
 void words_skip_line(struct words *words);
 
 /// Reads a finite number, or a whole one from `least` to `most`. Fails with what was expected.
