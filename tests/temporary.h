@@ -12,11 +12,11 @@ static inline const char *temporary_path(const char *name)
 {
     static char paths[4][512];
     static int next;
-    const char *folder = getenv("TEST_OUT");
+    const char *place = getenv("TEST_OUT");
     next = (next + 1) % 4;
-    if (!folder) folder = "/tmp";
-    mkdir(folder, 0777);
-    snprintf(paths[next], sizeof paths[next], "%s/%s", folder, name);
+    if (!place) place = "/tmp";
+    mkdir(place, 0777);
+    snprintf(paths[next], sizeof paths[next], "%s/%s", place, name);
     return paths[next];
 }
 

@@ -1,5 +1,6 @@
 /// What wiggly export writes, read back: by the reader of imported characters, by that of motions, and number by number.
 #include "export_scene.h"
+#include "gltf_builder.h"
 #include "model/character.h"
 
 static double glb_is_off(const char *path, const struct points *points)
@@ -139,6 +140,33 @@ TEST_WITH(folder_make, folder_remove, point_caches_hold_the_same)
     free(npy.number);
     free(pc2.number);
     free(mdd.number);
+}
+
+/// A program plays a .pc2 in the node that has the mesh. An .npy is in the space of the character's file.
+TEST_WITH(folder_make, folder_remove, point_caches_stand_in_their_node)
+{
+    const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}};
+    const uint16_t indices[3] = {0, 1, 2}; // without normals, and with a vertex that no triangle has
+    static const char scene[] = "{\"wiggly\": 1, \"frames\": [0, 1], \"rigs\": [{\"type\": \"model\", \"name\": "
+                                "\"box\", \"model\": \"box.gltf\"}]}";
+    struct builder b = {0};
+    add_data(&b, FLOAT, "VEC3", 4, corners, sizeof corners);
+    add_data(&b, USHORT, "SCALAR", 3, indices, sizeof indices);
+    const char *json = builder_json(
+        &b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],\"nodes\":["
+            "{\"children\":[1],\"scale\":[2,2,2]},{\"mesh\":0,\"translation\":[5,0,0],\"rotation\":[0,0,1,0]}]");
+    assert_done(file_write_atomic(folder_path("box.gltf"), json, strlen(json), &error));
+    assert_done(file_write_atomic(folder_path("box.json"), scene, strlen(scene), &error));
+    struct points pc2 = read_points(export_file(folder_path("box.json"), "box.pc2", (struct export_options){0}));
+    struct points npy = read_points(export_file(folder_path("box.json"), "box.npy", (struct export_options){0}));
+    assert_int_equal(pc2.vertices, 4);
+    for (int i = 0; i < 12; i++) {
+        const double side = i % 3 == 2 ? 1 : -1; // half a turn about z
+        assert_near(frame_of(&pc2, 1)[i], (double)corners[i / 3][i % 3], 1e-6);
+        assert_near(frame_of(&npy, 1)[i], 2 * (side * (double)corners[i / 3][i % 3] + (i % 3 == 0 ? 5 : 0)), 1e-6);
+    }
+    free(pc2.number);
+    free(npy.number);
 }
 
 /// Where no key falls on the last frame, the report says where the last key is; else it says nothing of it.

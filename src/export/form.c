@@ -32,7 +32,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     struct rig_pose pose;
     const struct document *document = range->posing->document;
     const struct rig *source = document->rigs[rig];
-    *form = (struct form){.kind = kinds[source->kind]};
+    *form = (struct form){.kind = kinds[source->kind], .holder = -1};
     if (range->format->holds == FORM_JOINTS && source->kind == RIG_MODEL) form->kind = &skeleton_form;
     if (!range_pose(range, rig, 0, &pose, error)) return false;
     make_name(document, rig, form->name);

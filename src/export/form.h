@@ -137,7 +137,8 @@ struct form {
     int target_count;
     struct form_target *targets;
     const struct character *character; ///< the targets' coordinates, or NULL
-    void *owned;                       ///< private to the kind
+    int holder;  ///< the node of an imported character that has all vertices, −1: none or several
+    void *owned; ///< private to the kind
 };
 
 /// Joints and weights at one time.

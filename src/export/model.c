@@ -44,7 +44,11 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
         if (body->clip->channels[c].path != GLTF_WEIGHTS) add_joint(form, body->clip->channels[c].node);
     }
     form->target_count = gltf->weight_count;
-    for (int n = 0; n < gltf->node_count; n++) form->vertex_count += gltf_vertex_count(gltf, n);
+    for (int n = 0; n < gltf->node_count; n++) {
+        const int count = gltf_vertex_count(gltf, n);
+        if (count > 0) form->holder = form->vertex_count == 0 ? n : -1;
+        form->vertex_count += count;
+    }
     return true;
 }
 
