@@ -187,6 +187,12 @@ void main()
 {
     vec3 n = direction(world_normal);
     vec3 to_eye = normalize(eye - world);
+#ifndef FURRED
+    // Vertices without normals: the triangle is flat, and seen from its front.
+    bool is_flat = world_normal == vec3(0.0);
+    vec3 across = direction(cross(dFdx(world), dFdy(world)));
+    if (is_flat) n = faceforward(across, -to_eye, across);
+#endif
 #ifdef FURRED
     float opacity_here = 1.0;
     float gloss;
@@ -198,7 +204,7 @@ void main()
     float masked = mask(surface.a);
     if (masked <= 0.0) discard;
     if (!blended) surface.a = masked;
-    if (both_sides && !gl_FrontFacing) n = -n;
+    if (both_sides && !gl_FrontFacing && !is_flat) n = -n;
 #endif
     vec3 coat = line > 0.0 ? with_phase_lines(surface.rgb) : surface.rgb;
     float opacity_here = surface.a;

@@ -143,7 +143,6 @@ GLTF_TEST(triangles_that_repeat_a_vertex_are_left_out)
     assert_int_equal(b->gltf.meshes[0].part_count, 2);
     assert_int_equal(parts[0].index_count, 6);
     assert_memory_equal(parts[0].indices, indices, sizeof indices);
-    assert_int_equal(parts[1].vertex_count, 6); // flat: three a triangle
     assert_string_equal(b->gltf.not_shown, "triangles without area");
     const char *path = temporary_file(
         "flat.gltf", b->json,
@@ -152,8 +151,8 @@ GLTF_TEST(triangles_that_repeat_a_vertex_are_left_out)
     assert_refusal(surface_read(path, &surface, &error), "got none");
 }
 
-/// Two triangles that share an edge at a right angle: without normals in the file each gets vertices of its own, and is flat.
-GLTF_TEST(missing_normals_are_flat)
+/// Without normals a part keeps the vertices of its file, and is drawn flat (test_model_draw.c). A part without the mesh's targets stays as it is.
+GLTF_TEST(parts_without_normals_or_targets)
 {
     const float corners[4][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
     const uint16_t indices[] = {0, 1, 2, 0, 3, 1};
@@ -165,16 +164,16 @@ GLTF_TEST(missing_normals_are_flat)
     add_accessor(b, UBYTE, "VEC4", 4, more);
     read_built(
         b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"COLOR_0\":2},\"indices\":1,\"targets\":["
-           "{\"POSITION\":0}]}],\"weights\":[0.5]}]," ONE_NODE);
-    const struct gltf_part *part = &b->gltf.meshes[0].parts[0];
-    assert_int_equal(part->vertex_count, 6);
-    for (int i = 0; i < 6; i++) {
-        assert_int_equal(part->indices[i], i);
-        assert_memory_equal(part->position[i], corners[indices[i]], 12);
-        assert_memory_equal(part->targets[0].position[i], corners[indices[i]], 12);
-        for (int k = 0; k < 4; k++) assert_near(part->color[i][k], colors[indices[i]][k] / 255.0, 1e-7);
-        assert_near(part->normal[i][i < 3 ? 2 : 1], 1, 1e-6);
-    }
+           "{\"POSITION\":0}]},{\"attributes\":{\"POSITION\":0}}],\"weights\":[0.5]}]," ONE_NODE);
+    const struct gltf_part *part = &b->gltf.meshes[0].parts[0], *still = part + 1;
+    assert_int_equal(part->vertex_count, 4);
+    assert_null(part->normal);
+    assert_memory_equal(part->position, corners, sizeof corners);
+    assert_memory_equal(part->targets[0].position, corners, sizeof corners);
+    for (int i = 0; i < 6; i++) assert_int_equal(part->indices[i], indices[i]);
+    for (int i = 0; i < 16; i++) assert_near(part->color[i / 4][i % 4], colors[i / 4][i % 4] / 255.0, 1e-7);
+    assert_int_equal(b->gltf.meshes[0].target_count, 1);
+    assert_null(still->targets[0].position);
     assert_near(b->gltf.hi[0], 1.5, 1e-6); // the weights at rest count
 }
 
@@ -311,12 +310,15 @@ TEST(containers)
 GLTF_TEST(nodes_and_scenes)
 {
     struct gltf_pose pose;
+    const float normal[3][3] = {{0, 0, 1}, {0, 0, 1}, {0, 0, 1}};
     add_triangle(b);
+    add_data(b, FLOAT, "VEC3", 3, normal, sizeof normal);
     read_built(
-        b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"cameras\":[{}],\"scene\":1,"
-           "\"scenes\":[{\"nodes\":[3]},{\"nodes\":[2]}],\"nodes\":[{\"mesh\":0,\"name\":\"leaf\",\"scale\":[2,2,2]},"
-           "{\"children\":[0],\"matrix\":[0,1,0,0,-1,0,0,0,0,0,1,0,5,0,0,1]},"
-           "{\"children\":[1],\"translation\":[0,0,7]},{\"mesh\":0}]");
+        b,
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1}}]}],\"cameras\":[{}],\"scene\":1,"
+        "\"scenes\":[{\"nodes\":[3]},{\"nodes\":[2]}],\"nodes\":[{\"mesh\":0,\"name\":\"leaf\",\"scale\":[2,2,2]},"
+        "{\"children\":[0],\"matrix\":[0,1,0,0,-1,0,0,0,0,0,1,0,5,0,0,1]},"
+        "{\"children\":[1],\"translation\":[0,0,7]},{\"mesh\":0}]");
     assert_int_equal(gltf_find_node(&b->gltf, "leaf"), 0);
     assert_int_equal(gltf_find_node(&b->gltf, "tree"), -1);
     assert_int_equal(b->gltf.nodes[0].parent, 1);

@@ -275,12 +275,14 @@ TEST(a_tail_with_rolls)
 /// A mirrored and stretched node: normals stay across the surface.
 GLTF_TEST(normals_of_a_stretched_node)
 {
-    const float corners[3][3] = {{0, 0, 0}, {1, 0, 1}, {0, 1, 0}};
+    const float corners[3][3] = {{0, 0, 0}, {1, 0, 1}, {0, 1, 0}},
+                normal[3][3] = {{-1, 0, 1}, {-1, 0, 1}, {-1, 0, 1}};
     struct gltf_pose pose;
     add_data(b, FLOAT, "VEC3", 3, corners, sizeof corners);
-    read_built(b,
-               "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"nodes\":[{\"mesh\":0,\"scale\":[-"
-               "3,1,1]}]");
+    add_data(b, FLOAT, "VEC3", 3, normal, sizeof normal);
+    read_built(b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1}}]}],\"nodes\":[{"
+                  "\"mesh\":0,\"scale\":[-"
+                  "3,1,1]}]");
     assert_true(gltf_pose_create(&b->gltf, &pose));
     float p[3][3], n[3][3];
     gltf_pose_vertices(&b->gltf, &pose, 0, p, n);

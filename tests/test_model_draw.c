@@ -2,6 +2,7 @@
 /// that is made so; and its pixels have edges or none.
 #include "base/png.h"
 #include "gltf_builder.h"
+#include "model/vector.h"
 #include "offscreen.h"
 
 enum { WIDTH = 240, HEIGHT = 240 };
@@ -10,30 +11,14 @@ typedef unsigned char picture[HEIGHT][WIDTH][4];
 
 static picture one, other;
 
-/// A square that shows u and v from `from` to `to` of a picture, which a sampler reads.
-static void draw(const char *sampler, float from, float to, const unsigned char *pixels, int side, picture drawn)
+/// Draws a character of a node or more that lies from −1 to 1, on the ground.
+static void draw_built(struct builder *b, const char *members, picture drawn)
 {
     static struct stage_view view;
-    const float position[4][3] = {{-1, 0, 0}, {1, 0, 0}, {-1, 2, 0}, {1, 2, 0}};
-    const float uv[4][2] = {{from, to}, {to, to}, {from, from}, {to, from}};
     const float lo[3] = {-1, 0, -1}, hi[3] = {1, 2, 1};
-    const uint16_t indices[6] = {0, 1, 2, 2, 1, 3};
-    static const char path[] = "square.png";
-    char members[1024];
-    struct builder b = {0};
     struct gltf gltf;
     struct gltf_pose pose;
-    assert_done(png_write(temporary_path(path), side, side, pixels, &error));
-    add_data(&b, FLOAT, "VEC3", 4, position, sizeof position);
-    add_data(&b, FLOAT, "VEC2", 4, uv, sizeof uv);
-    add_data(&b, USHORT, "SCALAR", 6, indices, sizeof indices);
-    snprintf(members, sizeof members,
-             "\"images\":[{\"uri\":\"%s\"}],\"samplers\":[{}, %s],\"textures\":[{\"source\":0,\"sampler\":1}],"
-             "\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
-             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"indices\":2,"
-             "\"material\":0}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]",
-             path, sampler);
-    read_text(builder_json(&b, members), &gltf);
+    read_text(builder_json(b, members), &gltf);
     assert_true(gltf_pose_create(&gltf, &pose));
     gltf_pose_world(&gltf, &pose);
     struct camera camera = camera_default();
@@ -49,6 +34,28 @@ static void draw(const char *sampler, float from, float to, const unsigned char 
     offscreen_draw(&view, WIDTH, HEIGHT, drawn);
     gltf_pose_free(&pose);
     gltf_free(&gltf);
+}
+
+/// A square that shows u and v from `from` to `to` of a picture, which a sampler reads.
+static void draw(const char *sampler, float from, float to, const unsigned char *pixels, int side, picture drawn)
+{
+    const float position[4][3] = {{-1, 0, 0}, {1, 0, 0}, {-1, 2, 0}, {1, 2, 0}};
+    const float uv[4][2] = {{from, to}, {to, to}, {from, from}, {to, from}};
+    const uint16_t indices[6] = {0, 1, 2, 2, 1, 3};
+    static const char path[] = "square.png";
+    char members[1024];
+    struct builder b = {0};
+    assert_done(png_write(temporary_path(path), side, side, pixels, &error));
+    add_data(&b, FLOAT, "VEC3", 4, position, sizeof position);
+    add_data(&b, FLOAT, "VEC2", 4, uv, sizeof uv);
+    add_data(&b, USHORT, "SCALAR", 6, indices, sizeof indices);
+    snprintf(members, sizeof members,
+             "\"images\":[{\"uri\":\"%s\"}],\"samplers\":[{}, %s],\"textures\":[{\"source\":0,\"sampler\":1}],"
+             "\"materials\":[{\"doubleSided\":true,\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0}}}],"
+             "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"TEXCOORD_0\":1},\"indices\":2,"
+             "\"material\":0}]}],\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]",
+             path, sampler);
+    draw_built(&b, members, drawn);
 }
 
 static int differing(const picture a, const picture b)
@@ -68,6 +75,47 @@ static const unsigned char red_blue[2][2][4] = {{{230, 40, 30, 255}, {30, 60, 22
 static void spread(const int column[4], const int row[4], unsigned char out[4][4][4])
 {
     for (int i = 0; i < 16; i++) memcpy(out[i / 4][i % 4], red_blue[row[i / 4]][column[i % 4]], 4);
+}
+
+/// A tent of four vertices without normals, or with six and the normals of its sides.
+static void draw_tent(bool has_normals, picture drawn)
+{
+    const float corner[4][3] = {{-1, 0, 0}, {0, 2, 0.5f}, {0, 0, 1}, {1, 0, 0}};
+    const uint16_t indices[6] = {0, 2, 1, 2, 3, 1};
+    struct builder b = {0};
+    if (has_normals) {
+        float position[6][3], normal[6][3];
+        for (int i = 0; i < 6; i++) {
+            const uint16_t *side = indices + i / 3 * 3;
+            const vec3s across = triangle_normal(corner[side[0]], corner[side[1]], corner[side[2]]);
+            memcpy(position[i], corner[indices[i]], sizeof position[i]);
+            memcpy(normal[i], glms_vec3_normalize(across).raw, sizeof normal[i]);
+        }
+        add_data(&b, FLOAT, "VEC3", 6, position, sizeof position);
+        add_data(&b, FLOAT, "VEC3", 6, normal, sizeof normal);
+    } else {
+        add_data(&b, FLOAT, "VEC3", 4, corner, sizeof corner);
+        add_data(&b, USHORT, "SCALAR", 6, indices, sizeof indices);
+    }
+    draw_built(&b,
+               has_normals ? "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1}}]}],"
+                             "\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]"
+                           : "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},\"indices\":1}]}],"
+                             "\"nodes\":[{\"mesh\":0}],\"scenes\":[{\"nodes\":[0]}]",
+               drawn);
+}
+
+TEST(a_mesh_without_normals_is_flat)
+{
+    if (!platform) skip();
+    draw_tent(true, one);
+    draw_tent(false, other);
+    int far = 0;
+    for (int i = 0; i < WIDTH * HEIGHT; i++) {
+        for (int k = 0; k < 3; k++) far += abs(one[i / WIDTH][i % WIDTH][k] - other[i / WIDTH][i % WIDTH][k]) > 2;
+    }
+    assert_int_equal(far, 0);
+    assert_true(memcmp(one[HEIGHT / 2][WIDTH * 2 / 5], one[HEIGHT / 2][WIDTH * 3 / 5], 3) != 0); // lit from one side
 }
 
 TEST(textures_go_on_as_the_file_says)

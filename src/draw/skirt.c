@@ -55,14 +55,20 @@ static vec3s step_out(const struct skirt_vertex *end, vec3s edge, float side, bo
     return glms_vec3_scale(open ? off_edge : outwards(ray, end->normal, off_edge), seam * glms_vec3_norm(ray));
 }
 
-/// The surface at one end of an edge, with the normal towards the eye if `back`.
-static void look_at(const struct posed *mesh, int corner, bool back, struct skirt_vertex *out)
+/// The surface at one end of an edge, with the normal towards the eye if `back`. Without normals it is the triangle's.
+static void look_at(const struct posed *mesh, const struct posed_part *part, int corner, bool back,
+                    struct skirt_vertex *out)
 {
-    const uint32_t vertex = mesh->indices[corner];
+    const uint32_t vertex = mesh->indices[corner], *const triangle = mesh->indices + corner / 3 * 3;
+    vec3s normal = vec3_from(mesh->normal[vertex]);
+    if (glms_vec3_norm2(normal) == 0)
+        normal = glms_vec3_scale(glms_vec3_normalize(triangle_normal(
+                                     mesh->place[triangle[0]], mesh->place[triangle[1]], mesh->place[triangle[2]])),
+                                 part->mirrored ? -1.0f : 1.0f);
     *out = (struct skirt_vertex){.look = mesh->looks[vertex]};
     for (int k = 0; k < 3; k++) {
         out->place[k] = mesh->place[vertex][k];
-        out->normal[k] = back ? -mesh->normal[vertex][k] : mesh->normal[vertex][k];
+        out->normal[k] = back ? -normal.raw[k] : normal.raw[k];
     }
 }
 
@@ -84,8 +90,8 @@ void skirt_hang(const struct posed *mesh, const struct posed_part *part, int cor
 {
     const bool front = mesh->front[corner / 3], open = mesh->neighbours[corner] < 0;
     const float side = front == part->mirrored ? -1.0f : 1.0f; // the triangle is to the left of its edge
-    look_at(mesh, corner, !front, &out[0]);
-    look_at(mesh, next_corner(corner), !front, &out[1]);
+    look_at(mesh, part, corner, !front, &out[0]);
+    look_at(mesh, part, next_corner(corner), !front, &out[1]);
     pull_in(mesh, corner, eye, seam, out);
     const vec3s edge = glms_vec3_sub(vec3_from(out[1].place), vec3_from(out[0].place));
     for (int e = 0; e < 2; e++) {

@@ -3,7 +3,7 @@
 #include "export/usda.h"
 #include <stdlib.h>
 
-/// Parts of a node's mesh, one after the other, that are a prim: all of them, unless some have a skin and some have not.
+/// Parts of a node's mesh, one after the other, that are a prim: all of them, unless some have a skin or normals and some have not.
 struct run {
     struct usda_model *model;
     int node;
@@ -226,7 +226,7 @@ static void write_shapes(const struct run *run)
     for (int t = 0; t < count; t++) {
         fprintf(model->out, "\n            def BlendShape \"%s\"\n            {\n", names[t]);
         write_offsets(run, t, false);
-        write_offsets(run, t, true);
+        if (run->parts->normal) write_offsets(run, t, true);
         fputs("            }\n", model->out);
     }
 }
@@ -271,7 +271,7 @@ static void write_run(const struct run *run)
     if (double_sided) fputs("            uniform bool doubleSided = 1\n", model->out);
     write_vertices(run, "point3f[] points", write_position);
     fputc('\n', model->out);
-    write_interpolated(run, "normal3f[] normals", write_normal, 0);
+    if (run->parts->normal) write_interpolated(run, "normal3f[] normals", write_normal, 0);
     write_colors(run);
     if (has_uv) write_interpolated(run, "texCoord2f[] primvars:st", write_uv, 0);
     write_faces(run);
@@ -303,8 +303,10 @@ void usda_write_meshes(struct usda_model *model)
         const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
         for (int p = 0, end; mesh && p < mesh->part_count; p = end) {
             struct run run = {.model = model, .node = n, .parts = mesh->parts + p, .owner = -1};
-            const bool skinned = has_skin(model, n, &mesh->parts[p]);
-            for (end = p; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned; end++) {
+            const bool skinned = has_skin(model, n, run.parts), is_flat = !run.parts->normal;
+            for (end = p; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned &&
+                          !mesh->parts[end].normal == is_flat;
+                 end++) {
                 if (model->is_own && run.owner < 0 && mesh->parts[end].position == mesh->parts->position)
                     run.owner = end - p;
             }

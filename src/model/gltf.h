@@ -83,7 +83,7 @@ struct gltf_target {
 /// Triangles of one material (glTF's primitive).
 struct gltf_part {
     int vertex_count;
-    float (*position)[3], (*normal)[3];  ///< normals are made where the file has none
+    float (*position)[3], (*normal)[3];  ///< normals may be NULL: its triangles are flat
     float (*uv)[2];                      ///< NULL: none
     float (*color)[4];                   ///< linear, NULL: white
     uint16_t (*joints)[GLTF_INFLUENCES]; ///< into the skin's joints; NULL: not skinned
@@ -165,8 +165,7 @@ struct gltf {
 /// Errors name file, place, what was expected and what was found; on error nothing is left to free.
 bool gltf_read(const char *path, struct gltf *gltf, struct error *error);
 
-/// The same with vertices as they are stored: parts without normals have none (NULL) and keep their vertices, targets leave normals
-/// alone, and pictures are not decoded.
+/// The same with targets that leave normals alone and pictures that are not decoded.
 bool gltf_read_stored(const char *path, struct gltf *gltf, struct error *error);
 
 /// The same as gltf_read() for a file's bytes, which it takes over; they must have room for a NUL at the end. `path` is for messages.

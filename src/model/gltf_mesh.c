@@ -82,6 +82,11 @@ static void share_out(uint16_t joints[GLTF_INFLUENCES], float weights[GLTF_INFLU
 static bool read_influences(struct gltf_reader *r, const json_t *attributes, struct gltf_part *part)
 {
     if (!json_object_get(attributes, "JOINTS_0")) return true;
+    for (int set = 0; set < 2; set++) {
+        const char *const joints = set ? "JOINTS_1" : "JOINTS_0", *const weights = set ? "WEIGHTS_1" : "WEIGHTS_0";
+        if (json_object_get(attributes, joints) && !json_object_get(attributes, weights))
+            return gltf_bad(r, ".attributes: expected %s beside %s, got %s alone", weights, joints, joints);
+    }
     part->joints = gltf_make(r, (size_t)part->vertex_count, sizeof *part->joints);
     part->weights = part->joints ? gltf_make(r, (size_t)part->vertex_count, sizeof *part->weights) : NULL;
     if (!part->weights || !read_four(r, attributes, 0, part)) return false;
@@ -103,11 +108,9 @@ static void normalise(float (*normal)[3], int count)
     }
 }
 
+/// A target that a part lacks leaves it alone.
 static bool read_targets(struct gltf_reader *r, const json_t *targets, int count, struct gltf_part *part)
 {
-    if ((size_t)count != json_array_size(targets))
-        return gltf_bad(r, ".targets: expected %d as in the mesh's first primitive, got %zu", count,
-                        json_array_size(targets));
     part->targets = gltf_make(r, (size_t)count, sizeof *part->targets);
     for (int i = 0; part->targets && i < count; i++) {
         const json_t *target = json_array_get(targets, (size_t)i);
@@ -265,55 +268,11 @@ static bool count_in_file(struct gltf_reader *r, const json_t *attributes, int *
     return true;
 }
 
-/// Expands an array to one row per corner; it may be NULL.
-static bool spread(struct gltf_reader *r, const struct gltf_part *part, void *array, size_t size)
-{
-    char *old, *rows;
-    memcpy(&old, array, sizeof old);
-    if (!old) return true;
-    r->file.room += (size_t)part->vertex_count * size;
-    rows = gltf_make(r, (size_t)part->index_count, size);
-    if (!rows) return false;
-    for (int i = 0; i < part->index_count; i++) memcpy(rows + (size_t)i * size, old + part->indices[i] * size, size);
-    memcpy(array, &rows, sizeof rows);
-    return true;
-}
-
-/// Without normals glTF requires flat triangles, each with its own vertices.
-static bool flatten(struct gltf_reader *r, int targets, struct gltf_part *part)
-{
-    const struct gltf_target *read = part->targets;
-    r->into = &r->gltf->pool;
-    bool done = spread(r, part, &part->position, sizeof *part->position) &&
-                spread(r, part, &part->uv, sizeof *part->uv) && spread(r, part, &part->color, sizeof *part->color) &&
-                spread(r, part, &part->joints, sizeof *part->joints) &&
-                spread(r, part, &part->weights, sizeof *part->weights) &&
-                spread(r, part, &part->mark, sizeof *part->mark) && spread(r, part, &part->fur, sizeof *part->fur);
-    part->targets = done ? gltf_make(r, (size_t)targets, sizeof *part->targets) : NULL;
-    for (int t = 0; part->targets && done && t < targets; t++) {
-        part->targets[t] = read[t];
-        done = spread(r, part, &part->targets[t].position, sizeof *part->position);
-    }
-    part->normal = part->targets && done ? gltf_make(r, (size_t)part->index_count, sizeof *part->normal) : NULL;
-    pool_free(&r->indexed);
-    if (!part->normal) return false;
-    part->vertex_count = part->index_count;
-    for (int i = 0; i < part->index_count; i++) {
-        float(*corner)[3] = part->position + i - i % 3;
-        vec3s normal = triangle_normal(corner[0], corner[1], corner[2]);
-        glm_vec3_copy(normal.raw, part->normal[i]);
-        part->indices[i] = (uint32_t)i;
-    }
-    normalise(part->normal, part->vertex_count);
-    return true;
-}
-
 /// Reads a primitive; `like` is the mesh's first part or NULL, whose vertices it may share.
 static bool read_part(struct gltf_reader *r, const json_t *primitive, const json_t *like, struct gltf_mesh *mesh,
                       struct gltf_part *part)
 {
     const json_t *attributes = json_object_get(primitive, "attributes");
-    const bool is_flat = !r->stored && !json_object_get(attributes, "NORMAL");
     uint32_t *corners;
     int count;
     if (!count_in_file(r, attributes, &part->vertex_count)) return false;
@@ -322,19 +281,18 @@ static bool read_part(struct gltf_reader *r, const json_t *primitive, const json
     if (!make_triangles(r, (int)glb_integer(primitive, "mode", TRIANGLES), corners, count, part)) return false;
     drop_repeats(part);
     if (part->index_count == 0) return gltf_not_shown(r, "triangles without area");
-    part->has_polygons = !is_flat && json_object_get(json_object_get(primitive, "extensions"), GLTF_POLYGONS);
-    if (!is_flat && shares(primitive, like)) {
+    part->has_polygons = json_object_get(json_object_get(primitive, "extensions"), GLTF_POLYGONS);
+    if (shares(primitive, like)) {
         share(r, part, mesh->parts);
     } else {
         int *joints = &r->joints_of[mesh - r->gltf->meshes];
-        if (is_flat) r->into = &r->indexed;
         if (!read_vertices(r, primitive, mesh->target_count, part)) return false;
         for (int n = 0; part->joints && n < part->vertex_count * GLTF_INFLUENCES; n++) {
             const int joint = part->joints[n / GLTF_INFLUENCES][n % GLTF_INFLUENCES];
             if (joint >= *joints) *joints = joint + 1;
         }
     }
-    return (part->uv || read_uv(r, attributes, part)) && (!is_flat || flatten(r, mesh->target_count, part));
+    return part->uv || read_uv(r, attributes, part);
 }
 
 /// Whether a primitive has triangles; lists it as not shown otherwise.
@@ -366,7 +324,11 @@ static bool read_mesh(struct gltf_reader *r, const json_t *json, size_t number)
     mesh->name = gltf_name(r, json, "mesh", number);
     mesh->parts = mesh->name ? gltf_make(r, json_array_size(primitives), sizeof *mesh->parts) : NULL;
     if (!mesh->parts) return false;
-    mesh->target_count = (int)json_array_size(json_object_get(json_array_get(primitives, 0), "targets"));
+    json_array_foreach(primitives, i, primitive)
+    {
+        const int targets = (int)json_array_size(json_object_get(primitive, "targets"));
+        if (targets > mesh->target_count) mesh->target_count = targets;
+    }
     json_array_foreach(primitives, i, primitive)
     {
         bool shown;

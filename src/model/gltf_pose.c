@@ -66,7 +66,13 @@ void gltf_joint_matrix(const struct gltf *gltf, const struct gltf_pose *pose, in
 /// v + Σ w Δ; `targets` are those of positions or normals, from the same array.
 static void morph(const struct gltf_part *part, int target_count, const float *weights, bool normals, float (*out)[3])
 {
-    memcpy(out, normals ? part->normal : part->position, (size_t)part->vertex_count * sizeof *out);
+    const float(*rest)[3] = normals ? part->normal : part->position;
+    const size_t size = (size_t)part->vertex_count * sizeof *out;
+    if (!rest) {
+        memset(out, 0, size);
+        return;
+    }
+    memcpy(out, rest, size);
     for (int t = 0; t < target_count; t++) {
         const float(*by)[3] = normals ? part->targets[t].normal : part->targets[t].position;
         float w = weights[t];

@@ -35,7 +35,7 @@ void *gltf_make(struct gltf_reader *r, size_t count, size_t size)
         return NULL;
     }
     r->file.room -= count * size;
-    void *memory = pool_try(r->into, count, size);
+    void *memory = pool_try(&r->gltf->pool, count, size);
     if (!memory) fail_no_memory(r->error, r->file.path);
     return memory;
 }
@@ -251,10 +251,8 @@ static bool read_all(struct gltf_reader *r)
 static bool read_open(struct gltf_reader *r, bool is_open)
 {
     *r->gltf = (struct gltf){0};
-    r->into = &r->gltf->pool;
     const bool done = is_open && read_all(r);
     r->gltf->room = r->file.room;
-    pool_free(&r->indexed);
     glb_close(&r->file);
     if (!done) gltf_free(r->gltf);
     return done;

@@ -16,8 +16,6 @@ struct gltf_reader {
     struct glb file;
     struct gltf *gltf;
     struct error *error;
-    struct pool *into;    ///< where gltf_make() takes memory from: usually the character's
-    struct pool indexed;  ///< the vertices of a flat part as the file has them
     bool stored;          ///< gltf_read_stored()
     char place[96];       ///< in the JSON, for messages
     struct gltf_uv *uvs;  ///< of each material
