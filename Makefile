@@ -66,7 +66,7 @@ SOURCES := $(sort $(shell find src -name '*.c' -not -path 'src/platform/web/*'))
 LIBRARY_SOURCES := $(wildcard src/spline/*.c) src/maths/maths.c src/base/status.c
 EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.json \
     assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
-    assets/scenes/meadow.json assets/models/fox.glb assets/demo/demo.replay)
+    assets/models/fox.glb assets/demo/demo.replay)
 TOOLS := $(filter-out adversary,$(basename $(notdir $(wildcard tools/*.c))))
 TOOL_PARTS := $(wildcard tools/*/*.c)
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))

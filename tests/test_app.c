@@ -36,6 +36,18 @@ static void close_scene(struct blind *blind)
     folder_remove(NULL);
 }
 
+static const char old_scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"rigs\": [{\"type\": \"meadow\"}]}";
+
+/// What an old scene showed and this wiggly does not is said, and saving keeps it.
+TEST_OF(struct blind, blind, open_scene(blind, old_scene), close_scene(blind), a_meadow_is_not_lost)
+{
+    assert_non_null(strstr(blind->app.table.editor->core.message.text, "Meadows are no longer shown"));
+    blind_key(blind, 'S', MOD_CTRL);
+    struct document *saved = document_of_file(scene());
+    assert_true(scene_has_meadow(saved));
+    document_destroy(saved);
+}
+
 static void send_pointer(struct blind *blind, enum event_kind kind, float x, float y)
 {
     blind_send(blind, (struct event){.kind = kind, .action = ACTION_PRESS, .clicks = 1, .x = x, .y = y});
@@ -61,7 +73,7 @@ TEST_OF(struct blind, blind, open_scene(blind, two_knots), close_scene(blind), a
     assert_prints(saved, edited);
     document_destroy(saved);
     free(edited);
-    const int keys[] = {'1', '0', '7', 'N'};
+    const int keys[] = {'1', '9', '7', 'N'};
     for (int k = 0; k < 4; k++) {
         const unsigned serial = app->table.document->serial;
         blind_key(blind, keys[k], MOD_CTRL);

@@ -136,7 +136,7 @@ SESSION_TEST(test_a_key_that_opens_something_types_nothing, session_open(s, scen
 {
     session_type(s, "a"); // the menu of what can be added
     assert_int_equal(inspector_ui(s->editor->inspector)->popup.filter.typed[0], '\0');
-    session_type(s, "mea");
+    session_type(s, "tai");
     session_key(s, KEY_ENTER, 0);
-    assert_int_equal(s->document->rigs[s->document->rig_count - 1]->kind, RIG_MEADOW);
+    assert_int_equal(s->document->rigs[s->document->rig_count - 1]->kind, RIG_TAIL);
 }

@@ -320,7 +320,7 @@ SESSION_TEST(
     session_open(
         s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "
            "\"value\": 1}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": \"sway\"}, {\"type\": "
-           "\"meadow\", \"name\": \"reeds\", \"spline\": \"sway\", \"count\": 20}]}"))
+           "\"model\", \"name\": \"gone\", \"model\": \"gone.glb\"}]}"))
 {
     session_click(s, "body(tail)");
     session_key(s, KEY_SPACE, 0);
@@ -331,5 +331,5 @@ SESSION_TEST(
     assert_int_equal(s->document->rig_count, 1);
     assert_true(s->editor->core.playback.playing);
     session_click_here(s, 1);
-    assert_int_equal(s->document->rigs[0]->kind, RIG_MEADOW);
+    assert_int_equal(s->document->rigs[0]->kind, RIG_MODEL);
 }

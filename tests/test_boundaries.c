@@ -47,9 +47,6 @@ static const struct number {
     {"{\"wiggly\": 1, \"frames\": [1, %ld]}", 1, 100000, NULL},
     {"{\"wiggly\": 1, \"substeps\": 10, \"frames\": [0, %ld]}", 0, 9999, NULL},
     {RIGS "{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\", \"joints\": %ld}]}", 1, 256, "from 1 to 256"},
-    {RIGS "{\"type\": \"meadow\", \"name\": \"m\", \"spline\": \"s\", \"count\": %ld}]}", 1, 4096, "from 1 to 4096"},
-    {RIGS "{\"type\": \"meadow\", \"name\": \"m\", \"spline\": \"s\", \"seed\": %ld}]}", 0, 999999,
-     "from 0 to 999999"},
     {"{" FRAMES ", \"splines\": [{\"name\": \"s\", \"variation\": {\"amount\": 0.5, \"seed\": %ld}}]}", 0, 999999,
      "from 0 to 999999"},
 };

@@ -187,7 +187,7 @@ done
 
 cat >"$scratch/least.json" <<'END'
 {"wiggly": 1, "frames": [0, 96], "splines": [{"name": "s", "knots": []}],
- "rigs": [{"type": "tail", "name": "t", "channels": [{"spline": "s"}]}, {"type": "meadow", "name": "m", "spline": "s"}]}
+ "rigs": [{"type": "tail", "name": "t", "channels": [{"spline": "s"}]}]}
 END
 expect 0 "a scene with the least" "$build/wiggly" live --no-draw --frames 1 --result "$scratch/place/saved.json" "$scratch/least.json"
 tr -s ' \n' ' ' <"$scratch/place/saved.json" >"$scratch/place/saved"
@@ -237,8 +237,6 @@ docs/scene-format.md~joints 24, length 1.6, position [0, 0, 0], rest 0~saved~"jo
 docs/scene-format.md~axis "side", lag 6.5 and gain 5~saved~"axis": "side", "lag": 6.5, "gain": 5
 docs/scene-format.md~2 to 32 places~src/scene/rig.h~RAMP_MAX_POINTS = 32, ///< and at least 2
 docs/scene-format.md~Up to four coordinates~src/scene/rig.h~CHARACTER_MAX_DRIVES = 4
-docs/scene-format.md~up to 4,096 reeds (`count`, 1000 by default)~src/scene/rig.h~MEADOW_MAX_REEDS = 4096
-docs/scene-format.md~1000 by default~saved~"count": 1000,
 docs/mathematics.md~at most 1e−9 (cubic) or 1e−8 (other modes)~tests/test_vectors.c~WIGGLY_CUBIC ? 1e-9 : 1e-8
 docs/mathematics.md~exceeds 10⁴ times~src/spline/complete.c~blow_up = 1e4
 docs/mathematics.md~again with c = 0.05~src/spline/problem.h~FALLBACK_CALM 0.05

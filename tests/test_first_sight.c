@@ -63,11 +63,11 @@ SESSION_TEST(test_sections_come_when_they_are_wanted, open_first(s))
     session_key(s, KEY_ESCAPE, 0);
     assert_false(panel_shows(s, "section.pins"));
     session_key(s, 'A', 0);
-    panel_type(s, "mea");
+    panel_type(s, "tai");
     session_key(s, KEY_ENTER, 0);
-    assert_true(panel_shows(s, "section.meadow"));
-    panel_click(s, "section.meadow"); // closed, it is no longer wanted
-    assert_false(panel_shows(s, "section.meadow"));
+    assert_true(panel_shows(s, "section.tail"));
+    panel_click(s, "section.tail"); // closed, it is no longer wanted
+    assert_false(panel_shows(s, "section.tail"));
 }
 
 /// Without splines there is something to begin with.

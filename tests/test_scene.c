@@ -2,6 +2,7 @@
 #include "documents.h"
 #include "folder.h"
 
+#include "scene/edit.h"
 #include "scene/evaluate.h"
 #include "scene/text.h"
 #include <dirent.h>
@@ -156,6 +157,40 @@ TEST(test_unknown_keys_are_kept)
     document_destroy(document);
 }
 
+/// Old scenes may have meadows. They are no rigs, but saving keeps them as they are, even if their spline is gone.
+TEST(test_meadows_of_old_scenes_are_kept)
+{
+    static const char
+        meadow[] = "{ \"type\": \"meadow\", \"name\": \"reeds\", \"spline\": \"wind\", \"area\": [6, 4.50], "
+                   "\"mood\": { \"mild\": 9007199254740993 } }",
+        kept[] = "    { \"type\": \"meadow\", \"name\": \"reeds\", \"spline\": \"wind\", \"area\": [6, 4.5], "
+                 "\"mood\": { \"mild\": 9007199254740993 } }";
+    static const char tail[] = "{\"type\": \"tail\", \"name\": \"t\", \"channels\": []}";
+    const struct {
+        const char *before, *after;
+        int rigs;
+    } cases[] = {{"", "", 0}, {"", tail, 1}, {tail, "", 1}};
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        char text[1024], expected[1024];
+        snprintf(text, sizeof text,
+                 "{\"frames\": [0, 9], \"splines\": [{\"name\": \"wind\"}], \"rigs\": [%s%s%s%s%s]}", cases[c].before,
+                 cases[c].before[0] ? ", " : "", meadow, cases[c].after[0] ? ", " : "", cases[c].after);
+        struct document *document = document_of_text(text);
+        assert_int_equal(document->rig_count, cases[c].rigs);
+        assert_true(scene_has_meadow(document));
+        assert_done(edit_spline_remove(document, 0, &error));
+        snprintf(expected, sizeof expected, "%s\n%s\n  ]\n}\n", cases[c].rigs ? "    }," : "  \"rigs\": [", kept);
+        for (int round = 0; round < 2; round++) { // the second time from what was saved
+            char *saved = text_of_document(document);
+            if (!strstr(saved, expected)) fail_msg("%s does not hold %s", saved, expected);
+            document_destroy(document);
+            document = document_of_text(saved);
+            free(saved);
+        }
+        document_destroy(document);
+    }
+}
+
 /// A tail on a moving base: coordinates that follow splines, a channel without the base's part, and what only others know.
 TEST(test_moving_bases_are_kept)
 {
@@ -270,6 +305,10 @@ TEST(test_warnings)
 {
     assert_heard("{\"frames\": [0, 9],\n\"hey\": 1,\n\"splines\": [{\"name\": \"x\",\n\"hey\": 2}]}",
                  "s.json:4: splines[0].hey: unknown key: kept, but it has no effect\n");
+    assert_heard(
+        "{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\"}], \"rigs\": [{\"type\": \"tail\", \"name\": \"t\", "
+        "\"channels\": []},\n{\"type\": \"meadow\", \"spline\": \"x\"}, {\"type\": \"meadow\"}]}",
+        "s.json:2: rigs[1]: meadows are no longer shown; the file keeps them\n");
     assert_heard("{\"frames\": [0, 9], \"splines\": [{\"name\": \"x\", \"frequency\":\n11, \"bandwidth\": 0.2}]}",
                  "s.json:2: splines[0].frequency: 13.2 Hz is above half the sample rate, 12 Hz: it aliases\n");
     assert_heard(

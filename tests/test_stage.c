@@ -102,27 +102,6 @@ TEST(the_ground_is_darker_under_the_animal)
     assert_true(shadowed < lit - 12);
 }
 
-/// Reeds stand where they are planted, and nothing else of the picture changes.
-TEST(a_meadow_is_drawn_where_it_stands)
-{
-    static unsigned char without[HEIGHT][WIDTH][4];
-    static const struct stage_reed reed = {.place = {0.5f, 0, -0.4f}, .height = 0.5f, .shade = 0.5f, .width = 0.06f};
-    const float middle[3] = {0.5f, 0.2f, -0.4f};
-    if (!platform) skip();
-    arrange(1.0);
-    draw();
-    memcpy(without, pixels, sizeof pixels);
-    view.meadow =
-        (struct stage_meadow){.reeds = &reed, .count = 1, .lo = {0.4f, 0, -0.5f}, .hi = {0.6f, 0.5f, -0.3f}};
-    draw();
-    const unsigned char *at = pixel_of(middle), *was = &without[0][0][0] + (at - &pixels[0][0][0]);
-    assert_true(abs(at[1] - was[1]) > 30);
-    int changed = 0;
-    for (int i = 0; i < WIDTH * HEIGHT; i++)
-        changed += memcmp(&pixels[0][0][0] + 4 * i, &without[0][0][0] + 4 * i, 3) != 0;
-    assert_true(changed < WIDTH * HEIGHT / 50);
-}
-
 /// Without multisampling: coming from the left, edges of the animal cross rows of pixels at any fraction of a pixel, so
 /// that the first pixel that differs from the background is as often weak as strong.
 TEST(silhouettes_are_soft)

@@ -124,11 +124,7 @@ def stage(t):
     say(t, "Your own character: its tail and ears follow its walk")
     key(t + 20, "8", "ctrl")
     hold(t + 120, 120, "chain(tail,0.9)", pull(0.12, 0.15))
-    t += 9 * SECOND
-    say(t, "1,200 reeds, one spline: drag the fox through them")
-    key(t + 20, "0", "ctrl")
-    hold(t + 100, 420, "body(fox)", to_and_fro(0.5, 0.05, 2))
-    return t + 11 * SECOND
+    return t + 9 * SECOND
 
 
 def end(t):

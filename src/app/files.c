@@ -137,6 +137,8 @@ void app_adopt(struct app *app, struct document *document)
     history_mark_saved(app->table.history);
     struct editor_world world = table_world(&app->table);
     editor_open(app->table.editor, &world);
+    if (scene_has_meadow(document))
+        core_message(&app->table.editor->core, false, "Meadows are no longer shown; the file keeps them.");
     show_title(app);
 }
 
@@ -185,12 +187,12 @@ bool app_open(struct app *app, const char *path, struct error *error)
     return true;
 }
 
-/// Opens a figure of the paper, the dog, the hands or the meadow, untitled.
+/// Opens a figure of the paper, the dog or the hands, untitled.
 static bool open_figure(struct app *app, int number, struct error *error)
 {
-    static const char *const names[] = {"figure1.json", "figure2.json", "figure3.json", "figure4.json",
-                                        "figure5.json", "figure6.json", "figure7.json", "dog.json",
-                                        "hands.json",   "meadow.json"};
+    static const char *const names[] = {"figure1.json", "figure2.json", "figure3.json",
+                                        "figure4.json", "figure5.json", "figure6.json",
+                                        "figure7.json", "dog.json",     "hands.json"};
     const char *name = names[number - 1];
     struct document *document = parse_built_in(name, error);
     if (!document) return false;

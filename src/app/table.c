@@ -47,8 +47,6 @@ void table_solve(struct table *table, struct frame_row *row)
     if (table->models) models_follow(table->models, table->document);
     const double start = clock_now();
     solve(table, row);
-    if (table->models) models_grow(table->models, table->document, &table->evaluation);
-    row->splines_solved += meadow_solved(models_meadow(table->models)); // reeds count as splines
     row->solve_us = since(start);
 }
 

@@ -7,7 +7,6 @@ struct stage_renderer {
     struct program programs[PROGRAMS];
     struct stage_flat *flat;
     struct stage_meshes *meshes;
-    struct stage_meadows meadows;
 };
 
 static const struct {
@@ -17,7 +16,6 @@ static const struct {
     [PROGRAM_FACE] = {"stage_skirt.vert", "stage_mesh.frag", "FACED"},
     [PROGRAM_PLAIN] = {"stage_skirt.vert", "stage_mesh.frag", NULL},
     [PROGRAM_PICTURED] = {"stage_skirt.vert", "stage_mesh.frag", "PICTURED"},
-    [PROGRAM_MEADOW] = {"stage_meadow.vert", "stage_meadow.frag", NULL},
     [PROGRAM_FLAT] = {"stage_flat.vert", "stage_flat.frag", NULL},
 };
 
@@ -60,7 +58,6 @@ struct stage_renderer *stage_renderer_create(struct error *error)
     }
     renderer->flat = stage_flat_create();
     renderer->meshes = stage_meshes_create(renderer->programs);
-    stage_meadows_create(&renderer->meadows);
     return renderer;
 }
 
@@ -70,23 +67,19 @@ void stage_renderer_destroy(struct stage_renderer *renderer)
     for (int p = 0; p < PROGRAMS; p++) glDeleteProgram(renderer->programs[p].name);
     stage_flat_destroy(renderer->flat);
     stage_meshes_destroy(renderer->meshes);
-    stage_meadows_destroy(&renderer->meadows);
     free(renderer);
 }
 
 void stage_upload(struct stage_renderer *renderer, const struct stage_view *view, long *bytes)
 {
-    *bytes += stage_meshes_upload(renderer->meshes, view) + stage_meadows_upload(&renderer->meadows, view) +
-              stage_flat_upload(renderer->flat, view);
+    *bytes += stage_meshes_upload(renderer->meshes, view) + stage_flat_upload(renderer->flat, view);
 }
 
-/// With a `seam`, reeds blend into the background.
-static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float scale, float seam)
+static void draw_rigs(const struct stage_renderer *renderer, const struct stage_view *view, float scale)
 {
     glDepthFunc(GL_LESS);
     glEnable(GL_CULL_FACE);
     stage_meshes_draw(renderer->meshes, view, scale, 0.0f);
-    stage_meadows_draw(&renderer->meadows, &renderer->programs[PROGRAM_MEADOW], view, seam);
 }
 
 static void end_rigs(void)
@@ -102,7 +95,7 @@ void stage_draw(struct stage_renderer *renderer, const struct stage_view *view, 
     glEnable(GL_DEPTH_TEST);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     stage_flat_draw(renderer->flat, &renderer->programs[PROGRAM_FLAT], y, height);
-    draw_rigs(renderer, view, scale, seam);
+    draw_rigs(renderer, view, scale);
     // Anti-aliased edges without multisampling: skirts (draw/posed.h) fade out over the background or the animal itself.
     glEnable(GL_BLEND);
     stage_meshes_draw(renderer->meshes, view, scale, seam);
@@ -115,6 +108,6 @@ void stage_draw_rigs(struct stage_renderer *renderer, const struct stage_view *v
     glViewport(0, 0, width, height);
     glEnable(GL_DEPTH_TEST);
     glClear(GL_DEPTH_BUFFER_BIT);
-    draw_rigs(renderer, view, (float)height / view->viewport.h, 0.0f);
+    draw_rigs(renderer, view, (float)height / view->viewport.h);
     end_rigs();
 }

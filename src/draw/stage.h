@@ -15,7 +15,6 @@ enum stage_program {
     PROGRAM_FACE,     ///< the fox's head: a coat with a face
     PROGRAM_PLAIN,    ///< opaque surfaces without mask or picture; cheaper per pixel
     PROGRAM_PICTURED, ///< all other meshes, and all skirts except coats'
-    PROGRAM_MEADOW,
     PROGRAM_FLAT,
     PROGRAMS
 };
@@ -36,7 +35,6 @@ enum stage_program {
     X(AT_CUTOFF, cutoff)                                                                                             \
     X(AT_BLENDED, blended)                                                                                           \
     X(AT_BOTH_SIDES, both_sides)                                                                                     \
-    X(AT_BEND, bend)                                                                                                 \
     X(AT_TOP, top)                                                                                                   \
     X(AT_BOTTOM, bottom)                                                                                             \
     X(AT_ROWS, rows)                                                                                                 \
@@ -119,21 +117,6 @@ long stage_flat_upload(struct stage_flat *flat, const struct stage_view *view);
 
 /// Covers the viewport, with its lowest row at `y` and the caller's blend function. Leaves blending off.
 void stage_flat_draw(const struct stage_flat *flat, const struct program *program, int y, int height);
-
-// Meadows.
-
-struct stage_meadows {
-    GLuint vertex_array, corners, indices, instances;
-    struct stage_reed sorted[STAGE_MAX_REEDS]; ///< from far to near
-};
-
-void stage_meadows_create(struct stage_meadows *meadows);
-void stage_meadows_destroy(struct stage_meadows *meadows);
-/// Returns the number of uploaded bytes.
-long stage_meadows_upload(struct stage_meadows *meadows, const struct stage_view *view);
-/// `seam` as for meshes.
-void stage_meadows_draw(const struct stage_meadows *meadows, const struct program *program,
-                        const struct stage_view *view, float seam);
 
 // Imported characters, foxes and soft characters.
 

@@ -15,7 +15,6 @@ float stage_lowest_ground(const struct stage_view *view)
     float lowest = INFINITY;
     for (int c = 0; c < view->character_count; c++) lowest = fminf(lowest, view->characters[c].position[1]);
     for (int m = 0; m < view->model_count; m++) lowest = fminf(lowest, view->models[m].ground);
-    if (view->meadow.count > 0) lowest = fminf(lowest, 0.0f);
     return lowest < INFINITY ? lowest : 0.0f;
 }
 
@@ -80,7 +79,6 @@ struct area stage_extent(const struct stage_view *view, struct area viewport, in
     const float ground = stage_lowest_ground(view);
     for (int c = 0; c < view->character_count; c++) add_character(&extent, &view->characters[c]);
     for (int m = 0; m < view->model_count; m++) add_box(&extent, view->models[m].lo, view->models[m].hi);
-    if (view->meadow.count > 0) add_box(&extent, view->meadow.lo, view->meadow.hi);
     for (int b = 0; b < view->blob_count; b++) add_blob(&extent, &view->blobs[b], ground);
     if (extent.is_everywhere) return viewport;
     if (!(extent.lo[0] <= extent.hi[0])) return (struct area){0};

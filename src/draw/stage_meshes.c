@@ -288,7 +288,7 @@ void stage_meshes_draw(const struct stage_meshes *meshes, const struct stage_vie
 {
     const bool second = seam > 0.0f;
     glActiveTexture(GL_TEXTURE0 + PICTURE_UNIT);
-    for (enum stage_program which = 0; which < PROGRAM_MEADOW; which++) {
+    for (enum stage_program which = 0; which < PROGRAM_FLAT; which++) {
         const struct program *program = &meshes->programs[which];
         for (int s = 0; s < meshes->shown_count; s++) {
             const struct shown *shown = &meshes->shown[s];

@@ -411,7 +411,6 @@ const struct command commands[] = {
     COMMAND("Figure 7: phases of a coordinate", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 7, {'7', CTRL}),
     COMMAND("A dog: tail and ears follow its walk", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 8, {'8', CTRL}),
     COMMAND("A creature held by its hands", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 9, {'9', CTRL}),
-    COMMAND("A fox in a meadow", SCENES, 0, NOTHING, 0, .request = REQUEST_FIGURE, 10, {'0', CTRL}),
 
     // Not in F1.
     PALETTE("Open Spline: kind, equilibrium, start", SPLINE, .section = "section.spline", 0),
@@ -419,7 +418,6 @@ const struct command commands[] = {
     PALETTE("Open Imported character: clip, bones", MODEL, .section = "section.model", 0),
     PALETTE("Open Tail or chain set-up: channels", TAIL, .section = "section.tail", 0),
     PALETTE("Open Character: channels, paint", CHARACTER, .section = "section.character", 0),
-    PALETTE("Open Meadow", MEADOW, .section = "section.meadow", 0),
     PALETTE("Open Pins", PINNABLE, .section = "section.pins", 0),
     PALETTE("Open Advanced: bandwidth, calm", SPLINE, .section = "section.advanced", 0),
     PALETTE("Open Poles and response", SPLINE, .section = "section.poles", 0),
@@ -429,7 +427,6 @@ const struct command commands[] = {
     PALETTE("Open History", NOTHING, .section = "section.history", 0),
     PALETTE("Add a tail", NOTHING, .inspector = inspector_add, ADD_TAIL),
     PALETTE("Add a character or model from a file", NOTHING, .inspector = inspector_add, ADD_FILE),
-    PALETTE("Add a meadow", NO_MEADOW, .inspector = inspector_add, ADD_MEADOW),
     PALETTE("Copy the rig", RIG, .inspector = inspector_add, ADD_COPY),
     PALETTE("Feel like a cat's tail", SPLINE, .inspector = inspector_preset, 0),
     PALETTE("Feel like a whip", SPLINE, .inspector = inspector_preset, 1),

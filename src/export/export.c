@@ -95,7 +95,7 @@ static void note(struct export_report *report, const char *format, ...)
     va_end(arguments);
 }
 
-static bool choose_rigs(struct export_range *range, struct export_report *report, struct error *error)
+static bool choose_rigs(struct export_range *range, struct error *error)
 {
     const struct document *document = range->posing->document;
     const struct format *format = range->format;
@@ -106,15 +106,11 @@ static bool choose_rigs(struct export_range *range, struct export_report *report
         if (wanted && strcmp(form_name(rig), wanted) != 0) continue;
         if (fits(format, form_kind(rig->kind)->holds)) {
             range->rigs[range->rig_count++] = i;
-        } else if (unfit < 0 || form_kind(rig->kind)->holds == 0) {
+        } else if (unfit < 0) {
             unfit = i;
         }
     }
     if (range->rig_count == 0 && !(format->without_rigs && !wanted)) return fail_rigs(range, unfit, error);
-    const bool is_lost = unfit >= 0 && form_kind(document->rigs[unfit]->kind)->holds == 0; // a chain is in its model
-    if (is_lost && range->rig_count > 0)
-        note(report, "a %s file cannot hold the %s \"%.40s\", which is left out", format->ending,
-             rig_word(document->rigs[unfit]->kind), form_name(document->rigs[unfit]));
     if (range->rig_count <= 1 || !format->one_rig) return true;
     char names[256];
     list_names(document, names, sizeof names);
@@ -220,7 +216,7 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
     }
     if (options->all_clips && range.format->write != gltf_write)
         return fail(error, ERROR_USAGE, "%s: holds one clip: all clips need .glb or .gltf", path);
-    return choose_rigs(&range, report, error) && range_choose_keys(&range, report, error) &&
+    return choose_rigs(&range, error) && range_choose_keys(&range, report, error) &&
            write_file(&range, report, error);
 }
 

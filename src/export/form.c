@@ -6,7 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-const struct form_kind meadow_form = {0}; // no format has meadows
 const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = form_channels};
 
 #define FORM_ROW(constant, name) [constant] = &name##_form,

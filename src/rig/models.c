@@ -137,20 +137,10 @@ struct models {
     int tail_count;
     struct character_model *characters; ///< in the order of the document
     int character_count;
-    struct meadow *meadow; ///< NULL until a document has one
     uint64_t version;
 };
 
 struct models *models_create(void) { return need_zeroed(1, sizeof(struct models)); }
-
-void models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation)
-{
-    const bool wanted = document_find_rig(document, RIG_MEADOW, 0) >= 0;
-    if (wanted && !models->meadow) models->meadow = meadow_create();
-    if (models->meadow) meadow_update(models->meadow, document, evaluation);
-}
-
-const struct meadow *models_meadow(const struct models *models) { return models ? models->meadow : NULL; }
 
 static void drop_characters(struct models *models)
 {
@@ -179,7 +169,6 @@ void models_destroy(struct models *models)
     drop_characters(models);
     drop_placed(models);
     for (int i = 0; i < models->tail_count; i++) free_placed(&models->tails[i]);
-    meadow_destroy(models->meadow);
     free(models->placed);
     free(models->tails);
     free_files(&models->files);

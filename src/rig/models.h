@@ -5,7 +5,6 @@
 
 #include "model/figure.h"
 #include "rig/imported.h"
-#include "rig/meadow.h"
 #include "scene/document.h"
 
 struct models;
@@ -37,12 +36,6 @@ uint64_t models_version(const struct models *models);
 
 /// The model of a model rig, or the fox of a tail; NULL: neither, or it could not be read. `models` may be NULL.
 const struct imported *models_imported(const struct models *models, const struct document *document, int rig);
-
-/// Solves the document's meadow if it has changed.
-void models_grow(struct models *models, const struct document *document, const struct evaluation *evaluation);
-
-/// The meadow as it was last solved; NULL: none. `models` may be NULL.
-const struct meadow *models_meadow(const struct models *models);
 
 /// An imported character's poses: the shown one, one shown beside it, and any other.
 enum pose_memory { POSE_UNSEEN, POSE_SHOWN, POSE_BESIDE, POSE_MEMORIES };

@@ -32,7 +32,6 @@ void opened_solve(struct opened *opened, enum solver_choice solver)
     opened->evaluation.solver = solver;
     opened->evaluation.models = models_source(opened->models);
     evaluation_update(&opened->evaluation, opened->document, false);
-    if (opened->models) models_grow(opened->models, opened->document, &opened->evaluation);
 }
 
 void opened_free(struct opened *opened)

@@ -49,35 +49,6 @@ void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3])
     posing_kinds[pose->kind]->bounds(pose, lo, hi);
 }
 
-// --- places of meadows: they have too many reeds for a pose, so the stage queries each reed (meadow.h)
-
-/// How far leaning reeds reach beyond their area, as a share of their height.
-static const double LEAN = 0.6, TALLEST = 1.3;
-
-static bool pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                 struct rig_pose *posed)
-{
-    const struct meadow_rig *meadow = &posing->document->rigs[rig]->meadow;
-    (void)position, (void)by_hand;
-    if (meadow_count(models_meadow(posing->models)) == 0) return false;
-    for (int side = 0; side < 2; side++) {
-        float *corner = side ? posed->meadow.hi : posed->meadow.lo;
-        const double sign = side ? 1 : -1;
-        corner[0] = (float)(sign * (0.5 * meadow->area[0] + LEAN * meadow->height));
-        corner[1] = side ? (float)(TALLEST * meadow->height) : 0;
-        corner[2] = (float)(sign * (0.5 * meadow->area[1] + LEAN * meadow->height));
-    }
-    return true;
-}
-
-static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
-{
-    memcpy(lo, posed->meadow.lo, sizeof posed->meadow.lo);
-    memcpy(hi, posed->meadow.hi, sizeof posed->meadow.hi);
-}
-
-const struct posing_functions meadow_posing = {pose, bounds, NULL};
-
 // --- for the scene
 
 void pinning_add_channel(const struct channel *channel, int n, int joints, const double way[3], pin_pull c)

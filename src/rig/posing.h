@@ -44,9 +44,6 @@ struct rig_pose {
             float root[16];               ///< its space → world
             float ground;                 ///< height of the ground under it, metres
         } model;
-        struct {
-            float lo[3], hi[3]; ///< the box around it
-        } meadow;
     };
 };
 

@@ -1,4 +1,4 @@
-/// Edits that add, rename and remove rigs, those of imported characters, chains on them and meadows, and of pins.
+/// Edits that add, rename and remove rigs, those of imported characters, chains on them, and of pins.
 #include "base/file.h"
 #include "base/need.h"
 #include "scene/editing.h"

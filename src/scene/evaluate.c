@@ -50,7 +50,6 @@ static void create_storage(struct evaluation *evaluation, int splines, int sampl
     double *numbers = pool_take(pool, count * ROWS * n, sizeof *numbers);
     evaluation->curves = pool_take(pool, count, sizeof *evaluation->curves);
     evaluation->status = pool_take(pool, count, sizeof *evaluation->status);
-    evaluation->revisions = pool_take(pool, count, sizeof *evaluation->revisions);
     evaluation->count = splines;
     evaluation->samples = samples;
     storage->state = pool_take(pool, count, sizeof *storage->state);
@@ -110,7 +109,7 @@ static void count_solved(struct evaluation *evaluation, const struct document *d
                          wiggly_status status)
 {
     evaluation->status[spline] = status;
-    evaluation->revisions[spline] = ++evaluation->revision;
+    evaluation->revision++;
     evaluation->solved_splines++;
     evaluation->solved_samples += evaluation->samples;
     evaluation->solved_knots += document->splines[spline]->knot_count;

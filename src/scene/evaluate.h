@@ -22,7 +22,6 @@ struct evaluation {
     bool cubic;                ///< all solved in cubic mode (the "cubic" of the A/B comparison)
     enum solver_choice solver; ///< set it before the first update
     uint64_t revision;         ///< changes whenever a curve does
-    uint64_t *revisions;       ///< for each spline: the revision in which its curve last changed
     long solved_splines;       ///< solved by the last update
     long solved_samples;
     long solved_knots;

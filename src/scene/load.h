@@ -21,6 +21,9 @@ struct document *scene_load(const char *path, struct problems *problems, struct 
 struct document *scene_parse(const char *name, const char *text, size_t size, struct problems *problems,
                              struct error *error);
 
+/// Whether its file has a meadow, which older versions showed. Only saving knows of it.
+bool scene_has_meadow(const struct document *document);
+
 /// The canonical text: known keys in their fixed order, then unknown ones in theirs; knots by sample; numbers as the shortest text that
 /// reads back equal. scene_parse() of it gives an equal document. The caller frees it.
 char *scene_print(const struct document *document, size_t *size);

@@ -199,7 +199,7 @@ static void check_pins(struct reader *reader, const struct where *scene_at)
     if (pins_check(document, &trouble) && pins_check_order(document, &trouble)) return;
     const struct rig *rig = document->rigs[trouble.rig];
     const struct where rigs_at = {.parent = scene_at, .key = "rigs"};
-    const struct where rig_at = {.parent = &rigs_at, .index = (size_t)trouble.rig};
+    const struct where rig_at = {.parent = &rigs_at, .index = (size_t)reader->places[trouble.rig]};
     const struct where pins_at = {.parent = &rig_at, .key = trouble.pin >= 0 ? "pins" : trouble.member};
     const struct where at = {.parent = &pins_at, .index = trouble.pin >= 0 ? index_in_file(rig, trouble.pin) : 0};
     const struct where member_at = {.parent = &at, .key = trouble.member};
@@ -228,7 +228,9 @@ static void load_scene(struct reader *reader, json_t *json)
     load_splines(reader, &scene);
     load_rigs(reader, &scene);
     resolve_motions(reader, &scene);
-    reader->document->extra = reader_keep(reader, reader_extra(reader, &scene, scene_keys));
+    json_t *extra = reader_extra(reader, &scene, scene_keys);
+    reader_put(&extra, "rigs", json_incref(reader->meadows));
+    reader->document->extra = reader_keep(reader, extra);
     if (reader->errors == 0) validate_scene(reader, &scene.at);
 }
 

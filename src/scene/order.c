@@ -90,7 +90,7 @@ static int *place_in_rig(struct rig *rig, int n)
     const int inputs = rig_input_count(rig);
     if (n >= inputs) return rig->kind == RIG_TAIL && n < inputs + 3 ? &rig->tail.position[n - inputs].track : NULL;
     if (rig->kind == RIG_CHARACTER) return &rig->character.drives[n].spline;
-    return rig->kind == RIG_MEADOW ? &rig->meadow.spline : &rig->bent.channels[n].spline;
+    return &rig->bent.channels[n].spline;
 }
 
 static bool next_in_rig(struct rig *rig, struct reference *reference)
@@ -98,9 +98,7 @@ static bool next_in_rig(struct rig *rig, struct reference *reference)
     const int inputs = rig_input_count(rig);
     for (const int *place; (place = place_in_rig(rig, reference->number)) != NULL;) {
         const int n = reference->number++;
-        const enum reference_kind of_input = rig->kind == RIG_CHARACTER ? REFERENCE_DRIVE
-                                             : rig->kind == RIG_MEADOW  ? REFERENCE_MEADOW
-                                                                        : REFERENCE_CHANNEL;
+        const enum reference_kind of_input = rig->kind == RIG_CHARACTER ? REFERENCE_DRIVE : REFERENCE_CHANNEL;
         reference->kind = n < inputs ? of_input : REFERENCE_POSITION;
         reference->which = n < inputs ? n : n - inputs;
         reference->spline = *place;

@@ -35,7 +35,6 @@ enum reference_kind {
     REFERENCE_POSITION, ///< a coordinate of a tail's position that follows
     REFERENCE_CHANNEL,  ///< a tail's or chain's channel
     REFERENCE_DRIVE,    ///< a coordinate of a character
-    REFERENCE_MEADOW,   ///< a meadow's spline
 };
 
 /// All zero before the first reference.

@@ -6,6 +6,7 @@
 #include "scene/text.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 #include <sys/stat.h>
 
 static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
@@ -105,6 +106,8 @@ static void print_origin(struct members *members, const struct scene_origin *ori
     text_string(members->text, " }");
 }
 
+static bool is_rigs(const char *key) { return strcmp(key, "rigs") == 0; }
+
 static void print_document(struct text *text, const struct document *document, const char *folder,
                            const struct scene_origin *origin)
 {
@@ -124,7 +127,7 @@ static void print_document(struct text *text, const struct document *document, c
     text_string(text, document->spline_count > 0 ? "\n  ]" : "[]");
     member(&members, "rigs");
     print_rigs(text, document, folder);
-    members_extra(&members, document->extra, NULL);
+    members_extra(&members, document->extra, is_rigs);
     if (origin) print_origin(&members, origin);
     text_string(text, "\n}\n");
 }

@@ -73,10 +73,12 @@ struct reader {
     struct error *error;       ///< the first error
     int errors;
     struct document *document;
-    const struct rig *rig;    ///< being read
-    bool has_domain;          ///< frames, fps and substeps are valid
-    size_t knot_count;        ///< over all splines
-    struct name_index *names; ///< sorted; one a spline
+    const struct rig *rig;      ///< being read
+    int places[SCENE_MAX_RIGS]; ///< of the document's rigs in the file
+    json_t *meadows;            ///< of an old file; NULL: none
+    bool has_domain;            ///< frames, fps and substeps are valid
+    size_t knot_count;          ///< over all splines
+    struct name_index *names;   ///< sorted; one a spline
     int name_count;
     const char *warned[READER_MAX_WARNED]; ///< unknown keys that were warned about: once each
     int warned_count;

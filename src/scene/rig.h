@@ -153,19 +153,6 @@ struct chain {
     bool mirror;     ///< side and twist change sign
 };
 
-enum { MEADOW_MAX_REEDS = 4096 };
-
-/// Reeds that all swing by one spline, each with its own variation.
-struct meadow_rig {
-    int spline;
-    int count;        ///< reeds, 1 … MEADOW_MAX_REEDS
-    int seed;         ///< of their places and variations
-    double area[2];   ///< metres along x and z, round the origin
-    double height;    ///< of a reed, metres
-    double variation; ///< amount of each reed's
-    double lag, gain; ///< degrees a joint
-};
-
 enum { SCENE_MAX_PINS = 1024 }; ///< over all rigs together
 
 /// A place for a point of a rig at a frame. All splines that drive the rig are solved through it.
@@ -180,7 +167,7 @@ struct pin {
 /// Every kind: its constant RIG_… and the name that its rows of functions begin with. Layers make their tables from this list.
 #define RIG_KIND_LIST(KIND)                                                                                          \
     KIND(RIG_TAIL, tail)                                                                                             \
-    KIND(RIG_CHARACTER, character) KIND(RIG_MODEL, model) KIND(RIG_CHAIN, chain) KIND(RIG_MEADOW, meadow)
+    KIND(RIG_CHARACTER, character) KIND(RIG_MODEL, model) KIND(RIG_CHAIN, chain)
 
 #define RIG_CONSTANT(constant, name) constant,
 enum rig_kind { RIG_KIND_LIST(RIG_CONSTANT) RIG_KINDS };
@@ -202,7 +189,6 @@ struct rig {
         struct character_rig character;
         struct model_rig model;
         struct chain chain;
-        struct meadow_rig meadow;
     };
     struct pin *pins; ///< by frame, then by point; at most one of a point on a sample
     int pin_count;

@@ -25,14 +25,13 @@ const char *rig_title(const struct rig *rig)
 int rig_input_count(const struct rig *rig)
 {
     if (rig->kind == RIG_CHARACTER) return rig->character.drive_count;
-    if (rig->kind == RIG_MEADOW) return 1;
     return kinds[rig->kind]->is_bent ? rig->bent.channel_count : 0;
 }
 
 int rig_input(const struct rig *rig, int input)
 {
     if (rig->kind == RIG_CHARACTER) return rig->character.drives[input].spline;
-    return rig->kind == RIG_MEADOW ? rig->meadow.spline : rig->bent.channels[input].spline;
+    return rig->bent.channels[input].spline;
 }
 
 int rig_point_input(const struct rig *rig, int input)
@@ -132,16 +131,31 @@ void load_pins(struct reader *reader, const struct value *object, void *at)
     free(loaded);
 }
 
-/// Reports an earlier rig with the same name.
-static void check_name(struct reader *reader, const struct where *rig_at, int index)
+/// Reports an earlier rig with the same name as the last one.
+static void check_name(struct reader *reader, const struct where *rig_at)
 {
     struct rig *const *rigs = reader->document->rigs;
+    const int index = reader->document->rig_count - 1;
     struct where at = {.parent = rig_at, .key = "name"};
     for (int i = 0; i < index && rigs[index]->name; i++) {
         if (!rigs[i]->name || strcmp(rigs[i]->name, rigs[index]->name) != 0) continue;
-        reader_fail(reader, &at, "expected a unique name, got \"%s\", the name of rigs[%d]", rigs[i]->name, i);
+        reader_fail(reader, &at, "expected a unique name, got \"%s\", the name of rigs[%d]", rigs[i]->name,
+                    reader->places[i]);
         return;
     }
+}
+
+/// Keeps a meadow of an old file as unknown keys are kept, and warns once; false: it is another rig.
+static bool keep_meadow(struct reader *reader, const struct value *object)
+{
+    const char *type = json_string_value(json_object_get(object->json, "type"));
+    if (!type || strcmp(type, "meadow") != 0) return false;
+    if (!reader->meadows) {
+        reader_warn(reader, &object->at, "meadows are no longer shown; the file keeps them");
+        reader->meadows = reader_keep(reader, json_array());
+    }
+    if (json_array_append(reader->meadows, object->json) != 0) need_failed();
+    return true;
 }
 
 /// The kind of a rig, -1 after an error.
@@ -160,17 +174,19 @@ void load_rigs(struct reader *reader, const struct value *scene)
     if (count <= 0) return;
     for (int i = 0; i < count; i++) {
         const struct value object = reader_element(&rigs, i);
+        if (keep_meadow(reader, &object)) continue;
         int kind = load_kind(reader, reader_member(&object, "type"));
         // an unknown kind is an error already, so any kind will do
         struct rig *rig = rig_create(kind < 0 ? RIG_TAIL : (enum rig_kind)kind);
         rig->id = document->next_id++;
+        reader->places[document->rig_count] = i;
         document_add_rig(document, rig);
         reader->rig = rig;
         if (kind >= 0) object_load(reader, &object, kinds[kind]->fields, rig);
-        check_name(reader, &object.at, i);
+        check_name(reader, &object.at);
     }
-    for (int i = 0; i < count; i++) {
-        const struct value object = reader_element(&rigs, i);
+    for (int i = 0; i < document->rig_count; i++) {
+        const struct value object = reader_element(&rigs, reader->places[i]);
         const struct where at = {.parent = &object.at, .key = "model"};
         struct rig *rig = document->rigs[i];
         struct error error;
@@ -180,6 +196,8 @@ void load_rigs(struct reader *reader, const struct value *scene)
     }
 }
 
+bool scene_has_meadow(const struct document *document) { return json_object_get(document->extra, "rigs") != NULL; }
+
 void print_type(struct members *members, const struct document *document, const void *at, const char *folder)
 {
     (void)document, (void)folder;
@@ -188,12 +206,19 @@ void print_type(struct members *members, const struct document *document, const 
 
 void print_rigs(struct text *text, const struct document *document, const char *folder)
 {
-    for (int r = 0; r < document->rig_count; r++) {
+    const char *before = "[\n";
+    for (int r = 0; r < document->rig_count; r++, before = ",\n") {
         const struct rig *rig = document->rigs[r];
         struct members members = {text, "    {\n      ", ",\n      ", false};
-        text_string(text, r > 0 ? ",\n" : "[\n");
+        text_string(text, before);
         fields_print(&members, document, kinds[rig->kind]->fields, rig, folder);
         text_string(text, "\n    }");
     }
-    text_string(text, document->rig_count > 0 ? "\n  ]" : "[]");
+    const json_t *meadows = json_object_get(document->extra, "rigs");
+    for (size_t m = 0; m < json_array_size(meadows); m++, before = ",\n") {
+        text_string(text, before);
+        text_string(text, "    ");
+        text_json(text, json_array_get(meadows, m));
+    }
+    text_string(text, before[0] == ',' ? "\n  ]" : "[]");
 }

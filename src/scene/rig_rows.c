@@ -147,21 +147,3 @@ const struct rig_functions chain_functions = {.word = "chain",
                                               .title = offsetof(struct rig, chain.from),
                                               .pins = joint_pins,
                                               .is_bent = true};
-
-// --- meadows
-
-static const struct field meadow_fields[] = {
-    RIG_FIRST(true),
-    {FIELD("spline", FIELD_SPLINE, struct rig, meadow.spline)},
-    {FIELD("count", FIELD_WHOLE, struct rig, meadow.count), .range = {1, MEADOW_MAX_REEDS, false}, .usual = {1000}},
-    {FIELD("seed", FIELD_WHOLE, struct rig, meadow.seed), .range = {0, 999999, false}},
-    {FIELD("area", FIELD_NUMBERS, struct rig, meadow.area), .range = FIELD_POSITIVE, .usual = {6, 4}},
-    {FIELD("height", FIELD_NUMBER, struct rig, meadow.height), .range = FIELD_POSITIVE, .usual = {0.8}},
-    {FIELD("variation", FIELD_NUMBER, struct rig, meadow.variation), .range = {0, 100, false}, .usual = {0.5}},
-    {FIELD("lag", FIELD_NUMBER, struct rig, meadow.lag), .range = FIELD_ANY, .usual = {12}},
-    {FIELD("gain", FIELD_NUMBER, struct rig, meadow.gain), .range = FIELD_ANY, .usual = {6}},
-    FIELD_END(struct rig),
-};
-
-const struct rig_functions meadow_functions = {
-    .word = "meadow", .fields = meadow_fields, .title = offsetof(struct rig, name)};

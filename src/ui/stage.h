@@ -1,4 +1,4 @@
-/// The stage's contents: camera, characters, meadows, shadows. The editor fills it, draw/ draws it.
+/// The stage's contents: camera, characters, shadows. The editor fills it, draw/ draws it.
 #ifndef UI_STAGE_H
 #define UI_STAGE_H
 
@@ -14,7 +14,6 @@ enum {
     STAGE_MAX_TAILS = 8,
     STAGE_MAX_CHARACTERS = 4,
     STAGE_MAX_MODELS = 4 + STAGE_MAX_TAILS, ///< imported characters, and tails' foxes
-    STAGE_MAX_REEDS = 4096,
     STAGE_MAX_BLOBS = 20 * STAGE_MAX_TAILS + 4 * STAGE_MAX_CHARACTERS + 4 * STAGE_MAX_MODELS,
 };
 
@@ -39,23 +38,6 @@ struct stage_model {
     float lo[3], hi[3];           ///< bounding box, world
 };
 
-/// A reed of a meadow.
-struct stage_reed {
-    float place[3], height; ///< metres
-    float still, re, im;    ///< y and x of its spline
-    float turn;             ///< radians between its wind and +x
-    float pushed[2];        ///< radians towards +x and +z, over its length
-    float shade, width;     ///< 0 … 1; metres
-};
-
-/// Valid until the next frame at least.
-struct stage_meadow {
-    const struct stage_reed *reeds;
-    int count;
-    float lag, gain;    ///< radians per joint
-    float lo[3], hi[3]; ///< bounding box, world
-};
-
 struct stage_view {
     struct rect viewport; ///< logical pixels of the window
     float view[16];       ///< world → eye, column-major
@@ -69,7 +51,6 @@ struct stage_view {
     int character_count;
     struct stage_model models[STAGE_MAX_MODELS];
     int model_count;
-    struct stage_meadow meadow;
     struct shadow_blob blobs[STAGE_MAX_BLOBS];
     int blob_count;
     uint64_t hash; ///< of everything above: equal hashes mean equal pixels

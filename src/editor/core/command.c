@@ -59,10 +59,6 @@ static bool has_pinnable(const struct core *core) { return has_tail(core) || has
 
 static bool has_model(const struct core *core) { return has_kind(core, RIG_MODEL); }
 
-static bool has_meadow(const struct core *core) { return has_kind(core, RIG_MEADOW); }
-
-static bool has_no_meadow(const struct core *core) { return !has_meadow(core); }
-
 static bool has_coordinate(const struct core *core) { return characters_coordinate(core) != NULL; }
 
 static bool has_page(const struct core *core) { return core->in_page; }
@@ -89,8 +85,6 @@ static const struct {
     [NEEDS_BODY] = {has_body, "Add a tail first."},
     [NEEDS_CHARACTER] = {has_character, "Add a soft character first."},
     [NEEDS_MODEL] = {has_model, "Open a character from a file first."},
-    [NEEDS_MEADOW] = {has_meadow, "Add a meadow first."},
-    [NEEDS_NO_MEADOW] = {has_no_meadow, "There is a meadow already."},
     [NEEDS_PAINT] = {has_coordinate, "Select a soft character first."},
     [NEEDS_PAGE] = {has_page, "Links are for the app in a browser."},
     [NEEDS_NO_PAGE] = {has_no_page, "Close the page instead: unsaved work is kept."},

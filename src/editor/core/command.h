@@ -56,8 +56,6 @@ enum need {
     NEEDS_BODY,
     NEEDS_CHARACTER,
     NEEDS_MODEL,
-    NEEDS_MEADOW,
-    NEEDS_NO_MEADOW,
     NEEDS_PAINT, ///< a character with a coordinate
     NEEDS_PAGE,  ///< the app runs in a browser
     NEEDS_NO_PAGE,

@@ -63,7 +63,7 @@ static double free_place(const struct core *core, double wide)
         const enum rig_kind kind = core->document->rigs[r]->kind;
         double width;
         const double at = place_of(core, r, &width);
-        if (kind != RIG_CHAIN && kind != RIG_MEADOW) right = fmax(right, at + APART * (width + wide) / 2);
+        if (kind != RIG_CHAIN) right = fmax(right, at + APART * (width + wide) / 2);
     }
     return isfinite(right) ? core_round(right, 0.01) : 0;
 }
@@ -91,25 +91,6 @@ void rigs_add_tail(struct core *core)
     }
     finish(core, done);
     if (done) core_activate(core, spline);
-}
-
-void rigs_add_meadow(struct core *core)
-{
-    if (document_find_rig(core->document, RIG_MEADOW, 0) >= 0) {
-        core_message(core, false, "There is a meadow already.");
-        return;
-    }
-    if (!core_begin(core, "Add meadow", 0)) return;
-    struct rig meadow = {.kind = RIG_MEADOW,
-                         .name = NULL,
-                         .meadow = {.spline = spline_to_use(core),
-                                    .count = 1000,
-                                    .area = {4.6, 3.2},
-                                    .height = 0.42,
-                                    .variation = 0.45,
-                                    .lag = 14,
-                                    .gain = 7}};
-    finish(core, meadow.meadow.spline >= 0 && edit_rig_add(core->document, &meadow, &core->error));
 }
 
 /// Copies a model's chains onto its copy, the last rig.
@@ -148,11 +129,8 @@ void rigs_copy(struct core *core, int rig)
         copy.model.position[0] = place;
         break;
     case RIG_CHAIN:
-    case RIG_MEADOW:
     case RIG_KINDS:
-        core_message(core, false,
-                     copy.kind == RIG_CHAIN ? "A chain is copied with its character: copy that."
-                                            : "There is a meadow already.");
+        core_message(core, false, "A chain is copied with its character: copy that.");
         return;
     }
     core_begin(core, "Add one more", 0);

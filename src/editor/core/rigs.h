@@ -1,4 +1,4 @@
-/// Adds and removes rigs: tails, characters, imported models, chains, a meadow. Each is one undo step.
+/// Adds and removes rigs: tails, characters, imported models, chains. Each is one undo step.
 #ifndef EDITOR_CORE_RIGS_H
 #define EDITOR_CORE_RIGS_H
 
@@ -13,8 +13,6 @@ bool rigs_have_knots(const struct document *document);
 
 /// Adds a tail beside the other rigs, bent by the active spline or a new one.
 void rigs_add_tail(struct core *core);
-/// Adds a meadow that swings by the active spline. A scene has at most one.
-void rigs_add_meadow(struct core *core);
 /// Adds a copy moved by the same splines. An imported character's chains are copied too.
 void rigs_copy(struct core *core, int rig);
 /// Removes a rig and its chains. Asks whether to delete splines that move nothing else. Splines that follow one of its joints keep their

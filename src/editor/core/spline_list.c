@@ -139,8 +139,6 @@ static bool release(struct core *core, const struct reference *reference)
         return edit_channel_remove(document, (struct channel_place){owner, which}, &core->error);
     case REFERENCE_DRIVE:
         return edit_drive_remove(document, owner, which, &core->error);
-    case REFERENCE_MEADOW:
-        return edit_rig_remove(document, owner, &core->error);
     }
     return false;
 }
@@ -172,8 +170,7 @@ void spline_list_remove(struct core *core)
     snprintf(question->title, sizeof question->title, "%.200s is used in %d place%s", active->name, count,
              count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note,
-             "Parameters that follow it keep their value at the playhead. Channels and meadows that it drives are "
-             "deleted.");
+             "Parameters that follow it keep their value at the playhead. Channels that it drives are deleted.");
 }
 
 static void set_fps(struct core *core, double fps, bool keeps_seconds)

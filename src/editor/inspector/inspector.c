@@ -24,7 +24,6 @@ enum {
     CHAINS = 1 << RIG_CHAIN,
     CHARACTERS = 1 << RIG_CHARACTER,
     MODELS = 1 << RIG_MODEL,
-    MEADOWS = 1 << RIG_MEADOW,
     SPLINE = 1 << RIG_KINDS,
     SWING = SPLINE << 1,
 };
@@ -70,7 +69,6 @@ static const struct section {
     {"section.model", "Imported character", NULL, inspector_model, MODELS, has_bone, false},
     {"section.tail", NULL, tail_title, inspector_tail, TAILS | CHAINS, NULL, false},
     {"section.character", "Character", NULL, inspector_character, CHARACTERS, has_brush, false},
-    {"section.meadow", "Meadow", NULL, inspector_meadow, MEADOWS, NULL, false},
     {"section.pins", "Pins", NULL, inspector_pins, TAILS | CHAINS | CHARACTERS, pins_any_selected, false},
     {"section.advanced", "Advanced", NULL, inspector_advanced, SPLINE, NULL, true},
     {"section.poles", "Poles and response", NULL, inspector_poles, SPLINE, NULL, true},

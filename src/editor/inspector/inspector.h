@@ -21,7 +21,7 @@ void inspector_show_clicked(struct inspector *in);
 void inspector_show_spline(struct inspector *in, int spline);
 /// A: the menu of things to add, at the pointer or at the top of the inspector.
 void inspector_add_menu(struct inspector *in, int unused);
-enum added { ADD_TAIL, ADD_FILE, ADD_COPY, ADD_CHAIN, ADD_MEADOW, ADD_SPLINE };
+enum added { ADD_TAIL, ADD_FILE, ADD_COPY, ADD_CHAIN, ADD_SPLINE };
 /// Adds something and shows it. ADD_COPY copies the shown rig.
 void inspector_add(struct inspector *in, int what);
 /// Applies a feel preset, in panel order, to the active spline.

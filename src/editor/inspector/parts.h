@@ -24,7 +24,6 @@ void inspector_knot(struct inspector *in);
 void inspector_tail(struct inspector *in);
 void inspector_character(struct inspector *in);
 void inspector_pins(struct inspector *in);
-void inspector_meadow(struct inspector *in);
 void inspector_model(struct inspector *in);
 void inspector_history(struct inspector *in);
 /// The title says how many knots are selected.

@@ -1,4 +1,4 @@
-/// The inspector's list of rigs, the menu of additions, and the section on the meadow.
+/// The inspector's list of rigs, and the menu of additions.
 #include "editor/core/rigs.h"
 #include "base/file.h"
 #include "editor/core/bones.h"
@@ -54,7 +54,6 @@ static void show_rig(struct inspector *in, int rig)
     case RIG_MODEL:
         in->model = number;
         break;
-    case RIG_MEADOW:
     case RIG_KINDS:
         break;
     }
@@ -88,8 +87,7 @@ void inspector_show_rig(struct inspector *in, int rig)
     static const char *const sections[] = {[RIG_TAIL] = "section.tail",
                                            [RIG_CHAIN] = "section.tail",
                                            [RIG_CHARACTER] = "section.character",
-                                           [RIG_MODEL] = "section.model",
-                                           [RIG_MEADOW] = "section.meadow"};
+                                           [RIG_MODEL] = "section.model"};
     const struct rig *chosen = in->core->document->rigs[rig];
     if (chosen->kind == RIG_MODEL) bones_clear(in->core);
     show_rig(in, rig);
@@ -200,8 +198,6 @@ static void fill(const struct inspector *in, struct menu *menu)
     add_copies(in, menu);
     if (document_find_rig(document, RIG_MODEL, 0) >= 0)
         add_item(menu, (struct choice){ADD_CHAIN, 0}, "chain", "Chain from the selected bone (J)");
-    if (document_find_rig(document, RIG_MEADOW, 0) < 0)
-        add_item(menu, (struct choice){ADD_MEADOW, 0}, "meadow", "Meadow");
     add_item(menu, (struct choice){ADD_SPLINE, 0}, "spline", "Spline");
 }
 
@@ -220,9 +216,6 @@ static void carry_out(struct inspector *in, struct choice choice)
         break;
     case ADD_CHAIN:
         bones_make_chain(in->core, false);
-        break;
-    case ADD_MEADOW:
-        rigs_add_meadow(in->core);
         break;
     case ADD_SPLINE:
         spline_list_add(in->core);
@@ -253,31 +246,4 @@ void inspector_add_menu(struct inspector *in, int unused)
     open_add(in, beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
     if (beside) in->ui.popup.room = (struct rect){0, 0, panel.x, layout->status.y};
     in->ui.focus = ui_id("item.tail");
-}
-
-static const struct number_row meadow_rows[] = {
-    {"meadow.count", "reeds", NULL, "How many reeds there are", "Change meadow", WHOLE_AT(struct rig, meadow.count),
-     1, MEADOW_MAX_REEDS, 1, MEADOW_MAX_REEDS, 1000, 1, 0},
-    {"meadow.height", "height", "m", "Height of a reed; each is up to 30 % taller or shorter", "Change meadow",
-     NUMBER_AT(struct rig, meadow.height), 0.05, 2, 0.001, INSPECTOR_NO_LIMIT, 0.8, 0.01, 2},
-    {"meadow.wide", "width", "m", "The meadow's extent along x", "Change meadow",
-     NUMBER_AT(struct rig, meadow.area[0]), 0.5, 10, 0.001, INSPECTOR_NO_LIMIT, 6, 0.1, 1},
-    {"meadow.deep", "depth", "m", "The meadow's extent along z", "Change meadow",
-     NUMBER_AT(struct rig, meadow.area[1]), 0.5, 10, 0.001, INSPECTOR_NO_LIMIT, 4, 0.1, 1},
-    {"meadow.variation", "variation", NULL, "How much the reeds differ; 0: all move alike", "Change meadow",
-     NUMBER_AT(struct rig, meadow.variation), 0, 2, 0, 100, 0.5, 0.05, 2},
-    {"meadow.lag", "lag", "°", "How much later each joint of a reed swings", "Change meadow",
-     NUMBER_AT(struct rig, meadow.lag), -45, 45, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 12, 0.5, 1},
-    {"meadow.gain", "gain", "°", "How far each of a reed's six joints bends", "Change meadow",
-     NUMBER_AT(struct rig, meadow.gain), -20, 20, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 6, 0.5, 1},
-    {"meadow.seed", "seed", NULL, "Each number gives another meadow", "Change meadow",
-     WHOLE_AT(struct rig, meadow.seed), 0, 999, 0, 999999, 0, 1, 0},
-};
-
-static int shown_meadow(const struct inspector *in) { return document_find_rig(in->core->document, RIG_MEADOW, 0); }
-
-void inspector_meadow(struct inspector *in)
-{
-    static const struct number_home home = {.rig = shown_meadow};
-    inspector_numbers(in, meadow_rows, sizeof meadow_rows / sizeof meadow_rows[0], &home);
 }

@@ -111,7 +111,7 @@ bool stage_is_moving(const struct stage *stage)
     for (int i = 0; i < STAGE_MAX_STRANDS; i++) {
         if (stage->inertia[i].swings) return true;
     }
-    return stage->meadow.swings;
+    return false;
 }
 
 void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,

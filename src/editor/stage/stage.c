@@ -31,7 +31,6 @@ void stage_destroy(struct stage *stage)
 void stage_open(struct stage *stage)
 {
     memset(stage->inertia, 0, sizeof stage->inertia);
-    memset(&stage->meadow, 0, sizeof stage->meadow);
     stage->strand_count = stage->tail_count = stage->bone_count = 0;
 }
 
@@ -179,7 +178,6 @@ void stage_advance(struct stage *stage, struct core *core, double dt)
 {
     body_drag_advance(stage, core);
     drag_inertia_advance(stage, core, dt);
-    stage->meadow.dt += dt;
     record_advance(stage, core);
 }
 
@@ -371,7 +369,6 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     struct stage_view *view = &stage->view;
     const struct document *document = core->document;
     stage->tail_count = view->character_count = view->model_count = view->blob_count = 0;
-    view->meadow.count = 0;
     stage->strand_count = stage->bone_count = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         int n = 0;
@@ -398,8 +395,7 @@ void stage_ring(struct core *core, const float xy[2])
 static const char *empty_text(const struct stage *stage, const struct core *core)
 {
     const struct stage_view *view = &stage->view;
-    if (stage->tail_count > 0 || view->character_count > 0 || view->model_count > 0 || view->meadow.count > 0)
-        return NULL;
+    if (stage->tail_count > 0 || view->character_count > 0 || view->model_count > 0) return NULL;
     if (document_character(core->document, 0) || document_find_rig(core->document, RIG_MODEL, 0) >= 0)
         return "wiggly could not read this scene's character. Its curves are below.";
     return core->active < 0 ? "This scene is empty." : "This scene has no tail. Its curves are below.";

@@ -172,22 +172,9 @@ struct painting {
     struct brush_work work;
 };
 
-/// A reed near a body: its push, and its own swing on top, radians towards +x and +z.
-struct brushed_reed {
-    double pushed[2], speed[2], q[2], v[2];
-};
-
-struct meadow_view {
-    struct stage_reed reeds[MEADOW_MAX_REEDS];
-    struct brushed_reed brushed[MEADOW_MAX_REEDS];
-    double dt; ///< seconds since the last pose
-    bool swings;
-};
-
 struct stage {
     const struct core *core;
     struct stage_view view;
-    struct meadow_view meadow;
     struct camera camera;
     struct rect figure;                             ///< see stage_figure(); from the stage's middle, in stage heights
     struct shown_strand strands[STAGE_MAX_STRANDS]; ///< tails, then chains
