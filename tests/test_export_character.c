@@ -2,6 +2,7 @@
 #include "base/file.h"
 #include "export/form.h"
 #include "export_scene.h"
+#include "model/vector.h"
 
 #include <jansson.h>
 #include <sys/stat.h>
@@ -283,6 +284,102 @@ TEST_WITH(folder_make, folder_remove, usd_joints_are_bound_as_the_files)
     }
     assert_int_equal(found, skin->joint_count);
     gltf_free(&dog);
+    free(text);
+}
+
+/// As many numbers of an array as there is room for; returns how many.
+static int read_numbers(const char *text, size_t at, double *numbers, int room)
+{
+    int count = 0;
+    while (count < room && next_number(text, &at, &numbers[count])) count++;
+    return count;
+}
+
+/// The quoted names of an array, a row of `names` each; returns how many.
+static int read_names(const char *text, size_t at, char names[][256])
+{
+    int count = 0;
+    for (const char *end = text + at; *end == '"' || *(end += strspn(end, "[, ")) == '"'; end++) {
+        const size_t length = strcspn(++end, "\"");
+        snprintf(names[count++], sizeof *names, "%.*s", (int)length, end);
+        end += length;
+    }
+    return count;
+}
+
+/// A key's array behind `attribute`, or the only one.
+static size_t key_of(const char *text, const char *attribute, int key)
+{
+    const char *samples = strstr(text, attribute), *end = samples ? strchr(samples, '}') : NULL;
+    char number[16];
+    assert_non_null(end);
+    snprintf(number, sizeof number, " %d: [", key);
+    const char *at = strstr(samples, number);
+    if (!at || at > end) at = strstr(samples, " 0: [");
+    return (size_t)(strchr(at, '[') + 1 - text);
+}
+
+/// UsdSkel's rule for a mesh at a key: p Σ w B⁻¹ J with rows for vectors, J a joint's matrix on its parents'.
+TEST_WITH(folder_make, folder_remove, usd_skins_move_as_the_stage_does)
+{
+    enum { JOINTS = 128, KEY = 2, VERTICES = 16384, EACH = 4 };
+    static char joints[JOINTS][256], moved[JOINTS][256];
+    static double bind[JOINTS * 16], rest[JOINTS * 16], place[JOINTS * 3], turn[JOINTS * 4], size_of[JOINTS * 3],
+        point[VERTICES * 3], slot[VERTICES * EACH], weight[VERTICES * EACH];
+    const struct export_options options = {.has_frames = true, .last = 4, .substeps = 1};
+    struct points points = read_points(export_scene("dog", "dog.npy", options));
+    size_t size;
+    char *text = bytes_of(export_scene("dog", "dog.usda", options), &size);
+    mat4s world[JOINTS], skin[JOINTS];
+    const int count = read_names(text, behind(text, 0, "joints = "), joints);
+    const char *animation = strstr(text, "def SkelAnimation");
+    const int moving = read_names(animation, behind(animation, 0, "joints = "), moved);
+    assert_int_equal(read_numbers(text, numbers_of(text, 0, "] bindTransforms = "), bind, JOINTS * 16), 16 * count);
+    assert_int_equal(read_numbers(text, numbers_of(text, 0, "] restTransforms = "), rest, JOINTS * 16), 16 * count);
+    assert_int_equal(read_numbers(text, key_of(text, "translations.timeSamples", KEY), place, JOINTS * 3),
+                     3 * moving);
+    assert_int_equal(read_numbers(text, key_of(text, "rotations.timeSamples", KEY), turn, JOINTS * 4), 4 * moving);
+    assert_int_equal(read_numbers(text, key_of(text, "scales.timeSamples", KEY), size_of, JOINTS * 3), 3 * moving);
+    for (int j = 0; j < count; j++) { // USD's rows are cglm's columns
+        mat4s local, bound;
+        for (int i = 0; i < 16; i++) local.raw[i / 4][i % 4] = (float)rest[16 * j + i];
+        for (int i = 0; i < 16; i++) bound.raw[i / 4][i % 4] = (float)bind[16 * j + i];
+        for (int m = 0; m < moving; m++) {
+            const double *q = turn + 4 * m, *t = place + 3 * m, *s = size_of + 3 * m;
+            if (strcmp(moved[m], joints[j]) != 0) continue;
+            local = glms_translate_make((vec3s){{(float)t[0], (float)t[1], (float)t[2]}});
+            local =
+                glms_mat4_mul(local, glms_quat_mat4((versors){{(float)q[1], (float)q[2], (float)q[3], (float)q[0]}}));
+            local = glms_scale(local, (vec3s){{(float)s[0], (float)s[1], (float)s[2]}});
+        }
+        world[j] = local;
+        char *slash = strrchr(joints[j], '/');
+        for (int p = 0; slash && p < j; p++) {
+            const size_t length = (size_t)(slash - joints[j]);
+            if (strlen(joints[p]) == length && strncmp(joints[p], joints[j], length) == 0)
+                world[j] = glms_mat4_mul(world[p], local);
+        }
+        skin[j] = glms_mat4_mul(world[j], glms_mat4_inv(bound));
+    }
+    const double *expected = frame_of(&points, KEY);
+    int vertex = 0;
+    double off = 0;
+    for (const char *mesh = text; (mesh = strstr(mesh, "def Mesh")); mesh++) {
+        const int numbers = read_numbers(mesh, numbers_of(mesh, 0, "points = "), point, VERTICES * 3);
+        const int slots = read_numbers(mesh, numbers_of(mesh, 0, "jointIndices = "), slot, VERTICES * EACH);
+        assert_int_equal(read_numbers(mesh, numbers_of(mesh, 0, "jointWeights = "), weight, VERTICES * EACH), slots);
+        const int each = slots / (numbers / 3);
+        for (int v = 0; v < numbers / 3; v++, vertex++) {
+            const vec3s at = {{(float)point[3 * v], (float)point[3 * v + 1], (float)point[3 * v + 2]}};
+            vec3s sum = {{0}};
+            for (int e = each * v; e < each * (v + 1); e++)
+                sum = glms_vec3_muladds(glms_mat4_mulv3(skin[(int)slot[e]], at, 1), (float)weight[e], sum);
+            for (int k = 0; k < 3; k++) off = fmax(off, fabs((double)sum.raw[k] - expected[3 * vertex + k]));
+        }
+    }
+    assert_int_equal(vertex, points.vertices);
+    assert_near(off, 0, 1e-5);
+    free(points.number);
     free(text);
 }
 
