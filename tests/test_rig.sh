@@ -69,6 +69,24 @@ for packed in draco meshopt; do
     done
 done
 
+# Two animals of the same bones, and one whose bones have one name: a chain is on the bones that it names, and no others.
+twins='{"asset":{"version":"2.0"},"nodes":[{"name":"rat","children":[1]},{"name":"tail_1","children":[2],"translation":[1,0,0]},
+    {"name":"tail_2","translation":[1,0,0]},{"name":"rat","children":[4]},{"name":"tail_1","children":[5],"translation":[0,1,0]},
+    {"name":"tail_2","translation":[0,1,0]}]}'
+printf '%s' "$twins" >"$scratch/twins.gltf"
+sed 's/"name":"[a-z_12]*"/"name":"bone"/g' "$scratch/twins.gltf" >"$scratch/bones.gltf"
+expect 0 "two animals of the same bones" "$WIGGLY" rig "$scratch/twins.gltf"
+says "have names of their own" "  rat:tail_2 (3 bones)
+  rat 2:tail_2 2 (3 bones)" "$out"
+for file in "twins:tail_1 2" "bones:bone 5"; do
+    animal=${file%%:*}
+    expect 0 "a chain on the second, in $animal" "$WIGGLY" rig "$scratch/$animal.gltf" --chain "${file#*:}" --plain -o "$scratch/$animal.json"
+    sed -i 's/"knots": \[\]/"knots": [{ "frame": 0, "value": 1 }]/' "$scratch/$animal.json"
+    expect 0 "which goes into a file" "$WIGGLY" export "$scratch/$animal.json" -o "$scratch/$animal.out.gltf"
+    says "with two bones" "2 bones bent by chains" "$out"
+    holds "and bends the second animal's" [ "$(grep -o '"node": *[0-9]*' "$scratch/$animal.out.gltf" | tr -dc '0-9\n' | sort -u | tr '\n' ' ')" = "4 5 " ]
+done
+
 expect 1 "a soft character" "$WIGGLY" rig assets/models/creature.glb
 says "has no bones" "creature.glb: expected a character with bones, got a soft one" "$err"
 expect 1 "a bone that is not there" "$WIGGLY" rig $dog --chain wing -o "$scratch/no.json"

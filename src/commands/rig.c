@@ -1,6 +1,7 @@
 /// `wiggly rig`: adds chains to the bones of a glTF character and writes a scene or an animated glTF file.
 #include "base/error.h"
 #include "base/file.h"
+#include "base/need.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/report.h"
@@ -10,6 +11,7 @@
 #include "rig/opened.h"
 #include "scene/load.h"
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 struct job {
@@ -19,31 +21,34 @@ struct job {
     bool plain, all_clips;
 };
 
-/// Splits "A:B" or "A". Names may contain colons, so the splitting colon is one between two existing bones.
-static void split(const struct gltf *gltf, const char *text, char from[BONE_NAME_SIZE], const char **to)
+/// Splits "A:B" or "A" in place. Names may contain colons, so the splitting colon is one between two existing bones.
+static const char *split(const struct gltf *gltf, char *text)
 {
-    *to = NULL;
-    snprintf(from, BONE_NAME_SIZE, "%s", text);
-    for (const char *colon = strchr(text, ':'); colon && gltf_find_node(gltf, text) < 0;
-         colon = strchr(colon + 1, ':')) {
-        snprintf(from, BONE_NAME_SIZE, "%.*s", (int)(colon - text), text);
-        *to = colon + 1;
-        if (gltf_find_node(gltf, from) >= 0 && gltf_find_node(gltf, *to) >= 0) return;
+    char *last = NULL;
+    if (gltf_find_node(gltf, text) >= 0) return NULL;
+    for (char *colon = strchr(text, ':'); colon; colon = strchr(colon + 1, ':')) {
+        if (last) *last = ':';
+        last = colon;
+        *colon = '\0';
+        if (gltf_find_node(gltf, text) >= 0 && gltf_find_node(gltf, colon + 1) >= 0) break;
     }
+    return last ? last + 1 : NULL;
 }
 
 static bool add_chains(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)
 {
     struct chain_wish wish = job->wish;
+    bool done = true;
     wish.follows = !job->plain && opened->document->rigs[0]->model.clip;
-    for (int c = 0; c < job->chains.count; c++) {
-        char from[BONE_NAME_SIZE];
+    for (int c = 0; done && c < job->chains.count; c++) {
         int rig;
-        split(gltf, job->chains.text[c], from, &wish.to);
+        char *from = need_text(job->chains.text[c]);
+        wish.to = split(gltf, from);
         wish.from = from;
-        if (!chain_make(opened->document, opened->models, &wish, &rig, error)) return false;
+        done = chain_make(opened->document, opened->models, &wish, &rig, error);
+        free(from);
     }
-    return true;
+    return done;
 }
 
 static bool edit(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)

@@ -21,7 +21,7 @@ struct gltf_place {
 };
 
 struct gltf_node {
-    char *name; ///< "node 7" where the file has none
+    char *name; ///< "node 7" where the file has none; no two are alike
     int parent; ///< −1: a root
     int child,
         next; ///< the first node below it, and the next one below its parent, by number; −1: none, and next to a root
@@ -129,7 +129,7 @@ struct gltf_channel {
 };
 
 struct gltf_clip {
-    char *name;         ///< "clip 2" where the file has none
+    char *name;         ///< "clip 2" where the file has none; no two are alike
     double first, last; ///< seconds, of its first and last key
     bool loops;         ///< it ends as it begins
     struct gltf_channel *channels;
@@ -188,7 +188,7 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
 /// Finds each node's child and next from all parents.
 void gltf_link_nodes(struct gltf *gltf);
 
-/// The first node, or the clip, with that name, or −1. NULL is no clip's name.
+/// The node, or the clip, with that name, or −1. NULL is no clip's name.
 int gltf_find_node(const struct gltf *gltf, const char *name);
 int gltf_find_clip(const struct gltf *gltf, const char *name);
 

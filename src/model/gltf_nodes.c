@@ -25,8 +25,7 @@ static bool read_node(struct gltf_reader *r, const json_t *json, size_t number)
     struct gltf_node *node = &r->gltf->nodes[number];
     int skins = (int)json_array_size(gltf_array(r, "skins"));
     gltf_at(r, "nodes[%zu]", number);
-    node->name = gltf_name(r, json, "node", number);
-    return node->name && read_place(r, json, node) && gltf_index(r, json, "mesh", r->gltf->mesh_count, &node->mesh) &&
+    return read_place(r, json, node) && gltf_index(r, json, "mesh", r->gltf->mesh_count, &node->mesh) &&
            gltf_index(r, json, "skin", skins, &node->skin);
 }
 
@@ -148,6 +147,7 @@ bool gltf_read_nodes(struct gltf_reader *r)
     r->gltf->order = r->gltf->nodes ? gltf_make(r, count, sizeof *r->gltf->order) : NULL;
     if (!r->gltf->order) return false;
     r->gltf->node_count = (int)count;
+    if (!gltf_name_all(r, nodes, "node", false, r->gltf->nodes, sizeof *r->gltf->nodes)) return false;
     json_array_foreach(nodes, i, json)
     {
         if (!read_node(r, json, i)) return false;
@@ -331,20 +331,6 @@ static bool read_channel(struct gltf_reader *r, const json_t *json, const json_t
     return true;
 }
 
-/// A clip's name in its file. Scenes find clips by name, so a second clip of the same name gets a number.
-static char *name_clip(struct gltf_reader *r, const json_t *json, size_t number)
-{
-    char *name = gltf_name(r, json, "clip", number);
-    while (name && gltf_find_clip(r->gltf, name) >= 0) {
-        char *longer;
-        if (asprintf(&longer, "%s %zu", name, number + 1) < 0) longer = NULL;
-        name = longer ? gltf_text(r, longer) : NULL;
-        if (!longer) fail_no_memory(r->error, r->file.path);
-        free(longer);
-    }
-    return name;
-}
-
 static bool read_clip(struct gltf_reader *r, const json_t *json, size_t number, struct gltf_clip *clip)
 {
     const json_t *channels = json_object_get(json, "channels"), *samplers = json_object_get(json, "samplers"),
@@ -370,12 +356,12 @@ bool gltf_read_clips(struct gltf_reader *r)
     size_t i;
     gltf_at(r, "animations");
     r->gltf->clips = gltf_make(r, json_array_size(clips), sizeof *r->gltf->clips);
-    if (!r->gltf->clips) return false;
+    if (!r->gltf->clips || !gltf_name_all(r, clips, "clip", true, r->gltf->clips, sizeof *r->gltf->clips))
+        return false;
     json_array_foreach(clips, i, clip)
     {
-        char *name = name_clip(r, clip, i);
-        r->gltf->clips[r->gltf->clip_count++].name = name;
-        if (!name || !read_clip(r, clip, i, &r->gltf->clips[i])) return false;
+        r->gltf->clip_count++;
+        if (!read_clip(r, clip, i, &r->gltf->clips[i])) return false;
     }
     return true;
 }

@@ -1,5 +1,7 @@
 /// Reads a glTF character: its parts in order, and what they share.
 #include "model/gltf_read.h"
+#include "base/names.h"
+#include "base/need.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdarg.h>
@@ -8,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PIXEL_ROOM = 256 << 20, VERTEX_LIMIT = 1 << 24 };
+enum { PIXEL_ROOM = 256 << 20, VERTEX_LIMIT = 1 << 24, NAME_ROOM = 512 };
 
 void gltf_at(struct gltf_reader *r, const char *format, ...)
 {
@@ -79,12 +81,43 @@ char *gltf_text(struct gltf_reader *r, const char *text)
     return copy ? strcpy(copy, text) : NULL;
 }
 
+/// The file's own name; NULL: none, or one that nobody could see.
+static const char *own_name(const json_t *object)
+{
+    const char *name = json_string_value(json_object_get(object, "name"));
+    return name && name[strspn(name, " \t\r\n")] ? name : NULL;
+}
+
 char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n)
 {
     char made[64];
-    const char *name = json_string_value(json_object_get(object, "name"));
+    const char *name = own_name(object);
     snprintf(made, sizeof made, "%s %zu", kind, n);
-    return gltf_text(r, name && name[0] ? name : made);
+    return gltf_text(r, name ? name : made);
+}
+
+bool gltf_name_all(struct gltf_reader *r, const json_t *array, const char *kind, bool by_place, void *things,
+                   size_t size)
+{
+    struct names names = {0};
+    const json_t *object;
+    size_t i, room = 0;
+    json_array_foreach(array, i, object) room += NAME_ROOM + 4 * json_string_length(json_object_get(object, "name"));
+    bool done = need_has_room(room) || fail_no_memory(r->error, r->file.path);
+    for (int pass = 0; pass < 2; pass++) {
+        json_array_foreach(array, i, object)
+        {
+            char **name = (char **)((char *)things + i * size);
+            const bool is_first = pass == 0 && own_name(object) && !names_has(&names, own_name(object));
+            if (!done || (pass == 0 ? !is_first : *name != NULL)) continue;
+            if (by_place) names.number = (int)i + 1;
+            char *wanted = gltf_name(r, object, kind, i);
+            *name = wanted ? gltf_text(r, names_add(&names, wanted)) : NULL;
+            done = *name;
+        }
+    }
+    names_free(&names);
+    return done;
 }
 
 const json_t *gltf_array(const struct gltf_reader *r, const char *key) { return json_object_get(r->file.json, key); }

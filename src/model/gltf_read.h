@@ -44,6 +44,11 @@ bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, fl
 char *gltf_text(struct gltf_reader *r, const char *text);
 char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n);
 
+/// Names all things of an array, each of which begins with its `char *name`. Scenes find them by name, so a name that repeats gets a number:
+/// "bone", "bone 2"; with `by_place` its place in the file, counted from 1. A thing that is called "bone 2" in the file keeps that name.
+bool gltf_name_all(struct gltf_reader *r, const json_t *array, const char *kind, bool by_place, void *things,
+                   size_t size);
+
 /// An array of the file's root; NULL if there is none.
 const json_t *gltf_array(const struct gltf_reader *r, const char *key);
 

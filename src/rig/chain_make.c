@@ -1,5 +1,6 @@
 /// Makes chains with their own splines.
 #include "rig/chain_make.h"
+#include "base/need.h"
 #include "maths/maths.h"
 #include "rig/posing_kind.h"
 #include "rig/strand.h"
@@ -7,9 +8,8 @@
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
-
-enum { NAME_SIZE = 512 };
 
 static const double USUAL_LENGTH = 0.5, USUAL_FREQUENCY = 1.5; ///< longer chains swing slower, like a pendulum
 static const double SLOWEST = 0.8, FASTEST = 3.5, USUAL_DAMPING = 0.12;
@@ -17,25 +17,19 @@ static const double WHOLE_LAG = 110;  ///< degrees from the first bone to the ti
 static const double WHOLE_BEND = 110; ///< degrees for 1 of a spline whose knots set it
 static const double DEGREES = 57.29577951308232;
 
-static bool is_taken(const struct document *document, const char *name)
+/// A chain's name: its first bone's without the number at the end, made unique. The caller frees it.
+static char *name_chain(const struct document *document, const char *bone)
 {
-    for (int r = 0; r < document->rig_count; r++) {
-        if (document->rigs[r]->name && strcmp(document->rigs[r]->name, name) == 0) return true;
-    }
-    return false;
-}
-
-/// A chain's name: its first bone's without the number at the end, made unique.
-static void name_chain(const struct document *document, const char *bone, char name[NAME_SIZE])
-{
-    char other[BONE_NAME_SIZE];
-    int length = (int)strnlen(bone, BONE_NAME_SIZE);
+    char other[BONE_NAME_SIZE], *stem = need_text(bone);
+    size_t length = strlen(stem);
     if (!bone_other_side(bone, other)) { // ear_1_L keeps its whole name
         while (length > 1 && isdigit((unsigned char)bone[length - 1])) length--;
         while (length > 1 && strchr("_-. ", bone[length - 1])) length--;
     }
-    snprintf(name, NAME_SIZE, "%.*s", length, bone);
-    for (int n = 2; is_taken(document, name); n++) snprintf(name, NAME_SIZE, "%.*s %d", length, bone, n);
+    stem[length] = '\0';
+    char *name = edit_rig_free_name(document, stem);
+    free(stem);
+    return name;
 }
 
 /// Length along the bones at rest, metres.
@@ -77,11 +71,12 @@ static bool set(const struct plan *plan, int spline, enum parameter parameter, s
 /// Appends a spline for one axis.
 static bool add_spline(const struct plan *plan, const char *axis, struct error *error)
 {
-    char name[NAME_SIZE];
+    char *name;
     const int spline = plan->document->spline_count;
-    snprintf(name, sizeof name, "%s %s", plan->chain, axis);
-    return edit_spline_add(plan->document, spline, name, NULL, error) &&
-           set(plan, spline, PARAMETER_FREQUENCY, param_number(plan->frequency), error) &&
+    if (asprintf(&name, "%s %s", plan->chain, axis) < 0) need_failed();
+    const bool added = edit_spline_add(plan->document, spline, name, NULL, error);
+    free(name);
+    return added && set(plan, spline, PARAMETER_FREQUENCY, param_number(plan->frequency), error) &&
            set(plan, spline, PARAMETER_DAMPING, param_number(plan->damping), error) &&
            set(plan, spline, PARAMETER_START, param_number(plan->loops ? WIGGLY_LOOP : WIGGLY_REST), error);
 }
@@ -140,7 +135,6 @@ bool chain_make(struct document *document, const struct models *models, const st
 {
     const struct rig *model = document->rigs[wish->model];
     const struct imported *imported = models_imported(models, document, wish->model);
-    char name[NAME_SIZE];
     struct chain_bones bones;
     if (!imported)
         return fail(error, ERROR_INPUT, "%s: it could not be read, so it has no bones", model->model.model);
@@ -150,7 +144,7 @@ bool chain_make(struct document *document, const struct models *models, const st
     if (from >= 0 && !wish->to && last < 0) return false;
     const char *to = wish->to ? wish->to : last < 0 ? wish->from : gltf->nodes[last].name;
     if (!chain_find(gltf, wish->from, to, &bones, error)) return false;
-    name_chain(document, wish->from, name);
+    char *name = name_chain(document, wish->from);
     const int clip = gltf_find_clip(gltf, model->model.clip);
     const double length = length_of(imported, &bones, model->model.scale);
     const double frequency = fmin(fmax(USUAL_FREQUENCY * sqrt(USUAL_LENGTH / length), SLOWEST), FASTEST);
@@ -169,10 +163,16 @@ bool chain_make(struct document *document, const struct models *models, const st
     const struct chain *twin = wish->own ? NULL : find_twin(document, wish);
     const double bend =
         wish->follows ? chain_bend_a_metre(imported, &bones, model->model.scale) : WHOLE_BEND / bones.count;
-    if (!twin) return add_whole(&plan, &chain, bones.count, bend, rig, error);
-    chain.turn = -twin->turn;
-    chain.mirror = !twin->mirror;
-    chain.channels = twin->channels;
-    chain.channel_count = twin->channel_count;
-    return add_chain(&plan, &chain, rig, error);
+    bool done;
+    if (twin) {
+        chain.turn = -twin->turn;
+        chain.mirror = !twin->mirror;
+        chain.channels = twin->channels;
+        chain.channel_count = twin->channel_count;
+        done = add_chain(&plan, &chain, rig, error);
+    } else {
+        done = add_whole(&plan, &chain, bones.count, bend, rig, error);
+    }
+    free(name);
+    return done;
 }

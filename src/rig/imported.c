@@ -257,17 +257,16 @@ bool bone_other_side(const char *name, char other[BONE_NAME_SIZE])
         for (int side = 0; side < 2; side++) {
             const char *at = strstr(name, words[w][side]);
             if (!at) continue;
-            snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)(at - name), name, words[w][!side],
-                     at + strlen(words[w][side]));
-            return true;
+            return snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)(at - name), name, words[w][!side],
+                            at + strlen(words[w][side])) < BONE_NAME_SIZE;
         }
     }
     for (size_t i = 0; name[i]; i++) {
         for (int k = 0; k < 4; k++) {
             const char *letter = letters[k / 2][k % 2];
             if (name[i] != letter[0] || !stands_alone(name, i)) continue;
-            snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)i, name, letters[k / 2][!(k % 2)], name + i + 1);
-            return true;
+            return snprintf(other, BONE_NAME_SIZE, "%.*s%s%s", (int)i, name, letters[k / 2][!(k % 2)], name + i + 1) <
+                   BONE_NAME_SIZE;
         }
     }
     return false;

@@ -63,10 +63,10 @@ int chain_end(const struct imported *imported, int from, struct error *error);
 
 // --- pairs
 
-enum { BONE_NAME_SIZE = 256 };
+enum { BONE_NAME_SIZE = 1024 };
 
 /// The name of the same bone on the other side: ear_1_L → ear_1_R, LeftHand → RightHand, arm.l.002 → arm.r.002. false where a name has no
-/// side.
+/// side, or is too long.
 bool bone_other_side(const char *name, char other[BONE_NAME_SIZE]);
 
 /// The bones of the same chain on the other side, by the names of its ends. false if there is none.

@@ -51,6 +51,8 @@ bool edit_range(struct document *document, int first, int last, enum range_fit f
 
 /// Appends a copy of a rig. A taken name or title gets a number.
 bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error);
+/// The name that edit_rig_add() gives a rig called `wanted`; the caller frees it.
+char *edit_rig_free_name(const struct document *document, const char *wanted);
 /// Refused while a chain or spline refers to it.
 bool edit_rig_remove(struct document *document, int rig, struct error *error);
 /// Replaces a rig by a changed copy of it with the same name, pins and paint.

@@ -1,5 +1,6 @@
 /// Edits that add, rename and remove rigs, those of imported characters, chains on them, and of pins.
 #include "base/file.h"
+#include "base/names.h"
 #include "base/need.h"
 #include "scene/editing.h"
 #include "scene/pins.h"
@@ -68,14 +69,26 @@ static bool is_file_of_any(const struct document *document, const char *name)
     return any;
 }
 
-/// A free rig name: `wanted`, if need be with a number.
-static char *free_name(const struct document *document, const char *wanted)
+static void take(struct names *names, const char *name)
 {
-    char name[NAME_SIZE];
-    snprintf(name, sizeof name, "%s", wanted);
-    for (int n = 2; is_taken(document, name, -1) || is_file_of_any(document, name); n++)
-        snprintf(name, sizeof name, "%.*s %d", NAME_SIZE - 16, wanted, n);
-    return need_text(name);
+    if (name && !names_has(names, name)) names_add(names, name);
+}
+
+char *edit_rig_free_name(const struct document *document, const char *wanted)
+{
+    struct names names = {0};
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        take(&names, rig->name);
+        if (rig->kind == RIG_CHAIN && rig->chain.by_file) take(&names, rig->chain.model);
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct joint_motion *motion = motion_of_spline(document, s);
+        if (motion && motion->by_file) take(&names, motion->model);
+    }
+    char *name = need_text(names_add(&names, wanted));
+    names_free(&names);
+    return name;
 }
 
 static bool check_name(const struct document *document, int rig, const char *name, struct error *error)
@@ -139,9 +152,10 @@ static char *new_name(const struct document *document, const struct rig *rig)
     const bool is_file = !(rig->name && rig->name[0]) && (rig->kind == RIG_CHARACTER || rig->kind == RIG_MODEL);
     const char *title = is_file ? path_name(rig_title(rig)) : rig_title(rig);
     const char *dot = is_file ? strrchr(title, '.') : NULL;
-    char stem[NAME_SIZE];
-    snprintf(stem, sizeof stem, "%.*s", (int)(dot && dot > title ? (size_t)(dot - title) : strlen(title)), title);
-    return free_name(document, stem[0] ? stem : "model");
+    char *stem = name_from(title, dot && dot > title ? (size_t)(dot - title) : strlen(title));
+    char *name = edit_rig_free_name(document, stem[0] ? stem : "model");
+    free(stem);
+    return name;
 }
 
 bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error)

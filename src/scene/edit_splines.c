@@ -1,4 +1,5 @@
 /// Edits of splines: the list of them, their parameters and their knots.
+#include "base/names.h"
 #include "base/need.h"
 #include "scene/editing.h"
 #include "scene/fields.h"
@@ -28,12 +29,11 @@ static char *free_name(const struct document *document, const char *base)
     while (stem > 0 && isdigit((unsigned char)base[stem - 1])) stem--;
     bool numbered = stem > 1 && stem < length && base[stem - 1] == ' ';
     if (numbered) length = stem - 1;
-    char *name = need(length + 16, 1);
-    memcpy(name, base, length);
-    name[length] = '\0';
-    for (int number = 2; document_find_spline(document, name) >= 0; number++) {
-        snprintf(name + length, 16, " %d", number);
-    }
+    struct names names = {0};
+    for (int i = 0; i < document->spline_count; i++) names_add(&names, document->splines[i]->name);
+    char *wanted = name_from(base, length), *name = need_text(names_add(&names, wanted));
+    names_free(&names);
+    free(wanted);
     return name;
 }
 

@@ -1,11 +1,13 @@
 /// The selected bone of an imported character, chains of its bones, and splines that follow it.
 #include "editor/core/bones.h"
+#include "base/need.h"
 #include "editor/core/core.h"
 #include "rig/chain_make.h"
 #include "rig/import.h"
 #include "rig/imported.h"
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const struct imported *bones_character(const struct core *core, int model)
@@ -244,13 +246,13 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
         core_message(core, true, "%s", error.text);
         return;
     }
-    char old[BONE_NAME_SIZE];
-    snprintf(old, sizeof old, "%s", contents.chain.to);
+    char *old = need_text(contents.chain.to);
     contents.chain.from = ends[0];
     contents.chain.to = ends[1];
     core_begin(core, "Set chain's bones", 0);
     const bool done =
         edit_rig_set(core->document, chain, &contents, &core->error) && follow_end(core, contents.name, old, ends[1]);
+    free(old);
     if (!core_end(core, done)) return;
     const struct rig *rig = core->document->rigs[chain];
     core_message(core, false, "%.80s goes from %.100s to %.100s.", rig_title(rig), rig->chain.from, rig->chain.to);

@@ -101,11 +101,11 @@ static bool copy_chains(struct core *core, int model, const char *copy)
     for (int r = 0; r < count && done; r++) {
         if (r == model || rig_body(core->document, r) != model) continue;
         struct rig chain = *core->document->rigs[r];
-        char name[256];
-        snprintf(name, sizeof name, "%s", copy);
+        char *name = need_text(copy);
         chain.chain.model = name;
         chain.pin_count = 0;
         done = edit_rig_add(core->document, &chain, &core->error);
+        free(name);
     }
     return done;
 }
