@@ -38,6 +38,40 @@ cp $scenes/tail.json "$scratch/stroll.json"
 expect 0 "a scene of another name" "$WIGGLY" export "$scratch/stroll.json" -o "$scratch/a.gltf"
 holds "gives its name to the clip" grep -q '"name": *"stroll"' "$scratch/a.gltf"
 
+# Names of any length and script: whole where others look a bone up, and UTF-8 everywhere.
+skeleton() { # <name of a bone>: a file of three, numbered
+    printf '{"asset":{"version":"2.0"},"nodes":[{"name":"%s0","children":[1]},{"name":"%s1","children":[2],"translation":[0,1,0]},' "$1" "$1"
+    printf '{"name":"%s2","translation":[0,1,0]}],"skins":[{"joints":[0,1,2]}]}' "$1"
+}
+for name in hair-front-left-strand-a-bone-0 character_rig_export_tail_spring_chain_bone_with_a_long_name_ \
+    "x$(printf '尻尾%.0s' {1..30})" "Кость хвоста лисы, номер " "$(printf 'ab%.0s' {1..300})"; do
+    what=${name::20}…
+    skeleton "$name" >"$scratch/named.gltf"
+    expect 0 "bones called $what" "$WIGGLY" rig "$scratch/named.gltf" --chain "${name}0" --plain -o "$scratch/named.json"
+    for ending in glb usda bvh csv; do
+        expect 0 "as .$ending" timeout 20 "$WIGGLY" export "$scratch/named.json" -o "$scratch/named.$ending"
+    done
+    holds "have three names in the .usda" [ "$(grep -m1 'joints = ' "$scratch/named.usda" | grep -o '[^"/]*",' | sort -u | wc -l)" = 2 ]
+    for text in "$scratch/named.usda" "$scratch/named.bvh" "$scratch/named.json"; do
+        holds "${text##*.} is UTF-8" iconv -f UTF-8 -t UTF-8 -o /dev/null "$text"
+    done
+    holds "are whole in the .bvh" grep -qF "ROOT $(tr ' ' _ <<<"${name}0")" "$scratch/named.bvh"
+done
+holds "names that are too long for USD are there in full" grep -qF "jointNames = [\"${name}0\", " "$scratch/named.usda"
+skeleton '左.' >"$scratch/named.gltf"
+"$WIGGLY" rig "$scratch/named.gltf" --chain '左.0' --plain -o "$scratch/named.json" >"$scratch/said"
+expect 0 "bones of another script as .usda" "$WIGGLY" export "$scratch/named.json" -o "$scratch/named.usda"
+holds "have their letters" grep -qF 'joints = ["左_0", "左_0/左_1", "左_0/左_1/左_2"]' "$scratch/named.usda"
+holds "and their names" grep -qF 'jointNames = ["左.0", "左.1", "左.2"]' "$scratch/named.usda"
+for name in "$(printf 'Персонаж_%.0s' {1..8})" "x$(printf '尻%.0s' {1..40})"; do
+    sed "s/\"name\": \"tail\"/\"name\": \"$name\"/" $scenes/tail.json >"$scratch/$name.json"
+    for ending in glb usda bvh; do
+        expect 0 "a scene and a rig called ${name::9}… as .$ending" "$WIGGLY" export "$scratch/$name.json" -o "$scratch/long.$ending" --frames 0:4
+    done
+    holds "the rig has its name in the .bvh" grep -q "^ROOT ${name}_" "$scratch/long.bvh"
+    holds "and in the .usda" grep -qF "displayName = \"$name\"" "$scratch/long.usda"
+done
+
 # A character of several files stays beside them.
 size=$(od -An -tu4 -j12 -N4 assets/models/dog.glb | tr -d ' ')
 mkdir "$scratch/beside" "$scratch/away"

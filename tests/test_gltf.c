@@ -347,3 +347,32 @@ GLTF_TEST(no_two_names_are_alike)
     for (int n = 0; n < b->gltf.node_count; n++) assert_string_equal(b->gltf.nodes[n].name, nodes[n]);
     for (int c = 0; c < b->gltf.clip_count; c++) assert_string_equal(b->gltf.clips[c].name, clips[c]);
 }
+
+/// From where glTF's exporters put them, VRM 0.x among these; a name that is missing is none.
+GLTF_TEST(names_of_targets)
+{
+    static const char *const members[] = {
+        "\"extras\":{\"targetNames\":[\"Blink\",\"Joy\"]},\"primitives\":[{\"extras\":{\"targetNames\":[\"no\"]},%s}"
+        "]",
+        "\"primitives\":[{\"extras\":{\"targetNames\":[\"Blink\",\"Joy\"]},%s}]",
+        "\"extras\":{\"other\":1},\"primitives\":[{%1$s},{\"extras\":{\"targetNames\":[\"Blink\",\"Joy\"]},%1$s}]",
+        "\"primitives\":[{\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0,\"extra\":{\"name\":\"Blink\"}"
+        "},"
+        "{\"POSITION\":0,\"extras\":{\"name\":\"Joy\"}}]}]",
+        "\"extras\":{\"targetNames\":[\"Blink\",7]},\"primitives\":[{%s}]",
+    };
+    add_triangle(b);
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        char mesh[512], all[640];
+        snprintf(mesh, sizeof mesh, members[i],
+                 "\"attributes\":{\"POSITION\":0},\"targets\":[{\"POSITION\":0},{\"POSITION\":0}]");
+        snprintf(all, sizeof all, "\"meshes\":[{%s}]," ONE_NODE, mesh);
+        read_built(b, all);
+        assert_string_equal(gltf_target_name(b->gltf.meshes, 0), "Blink");
+        if (i + 1 < sizeof members / sizeof *members)
+            assert_string_equal(gltf_target_name(b->gltf.meshes, 1), "Joy");
+        else
+            assert_null(gltf_target_name(b->gltf.meshes, 1));
+        if (i + 1 < sizeof members / sizeof *members) gltf_free(&b->gltf);
+    }
+}

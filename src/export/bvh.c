@@ -4,16 +4,9 @@
 #include "export/form.h"
 #include "maths/maths.h"
 #include "model/vector.h"
-#include <ctype.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/// A name without spaces, at which readers end one.
-static void write_name(FILE *out, const char *name)
-{
-    for (const char *c = name; *c; c++) fputc(isspace((unsigned char)*c) ? '_' : *c, out);
-}
 
 static void write_offset(FILE *out, const float offset[3], int depth)
 {
@@ -30,7 +23,7 @@ static void write_end(FILE *out, const float tip[3], int depth)
 
 struct bvh {
     FILE *out;
-    const struct form *form;
+    struct form *form;
     const struct keys *keys;
     bool *has_place;   ///< of each joint: whether it moves in its parent
     double (*seen)[3]; ///< of each joint: its angles at the key before, so that turns continue past half a turn
@@ -53,9 +46,8 @@ static int write_joint(const struct bvh *bvh, int j, int depth)
     const struct form_joint *joint = &bvh->form->joints[j];
     const bool is_root = j == bvh->form->first_bone;
     int next = j + 1;
-    fprintf(out, "%*s%s ", 2 * depth, "", is_root ? "ROOT" : "JOINT");
-    write_name(out, joint->name);
-    fprintf(out, "\n%*s{\n", 2 * depth, "");
+    fprintf(out, "%*s%s %s\n%*s{\n", 2 * depth, "", is_root ? "ROOT" : "JOINT",
+            form_word(&bvh->form->pool, joint->name), 2 * depth, "");
     write_offset(out, is_root ? none : joint->offset, depth + 1);
     fprintf(out, "%*sCHANNELS %s\n", 2 * depth + 2, "",
             bvh->has_place[j] ? "6 Xposition Yposition Zposition Yrotation Xrotation Zrotation"

@@ -142,13 +142,11 @@ bool range_choose_keys(struct export_range *range, struct export_report *report,
     return true;
 }
 
-/// The scene's own name, or "wiggly".
-static void make_title(const struct document *document, char title[FORM_NAME])
+/// The scene's own name, or "wiggly"; the caller frees it.
+static char *make_title(const struct document *document)
 {
-    const char *path = document->path;
-    const char *file = path ? path_name(path) : NULL;
-    const char *dot = file ? strrchr(file, '.') : NULL;
-    snprintf(title, FORM_NAME, "%.*s", dot ? (int)(dot - file) : 60, file ? file : "wiggly");
+    const char *file = document->path ? path_name(document->path) : "wiggly", *dot = strrchr(file, '.');
+    return name_from(file, dot ? (size_t)(dot - file) : strlen(file));
 }
 
 /// "47 KB"
@@ -209,15 +207,17 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
         .rig_choice = options->rig_choice ? options->rig_choice : "--rig",
     };
     *report = (struct export_report){0};
-    make_title(posing->document, range.title);
     if (!range.format) {
         export_endings(endings);
         return fail(error, ERROR_USAGE, "%s: expected a name ending in %s", path, endings);
     }
     if (options->all_clips && range.format->write != gltf_write)
         return fail(error, ERROR_USAGE, "%s: holds one clip: all clips need .glb or .gltf", path);
-    return choose_rigs(&range, error) && range_choose_keys(&range, report, error) &&
-           write_file(&range, report, error);
+    range.title = make_title(posing->document);
+    const bool done =
+        choose_rigs(&range, error) && range_choose_keys(&range, report, error) && write_file(&range, report, error);
+    free(range.title);
+    return done;
 }
 
 // --- the rigs at the times that are exported

@@ -16,14 +16,41 @@ const struct form_kind *form_kind(enum rig_kind kind) { return kinds[kind]; }
 
 const char *form_name(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
 
-/// Other programs identify objects by name, so rigs of the same name get a number.
-static void make_name(const struct document *document, int rig, char name[FORM_NAME])
+char *form_text(struct pool *pool, const char *first, const char *second, const char *third)
 {
-    const char *wanted = form_name(document->rigs[rig]);
-    int number = 1;
-    for (int i = 0; i < rig; i++) number += strcmp(form_name(document->rigs[i]), wanted) == 0;
-    snprintf(name, FORM_NAME, "%.40s", wanted);
-    if (number > 1) snprintf(name + strlen(name), 16, "_%d", number);
+    char *text = pool_take(pool, strlen(first) + strlen(second) + strlen(third) + 1, 1);
+    stpcpy(stpcpy(stpcpy(text, first), second), third);
+    return text;
+}
+
+static bool is_space(uint32_t c)
+{
+    return c <= ' ' || c == 0x7F || (c >= 0x80 && c <= 0xA0) || c == 0x1680 || (c >= 0x2000 && c <= 0x200B) ||
+           c == 0x2028 || c == 0x2029 || c == 0x202F || c == 0x205F || c == 0x3000;
+}
+
+char *form_word(struct pool *pool, const char *name)
+{
+    char *word = form_text(pool, name, "", ""), *to = word;
+    for (const char *from = name; *from;) {
+        const char *letter = from;
+        if (is_space(utf8_next(&from))) {
+            *to++ = '_';
+        } else {
+            to = mempcpy(to, letter, (size_t)(from - letter));
+        }
+    }
+    *to = '\0';
+    return word;
+}
+
+/// Other programs identify objects by name, so rigs of the same name get a number.
+static void name_rig(const struct document *document, int rig, struct form *form)
+{
+    struct names names = {.between = "_"};
+    for (int i = 0; i < rig; i++) names_add(&names, form_name(document->rigs[i]));
+    form->name = form_text(&form->pool, names_add(&names, form_name(document->rigs[rig])), "", "");
+    names_free(&names);
 }
 
 bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error)
@@ -34,7 +61,7 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     *form = (struct form){.kind = kinds[source->kind], .holder = -1};
     if (range->format->holds == FORM_JOINTS && source->kind == RIG_MODEL) form->kind = &skeleton_form;
     if (!range_pose(range, rig, 0, &pose, error)) return false;
-    make_name(document, rig, form->name);
+    name_rig(document, rig, form);
     if (form->kind->open(range->posing, rig, &pose, form, error)) return true;
     form_close(form);
     return false;
@@ -64,6 +91,7 @@ void form_channels(const struct export_range *range, int rig, const struct rig_p
 
 void form_close(struct form *form)
 {
+    names_free(&form->names);
     pool_free(&form->pool);
     *form = (struct form){0};
 }

@@ -4,11 +4,12 @@
 #define EXPORT_FORM_H
 
 #include "base/file.h"
+#include "base/names.h"
 #include "base/pool.h"
 #include "export/export.h"
 #include "model/motion.h"
 
-enum { FORM_INFLUENCES = 4, FORM_NAME = 64, FORMAT_SUMMARY = 96 };
+enum { FORM_INFLUENCES = 4, FORMAT_SUMMARY = 96 };
 
 // --- files in a folder beside the exported file; all of them are written, or none
 
@@ -50,7 +51,7 @@ struct export_range {
     int key_count;
     const char *path;             ///< of the exported file
     const char *rig_choice;       ///< the option for choosing a rig, as named in errors
-    char title[FORM_NAME];        ///< name of the animation, by default the scene's
+    char *title;                  ///< name of the animation, by default the scene's
     char summary[FORMAT_SUMMARY]; ///< a short description of the result
     long done, total;             ///< keys of all rigs
     struct sidecars sidecars;     ///< files that the exported file refers to
@@ -108,7 +109,7 @@ bool range_proceed(struct export_range *range, struct error *error);
 enum { FORM_MESH = 1, FORM_JOINTS = 2, FORM_POINTS = 4, FORM_FILE = 8, FORM_IN_MODEL = 16 };
 
 struct form_joint {
-    char name[FORM_NAME];
+    const char *name;
     int parent;      ///< −1: the root
     float offset[3]; ///< at rest, relative to the parent
     float bind[3];   ///< position in the mesh's space; joints at rest are not rotated
@@ -122,8 +123,9 @@ struct form_target {
 
 struct form {
     const struct form_kind *kind;
-    struct pool pool; ///< of what is made for it, and its keys
-    char name[FORM_NAME];
+    struct pool pool;   ///< of what is made for it, and its keys
+    struct names names; ///< of joints, where these must differ
+    const char *name;
     int vertex_count;
     const float (*position)[3], (*normal)[3], (*color)[3]; ///< colours are linear
     const uint32_t *indices;
@@ -183,6 +185,12 @@ void form_channels(const struct export_range *range, int rig, const struct rig_p
 
 /// A rig's name in files and messages: its own, or its kind's word.
 const char *form_name(const struct rig *rig);
+
+/// A name as one word, with "_" for each space, at which readers of text end it. The memory is the pool's.
+char *form_word(struct pool *pool, const char *name);
+
+/// Three texts as one, in the pool's memory.
+char *form_text(struct pool *pool, const char *first, const char *second, const char *third);
 
 /// Creates a rig's form. Returns false with an error message and nothing to close.
 bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error);

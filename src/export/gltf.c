@@ -11,8 +11,8 @@
 /// `scale` times a target of the form.
 struct file_target {
     int source;
-    float scale;          ///< below 0 for the negative one
-    char name[FORM_NAME]; ///< "up.re"; "up.-re" for the negative one
+    float scale;      ///< below 0 for the negative one
+    const char *name; ///< "up.re"; "up.-re" for the negative one
 };
 
 struct file_targets {
@@ -42,29 +42,30 @@ static bool is_ever_negative(const struct keys *keys, int target)
 }
 
 /// "up.re" → "up.-re", "smile" → "-smile"
-static void name_negative(const char *name, char negative[FORM_NAME])
+static const char *negative(struct pool *pool, const char *name)
 {
     const char *dot = strrchr(name, '.');
-    const int before = dot ? (int)(dot - name) + 1 : 0;
-    snprintf(negative, FORM_NAME, "%.*s-%s", before < FORM_NAME ? before : FORM_NAME, name, name + before);
+    const size_t before = dot ? (size_t)(dot - name) + 1 : 0;
+    char *start = form_text(pool, name, "", "");
+    start[before] = '\0';
+    return form_text(pool, start, "-", name + before);
 }
 
-static void make_targets(const struct form *form, const struct keys *keys, bool clamped, struct file_targets *targets)
+static void make_targets(struct form *form, const struct keys *keys, bool clamped, struct file_targets *targets)
 {
     const int count = form->target_count;
     *targets = (struct file_targets){.clamped = clamped, .count = count};
     targets->list = need_zeroed(2 * (size_t)count, sizeof *targets->list);
     for (int t = 0; t < count; t++) {
         struct file_target *target = &targets->list[t];
-        *target = (struct file_target){.source = t, .scale = 1.0f};
+        *target = (struct file_target){.source = t, .scale = 1.0f, .name = form->targets[t].figure.name};
         if (clamped) target->scale = largest_of(form, keys, form->targets[t].group);
-        snprintf(target->name, FORM_NAME, "%s", form->targets[t].figure.name);
     }
     for (int t = 0; clamped && t < count; t++) {
         if (!is_ever_negative(keys, t)) continue;
         struct file_target *target = &targets->list[targets->count++];
-        *target = (struct file_target){.source = t, .scale = -targets->list[t].scale};
-        name_negative(form->targets[t].figure.name, target->name);
+        *target = (struct file_target){
+            .source = t, .scale = -targets->list[t].scale, .name = negative(&form->pool, targets->list[t].name)};
     }
 }
 
@@ -126,7 +127,11 @@ void gltf_motion_add_keys(struct gltf_motion *motion, json_int_t node, enum gltf
 
 json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name)
 {
-    return json_pack("{s:s, s:O, s:O}", "name", name, "samplers", motion->samplers, "channels", motion->channels);
+    char *valid = name_from(name, strlen(name)); // it may be an argument
+    json_t *json =
+        json_pack("{s:s, s:O, s:O}", "name", valid, "samplers", motion->samplers, "channels", motion->channels);
+    free(valid);
+    return json;
 }
 
 // --- a scene

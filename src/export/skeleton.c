@@ -23,13 +23,6 @@ static vec3s place_of(const struct source *source, const struct gltf_pose *pose,
     return joint == ORIGIN ? glms_vec3_zero() : vec3_from(pose->world[source->node[joint]] + 12);
 }
 
-static bool is_named(const struct form *form, const char *name)
-{
-    for (int j = 0; j < form->joint_count; j++)
-        if (strcmp(form->joints[j].name, name) == 0) return true;
-    return false;
-}
-
 static int add_joint(struct form *form, int node, int parent)
 {
     struct source *source = form->owned;
@@ -37,8 +30,7 @@ static int add_joint(struct form *form, int node, int parent)
     const char *name = source->imported->gltf.nodes[node].name;
     const int j = form->joint_count;
     struct form_joint *joint = &form->joints[j];
-    snprintf(joint->name, FORM_NAME, "%.48s", name);
-    for (int n = j; is_named(form, joint->name); n++) snprintf(joint->name, FORM_NAME, "%.48s_%d", name, n);
+    joint->name = names_add(&form->names, form_word(&form->pool, name));
     source->node[j] = node;
     source->joint_of[node] = j;
     joint->parent = parent;
@@ -70,10 +62,10 @@ static void add_skeleton(struct form *form)
         if (skeleton->bones[b].child >= 0) source->joint_of[skeleton->bones[b].child] = TO_ADD;
     }
     form->joints[ORIGIN].parent = -1;
-    snprintf(form->joints[ORIGIN].name, FORM_NAME, "%s", form->name);
     form->joint_count = 1;
     for (int n = 0; n < gltf->node_count; n++)
         if (gltf->nodes[n].parent < 0) add_joints(form, n, ORIGIN);
+    form->joints[ORIGIN].name = names_add(&form->names, form_word(&form->pool, form->name));
     for (int j = 1; j < form->joint_count; j++) tops += form->joints[j].parent == ORIGIN;
     form->first_bone = tops == 1 ? 1 : ORIGIN; // a single one needs none to hold it
     for (int b = 0; b < skeleton->count; b++) {
@@ -95,6 +87,7 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
                               .turn = pool_take(&form->pool, most, sizeof *source->turn)};
     for (int k = 0; k < 3; k++) source->still = fmaxf(source->still, STILL * (gltf->hi[k] - gltf->lo[k]));
     form->joints = pool_take(&form->pool, most, sizeof *form->joints);
+    form->names.between = "_";
     add_skeleton(form);
     return form->joint_count > 1 ||
            fail(error, ERROR_INPUT, "\"%s\" has no bones", rig_title(posing->document->rigs[rig]));

@@ -1,7 +1,6 @@
 /// A tail as a form: the fox, skinned to the tail's joints.
 #include "export/form.h"
 #include "model/fox.h"
-#include <stdio.h>
 #include <string.h>
 
 /// The fox's mesh, scaled to its tail's length.
@@ -53,7 +52,7 @@ static void add_joints(struct form *form, const struct gltf *gltf, const float r
         const struct gltf_node *node = &gltf->nodes[j];
         struct form_joint *joint = &form->joints[j];
         const char *name = j == 0 ? "base" : node->name + (j < FOX_FIRST_JOINT ? 0 : strlen("tail_"));
-        snprintf(joint->name, FORM_NAME, "%.50s_%.10s", form->name, name);
+        joint->name = form_text(&form->pool, form->name, "_", name);
         joint->parent = node->parent;
         for (int k = 0; k < 3; k++) {
             joint->offset[k] = j == 0 ? root[12 + k] : root[0] * node->place.translation[k];

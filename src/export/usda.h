@@ -7,12 +7,6 @@
 #include "model/gltf.h"
 #include <stdio.h>
 
-/// Names that are taken, all zero at first.
-struct usda_names {
-    void *tree;
-    int count;
-};
-
 /// A node is one joint; or two, if its scale is constant and no half-precision number, as UsdSkel's scales are: one that moves, and
 /// below it one that scales.
 enum usda_joint_part { JOINT_WHOLE, JOINT_UNSCALED, JOINT_SCALE };
@@ -20,9 +14,9 @@ enum usda_joint_part { JOINT_WHOLE, JOINT_UNSCALED, JOINT_SCALE };
 struct usda_joint {
     int node, parent; ///< `parent`: of the joints, −1: none
     enum usda_joint_part part;
-    bool moves; ///< else it has no keys: it rests
-    char name[FORM_NAME];
-    double world[16]; ///< at rest in the character's space; columns first, as all matrices
+    bool moves;               ///< else it has no keys: it rests
+    const char *name, *title; ///< `title`: the node's, which the name may not be
+    double world[16];         ///< at rest in the character's space; columns first, as all matrices
 };
 
 struct usda_model {
@@ -35,16 +29,17 @@ struct usda_model {
     bool is_own;               ///< not an imported character: the only clip of its model has its keys
     struct gltf_place *places; ///< [key · nodes + node], rotations the short way
     float *weights;            ///< [key · weights + weight]
-    char (*shapes)[FORM_NAME]; ///< of each weight: the name of its blend shape
-    struct usda_joint *joints; ///< parents before their children
+    struct usda_shape {
+        const char *token, *prim; ///< its name in arrays, and that of its prim
+    } * shapes;                   ///< of each weight
+    struct usda_joint *joints;    ///< parents before their children
     int joint_count;
-    int *joint_of;                ///< of each node: the last of its joints; −1: none
-    int *slot_of;                 ///< of each node: which joint of skin `slots` it is; −1: none
-    int slots;                    ///< −1: none yet
-    char (*materials)[FORM_NAME]; ///< their names
-    char (*prims)[FORM_NAME];     ///< names in the rig's prim; the skeletons first
-    int prim_count;
-    struct usda_names prim_names;
+    int *joint_of;          ///< of each node: the last of its joints; −1: none
+    int *slot_of;           ///< of each node: which joint of skin `slots` it is; −1: none
+    int slots;              ///< −1: none yet
+    const char **materials; ///< their prims
+    const char **skeletons;
+    struct names prims, joint_names, shape_tokens, shape_prims, material_prims;
 };
 
 /// Writes the prim of a rig. False with a sentence. All of the model but what it is made of is zero.
@@ -61,13 +56,18 @@ void usda_write_meshes(struct usda_model *model);
 
 // --- text
 
-/// A name of letters, digits and "_": "up.-re" → "up_minus_re"; another one than those that are taken, by a number behind it. It must stay
-/// where it is as long as the names.
-void usda_unique(struct usda_names *names, const char *wanted, char name[FORM_NAME]);
-void usda_names_free(struct usda_names *names);
+/// A set of names of prims, or of joints.
+struct names usda_names(void);
 
-/// A name for another prim in the rig's.
-const char *usda_prim(struct usda_model *model, const char *wanted);
+/// Takes a name of letters, digits and "_": "up.-re" → "up_minus_re". All are ASCII, because older readers take no other names of prims;
+/// of joints, which are paths in strings, they may be of any script.
+const char *usda_name(struct names *names, const char *wanted, bool any_script);
+
+/// A string in quotes.
+void usda_string(FILE *out, const char *text);
+
+/// Begins a prim, up to its first brace. `title` is what people read where it differs from its name. `api`: what its schemas are; NULL: none.
+void usda_begin(FILE *out, int indent, const char *type, const char *name, const char *title, const char *api);
 
 /// "before(x, y, z)"
 void usda_vector(FILE *out, const char *before, const float *numbers);

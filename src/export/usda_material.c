@@ -18,12 +18,11 @@ static bool write_picture(const struct usda_model *model, const char *stem, cons
                           char file[PATH_LIMIT], struct error *error)
 {
     const char *path = model->range->path, *dot = strrchr(path, '.');
-    char identifier[FORM_NAME], name[FORM_NAME], folder[PATH_LIMIT];
-    struct usda_names none = {0};
-    usda_unique(&none, stem, identifier);
-    usda_names_free(&none);
-    snprintf(name, sizeof name, "%.40s_%d.%s", identifier, model->range->sidecars.count,
+    char name[80], folder[PATH_LIMIT];
+    struct names none = usda_names();
+    snprintf(name, sizeof name, "%s_%d.%s", usda_name(&none, stem, false), model->range->sidecars.count,
              image->bytes[0] == 0xFF ? "jpg" : "png");
+    names_free(&none);
     snprintf(folder, PATH_LIMIT, "%.*s_textures", dot ? (int)(dot - path) : (int)strlen(path), path);
     if (snprintf(file, PATH_LIMIT, "./%s/%s", path_name(folder), name) >= PATH_LIMIT)
         return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
@@ -102,7 +101,7 @@ static void write_surface(const struct usda_look *look)
 static void write_material(const struct usda_look *look)
 {
     FILE *out = look->model->out;
-    fprintf(out, "            def Material \"%s\"\n            {\n", look->name);
+    usda_begin(out, 12, "Material", look->name, look->material->name, NULL);
     fprintf(out, "                token outputs:surface.connect = </scene/%s/materials/%s/surface.outputs:surface>\n",
             look->model->name, look->name);
     write_surface(look);
@@ -132,24 +131,22 @@ static void mark_colored(const struct gltf *gltf, bool *colored)
 bool usda_write_materials(struct usda_model *model, struct error *error)
 {
     const struct gltf *gltf = model->gltf;
-    struct usda_names names = {0};
     char(*files)[PATH_LIMIT] = need_zeroed((size_t)gltf->image_count + 1, sizeof *files); // a picture is written once
     bool *colored = need_zeroed((size_t)gltf->material_count + 1, sizeof *colored);
     bool done = true;
     mark_colored(gltf, colored);
     fputs("        def Scope \"materials\"\n        {\n", model->out);
     for (int m = 0; done && m < gltf->material_count; m++) {
+        model->materials[m] = usda_name(&model->material_prims, gltf->materials[m].name, false);
         struct usda_look look = {model, &gltf->materials[m], model->materials[m], "", !colored[m]};
         const int number = look.material->image; // −1: none, or it could not be shown
         const struct gltf_image *image = number >= 0 ? &gltf->images[number] : NULL;
-        usda_unique(&names, look.material->name, model->materials[m]);
         if (image) look.file = files[number];
         if (image && !look.file[0])
             done = write_picture(model, image->name ? image->name : look.name, image, files[number], error);
         if (done) write_material(&look);
     }
     fputs("        }\n", model->out);
-    usda_names_free(&names);
     free(colored);
     free(files);
     return done;

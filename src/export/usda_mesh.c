@@ -214,17 +214,21 @@ static void write_shapes(const struct run *run)
 {
     const struct usda_model *model = run->model;
     const struct gltf_node *node = &model->gltf->nodes[run->node];
-    const char(*names)[FORM_NAME] = model->shapes + node->first_weight;
+    const struct usda_shape *shapes = model->shapes + node->first_weight;
     const int count = model->gltf->meshes[node->mesh].target_count;
     if (count == 0) return;
     fputs("            uniform token[] skel:blendShapes = [", model->out);
-    for (int t = 0; t < count; t++) fprintf(model->out, "%s\"%s\"", t > 0 ? ", " : "", names[t]);
+    for (int t = 0; t < count; t++) {
+        if (t > 0) fputs(", ", model->out);
+        usda_string(model->out, shapes[t].token);
+    }
     fputs("]\n            rel skel:blendShapeTargets = [", model->out);
     for (int t = 0; t < count; t++)
-        fprintf(model->out, "%s</scene/%s/%s/%s>", t > 0 ? ", " : "", model->name, run->name, names[t]);
+        fprintf(model->out, "%s</scene/%s/%s/%s>", t > 0 ? ", " : "", model->name, run->name, shapes[t].prim);
     fputs("]\n", model->out);
     for (int t = 0; t < count; t++) {
-        fprintf(model->out, "\n            def BlendShape \"%s\"\n            {\n", names[t]);
+        fputc('\n', model->out);
+        usda_begin(model->out, 12, "BlendShape", shapes[t].prim, shapes[t].token, NULL);
         write_offsets(run, t, false);
         if (run->parts->normal) write_offsets(run, t, true);
         fputs("            }\n", model->out);
@@ -254,7 +258,7 @@ static void write_binding(const struct run *run)
         fputc('\n', model->out);
     }
     fprintf(model->out, "            rel skel:skeleton = </scene/%s/%s>\n", model->name,
-            model->prims[skeleton_of(run)]);
+            model->skeletons[skeleton_of(run)]);
 }
 
 static void write_run(const struct run *run)
@@ -266,8 +270,8 @@ static void write_run(const struct run *run)
         double_sided = double_sided || (material >= 0 && model->gltf->materials[material].double_sided);
         has_uv = has_uv || run->parts[p].uv;
     }
-    fprintf(model->out, "\n        def Mesh \"%s\" (\n", run->name);
-    fputs("            prepend apiSchemas = [\"SkelBindingAPI\"]\n        )\n        {\n", model->out);
+    fputc('\n', model->out);
+    usda_begin(model->out, 8, "Mesh", run->name, model->gltf->nodes[run->node].name, "SkelBindingAPI");
     if (double_sided) fputs("            uniform bool doubleSided = 1\n", model->out);
     write_vertices(run, "point3f[] points", write_position);
     fputc('\n', model->out);
@@ -312,7 +316,7 @@ void usda_write_meshes(struct usda_model *model)
             }
             run.count = end - p;
             run.influences = count_influences(&run);
-            run.name = usda_prim(model, gltf->nodes[n].name);
+            run.name = usda_name(&model->prims, gltf->nodes[n].name, false);
             write_run(&run);
         }
     }

@@ -83,17 +83,15 @@ static void rest_of(const struct usda_model *model, int number, double m[16])
     node_matrix(&node, m);
 }
 
-static void add_joint(struct usda_model *model, struct usda_names *names, int node, int parent,
-                      enum usda_joint_part part)
+static void add_joint(struct usda_model *model, int node, int parent, enum usda_joint_part part)
 {
     const int j = model->joint_count++;
     struct usda_joint *joint = &model->joints[j];
-    char wanted[FORM_NAME];
     double local[16];
     *joint = (struct usda_joint){
         .node = node, .parent = parent, .part = part, .moves = part != JOINT_SCALE && moves(model, node)};
-    snprintf(wanted, sizeof wanted, "%.40s%s", model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "");
-    usda_unique(names, wanted, joint->name);
+    joint->title = form_text(&model->pool, model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "", "");
+    joint->name = usda_name(&model->joint_names, joint->title, true);
     rest_of(model, j, parent >= 0 ? local : joint->world);
     if (parent >= 0) multiply(model->joints[parent].world, local, joint->world);
     model->joint_of[node] = j;
@@ -124,7 +122,6 @@ static void mark(const struct gltf *gltf, bool *needed)
 static void make_joints(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
-    struct usda_names names = {0};
     bool *needed = need_zeroed((size_t)gltf->node_count + 1, sizeof *needed);
     mark(gltf, needed);
     for (int i = 0; i < gltf->node_count; i++) {
@@ -132,11 +129,10 @@ static void make_joints(struct usda_model *model)
         model->joint_of[n] = -1;
         if (!needed[n]) continue;
         const bool two = moves(model, n) && needs_two_joints(model, n);
-        add_joint(model, &names, n, above >= 0 ? model->joint_of[above] : -1, two ? JOINT_UNSCALED : JOINT_WHOLE);
-        if (two) add_joint(model, &names, n, model->joint_of[n], JOINT_SCALE);
+        add_joint(model, n, above >= 0 ? model->joint_of[above] : -1, two ? JOINT_UNSCALED : JOINT_WHOLE);
+        if (two) add_joint(model, n, model->joint_of[n], JOINT_SCALE);
     }
     free(needed);
-    usda_names_free(&names);
 }
 
 // --- where it was bound
@@ -249,6 +245,19 @@ static void write_joints(const struct usda_model *model, bool moving)
     fputs("]\n", model->out);
 }
 
+/// The names that the file has, where they cannot be those of joints.
+static void write_titles(const struct usda_model *model)
+{
+    const char *before = "            uniform token[] jointNames = [";
+    bool any = false;
+    for (int j = 0; j < model->joint_count; j++) any |= strcmp(model->joints[j].name, model->joints[j].title) != 0;
+    for (int j = 0; any && j < model->joint_count; j++, before = ", ") {
+        fputs(before, model->out);
+        usda_string(model->out, model->joints[j].title);
+    }
+    if (any) fputs("]\n", model->out);
+}
+
 static bool is_animated(const struct usda_model *model)
 {
     for (int j = 0; j < model->joint_count; j++) {
@@ -260,10 +269,9 @@ static bool is_animated(const struct usda_model *model)
 static void write_skeleton(struct usda_model *model, int skeleton)
 {
     double m[16];
-    fprintf(model->out, "        def Skeleton \"%s\" (\n            prepend apiSchemas = [\"SkelBindingAPI\"]\n",
-            model->prims[skeleton]);
-    fputs("        )\n        {\n", model->out);
+    usda_begin(model->out, 8, "Skeleton", model->skeletons[skeleton], model->skeletons[skeleton], "SkelBindingAPI");
     write_joints(model, false);
+    write_titles(model);
     fputs("            uniform matrix4d[] bindTransforms = [", model->out);
     for (int j = 0; j < model->joint_count; j++) {
         if (j > 0) fputs(", ", model->out);
@@ -354,8 +362,10 @@ static void write_animation(const struct usda_model *model)
     }
     if (model->gltf->weight_count > 0) {
         fputs("            uniform token[] blendShapes = [", model->out);
-        for (int i = 0; i < model->gltf->weight_count; i++)
-            fprintf(model->out, "%s\"%s\"", i > 0 ? ", " : "", model->shapes[i]);
+        for (int i = 0; i < model->gltf->weight_count; i++) {
+            if (i > 0) fputs(", ", model->out);
+            usda_string(model->out, model->shapes[i].token);
+        }
         fputs("]\n", model->out);
         write_samples(model, "float[] blendShapeWeights", NULL, model->range->key_count);
     }
@@ -368,27 +378,17 @@ static void write_animation(const struct usda_model *model)
 static void name_shapes(struct usda_model *model)
 {
     const struct gltf *gltf = model->gltf;
-    struct usda_names names = {0};
     for (int n = 0; n < gltf->node_count; n++) {
         const int mesh = gltf->nodes[n].mesh, first = gltf->nodes[n].first_weight;
         for (int t = 0; mesh >= 0 && t < gltf->meshes[mesh].target_count; t++) {
             char numbered[32];
             const char *name = gltf_target_name(&gltf->meshes[mesh], t);
             snprintf(numbered, sizeof numbered, "target_%d", t);
-            usda_unique(&names, name ? name : numbered, model->shapes[first + t]);
+            struct usda_shape *shape = &model->shapes[first + t];
+            shape->token = names_add(&model->shape_tokens, name ? name : numbered);
+            shape->prim = usda_name(&model->shape_prims, shape->token, false);
         }
     }
-    usda_names_free(&names);
-}
-
-/// Skeletons, what all have, and meshes: at most one for each part.
-static size_t count_prims(const struct gltf *gltf)
-{
-    size_t count = (size_t)gltf->skin_count + 3;
-    for (int n = 0; n < gltf->node_count; n++) {
-        if (gltf->nodes[n].mesh >= 0) count += (size_t)gltf->meshes[gltf->nodes[n].mesh].part_count;
-    }
-    return count;
 }
 
 /// False where so many keys have no room.
@@ -406,25 +406,18 @@ static bool reserve(struct usda_model *model)
     model->joint_of = pool_take(pool, nodes, sizeof *model->joint_of);
     model->slot_of = pool_take(pool, nodes, sizeof *model->slot_of);
     model->materials = pool_take(pool, (size_t)gltf->material_count, sizeof *model->materials);
-    model->prims = pool_take(pool, count_prims(gltf), sizeof *model->prims);
+    model->skeletons = pool_take(pool, (size_t)gltf->skin_count + 1, sizeof *model->skeletons);
     for (size_t n = 0; n < nodes; n++) model->slot_of[n] = -1;
     model->slots = -1;
     return true;
 }
 
-const char *usda_prim(struct usda_model *model, const char *wanted)
-{
-    char *name = model->prims[model->prim_count++];
-    usda_unique(&model->prim_names, wanted, name);
-    return name;
-}
-
 static bool write_all(struct usda_model *model, struct error *error)
 {
     const int skeletons = model->gltf->skin_count > 1 ? model->gltf->skin_count : 1;
-    for (int s = 0; s < skeletons; s++) usda_prim(model, "skeleton");
-    usda_prim(model, "animation");
-    usda_prim(model, "materials");
+    for (int s = 0; s < skeletons; s++) model->skeletons[s] = usda_name(&model->prims, "skeleton", false);
+    usda_name(&model->prims, "animation", false);
+    usda_name(&model->prims, "materials", false);
     for (int s = 0; s < skeletons; s++) write_skeleton(model, s);
     if (is_animated(model)) write_animation(model);
     if (!usda_write_materials(model, error)) return false;
@@ -437,7 +430,9 @@ static bool write_root(const struct usda_model *model, struct error *error)
 {
     struct rig_pose pose;
     double matrix[16];
-    fprintf(model->out, "\n    def SkelRoot \"%s\"\n    {\n", model->name);
+    fputc('\n', model->out);
+    usda_begin(model->out, 4, "SkelRoot", model->name, form_name(model->range->posing->document->rigs[model->rig]),
+               NULL);
     if (!range_pose(model->range, model->rig, 0, &pose, error)) return false;
     const float *root = range_root(model->range, model->rig, &pose);
     if (!root) return true;
@@ -451,6 +446,9 @@ static bool write_root(const struct usda_model *model, struct error *error)
 bool usda_model_write(struct usda_model *model, struct error *error)
 {
     struct gltf_pose pose = {0};
+    struct names *const sets[] = {&model->prims, &model->joint_names, &model->shape_prims, &model->material_prims};
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) *sets[i] = usda_names();
+    model->shape_tokens.between = "_";
     const bool room = reserve(model) && gltf_pose_create(model->gltf, &pose);
     bool done = (room || fail_no_memory(error, model->gltf->path)) && collect_keys(model, &pose, error);
     if (done) {
@@ -460,7 +458,8 @@ bool usda_model_write(struct usda_model *model, struct error *error)
     done = done && write_root(model, error) && write_all(model, error);
     fputs("    }\n", model->out);
     gltf_pose_free(&pose);
-    usda_names_free(&model->prim_names);
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) names_free(sets[i]);
+    names_free(&model->shape_tokens);
     pool_free(&model->pool);
     return done;
 }

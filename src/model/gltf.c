@@ -33,7 +33,7 @@ int gltf_find_clip(const struct gltf *gltf, const char *name)
 
 const char *gltf_target_name(const struct gltf_mesh *mesh, int target)
 {
-    return json_string_value(json_array_get(json_object_get(mesh->extras, "targetNames"), (size_t)target));
+    return mesh->target_names ? mesh->target_names[target] : NULL;
 }
 
 int gltf_vertex_count(const struct gltf *gltf, int node)

@@ -113,6 +113,7 @@ struct gltf_mesh {
     int part_count;
     int target_count;
     float *weights;        ///< of its targets at rest
+    char **target_names;   ///< gltf_target_name()
     struct json_t *extras; ///< what other programs say of it in the file; NULL: nothing
 };
 
@@ -178,7 +179,7 @@ uint64_t gltf_new_id(void);
 /// Whether it is a soft character: character_read() finds coordinates in it.
 bool gltf_is_soft(const struct gltf *gltf);
 
-/// The name of a morph target, from where many exporters put it; NULL: none.
+/// The name of a morph target, from the places where exporters put it; NULL: none.
 const char *gltf_target_name(const struct gltf_mesh *mesh, int target);
 
 /// Decodes a PNG or JPEG into at most `most` bytes of pixels, which the caller frees. False with a sentence that names no file.

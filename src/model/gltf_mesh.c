@@ -313,6 +313,32 @@ static bool has_triangles(struct gltf_reader *r, const json_t *primitive, bool *
     return true;
 }
 
+/// glTF has no place for the names of targets: most programs write them beside the mesh's targets, VRM 0.x beside each primitive's, and its
+/// first writers inside each target. NULL: none.
+static const char *find_target_name(const json_t *mesh, size_t target)
+{
+    const json_t *primitives = json_object_get(mesh, "primitives"), *of = mesh;
+    for (size_t i = 0; of; of = json_array_get(primitives, i++)) {
+        const json_t *own = json_array_get(json_object_get(of, "targets"), target);
+        const json_t *more =
+            json_object_get(own, "extras") ? json_object_get(own, "extras") : json_object_get(own, "extra");
+        const json_t *names = json_object_get(json_object_get(of, "extras"), "targetNames");
+        const char *name = json_string_value(names ? json_array_get(names, target) : json_object_get(more, "name"));
+        if (name && name[0]) return name;
+    }
+    return NULL;
+}
+
+static bool read_target_names(struct gltf_reader *r, const json_t *json, struct gltf_mesh *mesh)
+{
+    mesh->target_names = gltf_make(r, (size_t)mesh->target_count, sizeof *mesh->target_names);
+    for (int t = 0; mesh->target_names && t < mesh->target_count; t++) {
+        const char *name = find_target_name(json, (size_t)t);
+        if (name && !(mesh->target_names[t] = gltf_text(r, name))) return false;
+    }
+    return mesh->target_names;
+}
+
 static bool read_mesh(struct gltf_reader *r, const json_t *json, size_t number)
 {
     const json_t *primitives = json_object_get(json, "primitives"), *primitive;
@@ -342,7 +368,8 @@ static bool read_mesh(struct gltf_reader *r, const json_t *json, size_t number)
     gltf_at(r, "meshes[%zu]", number);
     mesh->extras = json_incref(json_object_get(json, "extras"));
     mesh->weights = gltf_make(r, (size_t)mesh->target_count, sizeof *mesh->weights);
-    return mesh->weights && gltf_reals(r, json, "weights", mesh->weights, (size_t)mesh->target_count);
+    return mesh->weights && read_target_names(r, json, mesh) &&
+           gltf_reals(r, json, "weights", mesh->weights, (size_t)mesh->target_count);
 }
 
 bool gltf_read_meshes(struct gltf_reader *r)
