@@ -109,6 +109,18 @@ TEST(looks_stay_with_their_triangles)
     surface_free(&s);
 }
 
+/// Names that are Latin-1 are UTF-8 from then on, because they go into JSON.
+TEST(names_of_materials_are_utf8)
+{
+    struct surface s;
+    assert_done(
+        read_text("v 0 0 0\nv 1 0 0\nv 1 1 0\nusemtl caf\xe9\nf 1 2 3\nusemtl x\nf 1 2 3\nusemtl caf\xe9\nf 3 2 1\n",
+                  &s, &error));
+    assert_int_equal(s.looks.material_count, 2);
+    assert_string_equal(s.looks.materials[s.looks.material[2]].name, "caf\xef\xbf\xbd");
+    surface_free(&s);
+}
+
 TEST(bad_files_get_one_sentence)
 {
     const struct {

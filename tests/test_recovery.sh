@@ -75,6 +75,26 @@ xdotool key --delay 30 ctrl+q d
 await_end
 holds "quitting without saving deletes it" gone "$state/recovery-1"
 
+# Nor is work lost where names are not UTF-8, of a folder, a file and its character.
+bytes=$scratch/caf$'\xe9'
+mkdir "$bytes"
+cp assets/models/dog.glb "$bytes/d"$'\xf6'g.glb
+expect 0 "a character in a folder that is not UTF-8" "$WIGGLY" rig "$bytes/d"$'\xf6'g.glb --chain tail_1 -o "$bytes/mine.json"
+start_app mine.json "$bytes/mine.json"
+edit_and_kill shift+Left Right Right Right
+expect 0 "the recovery file can be read" "$WIGGLY" check "$state/recovery-1"
+start_app wiggly
+xdotool key r
+timeout 60 xdotool search --sync --onlyvisible --name '^\*mine.json' >/dev/null
+ok "recover: it is the same scene" $?
+xdotool key ctrl+s
+eventually "saved: nothing is left to recover" gone "$state/recovery-1"
+quit_app
+holds "the work is in that file" [ "$(grep -c '"frame":' "$bytes/mine.json")" -eq 1 ]
+expect 0 "which finds its character" "$WIGGLY" export "$bytes/mine.json" -o "$bytes/mine.pc2" --frames 0:1
+expect 0 "and can be read" "$WIGGLY" check "$bytes/mine.json"
+holds "without a warning" [ -z "$err" ]
+
 echo "theme dark" >"$XDG_CONFIG_HOME/wiggly/settings"
 start_app wiggly
 quit_app

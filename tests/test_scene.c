@@ -2,6 +2,7 @@
 #include "documents.h"
 #include "folder.h"
 
+#include "base/names.h"
 #include "scene/edit.h"
 #include "scene/evaluate.h"
 #include "scene/text.h"
@@ -349,6 +350,38 @@ static void assert_file_is(const char *path, const char *expected)
     assert_done(file_read(path, PATH_SIZE, &text, &size, &error));
     assert_string_equal(text, expected);
     free(text);
+}
+
+static char a_bone[] = "tail_1";
+
+/// Paths may have any bytes, also such as look like what the file has for others; names are UTF-8.
+TEST(test_paths_of_any_bytes)
+{
+    static char paths[][24] = {
+        "caf\xe9/r\xc3\xa9.glb", "\xff\xfe\x80.glb",     "尻尾.glb",   "\xe5\xb0", "\xed\xa0\x80",
+        "\xf4\x8f\xba\x80",      "\xf4\x8f\xbb\xbf\xbf", "a\"\\\x01\n"};
+    for (size_t i = 0; i < 2 * sizeof paths / sizeof *paths; i++) {
+        struct document *document = document_create(), *back;
+        struct rig model = {.kind = RIG_MODEL, .model = {.model = paths[i / 2], .scale = 1}},
+                   chain = {.kind = RIG_CHAIN, .chain = {.model = paths[i / 2], .from = a_bone, .to = a_bone}};
+        size_t size;
+        assert_done(edit_rig_add(document, &model, &error));
+        struct rig *added = document->rigs[0];
+        char *valid = name_from(added->name, strlen(added->name));
+        assert_string_equal(added->name, valid);
+        free(added->name);
+        added->name = i % 2 == 0 ? valid : NULL;
+        if (added->name) chain.chain.model = added->name;
+        if (!added->name) free(valid);
+        assert_done(edit_rig_add(document, &chain, &error));
+        char *text = scene_print(document, &size);
+        assert_done(back = scene_parse("text", text, size, NULL, &error));
+        assert_string_equal(back->rigs[0]->model.model, paths[i / 2]);
+        assert_string_equal(back->rigs[1]->chain.model, chain.chain.model);
+        document_destroy(document);
+        document_destroy(back);
+        free(text);
+    }
 }
 
 static int count_files(void)

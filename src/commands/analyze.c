@@ -2,6 +2,7 @@
 #include "analysis/analysis.h"
 #include "base/error.h"
 #include "base/file.h"
+#include "base/names.h"
 #include "base/need.h"
 #include "commands/analyze_scene.h"
 #include "commands/commands.h"
@@ -78,19 +79,17 @@ static bool read_directions(struct job *job, int files)
 /// A unique coordinate name from the file's: "up", then "up-2" … for further modes.
 static char *make_name(const char *path, const struct character *character)
 {
+    struct names names = {.between = "-"};
     const char *base = path_name(path), *dot = strrchr(base, '.');
-    int stem = (int)(dot ? (size_t)(dot - base) : strlen(base));
-    struct error name; // fail() makes the name valid UTF-8
-    for (int attempt = 1;; attempt++) {
-        fail(&name, ERROR_NONE, attempt > 1 ? "%.*s-%d" : "%.*s", stem > 0 ? stem : 6, stem > 0 ? base : "motion",
-             attempt);
-        bool taken = false;
-        for (int i = 0; i < character->coordinate_count; i++) {
-            const char *other = character->coordinates[i].name;
-            taken |= other && strcmp(other, name.text) == 0;
-        }
-        if (!taken) return need_text(name.text);
+    const size_t length = dot ? (size_t)(dot - base) : strlen(base);
+    char *stem = length > 0 ? name_from(base, length) : need_text("motion");
+    for (int i = 0; i < character->coordinate_count; i++) {
+        if (character->coordinates[i].name) names_add(&names, character->coordinates[i].name);
     }
+    char *name = need_text(names_add(&names, stem));
+    names_free(&names);
+    free(stem);
+    return name;
 }
 
 /// Rounded to a millionth, so that files do not depend on the processor LAPACK ran on.

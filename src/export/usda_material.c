@@ -23,7 +23,9 @@ static bool write_picture(const struct usda_model *model, const char *stem, cons
     snprintf(name, sizeof name, "%s_%d.%s", usda_name(&none, stem, false), model->range->sidecars.count,
              image->bytes[0] == 0xFF ? "jpg" : "png");
     names_free(&none);
-    snprintf(folder, PATH_LIMIT, "%.*s_textures", dot ? (int)(dot - path) : (int)strlen(path), path);
+    char *stem_name = name_from(path_name(path), dot ? (size_t)(dot - path_name(path)) : strlen(path_name(path)));
+    snprintf(folder, PATH_LIMIT, "%.*s%s_textures", (int)(path_name(path) - path), path, stem_name);
+    free(stem_name);
     if (snprintf(file, PATH_LIMIT, "./%s/%s", path_name(folder), name) >= PATH_LIMIT)
         return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
     return sidecars_add(&model->range->sidecars, folder, name, image->bytes, image->size, error);

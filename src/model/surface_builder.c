@@ -1,4 +1,5 @@
 /// Shared by the readers of surfaces: builds surfaces vertex by vertex and polygon by polygon, and splits text into words and numbers.
+#include "base/names.h"
 #include "base/png.h"
 #include "model/adjacency.h"
 #include "model/surface_readers.h"
@@ -105,17 +106,15 @@ int builder_end_polygon(struct surface_builder *b)
 uint32_t builder_material(struct surface_builder *b, const char *name)
 {
     struct looks *looks = &b->surface->looks;
-    for (int m = 0; m < looks->material_count; m++) {
-        if (strcmp(looks->materials[m].name, name) == 0) return (uint32_t)m;
-    }
-    const struct looks_material material = {.name = strdup(name), .color = {1, 1, 1, 1}};
-    if (!material.name ||
-        !put(b, &looks->materials, looks->material_count, &b->materials, &material, sizeof material)) {
-        free(material.name);
-        b->failed = true;
-        return LOOKS_NONE;
-    }
-    return (uint32_t)looks->material_count++;
+    const struct looks_material material = {.name = name_from(name, strlen(name)), .color = {1, 1, 1, 1}};
+    int m = 0;
+    while (m < looks->material_count && strcmp(looks->materials[m].name, material.name) != 0) m++;
+    if (m == looks->material_count &&
+        put(b, &looks->materials, looks->material_count, &b->materials, &material, sizeof material))
+        return (uint32_t)looks->material_count++;
+    free(material.name);
+    b->failed |= m == looks->material_count;
+    return b->failed ? LOOKS_NONE : (uint32_t)m;
 }
 
 void builder_merge(struct surface_builder *b)

@@ -140,9 +140,11 @@ static void load_field(struct reader *reader, const struct value *object, const 
         load_word(reader, value, field, at);
         break;
     case FIELD_TEXT:
+        if (value.json || field->is_required) *(char **)at = reader_name(reader, value);
+        break;
     case FIELD_PATH:
     case FIELD_MODEL:
-        if (value.json || field->is_required) *(char **)at = reader_name(reader, value);
+        if (value.json || field->is_required) *(char **)at = reader_path(reader, value);
         break;
     case FIELD_SPLINE:
         *(int *)at = reader_spline_name(reader, value);
@@ -241,11 +243,8 @@ static void print_row(struct members *members, const struct document *document, 
         member_path(members, field->key, document, *(char *const *)at, folder);
         break;
     case FIELD_MODEL:
-        if (*(const bool *)look(object, field->flag)) {
-            member_path(members, field->key, document, *(char *const *)at, folder);
-        } else {
-            member_string(members, field->key, *(char *const *)at);
-        }
+        member_path(members, field->key, *(const bool *)look(object, field->flag) ? document : NULL,
+                    *(char *const *)at, folder);
         break;
     case FIELD_SPLINE:
         member_string(members, field->key, document->splines[*(const int *)at]->name);

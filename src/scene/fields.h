@@ -18,7 +18,7 @@ void member(struct members *members, const char *key);
 void member_number(struct members *members, const char *key, double value);
 void member_string(struct members *members, const char *key, const char *string);
 
-/// A path of the document, for a file in `folder`.
+/// A path of the document, for a file in `folder`; with no document (NULL) as it is.
 void member_path(struct members *members, const char *key, const struct document *document, const char *path,
                  const char *folder);
 

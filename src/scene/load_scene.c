@@ -6,6 +6,7 @@
 #include "scene/order.h"
 #include "scene/pins.h"
 #include "scene/reader.h"
+#include "scene/text.h"
 #include "scene/warnings.h"
 #include <limits.h>
 #include <stdlib.h>
@@ -314,9 +315,14 @@ struct scene_origin scene_read_origin(const char *path)
     json_t *scene = json_read(text, size, 0, &(json_error_t){0}), *recovers = json_object_get(scene, "recovers");
     const char *file = json_string_value(json_object_get(recovers, "file"));
     const char *content = json_string_value(json_object_get(recovers, "content"));
-    if (file && content && strlen(file) < PATH_LIMIT) {
-        memcpy(origin.path, file, strlen(file) + 1);
-        origin.content = strtoull(content, NULL, 16);
+    if (file && content) {
+        char *whole = need_text(file);
+        text_read_path(whole);
+        if (strlen(whole) < PATH_LIMIT) {
+            strcpy(origin.path, whole);
+            origin.content = strtoull(content, NULL, 16);
+        }
+        free(whole);
     }
     json_decref(scene);
     free(text);

@@ -179,7 +179,7 @@ void paint_load(struct reader *reader, const struct value *object, void *at)
     if (json_is_array(paint.json)) {
         load_inside(reader, object, paint, &rig->character);
     } else if (paint.json) {
-        rig->character.paint_file = reader_name(reader, paint);
+        rig->character.paint_file = reader_path(reader, paint);
     }
 }
 

@@ -95,13 +95,10 @@ static void print_origin(struct members *members, const struct scene_origin *ori
 {
     char absolute[PATH_LIMIT], content[32]; // absolute, because the working folder may differ next time
     if (!origin->path[0] || !path_resolve(NULL, origin->path, absolute)) return;
-    json_t *is_utf8 = json_string(absolute);
-    if (!is_utf8) return;
-    json_decref(is_utf8);
     struct members pair = {members->text, "{ ", ", ", false};
     snprintf(content, sizeof content, "%016llx", (unsigned long long)origin->content);
     member(members, "recovers");
-    member_string(&pair, "file", absolute);
+    member_path(&pair, "file", NULL, absolute, NULL);
     member_string(&pair, "content", content);
     text_string(members->text, " }");
 }
@@ -201,7 +198,8 @@ void member_path(struct members *members, const char *key, const struct document
                  const char *folder)
 {
     char moved[PATH_LIMIT];
-    member_string(members, key, path_rebase(path, document->folder, folder, moved) ? moved : path);
+    member(members, key);
+    text_path(members->text, document && path_rebase(path, document->folder, folder, moved) ? moved : path);
 }
 
 void members_extra(struct members *members, json_t *extra, bool (*skips)(const char *key))

@@ -182,6 +182,13 @@ char *reader_name(struct reader *reader, struct value value)
     return need_text(json_string_value(value.json));
 }
 
+char *reader_path(struct reader *reader, struct value value)
+{
+    char *path = reader_name(reader, value);
+    if (path) text_read_path(path);
+    return path;
+}
+
 bool reader_array(struct reader *reader, struct value value, size_t count, const char *expected)
 {
     if (!json_is_array(value.json)) return reader_unexpected(reader, value, expected);

@@ -144,6 +144,9 @@ json_t *reader_parse(struct reader *reader);
 /// A copy of a required, non-empty string; NULL after an error.
 char *reader_name(struct reader *reader, struct value value);
 
+/// The same for a path as text_path() writes it.
+char *reader_path(struct reader *reader, struct value value);
+
 /// Length of an optional array of at most `limit` objects; 0 if it is missing, -1 after an error.
 int reader_objects(struct reader *reader, struct value value, int limit);
 

@@ -1,5 +1,6 @@
 /// A growing text, numbers as the shortest text that reads back the same, and colours: "#RRGGBB".
 #include "scene/text.h"
+#include "base/error.h"
 #include "base/need.h"
 #include <assert.h>
 #include <ctype.h>
@@ -30,29 +31,69 @@ void text_number(struct text *text, double value)
     text_bytes(text, digits, number_print(value, digits));
 }
 
-/// Number of characters from `c` on that need no escape.
+/// A byte of a path that is not UTF-8 is this letter plus the byte: one of Unicode's private letters, at the end of its range, where
+/// nobody else has any. The file stays UTF-8, and the path comes back as it was.
+enum { BYTE_LETTER = 0x10FE00, FIRST_BYTE = 0x80, LAST_BYTE = 0xFF };
+
+static bool is_byte_letter(uint32_t c) { return c >= BYTE_LETTER + FIRST_BYTE && c <= BYTE_LETTER + LAST_BYTE; }
+
+/// Number of bytes from `c` on that need no look.
 static size_t plain_length(const char *c)
 {
     size_t length = 0;
-    while ((unsigned char)c[length] >= 0x20 && c[length] != '"' && c[length] != '\\') length++;
+    while ((unsigned char)c[length] >= 0x20 && (unsigned char)c[length] < 0x80 && c[length] != '"' &&
+           c[length] != '\\')
+        length++;
     return length;
 }
 
-void text_quoted(struct text *text, const char *string)
+/// Writes the letter at `c` as JSON; returns what is after it.
+static const char *quote_letter(struct text *text, const char *c, bool is_path)
+{
+    const char *next = c;
+    const uint32_t letter = utf8_next(&next);
+    char escape[8];
+    if ((letter == 0xFFFD && next == c + 1) || (is_path && is_byte_letter(letter))) {
+        for (; c < next; c++) text_bytes(text, escape, (size_t)utf8_encode(BYTE_LETTER + (unsigned char)*c, escape));
+    } else if (letter >= 0x80) {
+        text_bytes(text, c, (size_t)(next - c));
+    } else {
+        snprintf(escape, sizeof escape, letter < 0x20 ? "\\u%04x" : "\\%c", (unsigned)letter);
+        text_string(text, escape);
+    }
+    return next;
+}
+
+static void quote(struct text *text, const char *string, bool is_path)
 {
     text_string(text, "\"");
     for (const char *c = string; *c;) {
         const size_t plain = plain_length(c);
-        char escape[8];
         text_bytes(text, c, plain);
         c += plain;
-        if (!*c) break;
-        const bool is_control = (unsigned char)*c < 0x20;
-        snprintf(escape, sizeof escape, is_control ? "\\u%04x" : "\\%c", (unsigned char)*c);
-        text_string(text, escape);
-        c++;
+        if (*c) c = quote_letter(text, c, is_path);
     }
     text_string(text, "\"");
+}
+
+void text_quoted(struct text *text, const char *string) { quote(text, string, false); }
+
+void text_path(struct text *text, const char *path) { quote(text, path, true); }
+
+void text_read_path(char *path)
+{
+    char *to = path;
+    for (const char *from = path; *from;) {
+        const char *letter = from;
+        const uint32_t c = utf8_next(&from);
+        if (is_byte_letter(c)) {
+            *to++ = (char)(c - BYTE_LETTER);
+        } else {
+            memmove(to, letter, (size_t)(from - letter));
+            to += from - letter;
+        }
+    }
+    *to = '\0';
 }
 
 static void text_array(struct text *text, const json_t *array)

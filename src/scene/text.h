@@ -17,8 +17,11 @@ void text_bytes(struct text *text, const char *bytes, size_t count);
 void text_string(struct text *text, const char *string);
 /// The shortest number that reads back equal.
 void text_number(struct text *text, double value);
-/// A string in quotes with what must be escaped.
+/// A string in quotes with what must be escaped. Bytes that are not UTF-8 become private letters, so that the file can be read.
 void text_quoted(struct text *text, const char *string);
+/// A path, which may have any bytes, and makes text_read_path() of the string that is read from the file again.
+void text_path(struct text *text, const char *path);
+void text_read_path(char *path);
 /// Bytes of a string with its end; 0 for NULL.
 size_t text_size(const char *string);
 /// Any value on one line: { "a": [1, 2] }.
