@@ -4,6 +4,7 @@
 #include "app/settings.h"
 #include "app/state.h"
 #include "base/file.h"
+#include "base/names.h"
 #include "base/need.h"
 #include "base/progress.h"
 #include "scene/load.h"
@@ -181,7 +182,8 @@ static void mention(struct app *app)
     struct recovery_entry entry;
     if (!recovery_find(app->personal->state_folder, NULL, &entry, NULL)) return;
     core_message(&app->table.editor->core, false,
-                 "Unsaved work on %.255s is kept: start wiggly without a scene to recover it.", name_of(&entry));
+                 "Unsaved work on %.*s is kept: start wiggly without a scene to recover it.",
+                 name_fit(name_of(&entry), 255), name_of(&entry));
     recovery_release(&entry.slot);
 }
 
@@ -198,7 +200,7 @@ static void offer(struct app *app)
         if (named) mention(app);
         return;
     }
-    snprintf(shown.name, sizeof shown.name, "%.255s", name_of(entry));
+    printable(name_of(entry), shown.name, sizeof shown.name);
     struct tm local;
     if (!localtime_r(&entry->time, &local) ||
         strftime(shown.when, sizeof shown.when, "%d %B %Y, %H:%M:%S", &local) == 0) {

@@ -1,4 +1,5 @@
 /// Sliders and number fields, which differ only in how a drag maps to a value.
+#include "base/names.h"
 #include "ui/widgets_internal.h"
 #include <math.h>
 #include <stdio.h>
@@ -90,7 +91,8 @@ static bool take_typed(struct ui *ui, const struct ui_number *number, double *va
     double typed;
     const char *what = number->label ? number->label : number->name;
     if (!parse_number(number, ui->text.bytes, &typed)) {
-        snprintf(ui->complaint, sizeof ui->complaint, "%s: expected a number, got “%.40s”", what, ui->text.bytes);
+        snprintf(ui->complaint, sizeof ui->complaint, "%s: expected a number, got “%.*s”", what,
+                 name_fit(ui->text.bytes, 40), ui->text.bytes);
         return false;
     }
     if (typed < number->lowest || typed > number->highest) {

@@ -1,5 +1,6 @@
 /// The selected bone of an imported character, chains of its bones, and splines that follow it.
 #include "editor/core/bones.h"
+#include "base/names.h"
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "rig/chain_make.h"
@@ -26,7 +27,8 @@ int bones_selected(const struct core *core, int *model)
 const char *bones_title(const struct document *document, int model, const char *name, char title[BONES_TITLE])
 {
     if (document_count_rigs(document, RIG_MODEL) < 2) return name;
-    snprintf(title, BONES_TITLE, "%.200s/%.300s", rig_title(document->rigs[model]), name);
+    snprintf(title, BONES_TITLE, "%.*s/%.*s", name_fit(rig_title(document->rigs[model]), 200),
+             rig_title(document->rigs[model]), name_fit(name, 300), name);
     return title;
 }
 
@@ -52,14 +54,14 @@ int bones_joints(const struct core *core, int rig)
 
 static void tell(struct core *core, const struct rig *made, int model, bool follows)
 {
-    const char *clip = core->document->rigs[model]->model.clip;
+    const char *playing = core->document->rigs[model]->model.clip, *clip = follows && playing ? playing : "";
     char title[BONES_TITLE];
     const char *next = !follows ? "Drag it on the stage to set knots."
-                       : clip   ? "It follows through on the clip "
+                       : *clip  ? "It follows through on the clip "
                                 : "It swings once the character plays a clip.";
-    core_message(core, false, "Made the chain %.80s, from %.160s to %.80s. %s%.80s%s", rig_title(made),
-                 bones_title(core->document, model, made->chain.from, title), made->chain.to, next,
-                 follows && clip ? clip : "", follows && clip ? "." : "");
+    core_message(core, false, "Made the chain %.*s, from %s to %.*s. %s%.*s%s", name_fit(rig_title(made), 80),
+                 rig_title(made), bones_title(core->document, model, made->chain.from, title),
+                 name_fit(made->chain.to, 80), made->chain.to, next, name_fit(clip, 80), clip, *clip ? "." : "");
 }
 
 void bones_choose_clip(struct core *core, int model, const char *clip)
@@ -255,7 +257,8 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
     free(old);
     if (!core_end(core, done)) return;
     const struct rig *rig = core->document->rigs[chain];
-    core_message(core, false, "%.80s goes from %.100s to %.100s.", rig_title(rig), rig->chain.from, rig->chain.to);
+    core_message(core, false, "%.*s goes from %.*s to %.*s.", name_fit(rig_title(rig), 80), rig_title(rig),
+                 name_fit(rig->chain.from, 100), rig->chain.from, name_fit(rig->chain.to, 100), rig->chain.to);
 }
 
 static bool begins_at(const struct document *document, int model, const char *from)

@@ -1,6 +1,7 @@
 /// State and edits that all panels share.
 #include "editor/core/core.h"
 #include "base/file.h"
+#include "base/names.h"
 #include "editor/core/selection.h"
 #include "maths/maths.h"
 #include <ctype.h>
@@ -148,10 +149,13 @@ struct question *core_ask(struct core *core, const struct answer *answers, int c
 
 void core_message(struct core *core, bool is_error, const char *format, ...)
 {
+    char text[2 * sizeof core->message.text];
     va_list arguments;
     va_start(arguments, format);
-    vsnprintf(core->message.text, sizeof core->message.text, format, arguments);
+    vsnprintf(text, sizeof text, format, arguments);
     va_end(arguments);
+    snprintf(core->message.text, sizeof core->message.text, "%.*s", name_fit(text, sizeof core->message.text - 1),
+             text);
     core->message.is_error = is_error;
     core->message.seconds_left = is_error ? 0 : MESSAGE_SECONDS;
     core->unshown = true;
@@ -161,8 +165,8 @@ void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_
 {
     const double within = knot->still ? knot->value : spline_within(spline, knot->value);
     if (within != knot->value)
-        snprintf(why, STOPPED_SIZE, "held by the limit %.4g of %.24s at frame %.6g", within, spline->name,
-                 knot->frame);
+        snprintf(why, STOPPED_SIZE, "held by the limit %.4g of %.*s at frame %.6g", within,
+                 name_fit(spline->name, 24), spline->name, knot->frame);
     knot->value = within;
 }
 

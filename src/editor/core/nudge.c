@@ -1,4 +1,5 @@
 /// Changes the active spline's parameters by keys, and finds the frequency and damping that explain its knots.
+#include "base/names.h"
 #include "base/need.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
@@ -88,7 +89,8 @@ static void nudge_one(struct core *core, const struct spline *spline, enum param
     if (say_idle(core, spline, parameter)) return;
     const struct param *before = &spline->parameter[parameter];
     if (before->track >= 0) {
-        core_message(core, false, "The %s follows the spline \"%.60s\".", parameter_rows[parameter].name,
+        core_message(core, false, "The %s follows the spline \"%.*s\".", parameter_rows[parameter].name,
+                     name_fit(core->document->splines[before->track]->name, 60),
                      core->document->splines[before->track]->name);
         return;
     }

@@ -1,5 +1,6 @@
 /// Adds and removes rigs.
 #include "editor/core/rigs.h"
+#include "base/names.h"
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "scene/order.h"
@@ -178,8 +179,8 @@ static int own_splines(const struct document *document, int rig, char *names, si
     survey(&removal, document, rig);
     for (int s = 0; s < document->spline_count; s++) {
         if (!removal.mine[s] || removal.others[s]) continue;
-        const int wrote =
-            snprintf(names + used, size - used, "%s%.40s", count > 0 ? ", " : "", document->splines[s]->name);
+        const int wrote = snprintf(names + used, size - used, "%s%.*s", count > 0 ? ", " : "",
+                                   name_fit(document->splines[s]->name, 40), document->splines[s]->name);
         used = used + (size_t)wrote < size ? used + (size_t)wrote : size - 1;
         count++;
     }
@@ -256,7 +257,8 @@ void rigs_ask_remove(struct core *core, int rig)
     }
     struct question *question = core_ask(core, answers, 3, answer_removal);
     core->subject.rig = rig;
-    snprintf(question->title, sizeof question->title, "Remove %.150s, with its spline%s or without?",
+    snprintf(question->title, sizeof question->title, "Remove %.*s, with its spline%s or without?",
+             name_fit(path_name(rig_title(core->document->rigs[rig])), 150),
              path_name(rig_title(core->document->rigs[rig])), count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note, "%s move%s nothing else. Keep %s for what you add next?", names,
              count == 1 ? "s" : "", count == 1 ? "it" : "them");

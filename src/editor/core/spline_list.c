@@ -1,4 +1,5 @@
 /// Adds, removes, reorders and retimes splines.
+#include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
 #include "editor/core/selection.h"
@@ -167,8 +168,8 @@ void spline_list_remove(struct core *core)
         return;
     }
     struct question *question = core_ask(core, answers, 2, remove_active);
-    snprintf(question->title, sizeof question->title, "%.200s is used in %d place%s", active->name, count,
-             count == 1 ? "" : "s");
+    snprintf(question->title, sizeof question->title, "%.*s is used in %d place%s", name_fit(active->name, 200),
+             active->name, count, count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note,
              "Parameters that follow it keep their value at the playhead. Channels that it drives are deleted.");
 }

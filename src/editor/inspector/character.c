@@ -1,4 +1,5 @@
 /// The inspector's section on a soft character: channels, display, brush.
+#include "base/names.h"
 #include "base/need.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
@@ -28,7 +29,8 @@ static void build_drives(struct inspector *in, const struct character_rig *rig)
         struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
         snprintf(name, sizeof name, "drive.%d", k);
         snprintf(remove, sizeof remove, "drive.%d.remove", k);
-        snprintf(text, sizeof text, "%.60s, driven by %.60s", drive->name,
+        snprintf(text, sizeof text, "%.*s, driven by %.*s", name_fit(drive->name, 60), drive->name,
+                 name_fit(in->core->document->splines[drive->spline]->name, 60),
                  in->core->document->splines[drive->spline]->name);
         r.w -= r.h + 4;
         ui_hint(ui, r, "A channel of this character, and the spline that drives it");

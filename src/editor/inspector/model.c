@@ -1,5 +1,6 @@
 /// The inspector's section on imported characters: file, clip, place, selected bone.
 #include "base/file.h"
+#include "base/names.h"
 #include "editor/core/bones.h"
 #include "editor/inspector/parts.h"
 #include <stdio.h>
@@ -23,7 +24,7 @@ static void build_file(struct inspector *in, const struct model_rig *rig, const 
     if (!shown) ui_paragraph(&in->ui, "wiggly could not read this file.", theme()->warning);
     if (!shown || !shown->gltf.not_shown) return;
     char text[512];
-    snprintf(text, sizeof text, "Not shown: %.400s.", shown->gltf.not_shown);
+    snprintf(text, sizeof text, "Not shown: %.*s.", name_fit(shown->gltf.not_shown, 400), shown->gltf.not_shown);
     ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 

@@ -1,5 +1,6 @@
 /// The inspector's section on pins: all pins with their remaining offsets, and the selected one's numbers.
 #include "editor/core/pins.h"
+#include "base/names.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/parts.h"
@@ -40,7 +41,8 @@ static bool build_row(struct inspector *in, int row, struct pin_place place)
     char name[32], remove[32], text[160], left[32] = "";
     snprintf(name, sizeof name, "pin.%d", row);
     snprintf(remove, sizeof remove, "pin.%d.remove", row);
-    snprintf(text, sizeof text, "%.6g: %.60s, %s %d", pin->frame, rig_title(rig), word_of(rig), pin->point);
+    snprintf(text, sizeof text, "%.6g: %.*s, %s %d", pin->frame, name_fit(rig_title(rig), 60), rig_title(rig),
+             word_of(rig), pin->point);
     const double millimetres = left_of(in, place.rig, place.at);
     if (isfinite(millimetres)) snprintf(left, sizeof left, "%.1f mm", millimetres);
     r.w -= r.h + 4;

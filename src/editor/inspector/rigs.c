@@ -1,6 +1,7 @@
 /// The inspector's list of rigs, and the menu of additions.
 #include "editor/core/rigs.h"
 #include "base/file.h"
+#include "base/names.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/inspector/inspector.h"
@@ -113,7 +114,8 @@ static void build_row(struct inspector *in, int rig)
     const struct rect r = ui_row(&in->ui, UI_ROW);
     char name[32], text[160];
     snprintf(name, sizeof name, "%s.%d", rig_word(shown->kind), document_rig_number(in->core->document, rig));
-    snprintf(text, sizeof text, "%.100s, %s", path_name(rig_title(shown)), rig_word(shown->kind));
+    snprintf(text, sizeof text, "%.*s, %s", name_fit(path_name(rig_title(shown)), 100), path_name(rig_title(shown)),
+             rig_word(shown->kind));
     const uint32_t color =
         rig_input_count(shown) > 0 ? spline_list_color(in->core->document, rig_input(shown, 0)) : 0;
     ui_hint(&in->ui, r, "Show this rig and the splines that drive it");
@@ -184,7 +186,8 @@ static void add_copies(const struct inspector *in, struct menu *menu)
         const struct rig *rig = in->core->document->rigs[r];
         if (rig->kind != RIG_CHARACTER && rig->kind != RIG_MODEL) continue;
         snprintf(menu->names[copies], sizeof menu->names[0], "copy.%d", r);
-        snprintf(menu->labels[copies], LABEL, "One more %.80s", path_name(rig_title(rig)));
+        snprintf(menu->labels[copies], LABEL, "One more %.*s", name_fit(path_name(rig_title(rig)), 80),
+                 path_name(rig_title(rig)));
         add_item(menu, (struct choice){ADD_COPY, r}, menu->names[copies], menu->labels[copies]);
         copies++;
     }

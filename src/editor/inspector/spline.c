@@ -1,4 +1,5 @@
 /// The sections on the active spline's parameters, and on the spline or joint a parameter follows.
+#include "base/names.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -104,7 +105,8 @@ static int add_models(const struct inspector *in, struct ui_item *items, char te
     int count = 0;
     for (int r = -1; count < MAX_MODELS && (r = document_next_rig(in->core->document, RIG_MODEL, r)) >= 0;) {
         if (!bones_character(in->core, r)) continue;
-        snprintf(texts[count], MODEL_TEXT, "A joint of %.80s", rig_title(in->core->document->rigs[r]));
+        snprintf(texts[count], MODEL_TEXT, "A joint of %.*s", name_fit(rig_title(in->core->document->rigs[r]), 80),
+                 rig_title(in->core->document->rigs[r]));
         items[count] = (struct ui_item){texts[count], texts[count], 0};
         models[count++] = r;
     }
@@ -166,7 +168,8 @@ static void open_list(struct inspector *in, enum parameter parameter, bool joint
         ui_popup_open(&in->ui, track_list.name, (int)parameter, r);
         return;
     }
-    core_message(in->core, true, "There is no other spline for %.80s to follow.", core_active_spline(in->core)->name);
+    core_message(in->core, true, "There is no other spline for %.*s to follow.",
+                 name_fit(core_active_spline(in->core)->name, 80), core_active_spline(in->core)->name);
 }
 
 /// The button at the right of a row: follows a spline from a list, or stops following.

@@ -1,4 +1,5 @@
 /// The inspector's list of splines: names, colours, visibility, order.
+#include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/inspector/inspector.h"
@@ -53,8 +54,8 @@ static void build_typed(struct inspector *in, int spline, struct rect r)
     if (color_parse(ui->text.bytes, &color)) {
         set_color(in, spline, color);
     } else {
-        snprintf(ui->complaint, sizeof ui->complaint, "colour: expected something like #FFB000, got “%.40s”",
-                 ui->text.bytes);
+        snprintf(ui->complaint, sizeof ui->complaint, "colour: expected something like #FFB000, got “%.*s”",
+                 name_fit(ui->text.bytes, 40), ui->text.bytes);
     }
 }
 

@@ -3,6 +3,7 @@
 /// A channel whose spline has its own knots keeps that spline. The swing that the base causes goes into a new channel on a spline with the
 /// same poles. By linearity the motion is the same, and every existing key keeps its meaning. A tail without a channel for an axis gets a
 /// new one, too.
+#include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "model/fox.h"
@@ -51,7 +52,8 @@ int base_spline(const struct stage *stage, struct core *core, int coordinate)
     const struct tail *moved = tail_of(core->document, rig);
     char name[NAME_SIZE];
     if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
-    snprintf(name, sizeof name, "%.250s %s", core->document->rigs[rig]->name, coordinate_name(coordinate));
+    snprintf(name, sizeof name, "%.*s %s", name_fit(core->document->rigs[rig]->name, 250),
+             core->document->rigs[rig]->name, coordinate_name(coordinate));
     int spline = add_spline(core, name);
     if (spline < 0) return -1;
     core_set_parameter(core, spline, PARAMETER_MODE, WIGGLY_CUBIC);
@@ -147,7 +149,8 @@ static int add_missing(const struct stage *stage, struct core *core, int coordin
     const enum axis axis = missing_axis(stage, core, coordinate, &share);
     char name[NAME_SIZE];
     if (axis == AXES) return -1;
-    snprintf(name, sizeof name, "%.250s %s", rig_title(document->rigs[stage->body_drag.rig]), axis_word(axis));
+    snprintf(name, sizeof name, "%.*s %s", name_fit(rig_title(document->rigs[stage->body_drag.rig]), 250),
+             rig_title(document->rigs[stage->body_drag.rig]), axis_word(axis));
     for (int c = 0; c < tail->channel_count; c++) {
         const struct channel model = tail->channels[c];
         const double scale = drag_inertia_scale(stage, document, stage->body_drag.rig, c);
@@ -173,7 +176,8 @@ int base_hang_channels(const struct stage *stage, struct core *core, int coordin
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
             char name[NAME_SIZE];
-            snprintf(name, sizeof name, "%.280s follow", core->document->splines[channel.spline]->name);
+            snprintf(name, sizeof name, "%.*s follow", name_fit(core->document->splines[channel.spline]->name, 280),
+                     core->document->splines[channel.spline]->name);
             add_channel(stage, core, &channel, channel.axis, name, scale * direction[coordinate], base);
         } else if (!param_follows(equilibrium)) {
             follow_base(core, channel.spline, base);

@@ -1,5 +1,6 @@
 /// Bones of imported characters on the stage: hover, clicks and drawing.
 #include "editor/core/bones.h"
+#include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
@@ -306,7 +307,8 @@ void bones_show(const struct stage *stage, struct core *core)
     int length =
         snprintf(text, sizeof text, "%s", bones_title(core->document, meant->model, nodes[meant->node].name, title));
     if (count > 1)
-        snprintf(text + length, sizeof text - (size_t)length, " to %.200s, %d bones", nodes[meant->tip].name, count);
+        snprintf(text + length, sizeof text - (size_t)length, " to %.*s, %d bones",
+                 name_fit(nodes[meant->tip].name, 200), nodes[meant->tip].name, count);
     show_name(core, text);
 }
 

@@ -1,6 +1,7 @@
 /// Soft characters on the stage: posing, and the legend of their phases.
 #include "editor/core/characters.h"
 #include "base/hash.h"
+#include "base/names.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "maths/maths.h"
@@ -174,7 +175,8 @@ static void show_legend(struct core *core, const struct coordinate *coordinate)
     const struct rect box = characters_legend(core);
     const float x = box.x + box.w / 2, y = box.y + 80;
     char title[96];
-    snprintf(title, sizeof title, "%.40s: %s", coordinate->name, directions[core->characters.axis]);
+    snprintf(title, sizeof title, "%.*s: %s", name_fit(coordinate->name, 40), coordinate->name,
+             directions[core->characters.axis]);
     stage_scrim(core, box);
     drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
     show_wheel(list, x, y);
