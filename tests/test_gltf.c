@@ -342,7 +342,7 @@ GLTF_TEST(no_two_names_are_alike)
     static const char *const nodes[] = {"bone", "bone 3", "node 2", "bone 2", "node 4", "bone 4", "node 2 2"},
                              *const clips[] = {"walk", "run", "walk 3", "clip 3"};
     read_built(b, "\"nodes\":[{\"name\":\"bone\"},{\"name\":\"bone\"},{\"name\":\"node 2\"},{\"name\":\"bone 2\"},"
-                  "{\"name\":\"  \"},{\"name\":\"bone\"},{\"name\":\"node 2\"}],"
+                  "{\"name\":\" \u3000\"},{\"name\":\"bone\"},{\"name\":\"node 2\"}],"
                   "\"animations\":[{\"name\":\"walk\"},{\"name\":\"run\"},{\"name\":\"walk\"},{\"name\":\"\"}]");
     for (int n = 0; n < b->gltf.node_count; n++) assert_string_equal(b->gltf.nodes[n].name, nodes[n]);
     for (int c = 0; c < b->gltf.clip_count; c++) assert_string_equal(b->gltf.clips[c].name, clips[c]);

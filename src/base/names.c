@@ -65,6 +65,19 @@ void names_free(struct names *names)
     names->tree = NULL;
 }
 
+bool letter_is_blank(uint32_t c)
+{
+    return c <= ' ' || (c >= 0x7F && c <= 0xA0) || c == 0x1680 || (c >= 0x2000 && c <= 0x200B) || c == 0x2028 ||
+           c == 0x2029 || c == 0x202F || c == 0x205F || c == 0x3000;
+}
+
+bool name_is_blank(const char *name)
+{
+    bool is_blank = true;
+    while (*name && is_blank) is_blank = letter_is_blank(utf8_next(&name));
+    return is_blank;
+}
+
 int name_fit(const char *text, size_t most)
 {
     size_t length = strnlen(text, most), end = length;

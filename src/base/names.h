@@ -4,6 +4,7 @@
 
 #include "base/pool.h"
 #include <stdbool.h>
+#include <stdint.h>
 
 /// Names that are taken. Starts as zeros, apart from what is to be unlike the usual.
 struct names {
@@ -19,6 +20,10 @@ struct names {
 const char *names_add(struct names *names, const char *wanted) __attribute__((returns_nonnull));
 bool names_has(const struct names *names, const char *name);
 void names_free(struct names *names);
+
+/// Whether nothing of a letter, or of a name, can be seen: it is a space or a control character.
+bool letter_is_blank(uint32_t letter);
+bool name_is_blank(const char *name);
 
 /// The number of bytes, at most `most`, that the beginning of a text takes up to the end of a letter: use it as the precision of %.*s.
 int name_fit(const char *text, size_t most);

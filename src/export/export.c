@@ -24,7 +24,7 @@ static const struct format formats[] = {
     {.ending = ".npy", .holds = FORM_POINTS, .write = points_write, .motion = MOTION_NPY, .one_rig = true},
 };
 
-enum { FORMAT_COUNT = sizeof formats / sizeof *formats, MAX_KEYS = 100000000 };
+enum { FORMAT_COUNT = sizeof formats / sizeof *formats, MAX_KEYS = 100000000, NAMES_TEXT = 256, NAME_MOST = 64 };
 
 static const struct format *find_format(const char *path)
 {
@@ -56,21 +56,22 @@ bool export_knows(const char *path) { return find_format(path) != NULL; }
 void export_endings(char text[EXPORT_ENDINGS]) { list_endings(~0u, text); }
 
 /// The names of all rigs, as far as there is room.
-static void list_names(const struct document *document, char *text, size_t size)
+static void list_names(const struct document *document, char text[NAMES_TEXT])
 {
     size_t used = 0;
     text[0] = '\0';
-    for (int i = 0; i < document->rig_count && used < size; i++)
-        used +=
-            (size_t)snprintf(text + used, size - used, "%s\"%s\"", i > 0 ? ", " : "", form_name(document->rigs[i]));
+    for (int i = 0; i < document->rig_count && used + NAME_MOST + 8 < NAMES_TEXT; i++) {
+        const char *name = form_name(document->rigs[i]);
+        used += (size_t)sprintf(text + used, "%s\"%.*s\"", i > 0 ? ", " : "", name_fit(name, NAME_MOST), name);
+    }
 }
 
 /// Why there is no rig to write; `unfit` is one that the format cannot hold, or −1.
 static bool fail_rigs(const struct export_range *range, int unfit, struct error *error)
 {
     const struct document *document = range->posing->document;
-    char names[256], endings[EXPORT_ENDINGS];
-    list_names(document, names, sizeof names);
+    char names[NAMES_TEXT], endings[EXPORT_ENDINGS];
+    list_names(document, names);
     if (document->rig_count == 0)
         return fail(error, ERROR_INPUT, "the scene has no rig to export: its splines go into a .csv file");
     if (unfit < 0)
@@ -112,8 +113,8 @@ static bool choose_rigs(struct export_range *range, struct error *error)
     }
     if (range->rig_count == 0 && !(format->without_rigs && !wanted)) return fail_rigs(range, unfit, error);
     if (range->rig_count <= 1 || !format->one_rig) return true;
-    char names[256];
-    list_names(document, names, sizeof names);
+    char names[NAMES_TEXT];
+    list_names(document, names);
     return fail(error, ERROR_INPUT, "a %s file holds one rig: choose one of %s with %s", format->ending, names,
                 range->rig_choice);
 }

@@ -23,18 +23,12 @@ char *form_text(struct pool *pool, const char *first, const char *second, const 
     return text;
 }
 
-static bool is_space(uint32_t c)
-{
-    return c <= ' ' || c == 0x7F || (c >= 0x80 && c <= 0xA0) || c == 0x1680 || (c >= 0x2000 && c <= 0x200B) ||
-           c == 0x2028 || c == 0x2029 || c == 0x202F || c == 0x205F || c == 0x3000;
-}
-
 char *form_word(struct pool *pool, const char *name)
 {
     char *word = form_text(pool, name, "", ""), *to = word;
     for (const char *from = name; *from;) {
         const char *letter = from;
-        if (is_space(utf8_next(&from))) {
+        if (letter_is_blank(utf8_next(&from))) {
             *to++ = '_';
         } else {
             to = mempcpy(to, letter, (size_t)(from - letter));

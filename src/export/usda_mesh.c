@@ -228,7 +228,8 @@ static void write_shapes(const struct run *run)
     fputs("]\n", model->out);
     for (int t = 0; t < count; t++) {
         fputc('\n', model->out);
-        usda_begin(model->out, 12, "BlendShape", shapes[t].prim, shapes[t].token, NULL);
+        const char *title = gltf_target_name(&model->gltf->meshes[node->mesh], t);
+        usda_begin(model->out, 12, "BlendShape", shapes[t].prim, title ? title : shapes[t].token, NULL);
         write_offsets(run, t, false);
         if (run->parts->normal) write_offsets(run, t, true);
         fputs("            }\n", model->out);

@@ -446,9 +446,9 @@ static bool write_root(const struct usda_model *model, struct error *error)
 bool usda_model_write(struct usda_model *model, struct error *error)
 {
     struct gltf_pose pose = {0};
-    struct names *const sets[] = {&model->prims, &model->joint_names, &model->shape_prims, &model->material_prims};
+    struct names *const sets[] = {&model->prims, &model->joint_names, &model->shape_tokens, &model->shape_prims,
+                                  &model->material_prims};
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) *sets[i] = usda_names();
-    model->shape_tokens.between = "_";
     const bool room = reserve(model) && gltf_pose_create(model->gltf, &pose);
     bool done = (room || fail_no_memory(error, model->gltf->path)) && collect_keys(model, &pose, error);
     if (done) {
@@ -459,7 +459,6 @@ bool usda_model_write(struct usda_model *model, struct error *error)
     fputs("    }\n", model->out);
     gltf_pose_free(&pose);
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) names_free(sets[i]);
-    names_free(&model->shape_tokens);
     pool_free(&model->pool);
     return done;
 }

@@ -1,4 +1,5 @@
 /// Reads meshes: vertices and morph targets, triangles, strips and fans.
+#include "base/names.h"
 #include "maths/maths.h"
 #include "model/gltf_read.h"
 #include "model/surface.h"
@@ -324,7 +325,7 @@ static const char *find_target_name(const json_t *mesh, size_t target)
             json_object_get(own, "extras") ? json_object_get(own, "extras") : json_object_get(own, "extra");
         const json_t *names = json_object_get(json_object_get(of, "extras"), "targetNames");
         const char *name = json_string_value(names ? json_array_get(names, target) : json_object_get(more, "name"));
-        if (name && name[0]) return name;
+        if (name && !name_is_blank(name)) return name;
     }
     return NULL;
 }

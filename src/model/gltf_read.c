@@ -85,7 +85,7 @@ char *gltf_text(struct gltf_reader *r, const char *text)
 static const char *own_name(const json_t *object)
 {
     const char *name = json_string_value(json_object_get(object, "name"));
-    return name && name[strspn(name, " \t\r\n")] ? name : NULL;
+    return name && !name_is_blank(name) ? name : NULL;
 }
 
 char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n)

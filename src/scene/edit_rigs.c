@@ -34,7 +34,9 @@ static const struct joint_motion *motion_of_spline(const struct document *docume
 static void append_name(char list[NAME_SIZE], const char *name)
 {
     const size_t used = strlen(list);
-    snprintf(list + used, NAME_SIZE - used, "%s%s", used > 0 ? ", " : "", name);
+    if (used + 2 < NAME_SIZE)
+        snprintf(list + used, NAME_SIZE - used, "%s%.*s", used > 0 ? ", " : "", name_fit(name, NAME_SIZE - used - 3),
+                 name);
 }
 
 bool edit_rig_remove(struct document *document, int rig, struct error *error)
