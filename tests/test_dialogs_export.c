@@ -134,7 +134,7 @@ SESSION_TEST(test_choices_are_asked_for, open_session(s, "walk.json", 1280, 720)
     assert_true(request.wish.part && request.wish.first == 12 && request.wish.last == 48);
     assert_int_equal(request.wish.keys, 4);
     assert_string_equal(request.wish.clip, "Swing");
-    assert_string_equal(request.wish.rig, "fox");
+    assert_int_equal(request.wish.rig, s->document->rigs[0]->id);
     assert_null(shown_text(s->editor, "signed morph targets")); // tails have none
 }
 
@@ -146,6 +146,25 @@ SESSION_TEST(test_one_rig_only, open_session(s, "walk.json", 1280, 720))
     click(s, "fox");
     click(s, "cat");
     assert_non_null(shown_text(s->editor, "fox"));
+}
+
+/// However long their names are, and alike at the beginning.
+TEST(test_rigs_of_long_names_can_be_chosen)
+{
+    char text[1024], stem[201] = "";
+    for (int i = 0; i < 50; i++) strcat(stem, "尻");
+    snprintf(text, sizeof text,
+             "{\"frames\": [0, 48], \"splines\": [{\"name\": \"sway\"}], \"rigs\": [{\"type\": \"tail\", \"name\": "
+             "\"%s1\", \"spline\": \"sway\"}, {\"type\": \"tail\", \"name\": \"%s2\", \"spline\": \"sway\"}]}",
+             stem, stem);
+    struct session s;
+    open_other(&s, text, "two.json", 1280, 720);
+    const struct draw_command *label = shown_text(s.editor, "all rigs");
+    const float x = label->x + 4, y = label->y - 4;
+    for (int i = 0; i < 2; i++) click_at(&s, x, y, 1);
+    click(&s, "Write two.glb");
+    assert_int_equal(asked(&s).wish.rig, s.document->rigs[1]->id);
+    session_close(&s);
 }
 
 /// Chains go with their character, also where joints alone are written.

@@ -63,7 +63,13 @@ static struct export_options options_of(struct export_job *job)
     const struct export_wish *wish = &job->request.wish;
     const char *path = job->request.path;
     const bool all_clips = wish->all_clips && (path_has_end(path, ".glb") || path_has_end(path, ".gltf"));
-    return (struct export_options){.rig = wish->rig[0] ? wish->rig : NULL,
+    const struct document *document = job->opened.document;
+    const char *name = NULL;
+    for (int i = 0; i < document->rig_count && wish->rig > 0; i++) {
+        const struct rig *rig = document->rigs[i];
+        if (rig->id == wish->rig) name = rig->name ? rig->name : rig_word(rig->kind);
+    }
+    return (struct export_options){.rig = name,
                                    .rig_choice = "\"rig\"",
                                    .clip = wish->clip[0] && !all_clips ? wish->clip : NULL,
                                    .all_clips = all_clips,

@@ -55,8 +55,8 @@ struct export_wish {
     double first, last;
     int keys;          ///< per frame; 0: the scene's substeps
     int width, height; ///< of pictures; 0: the format's default
-    char rig[64];      ///< name; "": all
-    char clip[64];     ///< of the animation; "": the scene's
+    unsigned rig;      ///< its id; 0: all
+    char clip[256];    ///< of the animation; "": the scene's
     bool is_cubic, is_signed, all_clips, transparent;
 };
 

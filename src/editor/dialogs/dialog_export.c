@@ -1,5 +1,6 @@
 /// The Export dialog: a file name whose extension is the format, the frames, and the format's options.
 #include "base/file.h"
+#include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/state.h"
 #include "ui/theme.h"
@@ -84,7 +85,8 @@ static void begin_memory(struct dialogs *dialogs, const struct core *core)
     name_export(memory->path, core);
     choose_format(dialogs, dialogs->exporting.format);
     memory->wish.part = false;
-    memory->wish.rig[0] = memory->wish.clip[0] = '\0';
+    memory->wish.clip[0] = '\0';
+    memory->wish.rig = 0;
 }
 
 void dialogs_export(struct dialogs *dialogs, const struct core *core)
@@ -185,7 +187,7 @@ static bool build_text(struct dialogs *dialogs, struct rect r, const char *name,
     if (exporting->typed != id && ui->focus == id) ui->text.all = true; // focused by Tab or on opening
     const bool changed = ui_text_field(ui, r, name);
     if (changed) {
-        snprintf(text, size, "%s", ui->text.bytes);
+        snprintf(text, size, "%.*s", name_fit(ui->text.bytes, size - 1), ui->text.bytes);
         dialogs->dialog.error[0] = '\0';
     }
     if (ui->focus == id) {
@@ -298,7 +300,7 @@ static bool is_offered(const struct rig *rig, unsigned choices)
 
 static const char *label_of(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
 
-/// The next rig to export; "" for all after the last, where the format allows that.
+/// The next rig to export; 0 for all after the last, where the format allows that.
 static void next_rig(struct export_wish *wish, const struct document *document, unsigned choices)
 {
     int current = -1, first = -1, next = -1;
@@ -307,27 +309,39 @@ static void next_rig(struct export_wish *wish, const struct document *document, 
         if (!is_offered(rig, choices)) continue;
         if (first < 0) first = i;
         if (current >= 0 && next < 0) next = i;
-        if (current < 0 && strcmp(label_of(rig), wish->rig) == 0) current = i;
+        if (rig->id == wish->rig) current = i;
     }
     if (next < 0 && (current < 0 || (choices & CHOICE_ONE))) next = first;
-    snprintf(wish->rig, sizeof wish->rig, "%s", next >= 0 ? label_of(document->rigs[next]) : "");
+    wish->rig = next >= 0 ? document->rigs[next]->id : 0;
+}
+
+/// The label of the rig that is chosen, or NULL; and how many are offered.
+static const char *chosen_rig(const struct document *document, const struct export_wish *wish, unsigned choices,
+                              int *offered)
+{
+    const char *label = NULL;
+    *offered = 0;
+    for (int i = 0; i < document->rig_count; i++) {
+        if (!is_offered(document->rigs[i], choices)) continue;
+        if (document->rigs[i]->id == wish->rig) label = label_of(document->rigs[i]);
+        (*offered)++;
+    }
+    return label;
 }
 
 static void build_rig(struct dialogs *dialogs, const struct document *document, unsigned choices, struct rect *row)
 {
     struct export_wish *wish = &dialogs->exporting.memory.wish;
     int offered = 0;
-    bool has_chosen = false;
-    for (int i = 0; i < document->rig_count; i++) {
-        if (!is_offered(document->rigs[i], choices)) continue;
-        offered++;
-        has_chosen = has_chosen || strcmp(label_of(document->rigs[i]), wish->rig) == 0;
-    }
-    if (!has_chosen) wish->rig[0] = '\0'; // the rig belonged to another format or was renamed
+    const char *label = chosen_rig(document, wish, choices, &offered);
+    if (!label) wish->rig = 0; // the rig belonged to another format or is gone
     if (offered < 2) return;
-    if ((choices & CHOICE_ONE) && !wish->rig[0]) next_rig(wish, document, choices);
+    if ((choices & CHOICE_ONE) && !label) {
+        next_rig(wish, document, choices);
+        label = chosen_rig(document, wish, choices, &offered);
+    }
     const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH + 48, "rig");
-    if (ui_button(&dialogs->dialog.ui, r, "export.rig", wish->rig[0] ? wish->rig : "all rigs", false))
+    if (ui_button(&dialogs->dialog.ui, r, "export.rig", label ? label : "all rigs", false))
         next_rig(wish, document, choices);
 }
 
