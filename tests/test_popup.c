@@ -10,6 +10,7 @@ struct panel {
     struct ui ui;
     struct rect area;
     double speed;
+    const char *stem; ///< of the items' names
     int chosen, items, pressed, dropped;
     enum ui_line line;
     char typed[UI_TEXT_SIZE];
@@ -38,14 +39,14 @@ static void build(struct panel *p)
 {
     struct ui *ui = &p->ui;
     struct ui_item items[ITEMS];
-    char labels[ITEMS][12];
+    char labels[ITEMS][400];
     ui_value(ui, ui_row(ui, UI_ROW), &speed_number, &p->speed);
     if (ui_icon_button(ui, (struct rect){1200, 30, 24, 24}, "eye", UI_ICON_EYE, false, "See")) p->pressed++;
     build_rows(p);
     ui->y = p->area.y + p->area.h - 40;
     ui_dropdown(ui, ui_row(ui, UI_ROW), "kind", 7, "Kind", 0);
     for (int i = 0; i < p->items; i++) {
-        snprintf(labels[i], sizeof labels[i], "%d", i);
+        snprintf(labels[i], sizeof labels[i], "%s%d", p->stem, i);
         items[i] = (struct ui_item){labels[i], labels[i], 0};
     }
     int picked = ui_popup_list(ui, "kind", items, p->items, p->chosen);
@@ -54,8 +55,13 @@ static void build(struct panel *p)
 
 static struct panel make_panel(void)
 {
-    return (struct panel){
-        .area = {1000, 0, 280, 400}, .speed = 1, .chosen = 2, .items = ITEMS, .dropped = -1, .line = UI_LINE_NONE};
+    return (struct panel){.area = {1000, 0, 280, 400},
+                          .speed = 1,
+                          .stem = "",
+                          .chosen = 2,
+                          .items = ITEMS,
+                          .dropped = -1,
+                          .line = UI_LINE_NONE};
 }
 
 static bool send(struct panel *p, struct event event)
@@ -112,6 +118,20 @@ TEST(test_a_list_is_picked_from)
     assert_int_equal(p.chosen, 1);
     assert_false(is_open(&p));
     assert_true(p.ui.focus == 0); // opened by the pointer: the keyboard stays with the editor
+}
+
+/// However long the names of its rows are, and alike at the beginning.
+TEST(test_rows_of_long_names_are_told_apart)
+{
+    struct panel p = make_panel();
+    char stem[301] = "";
+    for (int i = 0; i < 100; i++) strcat(stem, "尻");
+    p.stem = stem;
+    p.items = 5;
+    press(&p, "kind.7", 1);
+    key(&p, KEY_DOWN, 0);
+    key(&p, KEY_ENTER, 0);
+    assert_int_equal(p.chosen, 3);
 }
 
 /// It is not clipped by the panel's bottom, near which it hangs: it opens upwards, and its rows lie over other widgets.

@@ -3,7 +3,7 @@
 #include <math.h>
 #include <stdio.h>
 
-enum { POPUP_PAD = 4, MAX_ROWS = 10, ROW_NAME = 96 }; ///< padding; visible rows
+enum { POPUP_PAD = 4, MAX_ROWS = 10 }; ///< padding; visible rows
 
 void ui_popup_open(struct ui *ui, const char *name, int which, struct rect anchor)
 {
@@ -140,9 +140,9 @@ bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bo
     return pressed;
 }
 
-static const char *row_name(char name[ROW_NAME], const struct ui_item *item)
+static const char *row_name(char name[UI_NAME_SIZE], const struct ui_item *item)
 {
-    snprintf(name, ROW_NAME, "item.%s", item->name);
+    snprintf(name, UI_NAME_SIZE, "item.%s", item->name);
     return name;
 }
 
@@ -166,7 +166,7 @@ static void type_filter(struct ui *ui, const struct ui_item *items, int count)
     ui->used = true;
     ui->popup.scroll.offset = 0;
     for (int i = 0; i < count; i++) {
-        char row[ROW_NAME];
+        char row[UI_NAME_SIZE];
         if (ui_filter_fit(&ui->popup.filter, items[i].label) < least) continue;
         ui->focus = ui_id(row_name(row, &items[i]));
         ui_keep(ui, ui->focus);
@@ -193,7 +193,7 @@ int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, 
     struct rect area = ui->scroll_area;
     if (searches) show_filter(ui, area);
     for (int i = 0; i < count; i++) {
-        char row[ROW_NAME];
+        char row[UI_NAME_SIZE];
         if (ui_filter_fit(&ui->popup.filter, items[i].label) < least) continue;
         row_name(row, &items[i]);
         if (ui->popup.fresh && i == chosen) ui->popup.focus = ui_id(row);

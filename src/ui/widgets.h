@@ -22,6 +22,7 @@ enum {
     UI_GAP = 8,         ///< between things in a row
     UI_MAX_FOCUS = 160, ///< widgets per panel that Tab reaches
     UI_TEXT_SIZE = PATH_LIMIT,
+    UI_NAME_SIZE = 1024, ///< bytes of the name of a widget for a spline or a bone
 };
 
 /// What the pointer is over, for the cursor.

@@ -288,7 +288,7 @@ bool inspector_is_dragging(const struct inspector *in) { return in->ui.held && i
 
 bool inspector_target(struct inspector *in, const char *name, float *x, float *y)
 {
-    char widget[128];
+    char widget[UI_NAME_SIZE];
     snprintf(widget, sizeof widget, "%s", name);
     char *comma = strrchr(widget, ',');
     double value = 0;

@@ -95,7 +95,7 @@ static void build_visibility(struct inspector *in, int s, struct rect r)
 {
     struct core *core = in->core;
     const struct spline *spline = in->core->document->splines[s];
-    char name[192];
+    char name[UI_NAME_SIZE];
     bool solo = selection_has(&core->solo, spline->id), shown = spline_list_shows(core, s);
     struct rect icon = {r.x + r.w - 2 * INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
     snprintf(name, sizeof name, "solo.%s", spline->name);
@@ -137,7 +137,7 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     struct ui *ui = &in->ui;
     const struct spline *spline = in->core->document->splines[s];
     bool active = s == in->core->active, dropped = false;
-    char name[192];
+    char name[UI_NAME_SIZE];
     snprintf(name, sizeof name, "spline.%s", spline->name);
     const float right = in->core->more ? 2 * INSPECTOR_ICON : KIND;
     struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - right, r.h};
@@ -204,7 +204,7 @@ void inspector_splines(struct inspector *in)
     int rows = count < MAX_ROWS ? count : MAX_ROWS;
     float top = ui->y;
     for (int i = 0; i < rows; i++) {
-        char name[192];
+        char name[UI_NAME_SIZE];
         snprintf(name, sizeof name, "spline.%s", in->core->document->splines[first + i]->name);
         if (ui_is_dragged(ui, name)) from = first + i;
         if (build_row(in, first + i, ui_row(ui, UI_ROW))) dropped = first + i;
