@@ -12,10 +12,11 @@
 enum { MAX_NAMES = 1000 };
 enum { RESERVE = 64 << 20, LONGEST_WAIT = 2 }; ///< bytes reserved for the rescue; seconds
 
-/// Writes the work into a folder ("": working folder) under an unused name.
-static bool write_to(const struct app *app, const char *folder, char *path, size_t size, struct error *error)
+/// Writes the work into a folder ("": working folder) under an unused name made of `name`.
+static bool write_to(const struct app *app, const char *folder, const char *name, char *path, size_t size,
+                     struct error *error)
 {
-    const char *name = app_path(app)[0] ? path_name(app_path(app)) : "untitled.json", *dot = strrchr(name, '.');
+    const char *dot = strrchr(name, '.');
     const int stem = (int)(dot && dot > name ? dot - name : (long)strlen(name));
     for (int i = 1; i <= MAX_NAMES; i++) {
         char number[16] = "";
@@ -30,17 +31,20 @@ static bool write_to(const struct app *app, const char *folder, char *path, size
 }
 
 /// Tries the scene's folder, the home folder, then a new folder of our own in the temporary directory, where nobody can have planted a
-/// link. Reports the first failure.
+/// link. A file system may refuse the scene's name, with its longer end, so a plain one is tried there, too. Reports the first failure.
 static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
 {
     char beside[PATH_LIMIT], shared[] = "/tmp/wiggly-XXXXXX";
-    const char *home = getenv("HOME");
+    const char *home = getenv("HOME"), *plain = "untitled.json";
+    const char *own = app_path(app)[0] ? path_name(app_path(app)) : plain;
     struct error other;
     path_folder(app_path(app), beside);
-    if (write_to(app, beside, path, size, error)) return true;
-    if (write_to(app, home ? home : "", path, size, &other)) return true;
+    if (write_to(app, beside, own, path, size, error)) return true;
+    if (write_to(app, home ? home : "", own, path, size, &other)) return true;
+    if (write_to(app, beside, plain, path, size, &other)) return true;
+    if (write_to(app, home ? home : "", plain, path, size, &other)) return true;
     if (!mkdtemp(shared)) return false;
-    if (write_to(app, shared, path, size, &other)) return true;
+    if (write_to(app, shared, plain, path, size, &other)) return true;
     rmdir(shared);
     return false;
 }

@@ -28,6 +28,12 @@ static bool fail_to(struct error *error, enum error_kind kind, const char *doing
                 unread ? "it is a pipe that nobody reads" : strerror(cause ? cause : EIO));
 }
 
+/// Whether the file system lacks what was asked for, as NTFS and CIFS may lack rights or syncing. Other failures are of the file.
+static bool is_unsupported(int cause)
+{
+    return cause == EPERM || cause == ENOTSUP || cause == EOPNOTSUPP || cause == EINVAL || cause == ENOSYS;
+}
+
 static bool fail_no_file(struct error *error, enum error_kind kind, const char *path, mode_t mode)
 {
     return fail(error, kind, "%s: expected a file, got %s", path,
@@ -248,7 +254,7 @@ static mode_t common_rights(mode_t mode, const unsigned char *acl, ssize_t size)
 }
 
 /// Gives a new file the owner, group, mode and ACL of an old one. If group or ACL cannot be set, group and others get only the rights that
-/// both had: members of the old group are others now.
+/// both had: members of the old group are others now. If the mode cannot be set, the file stays private as it was created.
 static bool keep_rights(int file, const char *path, const struct stat *old)
 {
     unsigned char acl[LARGEST_ACL];
@@ -259,7 +265,7 @@ static bool keep_rights(int file, const char *path, const struct stat *old)
     const bool kept = has_group && (size < 0 || fsetxattr(file, acl_name, acl, (size_t)size, 0) == 0);
     const mode_t common = common_rights(old->st_mode, acl, size);
     const mode_t rest = kept ? old->st_mode & 0077 : common << 3 | common;
-    return fchmod(file, (old->st_mode & 0700) | rest) == 0;
+    return fchmod(file, (old->st_mode & 0700) | rest) == 0 || is_unsupported(errno);
 }
 
 /// Opens a file, device or pipe to be overwritten in place. A FIFO without a reader is refused, because opening it would block.
@@ -340,11 +346,33 @@ static void forget(struct file_output *output)
     output->temporary = NULL;
 }
 
+static bool sync_file(int file) { return fsync(file) == 0 || is_unsupported(errno); }
+
+/// Copies a complete file to a new one.
+static bool copy_to_new(const char *from, const char *to)
+{
+    char block[READ_BLOCK];
+    struct stat about;
+    const int in = open(from, O_RDONLY | O_CLOEXEC);
+    const int out = in >= 0 && fstat(in, &about) == 0
+                        ? open(to, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, about.st_mode & 0777)
+                        : -1;
+    ssize_t got = 0;
+    while (out >= 0 && (got = read(in, block, sizeof block)) > 0) {
+        if (write(out, block, (size_t)got) != got) break;
+    }
+    bool done = out >= 0 && got == 0 && sync_file(out);
+    if (out >= 0) done = close(out) == 0 && done;
+    if (out >= 0 && !done) unlink(to);
+    if (in >= 0) close(in);
+    return done;
+}
+
 bool file_output_commit(struct file_output *output, struct error *error)
 {
     FILE *stream = output->stream;
     bool replaces = output->temporary != NULL;
-    bool done = !ferror(stream) && fflush(stream) == 0 && (!replaces || fsync(fileno(stream)) == 0);
+    bool done = !ferror(stream) && fflush(stream) == 0 && (!replaces || sync_file(fileno(stream)));
     int cause = errno;
     output->stream = NULL;
     if (fclose(stream) != 0 && done) {
@@ -354,6 +382,10 @@ bool file_output_commit(struct file_output *output, struct error *error)
     if (done && replaces) {
         done = rename(output->temporary, output->target) == 0;
         cause = errno;
+        // Where renaming is refused, a copy can still make a new file, but not replace an old one whole.
+        const bool copied = !done && copy_to_new(output->temporary, output->target);
+        if (copied) unlink(output->temporary);
+        done |= copied;
     }
     if (done && replaces) {
         forget(output);

@@ -20,7 +20,8 @@ bool file_read_text(const char *path, size_t limit, char **text, size_t *size, s
 
 /// Writes a temporary file beside `path`, checks every call, fsyncs, renames. On failure the old file is intact and the temporary one is gone. A
 /// symbolic link's target is replaced, not the link. The old file's owner, group, mode and ACL are kept; if the system does not allow that, the
-/// new file gives others fewer rights, never more.
+/// new file gives others fewer rights, never more. A file system that knows no rights or no syncing fails nothing, and where it refuses to
+/// rename, a new file is copied to its place.
 bool file_write_atomic(const char *path, const void *data, size_t size, struct error *error);
 
 /// The same for output written piece by piece. A device or a pipe is written directly, but a pipe must have a reader.
