@@ -1,6 +1,7 @@
 /// Reads the command line and hands over to one command.
 #include "base/embedded.h"
 #include "base/error.h"
+#include "base/file.h"
 #include "commands/commands.h"
 #include "commands/options.h"
 #include <signal.h>
@@ -122,6 +123,7 @@ static int run(int argc, char **argv)
 int main(int argc, char **argv)
 {
     signal(SIGXFSZ, SIG_IGN); // a file that may not grow is a failed write, with a sentence and nothing half-written
+    file_guard_reads(true);
     int status = run(argc, argv);
     bool written = fflush(stdout) == 0 && !ferror(stdout);
     if (written || status != 0) return status;

@@ -325,4 +325,39 @@ TEST(a_pipe_is_neither_read_nor_written)
     blind_close(&blind);
 }
 
+/// Neither a save nor an export replaces a model of the scene, nor an export the scene's own file, however often it is asked for.
+TEST(what_the_scene_is_read_from_stays)
+{
+    static const struct {
+        enum request_kind kind;
+        const char *name;
+    } asked_for[] = {{REQUEST_EXPORT, "dog.glb"},
+                     {REQUEST_EXPORT, "linked.glb"},
+                     {REQUEST_SAVE_AS, "dog.glb"},
+                     {REQUEST_SAVE_AS, "linked.glb"},
+                     {REQUEST_EXPORT, "walk.csv"}};
+    struct blind blind;
+    char command[256], own[128];
+    snprintf(command, sizeof command, "cp assets/models/dog.glb %s && ln -s dog.glb %s/linked.glb", folder, folder);
+    assert_int_equal(system(command), 0);
+    snprintf(own, sizeof own, "%s",
+             folder_file("walk.csv", "{\"wiggly\": 1, \"frames\": [0, 9], \"rigs\": "
+                                     "[{\"type\": \"model\", \"model\": \"dog.glb\"}]}"));
+    const uint64_t model = file_content(folder_path("dog.glb")), scene = file_content(own);
+    blind_open(&blind, own);
+    blind_frame(&blind);
+    for (size_t i = 0; i < sizeof asked_for / sizeof *asked_for; i++) {
+        for (int times = 0; times < 2; times++) {
+            const char *text = said(&blind, asked_for[i].kind, folder_path(asked_for[i].name));
+            if (!strstr(text, "this scene is read from it: choose another name"))
+                fail_msg("%s: \"%s\"", asked_for[i].name, text);
+        }
+        assert_true(file_content(folder_path("dog.glb")) == model);
+        assert_true(file_content(own) == scene);
+    }
+    const char *text = said(&blind, REQUEST_EXPORT, folder_path("other.glb"));
+    if (!strstr(text, "Wrote")) fail_msg("%s", text);
+    blind_close(&blind);
+}
+
 int main(void) { return tests_run(prepare, folder_remove); }

@@ -4,6 +4,7 @@
 #include "base/need.h"
 #include "base/progress.h"
 #include "platform/process.h"
+#include "rig/import.h"
 #include "scene/load.h"
 #include "ui/font.h"
 #include "ui/theme.h"
@@ -187,6 +188,20 @@ static bool check_scene(const struct app *app, uint64_t hash, struct error *erro
                 (unsigned long long)hash);
 }
 
+/// Refuses to write over the scene's models and the files that these name, before any of it is overwritten.
+static bool check_outputs(const struct app *app, struct error *error)
+{
+    const struct app_options *o = app->options;
+    const char *const outputs[] = {o->log, o->screenshot, o->record, o->result};
+    bool good = true, any = o->frames_dir;
+    for (int i = 0; i < 4; i++) any |= outputs[i] != NULL;
+    if (!any) return true;
+    document_note_models(app->table.document);
+    models_update(app->table.models, app->table.document, NULL); // reads their files, which notes them
+    for (int i = 0; i < 4 && good; i++) good = !outputs[i] || file_check_unread(outputs[i], error);
+    return good;
+}
+
 static bool start(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
@@ -207,7 +222,7 @@ static bool start(struct app *app, struct error *error)
     app->table.history = history_create(NULL);
     if (!app_open(app, o->scene, error)) return false;
     uint64_t hash = scene_hash(app->table.document);
-    if (!check_scene(app, hash, error)) return false;
+    if (!check_scene(app, hash, error) || !check_outputs(app, error)) return false;
     if (o->record) {
         struct replay_header header = {.width = (int)lroundf((float)width / scale),
                                        .height = (int)lroundf((float)height / scale),
@@ -225,6 +240,8 @@ static bool start(struct app *app, struct error *error)
         if (!is_replay(app)) process_catch_end();
     }
     if (is_live(app)) {
+        file_guard_reads(false);
+        if (!o->scene || !import_suits(o->scene)) file_forget_reads(o->scene); // the user may save it
         personal_start(app);
         app_rescue_without_memory(app);
     }

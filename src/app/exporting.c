@@ -111,7 +111,9 @@ static void work_on(struct export_job *job)
 static int work(void *user)
 {
     struct export_job *job = user;
+    file_guard_reads(true);
     while (!atomic_load(&job->ended)) work_on(job);
+    file_forget_reads(NULL);
     return 0;
 }
 

@@ -129,6 +129,7 @@ void app_show_title(struct app *app)
 
 void app_adopt(struct app *app, struct document *document)
 {
+    if (app->personal) file_forget_reads(NULL); // of the scene before
     document_destroy(app->table.document);
     app->table.document = document;
     document->serial = ++app->last_serial;
@@ -275,30 +276,28 @@ static bool take_picture(struct app *app, struct error *error)
     return true;
 }
 
-/// Whether a file is a character of the document. Writing the motion into it would make it swing twice.
-static bool is_own_character(const struct document *document, const char *path)
+/// Whether the document is read from a file: one of its models or, for an export, its own.
+static bool is_read(const struct app *app, const struct request *request)
 {
-    char own[PATH_LIMIT], file[PATH_LIMIT];
-    for (int r = -1; (r = document_next_rig(document, RIG_MODEL, r)) >= 0;) {
-        const bool known = path_resolve(document->folder, document->rigs[r]->model.model, own);
-        if (known && path_resolve(NULL, path, file) && strcmp(own, file) == 0) return true;
-    }
-    return false;
+    const struct document *document = app->table.document;
+    char model[PATH_LIMIT];
+    bool is_one = request->kind == REQUEST_EXPORT && file_same(request->path, app_path(app));
+    for (int r = 0; r < document->rig_count && !is_one; r++)
+        is_one = document_model_path(document, r, model) && file_same(request->path, model);
+    return is_one;
 }
 
-/// Refuses to write over another existing file once, and allows it when repeated.
+/// Refuses to write over what the document is read from, and once over another existing file, which it allows when repeated.
 static bool may_replace(struct app *app, const struct request *request, struct error *error)
 {
     const char *path = request->path;
-    const bool is_character = is_own_character(app->table.document, path);
     const bool is_download = platform_in_page() && request->kind == REQUEST_EXPORT; // the browser replaces no file
+    if (is_read(app, request))
+        return fail(error, ERROR_INPUT, "%s: this scene is read from it: choose another name", path);
     if (access(path, F_OK) != 0 || strcmp(path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0 ||
-        (is_download && !is_character))
+        is_download)
         return true;
     snprintf(app->replaceable, sizeof app->replaceable, "%s", path);
-    if (is_character)
-        return fail(error, ERROR_INPUT,
-                    "%s is this scene's character: press Enter again to replace it, or change the name", path);
     return fail(error, ERROR_INPUT, "%s already exists: press Enter again to replace it", path);
 }
 

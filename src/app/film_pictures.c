@@ -57,12 +57,22 @@ static bool name_temporary(const struct film_file *file, long number, char name[
     return snprintf(name, PATH_LIMIT, "%s/%ld.png", file->folder, number) < PATH_LIMIT;
 }
 
+/// Whether all places are free, before anything is drawn.
+static bool check_places(const struct film_file *file, struct error *error)
+{
+    for (long n = 1; n <= file->shape.count; n++) {
+        char name[PATH_LIMIT];
+        if (name_picture(file, n, name) && !file_check_place(name, error)) return false;
+    }
+    return true;
+}
+
 static struct film_file *open_pictures(const char *path, const struct film_shape *shape, struct error *error)
 {
     struct film_file *file = need_zeroed(1, sizeof *file);
     file->path = path;
     file->shape = *shape;
-    if (split(file, error)) {
+    if (split(file, error) && check_places(file, error)) {
         file->lock = file_folder_beside(path, &file->folder);
         if (file->lock >= 0) return file;
         fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));

@@ -297,12 +297,8 @@ static bool is_fetching(const struct table *table)
     bool any = false;
     if (table->models_serial == document->serial) return false;
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = document->rigs[r];
         char path[PATH_LIMIT];
-        const char *model = rig->kind == RIG_MODEL       ? rig->model.model
-                            : rig->kind == RIG_CHARACTER ? rig->character.model
-                                                         : NULL;
-        any |= model && path_resolve(document->folder, model, path) && platform_fetches(path);
+        any |= document_model_path(document, r, path) && platform_fetches(path);
     }
     return any;
 }

@@ -48,6 +48,7 @@ static int open_regular(const char *path, struct stat *about, struct error *erro
         fail_to(error, ERROR_INPUT, "be opened", path, errno);
         return -1;
     }
+    file_note_read(path, NULL);
     if (fstat(file, about) == 0 && S_ISREG(about->st_mode)) return file;
     fail_no_file(error, ERROR_INPUT, path, about->st_mode);
     close(file);
@@ -142,6 +143,76 @@ static char *resolve_links(const char *path)
     free(target);
     errno = ELOOP;
     return NULL;
+}
+
+/// The absolute path of a file that does not exist yet, behind links.
+static bool resolve_new(const char *path, char absolute[PATH_LIMIT])
+{
+    char folder[PATH_LIMIT];
+    char *target = resolve_links(path);
+    const bool done = target && path_folder(target, folder) && path_resolve(folder, path_name(target), absolute);
+    free(target);
+    return done;
+}
+
+bool file_same(const char *path, const char *other)
+{
+    char first[PATH_LIMIT], second[PATH_LIMIT];
+    struct stat a, b;
+    const bool a_exists = stat(path, &a) == 0, b_exists = stat(other, &b) == 0;
+    if (a_exists && b_exists) return S_ISREG(a.st_mode) && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
+    return !a_exists && !b_exists && resolve_new(path, first) && resolve_new(other, second) &&
+           strcmp(first, second) == 0;
+}
+
+/// The files that a thread reads. They are kept by path and compared as files, because a save gives a path another file.
+static _Thread_local struct {
+    struct read_file {
+        char *path;
+        const char *as;
+    } * files;
+    size_t count;
+    bool notes;
+} reads;
+
+void file_guard_reads(bool notes) { reads.notes = notes; }
+
+void file_note_read(const char *path, const char *as)
+{
+    if (!reads.notes) return;
+    for (size_t i = 0; i < reads.count; i++) {
+        if (strcmp(reads.files[i].path, path) == 0) return;
+    }
+    reads.files = need_more(reads.files, reads.count + 1, sizeof *reads.files);
+    char *kept = need_text(path);
+    reads.files[reads.count++] = (struct read_file){kept, as ? as : kept};
+}
+
+void file_forget_reads(const char *path)
+{
+    size_t kept = 0;
+    for (size_t i = 0; i < reads.count; i++) {
+        const struct read_file file = reads.files[i];
+        if (path && !file_same(file.path, path)) {
+            reads.files[kept++] = file;
+        } else {
+            free(file.path);
+        }
+    }
+    reads.count = kept;
+    if (kept > 0) return;
+    free(reads.files);
+    reads.files = NULL;
+}
+
+bool file_check_unread(const char *path, struct error *error)
+{
+    for (size_t i = 0; i < reads.count; i++) {
+        if (file_same(path, reads.files[i].path))
+            return fail(error, ERROR_USAGE, "%s: cannot be written, because it is read as %s: name another file",
+                        path, reads.files[i].as);
+    }
+    return true;
 }
 
 /// Empties a folder that file_folder_beside() has made.
@@ -278,6 +349,7 @@ static int open_in_place(const char *path, int flags)
 
 FILE *file_open_growing(const char *path, struct error *error)
 {
+    if (!file_check_unread(path, error)) return NULL;
     const int file = open_in_place(path, O_CREAT | O_TRUNC);
     FILE *stream = file >= 0 ? fdopen(file, "w") : NULL;
     if (stream) return stream;
@@ -289,8 +361,8 @@ FILE *file_open_growing(const char *path, struct error *error)
 bool file_check_place(const char *path, struct error *error)
 {
     struct stat about;
-    return stat(path, &about) != 0 || S_ISREG(about.st_mode) ||
-           fail_no_file(error, ERROR_ENVIRONMENT, path, about.st_mode);
+    return file_check_unread(path, error) && (stat(path, &about) != 0 || S_ISREG(about.st_mode) ||
+                                              fail_no_file(error, ERROR_ENVIRONMENT, path, about.st_mode));
 }
 
 /// Opens the output: a temporary file beside the target, or the target itself if it is a device or pipe.
@@ -318,6 +390,7 @@ static int open_output(const char *path, struct file_output *output)
 bool file_output_open(struct file_output *output, const char *path, struct error *error)
 {
     *output = (struct file_output){.path = path};
+    if (!file_check_unread(path, error)) return false;
     int file = open_output(path, output);
     if (file >= 0) output->stream = fdopen(file, "wb");
     if (output->stream) return true;

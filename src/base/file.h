@@ -44,7 +44,8 @@ void file_output_discard(struct file_output *output);
 /// Opens a file to be written in place, line by line, like a log; a pipe must have a reader. NULL and an error on failure.
 FILE *file_open_growing(const char *path, struct error *error);
 
-/// Whether a path is a regular file or free; else false and an error. For saves and exports, because devices and pipes keep nothing.
+/// Whether a path is a regular file or free, and not guarded; else false and an error. For saves and exports, because devices and pipes keep
+/// nothing.
 bool file_check_place(const char *path, struct error *error);
 
 /// Moves a complete file to its place; an existing file is replaced, and its rights are kept.
@@ -57,6 +58,23 @@ void file_remove_unfinished(void);
 /// goes with the next output beside it. Returns a descriptor to keep open for as long as the folder is there, and in `folder` its path,
 /// which the caller frees; −1 with errno set.
 int file_folder_beside(const char *path, char **folder);
+
+/// Whether two paths are one regular file, also by a link or, where neither exists yet, by the same name in the same folder.
+bool file_same(const char *path, const char *other);
+
+// A command must not write over what it reads. A guarded thread notes its files, and every output of it refuses them, by whatever name.
+
+/// Starts or stops noting what this thread reads; what is noted stays guarded. Threads start without a guard.
+void file_guard_reads(bool notes);
+
+/// Notes a file that this thread will read, if it is guarded. `as` completes "it is read as …" and must live until it is forgotten; NULL: the path.
+void file_note_read(const char *path, const char *as);
+
+/// Guards this file no longer, NULL: none.
+void file_forget_reads(const char *path);
+
+/// Whether no such file is guarded; else false and a sentence with both roles.
+bool file_check_unread(const char *path, struct error *error);
 
 /// A hash of a file's present content, to tell whether another program has written it; 0 if it cannot be read.
 uint64_t file_content(const char *path);

@@ -345,6 +345,11 @@ static bool analyse_files(const struct job *job, const struct lapack *lapack, st
     }
     drop_unused(result);
     const struct character *character = &result->character;
+    const char *const also[] = {job->scene,
+                                job->coordinates}; // all or none, though more was read than the command line named
+    for (int i = 0; i < 2; i++) {
+        if (also[i] && !file_check_unread(also[i], error)) return false;
+    }
     return character_write(job->output, character, !job->no_normals, error) &&
            (!job->scene || analyze_scene_write(job->scene, job->output, character, result->analyzed, error)) &&
            (!job->coordinates || analyze_coordinates_write(job->coordinates, character, result->analyzed, error));
@@ -399,7 +404,7 @@ int command_analyze(int argc, char **argv)
     struct job job = {.modes = 1, .opening = {.scale = 1}, .from = -1};
     const struct option_spec options[] = {
         {"--rest", NULL, "FILE",
-         "mesh at rest (OBJ, STL, PLY, OFF, glTF), the same vertices in order (that of the simulation)", OPTION_TEXT,
+         "mesh at rest (OBJ, STL, PLY, OFF, glTF), the same vertices in order (that of the simulation)", OPTION_INPUT,
          &job.rest, 0, 0},
         MESH_OPTIONS(&job.opening),
         {"--output", "-o", "FILE", "required: the character to write (.glb)", OPTION_OUTPUT, &job.output, 0, 0},

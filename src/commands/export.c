@@ -111,7 +111,7 @@ int command_export(int argc, char **argv)
     struct export_options *o = &job.options;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE",
-         "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .mp4, .webm, .gif or .png", OPTION_TEXT,
+         "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .mp4, .webm, .gif or .png", OPTION_OUTPUT,
          &job.output, 0, 0},
         {"--frames", NULL, "A:B", "frames A to B (default: all)", OPTION_TEXT, &job.frames, 0, 0},
         {"--fps", NULL, "N", "keys or pictures per second (default: a key per sample, a picture per frame)",

@@ -46,7 +46,7 @@ int command_live(int argc, char **argv)
         {"--screenshot", NULL, "FILE.png", "save a picture of the last frame", OPTION_OUTPUT, &options.screenshot, 0,
          0},
         {"--frames-dir", NULL, "DIR", "save a PNG of every frame", OPTION_TEXT, &options.frames_dir, 0, 0},
-        {"--replay", NULL, "FILE", "play recorded input", OPTION_TEXT, &options.replay, 0, 0},
+        {"--replay", NULL, "FILE", "play recorded input", OPTION_INPUT, &options.replay, 0, 0},
         {"--record", NULL, "FILE", "record all input", OPTION_OUTPUT, &options.record, 0, 0},
         {"--turns", NULL, "first|second", "draw frames in turn with another program (docs/measuring.md)", OPTION_WORD,
          &options.turns, 0, 0},

@@ -8,7 +8,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 
 enum { WORD_MAX = 63, OPTION_MAX = 32 };
 
@@ -150,6 +149,7 @@ static enum options_result store(const struct usage *usage, const struct option_
         *(bool *)option->target = true;
         return OPTIONS_RUN;
     case OPTION_TEXT:
+    case OPTION_INPUT:
     case OPTION_OUTPUT:
         if (!*text) return options_wrong(usage, "%s: expected %s, got nothing", option->name, option->argument);
         *(const char **)option->target = text;
@@ -214,26 +214,27 @@ static void print_help(const struct usage *usage, bool all)
     if (count < usage->option_count) printf("\nwiggly %s --help-all lists all options.\n", usage->command);
 }
 
-/// Whether two paths name one file. Devices and pipes may be shared.
-static bool same_file(const char *a, const char *b)
+/// Refuses an output that is another output of the command, or one of its inputs. Devices and pipes may be shared.
+static enum options_result check_outputs(const struct usage *usage, const char **operands)
 {
-    char first[PATH_LIMIT], second[PATH_LIMIT];
-    struct stat one, other;
-    const bool exists = stat(a, &one) == 0 && stat(b, &other) == 0;
-    if (exists) return S_ISREG(one.st_mode) && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
-    return path_resolve(NULL, a, first) && path_resolve(NULL, b, second) && strcmp(first, second) == 0;
-}
-
-/// Refuses two outputs to the same file.
-static enum options_result check_outputs(const struct usage *usage)
-{
+    static char operand[WORD_MAX + 1];
+    const char *word = usage->operands + (usage->operands[0] == '[');
+    snprintf(operand, sizeof operand, "%.*s", (int)strcspn(word, " ]"), word);
+    for (int i = 0; i < usage->operand_maximum && operands[i]; i++) file_note_read(operands[i], operand);
+    for (int i = 0; i < usage->option_count; i++) {
+        const struct option_spec *input = &usage->options[i];
+        const char *path = input->kind == OPTION_INPUT ? *(const char **)input->target : NULL;
+        if (path) file_note_read(path, input->name);
+    }
     for (int i = 0; i < usage->option_count; i++) {
         const struct option_spec *one = &usage->options[i];
         const char *path = one->kind == OPTION_OUTPUT ? *(const char **)one->target : NULL;
+        struct error error;
+        if (path && !file_check_unread(path, &error)) return options_wrong(usage, "%s: %s", one->name, error.text);
         for (int k = 0; path && k < i; k++) {
             const struct option_spec *other = &usage->options[k];
             const char *taken = other->kind == OPTION_OUTPUT ? *(const char **)other->target : NULL;
-            if (taken && same_file(path, taken))
+            if (taken && file_same(path, taken))
                 return options_wrong(usage, "%s and %s: expected two files, got %s for both", other->name, one->name,
                                      path);
         }
@@ -266,7 +267,7 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     }
     if (count == 0 && usage->operands[0] != '[')
         return options_wrong(usage, "an argument is missing: %s", usage->operands);
-    return check_outputs(usage);
+    return check_outputs(usage, operands);
 }
 
 int options_end(bool done, const struct error *error)

@@ -8,7 +8,8 @@
 enum option_kind {
     OPTION_FLAG,   ///< bool: becomes true; no value
     OPTION_TEXT,   ///< const char *: points into argv
-    OPTION_OUTPUT, ///< a path to write; no two of a command may be the same file
+    OPTION_INPUT,  ///< the same, a path to read
+    OPTION_OUTPUT, ///< a path to write; no other path to read or write, nor an operand, may be the same file
     OPTION_LIST,   ///< struct option_list; may repeat
     OPTION_INT,
     OPTION_REAL,
@@ -67,7 +68,7 @@ enum options_result {
 };
 
 /// Parses argv[1 …]; argv[0] is the subcommand's name. Options and operands may mix; after `--` all are operands. `operands` has room for
-/// usage->operand_maximum pointers, NULL if not given.
+/// usage->operand_maximum pointers, NULL if not given. Operands and paths to read are guarded from outputs (file_note_read()).
 enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands);
 
 /// Prints "wiggly COMMAND: text; see wiggly COMMAND --help" on stderr.

@@ -116,8 +116,8 @@ int command_rig(int argc, char **argv)
     const struct option_spec options[] = {
         {"--chain", "-c", "A:B", "make a chain of the bones from A to B, or to the tip below A; can be repeated",
          OPTION_LIST, &job.chains, 0, 0},
-        {"--output", "-o", "FILE", "scene to write (.json), or the character with its motion (.glb, …)", OPTION_TEXT,
-         &job.output, 0, 0},
+        {"--output", "-o", "FILE", "scene to write (.json), or the character with its motion (.glb, …)",
+         OPTION_OUTPUT, &job.output, 0, 0},
         {"--clip", NULL, "NAME", "clip to play (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
         {"--all-clips", NULL, NULL, "put the chains on every clip of the file (.glb, .gltf)", OPTION_FLAG,
          &job.all_clips, 0, 0},

@@ -193,7 +193,8 @@ static bool run(struct job *job, struct error *error)
     progress_end_when_interrupted();
     progress_show_stages(job->shake.verbose);
     if (job->drive.kind == DRIVE_TRACK && !drive_read_track(&job->drive, job->drive_text, error)) return false;
-    bool good = open_mesh(job->mesh, &job->opening, &surface, error) && make_body(job, &soft, &surface, error);
+    bool good = file_check_unread(job->rest, error) && open_mesh(job->mesh, &job->opening, &surface, error) &&
+                make_body(job, &soft, &surface, error);
     if (good) {
         report_body(job, &soft);
         good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &surface, error);
@@ -282,8 +283,8 @@ int command_simulate(int argc, char **argv)
     job.soft.frequency = job.soft.density = 0;
     const struct option_spec options[] = {
         {"--output", "-o", "FILE",
-         "required: NAME.npy or NAME.pc2 (--modal: .npy); beside it NAME.rest.obj, NAME.simulation.json", OPTION_TEXT,
-         &job.output, 0, 0},
+         "required: NAME.npy or NAME.pc2 (--modal: .npy); beside it NAME.rest.obj, NAME.simulation.json",
+         OPTION_OUTPUT, &job.output, 0, 0},
         MESH_OPTIONS(&job.opening),
         {"--shake", NULL, "DIR", "up, side, front or a vector x,y,z (up)", OPTION_TEXT, &job.shake_text, 0, 0},
         {"--amplitude", NULL, "A",

@@ -78,7 +78,7 @@ int command_solve(int argc, char **argv)
     const char *scene, *out = NULL;
     enum solver_choice solver = SOLVER_BY_LENGTH;
     const struct option_spec options[] = {
-        {"--output", "-o", "FILE", "file to write (default: standard output)", OPTION_TEXT, &out, 0, 0},
+        {"--output", "-o", "FILE", "file to write (default: standard output)", OPTION_OUTPUT, &out, 0, 0},
         OPTION_SOLVER(&solver),
     };
     const struct usage usage = {

@@ -18,6 +18,7 @@ bool opened_read_splines(struct opened *opened, const char *path, struct error *
     *opened =
         (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
     if (!opened->document) return false;
+    document_note_models(opened->document);
     const bool needs_models = document_has_motions(opened->document) || pins_hold_any(opened->document);
     return !needs_models || read_models(opened, error);
 }

@@ -184,6 +184,23 @@ void document_set_path(struct document *document, const char *path)
     document->path = copy;
 }
 
+bool document_model_path(const struct document *document, int rig, char path[PATH_LIMIT])
+{
+    const struct rig *of = document->rigs[rig];
+    const char *model = of->kind == RIG_MODEL       ? of->model.model
+                        : of->kind == RIG_CHARACTER ? of->character.model
+                                                    : NULL;
+    return model && path_resolve(document->folder, model, path);
+}
+
+void document_note_models(const struct document *document)
+{
+    char path[PATH_LIMIT];
+    for (int r = 0; r < document->rig_count; r++) {
+        if (document_model_path(document, r, path)) file_note_read(path, "a model of the scene");
+    }
+}
+
 static size_t spline_bytes(const struct spline *spline)
 {
     return sizeof *spline + (size_t)spline->knot_count * sizeof *spline->knots + strlen(spline->name) + 1;

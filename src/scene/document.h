@@ -6,6 +6,7 @@
 #define SCENE_DOCUMENT_H
 
 #include "base/error.h"
+#include "base/file.h"
 #include "scene/parameter.h"
 #include "scene/rig.h"
 #include <stdatomic.h>
@@ -99,6 +100,12 @@ void document_touch(struct document *document);
 
 /// Sets the path of the document's own file; "" or NULL: untitled.
 void document_set_path(struct document *document, const char *path);
+
+/// The absolute path of a rig's model; false if it has none, or one that is too long.
+bool document_model_path(const struct document *document, int rig, char path[PATH_LIMIT]);
+
+/// Guards the models of a document (file_note_read()), also those that will not be read.
+void document_note_models(const struct document *document);
 
 /// Bytes that a document holds and `other` (NULL: none) does not, without unknown keys.
 size_t document_bytes_beside(const struct document *document, const struct document *other);
