@@ -158,23 +158,6 @@ elsewhere() { (cd "$scratch" && "$binary" live --no-draw --frames 2); }
 binary=$(realpath "$WIGGLY")
 expect 0 "the built-in tail is found from any folder" elsewhere
 
-# F12: beside the scene's file, else in the working folder; never over a picture that is there.
-f12() { # [scene]: pressed twice
-    (
-        cd "$scratch/pictures" || exit
-        "$binary" live --no-draw --size 640x360 --frames 1 --record header "$@" || exit
-        { sed '/^frames/d' header; printf '%s\n' "frames 30" "5 key F12" "9 key F12"; } >f12.replay
-        "$binary" live --headless --replay f12.replay "$@"
-    )
-}
-mkdir -p "$scratch/pictures/mine"
-cp assets/scenes/tail.json "$scratch/pictures/mine/scene.json"
-expect 0 "F12" f12
-expect 0 "F12 with a scene" f12 mine/scene.json
-[ "$(cd "$scratch/pictures" && echo *.png mine/*)" = \
-    "wiggly-0001.png wiggly-0002.png mine/scene.json mine/wiggly-0001.png mine/wiggly-0002.png" ]
-ok "leaves pictures with names of their own" $?
-
 expect 1 "live with a broken scene" blind --frames 2 tests/vectors/complex_default.csv
 expect 3 "a log that cannot be made" blind --frames 2 --log "$scratch/no/live.csv"
 one_sentence "says so in one line" "$err"

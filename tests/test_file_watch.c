@@ -286,6 +286,33 @@ static const char *said(struct blind *blind, enum request_kind kind, const char 
     return core->message.text;
 }
 
+/// A replay is told that all went well, and the status line where its files are, if anywhere.
+MINE_TEST(a_replay_writes_where_it_may)
+{
+    static const char header[] = "wiggly-replay 1\nsize 1280 720\nframes 1\n";
+    static const enum request_kind kinds[] = {REQUEST_EXPORT, REQUEST_SCREENSHOT, REQUEST_SAVE_AS, REQUEST_SAVE};
+    char saves[128], own[128];
+    const uint64_t before = file_content(scene());
+    snprintf(saves, sizeof saves, "%s", folder_path("saves"));
+    snprintf(own, sizeof own, "%s", folder_path("own.csv"));
+    blind->app.replay = replay_parse("a", header, sizeof header - 1, NULL);
+    assert_non_null(blind->app.replay);
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        const char *text = said(blind, kinds[i], own);
+        if (strcmp(text, "Nothing was written: a replay writes only with --saves DIR.") != 0)
+            fail_msg("%zu: %s", i, text);
+    }
+    assert_true(history_is_saved(blind->app.table.history));
+    assert_int_not_equal(access(own, F_OK), 0);
+    assert_int_equal(mkdir(saves, 0777), 0);
+    blind->options.saves = saves;
+    assert_non_null(strstr(said(blind, REQUEST_SAVE, NULL), "/saves/own.csv."));
+    assert_non_null(strstr(said(blind, REQUEST_SAVE_AS, "/no/../where/else.json"), "/saves/else.json."));
+    assert_non_null(strstr(said(blind, REQUEST_SAVE_AS, "/no/where/.."), "expected the path of a file"));
+    assert_int_not_equal(access(own, F_OK), 0);
+    assert_true(file_content(scene()) == before);
+}
+
 /// Opening one would wait for whoever is at its other end; the app goes on, and the work stays unsaved.
 TEST(a_pipe_is_neither_read_nor_written)
 {

@@ -127,19 +127,19 @@ keys() { # <name>: a replay that exports to it
     for ((i = 0; i < ${#1}; i++)); do printf '2 text U+%04X\n' "'${1:i:1}"; done
     printf '3 key Enter\n3 keyup Enter\n'
 }
-keys "$scratch/out/from_app.csv" >"$scratch/export.txt"
-expect 0 "the app exports a table" "$WIGGLY" live $tail --no-draw --replay "$scratch/export.txt"
+keys from_app.csv >"$scratch/export.txt"
+expect 0 "the app exports a table" "$WIGGLY" live $tail --no-draw --replay "$scratch/export.txt" --saves "$scratch/out"
 "$WIGGLY" export $tail -o "$scratch/out/from_command.csv" --quiet
 holds "which is the one that the command writes" cmp "$scratch/out/from_app.csv" "$scratch/out/from_command.csv"
 "$WIGGLY" live assets/scenes/dog.json --no-draw --frames 1 --record "$scratch/begin.txt" >/dev/null 2>&1
-keys "$scratch/out/dog_from_app.glb" >"$scratch/export.txt"
-expect 0 "the app exports the dog" "$WIGGLY" live assets/scenes/dog.json --no-draw --replay "$scratch/export.txt"
+keys dog_from_app.glb >"$scratch/export.txt"
+expect 0 "the app exports the dog" "$WIGGLY" live assets/scenes/dog.json --no-draw --replay "$scratch/export.txt" --saves "$scratch/out"
 "$WIGGLY" export assets/scenes/dog.json -o "$scratch/out/dog_from_command.glb" --quiet
 cmp "$scratch/out/dog_from_app.glb" "$scratch/out/dog_from_command.glb"
 ok "whose tail follows the clip as the command has it" $?
 "$WIGGLY" live $tail --no-draw --frames 1 --record "$scratch/begin.txt" >/dev/null 2>&1
-keys "$scratch/none/walk.glb" >"$scratch/export.txt"
-expect 0 "a folder that is not there stops nothing" "$WIGGLY" live $tail --no-draw --replay "$scratch/export.txt"
+keys walk.glb >"$scratch/export.txt"
+expect 0 "a folder that is not there stops nothing" "$WIGGLY" live $tail --no-draw --replay "$scratch/export.txt" --saves "$scratch/no/ne"
 
 if ! command -v ffmpeg >/dev/null || ! command -v ffprobe >/dev/null; then
     echo "skip - no films are made, as ffmpeg is missing"

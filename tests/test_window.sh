@@ -43,5 +43,9 @@ keys ctrl+s
 eventually "a double click on the curves inserts a knot" knots -eq $((before + 2))
 keys ctrl+z ctrl+s
 eventually "one Ctrl+Z takes it back" cmp -s "$scratch/mine.json" "$scratch/undone.json"
+touch "$scratch/wiggly-0001.png"
+keys F12
+eventually "F12 leaves a picture beside the scene's file" [ -s "$scratch/wiggly-0002.png" ]
+holds "and not over one that is there" [ ! -s "$scratch/wiggly-0001.png" ]
 quit_app
 holds "byte for byte" cmp "$scratch/mine.json" "$scratch/saved.json"

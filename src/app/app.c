@@ -232,6 +232,7 @@ static bool start(struct app *app, struct error *error)
         if (!(app->recording = recording_open(o->record, &header, error))) return false;
     }
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
+    if (o->saves) mkdir(o->saves, 0777);
     bool window = platform_is_window(app->platform);
     app->fixed_clock = !window || is_replay(app) || app->recording;
     app->lost = true;

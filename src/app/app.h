@@ -28,6 +28,7 @@ struct app_options {
     const char *frames_dir;    ///< a PNG for each frame
     bool demo;                 ///< plays the demo until someone presses something
     const char *replay;        ///< replays events from this file, with its clock
+    const char *saves;         ///< folder for what a replay saves and exports; NULL: it writes nothing
     const char *record;        ///< records events to this file
     const char *result;        ///< saves the final document
     int turns; ///< 1: first, 2: second: takes turns with another program, frame by frame (platform/process.h)

@@ -234,9 +234,33 @@ static bool add_file(struct app *app, const char *path, struct error *error)
     return added;
 }
 
+/// Where a file is written. A replay chooses no folder: what it writes goes to that of --saves, by its name alone, else nowhere (""). To the
+/// replay, all is as it was recorded.
+static bool place_file(const struct app *app, const char *path, char placed[PATH_LIMIT], struct error *error)
+{
+    const char *saves = app->options->saves, *name = path_name(path);
+    const bool is_name = *name && strcmp(name, ".") != 0 && strcmp(name, "..") != 0;
+    const int length = !app->replay ? snprintf(placed, PATH_LIMIT, "%s", path)
+                       : saves      ? snprintf(placed, PATH_LIMIT, "%s/%s", saves, name)
+                                    : snprintf(placed, PATH_LIMIT, "%s", "");
+    return (is_name && length < PATH_LIMIT) || fail(error, ERROR_INPUT, "%s: expected the path of a file", path);
+}
+
+/// Tells where a replay's file is.
+static void tell_placed(struct app *app, const char *placed)
+{
+    if (placed[0])
+        core_message(&app->table.editor->core, false, "Saved %s.", placed);
+    else
+        core_message(&app->table.editor->core, false, "Nothing was written: a replay writes only with --saves DIR.");
+}
+
 static bool save(struct app *app, const char *path, struct error *error)
 {
-    if (!file_check_place(path, error) || !scene_save(app->table.document, path, error)) return false;
+    char placed[PATH_LIMIT];
+    if (!place_file(app, path, placed, error)) return false;
+    if (placed[0] && (!file_check_place(placed, error) || !scene_save(app->table.document, placed, error)))
+        return false;
     history_set_path(app->table.history, path);
     history_mark_saved(app->table.history);
     file_watch_note_now(app);
@@ -244,6 +268,7 @@ static bool save(struct app *app, const char *path, struct error *error)
     show_title(app);
     personal_note_file(app, app_path(app));
     core_message(&app->table.editor->core, false, "Saved.");
+    if (app->replay) tell_placed(app, placed);
     return true;
 }
 
@@ -264,15 +289,16 @@ bool app_screenshot(struct app *app, const char *path, struct error *error)
 /// F12: saves to the first free wiggly-NNNN.png, in the scene's folder, else the working folder.
 static bool take_picture(struct app *app, struct error *error)
 {
-    char folder[PATH_LIMIT], name[32], path[PATH_LIMIT];
+    char folder[PATH_LIMIT], name[32], path[PATH_LIMIT], placed[PATH_LIMIT];
     int number = 0;
     if (!path_folder(app_path(app), folder)) folder[0] = '\0';
     do {
         snprintf(name, sizeof name, "wiggly-%04d.png", ++number);
         if (!path_resolve(folder, name, path)) return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
-    } while (access(path, F_OK) == 0);
-    if (!app_screenshot(app, path, error)) return false;
-    core_message(&app->table.editor->core, false, "Saved %s.", path);
+        if (!place_file(app, path, placed, error)) return false;
+    } while (placed[0] && access(placed, F_OK) == 0);
+    if (placed[0] && !app_screenshot(app, placed, error)) return false;
+    tell_placed(app, placed);
     return true;
 }
 
@@ -290,15 +316,26 @@ static bool is_read(const struct app *app, const struct request *request)
 /// Refuses to write over what the document is read from, and once over another existing file, which it allows when repeated.
 static bool may_replace(struct app *app, const struct request *request, struct error *error)
 {
-    const char *path = request->path;
+    char path[PATH_LIMIT];
     const bool is_download = platform_in_page() && request->kind == REQUEST_EXPORT; // the browser replaces no file
     if (is_read(app, request))
-        return fail(error, ERROR_INPUT, "%s: this scene is read from it: choose another name", path);
-    if (access(path, F_OK) != 0 || strcmp(path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0 ||
+        return fail(error, ERROR_INPUT, "%s: this scene is read from it: choose another name", request->path);
+    if (!place_file(app, request->path, path, error) || !file_check_unread(path, error)) return false;
+    if (access(path, F_OK) != 0 || strcmp(request->path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0 ||
         is_download)
         return true;
     snprintf(app->replaceable, sizeof app->replaceable, "%s", path);
     return fail(error, ERROR_INPUT, "%s already exists: press Enter again to replace it", path);
+}
+
+static bool export_motion(struct app *app, const struct request *request, struct error *error)
+{
+    struct request placed = *request;
+    if (!place_file(app, request->path, placed.path, error)) return false;
+    if (placed.path[0]) return exporting_start(app, &placed, error);
+    editor_answer(app->table.editor, request, true, "");
+    tell_placed(app, placed.path);
+    return true;
 }
 
 static void share(struct app *app)
@@ -340,7 +377,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_THEIRS:
         return take_theirs(app, error);
     case REQUEST_EXPORT:
-        return may_replace(app, request, error) && exporting_start(app, request, error);
+        return may_replace(app, request, error) && export_motion(app, request, error);
     case REQUEST_EXPORT_STOP:
         exporting_stop(app);
         return true;

@@ -53,7 +53,8 @@ void app_rescue(struct app *app, struct error *error)
 {
     char path[4096];
     struct error trouble = {0}, why = *error;
-    if (!app->table.document || history_is_saved(app->table.history)) return;
+    if (app->replay || !app->table.document || history_is_saved(app->table.history))
+        return; // a replay can be played again
     const char *kept = personal_rescue(app);
     if (kept) {
         fail(error, why.kind, "%s; the unsaved scene is safe in %s, and the next start offers to recover it",

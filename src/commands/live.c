@@ -47,6 +47,8 @@ int command_live(int argc, char **argv)
          0},
         {"--frames-dir", NULL, "DIR", "save a PNG of every frame", OPTION_TEXT, &options.frames_dir, 0, 0},
         {"--replay", NULL, "FILE", "play recorded input", OPTION_INPUT, &options.replay, 0, 0},
+        {"--saves", NULL, "DIR", "folder for what a replay saves and exports (default: it writes nothing)",
+         OPTION_TEXT, &options.saves, 0, 0},
         {"--record", NULL, "FILE", "record all input", OPTION_OUTPUT, &options.record, 0, 0},
         {"--turns", NULL, "first|second", "draw frames in turn with another program (docs/measuring.md)", OPTION_WORD,
          &options.turns, 0, 0},
@@ -68,6 +70,8 @@ int command_live(int argc, char **argv)
                                   "--demo brings its own scene and input: expected no scene, --replay or --record");
     if (options.no_draw && (options.screenshot || options.frames_dir || options.gl_debug))
         return (int)options_wrong(&usage, "--no-draw: expected no --screenshot, --frames-dir or --gl-debug");
+    if (options.saves && !options.replay)
+        return (int)options_wrong(&usage, "--saves is for what a replay writes: expected --replay, too");
     options.width = size[0];
     options.height = size[1];
     stage_listen(tell_large);
