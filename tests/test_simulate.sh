@@ -76,6 +76,14 @@ expect 0 "a mesh in millimetres with z up" "$WIGGLY" simulate "$scratch/z.obj" -
 says "with a vertex too many" "z.obj: warning: 1 vertex is part of no triangle" "$err"
 tail -n +2 "$scratch/z.rest.obj" | sed -n '/^v/p' | sed 's/-0\b/0/g' | diff -q - <(sed -n '/^v/p' "$scratch/box.rest.obj") >/dev/null
 ok "stands as the box does" $?
+sed 's/^v 90 /v 1e31 /' "$scratch/z.obj" >"$scratch/far.obj"
+expect 1 "a scale that makes it infinite" "$WIGGLY" simulate "$scratch/far.obj" --scale 1e9 "${quick[@]}" -o "$scratch/far.npy"
+says "is refused" "far.obj: expected a size that --scale keeps finite, got an infinite one" "$err"
+holds "and nothing is written" [ ! -e "$scratch/far.npy" ]
+for scale in inf nan 1e999; do
+    expect 2 "a scale of $scale" "$WIGGLY" simulate "$scratch/z.obj" --scale $scale "${quick[@]}" -o "$scratch/far.npy"
+    says "is refused" "--scale: expected a number from 1e-09 to 1000000000, got '$scale'" "$err"
+done
 
 # A flag is a sheet from its mesh to the character, whose back is drawn, too.
 { printf 'v %s\n' '0 0 0' '.5 0 0' '1 0 0' '0 1 0' '.5 1 0' '1 1 0' && printf 'f %s\n' '1 2 5 4' '2 3 6 5'; } >"$scratch/flag.obj"
