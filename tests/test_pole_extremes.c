@@ -44,6 +44,27 @@ TEST(poles_are_the_textbooks)
     }
 }
 
+/// A pole that hardly turns keeps all its digits, wherever damping and bandwidth meet; in tracks, too.
+TEST(the_slower_pole_is_the_textbooks)
+{
+    static const double dampings[] = {1e-9, 0.6, 0.99, 1 - 1e-6, 1 - 1e-9, 1 - 0x1p-53}, beside[] = {0, 1e-9, 0.3};
+    for (int n = 0; n < 18; n++) {
+        double frequency = 1, damping = dampings[n / 3],
+               bandwidth = (1 - beside[n % 3]) * sqrt(1 - damping * damping);
+        wiggly_desc desc = describe(WIGGLY_COMPLEX, frequency, damping);
+        desc.bandwidth.value = bandwidth;
+        const struct textbook_poles expected = textbook_poles_at(&desc, 0, 0);
+        const double turn = (double)cimagq(expected.s[1]);
+        assert_near(wiggly_poles_at(&desc, 0).s[1][1], turn, 1e-15 * fabs(turn));
+        const number mu[2] = {cexpq(expected.s[0] * step) - 1, cexpq(expected.s[1] * step) - 1};
+        poles_block block;
+        desc.frequency.track = &frequency, desc.damping.track = &damping, desc.bandwidth.track = &bandwidth;
+        poles_block_fill(&desc, 0, 1, 0, &block);
+        assert_near(block.p_re[0], (double)crealq(mu[0] * mu[1]), 1e-16);
+        assert_near(block.p_im[0], (double)cimagq(mu[0] * mu[1]), 4e-17);
+    }
+}
+
 /// What is as good as infinite is no number that overflows later, and all of it the same.
 TEST(beyond_the_largest_nothing_changes)
 {

@@ -41,6 +41,13 @@ static inline dd dd_product(double a, double b)
 #endif
 }
 
+/// a² exactly, by the halves of a: for loops that vectorise, which a call of fma() would not.
+static inline dd dd_square(double a)
+{
+    const double p = a * a, upper = dd_upper(a), lower = a - upper;
+    return (dd){p, ((upper * upper - p) + 2 * upper * lower) + lower * lower};
+}
+
 static inline dd dd_add(dd a, dd b)
 {
     dd s = dd_sum(a.hi, b.hi);

@@ -48,9 +48,10 @@ static inline poles real_poles(double sigma, double omega)
 static inline poles complex_poles(double omega, double zeta, double bandwidth)
 {
     const double root = sqrt((1 - zeta) * (1 + zeta)), centre = omega * root, turn = omega * bandwidth;
-    // √(1−ζ²) − β of a pole near 0, without cancellation
-    const double sum = root + bandwidth,
-                 lower = ((1 - bandwidth) * (1 + bandwidth) - zeta * zeta) / (sum > 0 ? sum : 1);
+    // √(1−ζ²) − β = (1 − ζ² − β²) / (√(1−ζ²) + β), whose numerator may be near 0
+    const dd exact = dd_subtract(dd_subtract(dd_from(1), dd_square(zeta)), dd_square(bandwidth));
+    const double plain = (1 - bandwidth) * (1 + bandwidth) - zeta * zeta, sum = root + bandwidth,
+                 lower = (plain > 0.5 ? plain : exact.hi + exact.lo) / (sum > 0 ? sum : 1);
     return (poles){
         .s = {{-zeta * omega, centre + turn}, {-zeta * omega, zeta < 1 ? omega * lower : -turn}},
         .natural = omega,
