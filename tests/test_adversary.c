@@ -169,6 +169,34 @@ TEST(loops_without_a_spring)
     }
 }
 
+/// A frequency that varies twice a swing pumps it up: run forward, what rounds at the seam is a million times as large at the end.
+TEST(loops_whose_swing_grows)
+{
+    enum { SAMPLES = 241 };
+    double frequency[SAMPLES], y[SAMPLES];
+    bool all = true;
+    for (int n = 0; n < 8; n++) {
+        const double depth = 0.1 + 0.1 * n;
+        for (int i = 0; i < SAMPLES; i++) {
+            const double turn = 2 * 3.14159265358979323846 * i / 24;
+            frequency[i] = fmax(0, 1 + depth * sin(2 * turn)), y[i] = 1000 * sin(0.7 * turn) + 300 * cos(turn);
+        }
+        wiggly_desc *desc = begin(24, SAMPLES);
+        desc->mode = n % 2 ? WIGGLY_REAL : WIGGLY_COMPLEX;
+        desc->start = WIGGLY_LOOP;
+        desc->calm = n < 4 ? 1e-4 : 1;
+        desc->frequency = track_of(frequency, SAMPLES);
+        desc->equilibrium = track_of(y, SAMPLES);
+        add_knot(20, 1000);
+        add_knot(131, -400);
+        struct adversary_verdict v;
+        adversary_judge(*state, &problem, &v);
+        all = all && v.said == WIGGLY_OK && !v.fault;
+        if (v.said != WIGGLY_OK || v.fault) tell("a growing loop", &v);
+    }
+    assert_true(all);
+}
+
 /// Of two samples, the earliest knot's: of the oscillator its total, of the filter its x.
 TEST(two_samples_of_a_cubic)
 {

@@ -5,6 +5,9 @@
 //     q  ← e^{−dh} ((cosh rh + d sinh(rh)/r) q + (sinh(rh)/r) q')
 //     q' ← e^{−dh} (−k (sinh(rh)/r) q + (cosh rh − d sinh(rh)/r) q').
 //
+// Run forward round a loop whose frequency varies, an error may grow as fast as a swing that the frequency pumps up: such a loop's states are
+// solved for together.
+//
 // u is q with the imaginary part that an oscillation on one side of the axis has, u' = p u: Im u = −(q' + d q)/ω_d.
 #include "spline/forced_response.h"
 #include "spline/dd.h"
@@ -211,6 +214,178 @@ static double error_of_circle(const forced_response *u, int period, double step,
            fabs(determinant(a));
 }
 
+// --- a loop of varying parameters: all states together ---
+//
+// With s_i = (q, h q') before the jump of sample i, each interval is an equation s_{i+1} − M_i s_i = f_i. Rotations of two neighbouring equations
+// eliminate s_1, s_2, … in turn, until one equation is left, for s_0. The rows that they set aside give the other states, from the last on:
+//
+//     s_i  s_0  s_{i+1}             s_i  s_0  s_{i+1}
+//     | B    A    0   |     →      | R    U    V  |         R s_i = c − U s_0 − V s_{i+1}
+//     | −M_i 0    I   |            | 0    A'   B' |
+//
+// No number grows on the way, however fast the states would. Residuals in double-double refine them.
+
+enum { OF_ITSELF = 0, OF_FIRST = 2, OF_NEXT = 4, RIGHT = 6, ENTRIES };
+
+/// A sample's interval, and its state.
+typedef struct waypoint {
+    step_matrix loss;  ///< of q and h q'
+    double root[3];    ///< R
+    double kept[2][5]; ///< U, V and c
+    double state[2];   ///< the equation's right side, then the solution
+} waypoint;
+
+_Static_assert(sizeof(waypoint) == RESPONSE_ROOM * sizeof(double), "the room for a loop");
+
+/// Turns two rows so that the second one begins with 0, from a column on.
+static void rotate(double *a, double *b, int column)
+{
+    if (b[column] == 0) return;
+    const double size = fmax(fabs(a[column]), fabs(b[column])), x = a[column] / size, y = b[column] / size;
+    const double length = sqrt(x * x + y * y), c = x / length, s = y / length;
+    for (int k = column; k < ENTRIES; k++) {
+        const double above = c * a[k] + s * b[k];
+        b[k] = c * b[k] - s * a[k];
+        a[k] = above;
+    }
+}
+
+/// The equation of a sample's interval as two rows, with −M_i at a column.
+static void set_equation(const waypoint *at, int column, double row[2][ENTRIES])
+{
+    memset(row, 0, 2 * sizeof *row);
+    row[0][column] = at->loss.q_q - 1, row[0][column + 1] = at->loss.q_v;
+    row[1][column] = at->loss.v_q, row[1][column + 1] = at->loss.v_v - 1;
+    for (int k = 0; k < 2; k++) row[k][RIGHT] = at->state[k];
+}
+
+/// Solves R s = right.
+static bool solve_root(const double root[3], const double right[2], double s[2])
+{
+    if (root[0] == 0 || root[2] == 0) return false;
+    s[1] = right[1] / root[2];
+    s[0] = (right[0] - root[1] * s[1]) / root[0];
+    return isfinite(s[0]) && isfinite(s[1]);
+}
+
+/// Solves for all states. False if no state, or more than one, returns to itself.
+static bool solve_round(waypoint *way, int period)
+{
+    double row[4][ENTRIES]; // the equation that is left, and the next one
+    set_equation(&way[0], OF_FIRST, row);
+    row[0][0] = row[1][1] = 1;
+    for (int i = 1; i < period; i++) {
+        set_equation(&way[i], OF_ITSELF, row + 2);
+        row[2][OF_NEXT] = row[3][OF_NEXT + 1] = 1;
+        for (int column = 0; column < 2; column++) {
+            for (int k = column + 1; k < 4; k++) rotate(row[column], row[k], column);
+        }
+        way[i].root[0] = row[0][0], way[i].root[1] = row[0][1], way[i].root[2] = row[1][1];
+        for (int k = 0; k < 2; k++) {
+            const double *left = row[2 + k];
+            const double moved[ENTRIES] = {left[4], left[5], left[2], left[3], 0, 0, left[RIGHT]};
+            memcpy(way[i].kept[k], row[k] + OF_FIRST, sizeof way[i].kept[k]);
+            memcpy(row[k], moved, sizeof moved);
+        }
+    }
+    for (int k = 0; k < 4; k++) row[k / 2][k % 2] += row[k / 2][OF_FIRST + k % 2]; // s_P is s_0
+    rotate(row[0], row[1], 0);
+    const double last[3] = {row[0][0], row[0][1], row[1][1]}, right[2] = {row[0][RIGHT], row[1][RIGHT]};
+    double *first = way[0].state;
+    if (!solve_root(last, right, first)) return false;
+    for (int i = period - 1; i > 0; i--) {
+        const double *next = i + 1 < period ? way[i + 1].state : first;
+        double rest[2];
+        for (int k = 0; k < 2; k++) {
+            const double *r = way[i].kept[k];
+            rest[k] = r[4] - (r[0] * first[0] + r[1] * first[1]) - (r[2] * next[0] + r[3] * next[1]);
+        }
+        if (!solve_root(way[i].root, rest, way[i].state)) return false;
+    }
+    return true;
+}
+
+/// What each equation misses at q and h q', with the jumps in double-double.
+static void find_missed(waypoint *way, const double *y, int period, const double *q, const double *v)
+{
+    dd behind = dd_difference(y[0], y[period - 1]);
+    for (int i = 0; i < period; i++) {
+        const int next = i + 1 < period ? i + 1 : 0;
+        const step_matrix *loss = &way[i].loss;
+        const dd ahead = dd_difference(y[i + 1], y[i]), moved = dd_add(dd_subtract(behind, ahead), dd_from(v[i]));
+        const dd of_q = dd_add(dd_product(loss->q_q, q[i]), dd_scale(loss->q_v, moved)),
+                 of_v = dd_add(dd_product(loss->v_q, q[i]), dd_scale(loss->v_v, moved));
+        way[i].state[0] = dd_subtract(dd_difference(q[i], q[next]), of_q).hi;
+        way[i].state[1] = dd_subtract(dd_subtract(moved, dd_from(v[next])), of_v).hi;
+        behind = ahead;
+    }
+}
+
+/// How far q and Im u move if the steps are rounded differently, each by this share: all alike, or each in its own direction.
+static double error_of_round(const wiggly_desc *desc, double floor, waypoint *way, const forced_response *u,
+                             double share)
+{
+    const int period = desc->samples - 1;
+    double largest = 0;
+    for (int alike = 0; alike < 2; alike++) {
+        for (int i = 0; i < period; i++) {
+            const step_matrix *l = &way[i].loss;
+            const double q = u->total[i], v = u->speed[i], sign = i * 7 % 5 < 2 ? -share : share;
+            way[i].state[0] =
+                alike ? share * (l->q_q * q + l->q_v * v) : sign * (fabs(l->q_q * q) + fabs(l->q_v * v));
+            way[i].state[1] =
+                alike ? share * (l->v_q * q + l->v_v * v) : -sign * (fabs(l->v_q * q) + fabs(l->v_v * v));
+        }
+        if (!solve_round(way, period)) return INFINITY;
+        double most = 0;
+        for (int i = 0; i < period; i++) {
+            const oscillator o = oscillator_at(desc, i, floor);
+            const double q = fabs(way[i].state[0]), v = fabs(way[i].state[1]) / desc->step;
+            const double turn = desc->mode == WIGGLY_COMPLEX ? fabs(oscillator_turn(o, period * desc->step)) : 0;
+            most = fmax(most, q + turn * (v + o.d * q));
+        }
+        largest += most;
+    }
+    return largest;
+}
+
+/// If corrections stop at a larger share of q, the rotations lost the pull: then it is too slow for a swing to grow.
+static const double lost = 1e-10;
+
+/// q to `total` and q', in the middle of its jumps, to `speed`. False if there is none, or the rotations cannot find it.
+static bool run_round(const wiggly_desc *desc, const double *y, double floor, double fastest, forced_response *u)
+{
+    enum { SWEEPS = 8 };
+    const int period = desc->samples - 1;
+    const double h = desc->step;
+    waypoint *way = (waypoint *)(void *)u->room;
+    path p = begin(desc, floor);
+    for (int i = 0; i < period; i++) {
+        way[i].loss = next_loss(&p, i);
+        way[i].loss.q_v /= h, way[i].loss.v_q *= h;
+        u->total[i] = u->speed[i] = 0;
+    }
+    double before = INFINITY, change = 0, size = 0;
+    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+        find_missed(way, y, period, u->total, u->speed);
+        if (!solve_round(way, period)) return false;
+        change = 0;
+        for (int i = 0; i < period; i++) change = fmax(change, fmax(fabs(way[i].state[0]), fabs(way[i].state[1])));
+        if (change > 0.5 * before) break; // in the last digits
+        for (int i = 0; i < period; i++) {
+            u->total[i] += way[i].state[0], u->speed[i] += way[i].state[1];
+            size = fmax(size, fmax(fabs(u->total[i]), fabs(u->speed[i])));
+        }
+        before = change;
+        if (change <= DBL_EPSILON * size) break;
+    }
+    if (change > lost * size) return false;
+    u->error = 4 * change + 8 * error_of_round(desc, floor, way, u, 4 * DBL_EPSILON * (1 + fastest * h));
+    u->total[period] = u->total[0], u->speed[period] = u->speed[0];
+    for (int i = 0; i <= period; i++) u->speed[i] = u->speed[i] / h + 0.5 * u->im[i];
+    return true;
+}
+
 /// As a share of y's range: a loop whose error may be larger is refined.
 static const double narrow = 1e-11;
 
@@ -222,9 +397,12 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, for
     const extent all = extent_of(y, period);
     const double range = all.high - all.low;
     const double seconds = period * desc->step;
+    if (f.pull && !poles_are_constant(desc) && run_round(desc, y, floor, sqrt(f.k), u))
+        return extent_size(extent_of(u->total, period)) <= blow_up * range;
     const step_matrix a = around(desc, floor);
     double end[2], state[2], more[2];
     run(desc, floor, 0, 0, u, end);
+    u->error = INFINITY;
     if (!close_circle(seconds, f, &a, end, state)) return false;
     run(desc, floor, state[0], state[1], u, end);
     u->error = error_of_circle(u, period, desc->step, f, &a, 4 * DBL_EPSILON);

@@ -126,6 +126,8 @@ static void set_about(wiggly_solver *solver, problem *p)
         p->response = solver->response;
         p->about = p->response.total;
         if (desc->equilibrium.track) {
+            if (desc->start == WIGGLY_LOOP && !poles_are_constant(desc))
+                chain_forget(&solver->chain); // its tables are where the response is found
             p->status = forced_response_find(desc, p->y, p->calm, &p->response);
         } else {
             forced_response_rest(desc, p->y, &p->response);

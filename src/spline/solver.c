@@ -33,7 +33,8 @@ static void lay_out_columns(unsigned char *at, double **const *columns, int coun
     }
 }
 
-/// Arrays of `samples` numbers. The matrix comes first: the chain's tables share its memory, and are larger for few samples.
+/// Arrays of `samples` numbers. The matrix comes first: the chain's tables share its memory, and are larger for few samples. The response to a
+/// moving equilibrium, which is found before, uses it as one array.
 static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
 {
     system_rows *rows = &at->rows;
@@ -67,6 +68,7 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
                                             &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,  &c->powers.w11};
     for (size_t i = 0; i < sizeof matrix / sizeof *matrix; i++)
         *matrix[i].array = arena_take(a, samples, matrix[i].each * sizeof(double));
+    at->response.room = m->diagonal;
     arena_take(a, POWER_COLUMNS + 1, LINE);
     lay_out_columns((unsigned char *)m->diagonal, powers, POWER_COLUMNS, samples);
     for (size_t i = 0; i < sizeof others / sizeof *others; i++)
@@ -144,6 +146,8 @@ void wiggly_destroy(wiggly_solver *solver)
 {
     if (solver && solver->owned) free(solver);
 }
+
+_Static_assert(RESPONSE_ROOM <= 3 + 4 + 4 + BORDER_ROW, "the matrix has too little room for a loop's response");
 
 /// Limits over a run, as exponents of e: how differently the poles may decay, and how much both together.
 static const double most_unlike = 5, most_decay = 50;
