@@ -69,6 +69,7 @@ struct wiggly_group {
     double *root, *product, *scale;
     int *pressing;
     double slack; ///< tolerance of bounds
+    double unit;  ///< a power of two that all values are multiplied by
     one_sided search;
     tail_row *tail_rows; ///< of the current spline
     double *e, *pressed; ///< scratch of its tail

@@ -66,6 +66,8 @@ static wiggly_status read_splines(wiggly_group *g, const wiggly_desc *descs, wig
         if (status != WIGGLY_OK) return status;
         if (of->desc.samples < 1) return WIGGLY_ERROR_ARGUMENT;
         if (of->desc.knot_count > g->knots) return WIGGLY_ERROR_CAPACITY;
+        status = problem_check(of->solver, &of->desc, &of->curve->knot);
+        if (status != WIGGLY_OK) return status;
     }
     return WIGGLY_OK;
 }
@@ -147,14 +149,12 @@ static wiggly_status pose_spline(pulled *of, double weight)
     const wiggly_desc *desc = &of->desc;
     if (!are_inside(&of->pulls, desc)) return WIGGLY_ERROR_PIN;
     solver->pulls = of->pulls.count > 0 ? &of->pulls : NULL;
-    wiggly_status status = problem_pose(solver, desc, solver->y, &of->problem);
-    if (status == WIGGLY_OK && of->pulls.count > 0 && of->problem.count < 3) {
+    problem_pose(solver, desc, solver->y, &of->problem);
+    if (of->pulls.count > 0 && of->problem.count < 3) {
         of->pulls.count = 0; // too short to be moved by a pull
         solver->pulls = NULL;
-        status = problem_pose(solver, desc, solver->y, &of->problem);
+        problem_pose(solver, desc, solver->y, &of->problem);
     }
-    if (status != WIGGLY_OK) of->curve->knot = of->problem.knot;
-    if (status != WIGGLY_OK) return status;
     if (of->pulls.count > 0 && !can_be_pulled(of)) return WIGGLY_ERROR_PIN;
     of->tail = bound_tail_of(&of->problem, weight);
     of->scale = of->problem.unit * desc->step * desc->step * desc->step / weight;
@@ -213,7 +213,8 @@ static wiggly_status pose_bounds(wiggly_group *g, int spline, const wiggly_bound
     if (is_moved && !can_be_pulled(of)) return WIGGLY_ERROR_PIN;
     if (of->pulls.count == 0) return WIGGLY_OK;
     of->solver->pulls = of->problem.pulls = &of->pulls;
-    return is_loop ? problem_pose(of->solver, of->problem.desc, of->solver->y, &of->problem) : WIGGLY_OK;
+    if (is_loop) problem_pose(of->solver, of->problem.desc, of->solver->y, &of->problem);
+    return WIGGLY_OK;
 }
 
 // --- the system of the pins ------------------------------------------------------------------------------------------
@@ -421,7 +422,7 @@ static wiggly_status solve_splines(wiggly_group *g)
     for (int s = 0; s < g->rows.splines; s++) {
         pulled *of = &g->pulled[s];
         set_pulls(g, s);
-        const wiggly_status status = solver_solve(of->solver, &of->desc, of->curve);
+        const wiggly_status status = solver_solve_scaled(of->solver, &of->desc, of->curve);
         press_tail(g, s, of->curve);
         worst = status > worst ? status : worst;
     }
@@ -516,8 +517,9 @@ static wiggly_status press(wiggly_group *g)
 
 static void tell_bounds(const wiggly_group *g, wiggly_bound *bounds, int bound_count)
 {
-    for (int b = 0; b < bound_count; b++) bounds[b].left = bounds[b].least - see_bound(g, &bounds[b]);
-    for (int r = g->rows.fixed; r < g->rows.count; r++) g->rows.row[r].bound->push = g->lambda[r];
+    for (int b = 0; b < bound_count; b++)
+        bounds[b].left = (bounds[b].least * g->unit - see_bound(g, &bounds[b])) / g->unit;
+    for (int r = g->rows.fixed; r < g->rows.count; r++) g->rows.row[r].bound->push = g->lambda[r] / g->unit;
 }
 
 double wiggly_group_reach(const wiggly_group *g, const wiggly_bound *bound)
@@ -529,14 +531,44 @@ static void tell_left(const wiggly_group *g, wiggly_pin *pins, int pin_count)
 {
     for (int i = 0; i < pin_count; i++) {
         wiggly_pin *pin = &pins[i];
-        memcpy(pin->left, pin->to, sizeof pin->left);
+        for (int axis = 0; axis < 3; axis++) pin->left[axis] = pin->to[axis] * g->unit;
         for (int k = 0; k < pin->pull_count; k++) {
             const wiggly_pull *pull = &pin->pulls[k];
             if (!moves(pin, pull->spline)) continue;
             cplx x = solved_x(&g->pulled[pull->spline], pin->sample);
             for (int axis = 0; axis < 3; axis++) pin->left[axis] -= pull->c[axis][0] * x.re - pull->c[axis][1] * x.im;
         }
+        for (int axis = 0; axis < 3; axis++) pin->left[axis] /= g->unit;
     }
+}
+
+/// How large an x must be that moves a point by `distance` with the largest coefficient.
+static double x_of(double distance, double largest)
+{
+    const double least = 1e-20; // a point that hardly moves is not reached
+    return fabs(distance) / fmax(largest, least);
+}
+
+/// Brings the values of all splines, which pins and bounds compare, to a size whose squares a double can hold.
+static void scale_all(wiggly_group *g, int spline_count, const wiggly_pin *pins, int pin_count,
+                      const wiggly_bound *bounds, int bound_count)
+{
+    double size = 0;
+    for (int s = 0; s < spline_count; s++) size = fmax(size, scale_size(g->pulled[s].solver, &g->pulled[s].desc));
+    for (int i = 0; i < pin_count; i++) {
+        const wiggly_pin *pin = &pins[i];
+        double largest = 0;
+        for (int k = 0; k < 6 * pin->pull_count; k++)
+            largest = fmax(largest, fabs(pin->pulls[k / 6].c[k % 6 / 2][k % 2]));
+        for (int axis = 0; axis < 3; axis++) size = fmax(size, x_of(pin->to[axis], largest));
+    }
+    for (int b = 0; b < bound_count; b++) {
+        double largest = 0;
+        for (int k = 0; k < 2 * spline_count; k++) largest = fmax(largest, fabs(bounds[b].c[k / 2][k % 2]));
+        size = fmax(size, x_of(bounds[b].least, largest));
+    }
+    g->unit = scale_for(size);
+    for (int s = 0; s < spline_count; s++) scale_values(g->pulled[s].solver, g->unit, &g->pulled[s].desc);
 }
 
 wiggly_status wiggly_group_solve(wiggly_group *g, const wiggly_desc *descs, const double *weights,
@@ -554,6 +586,7 @@ wiggly_status wiggly_group_solve_bounded(wiggly_group *g, const wiggly_desc *des
     status = check_bounds(g, spline_count, bounds, bound_count);
     if (status != WIGGLY_OK) return status;
     order_pins(g, pins, pin_count);
+    scale_all(g, spline_count, pins, pin_count, bounds, bound_count);
     status = pose(g, weights, spline_count, pins, pin_count);
     for (int s = 0; s < spline_count && status == WIGGLY_OK && bound_count > 0; s++)
         status = pose_bounds(g, s, bounds, bound_count);
@@ -561,12 +594,15 @@ wiggly_status wiggly_group_solve_bounded(wiggly_group *g, const wiggly_desc *des
     g->rows.splines = spline_count;
     pin_rows_find(&g->rows, g->pulled, pins, g->order, pin_count);
     pin_rows_add_bounds(&g->rows, g->pulled, bounds, bound_count);
-    const bool all = respond(g, spline_count);
     const int n = g->rows.count;
+    for (int r = 0; r < n; r++) g->rows.row[r].want *= g->unit;
+    const bool all = respond(g, spline_count);
     soften(g);
     memset(g->lambda, 0, sizeof *g->lambda * (size_t)n);
     status = n > g->rows.fixed ? press(g) : pull(g);
     tell_left(g, pins, pin_count);
     if (bound_count > 0) tell_bounds(g, bounds, bound_count);
+    for (int s = 0; s < spline_count; s++)
+        solver_scale_back(g->pulled[s].solver, desc_at(descs, s), g->pulled[s].curve);
     return all ? status : WIGGLY_SINGULAR;
 }

@@ -26,7 +26,7 @@ static bool param_is_within(wiggly_param param, int samples, double limit)
 
 static bool is_part(double x) { return x >= 0 && x <= 1; }
 
-static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *desc)
+static wiggly_status check_desc(wiggly_solver *solver, const wiggly_desc *desc)
 {
     if (desc->samples < 0 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
         return WIGGLY_ERROR_ARGUMENT;
@@ -37,8 +37,11 @@ static wiggly_status check_desc(const wiggly_solver *solver, const wiggly_desc *
     for (const desc_member *m = desc_members; m->name; m++) {
         if (m->kind != DESC_PARAM) continue;
         const wiggly_param *param = desc_param(desc, m);
-        double most = param == &desc->equilibrium ? LARGEST_VALUE : DBL_MAX;
-        if (!param_is_within(*param, desc->samples, most)) return WIGGLY_ERROR_NUMBER;
+        const bool is_y = param == &desc->equilibrium,
+                   is_within = param_is_within(*param, desc->samples, is_y ? SAFE_VALUE : DBL_MAX);
+        if (is_y) solver->y_is_safe = is_within;
+        if (!is_within && !(is_y && param_is_within(*param, desc->samples, LARGEST_VALUE)))
+            return WIGGLY_ERROR_NUMBER;
     }
     return desc->low < desc->high ? WIGGLY_OK : WIGGLY_ERROR_LIMITS;
 }
@@ -183,12 +186,17 @@ static void fill(double *x, double value, int count)
     for (int i = 0; i < count; i++) x[i] = value;
 }
 
-wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
+wiggly_status problem_check(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
 {
-    p->knot = -1;
+    *knot = -1;
     wiggly_status status = check_desc(solver, desc);
-    if (status == WIGGLY_OK) status = order_knots(solver, desc, &p->knot);
-    if (status != WIGGLY_OK) return status;
+    if (status == WIGGLY_OK) status = order_knots(solver, desc, knot);
+    if (status == WIGGLY_OK) *knot = -1;
+    return status;
+}
+
+void problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
+{
     *p = (problem){.desc = desc, .calm = desc->calm, .pulls = solver->pulls};
     if (desc->equilibrium.track) {
         memmove(y, desc->equilibrium.track, sizeof *y * (size_t)desc->samples);
@@ -201,5 +209,4 @@ wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, doubl
     set_domain(solver, p);
     set_about(solver, p);
     set_start(solver, p);
-    return WIGGLY_OK;
 }

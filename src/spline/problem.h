@@ -9,6 +9,9 @@
 /// Larger values and equilibria are refused, so that sums of them do not overflow.
 #define LARGEST_VALUE 1e300
 
+/// Up to this, and from its inverse on, squares and products with weights stay in range.
+#define SAFE_VALUE 0x1p100
+
 /// A heavier slope row is met to the last digit anyway, and might overflow.
 #define STIFFEST 1e20
 
@@ -47,7 +50,6 @@ typedef struct problem {
     bool level_slope;          ///< a level slope is implied at the earliest knot
     bool free_end;             ///< c·H = 0
     int still;                 ///< sample of the earliest still knot, or -1
-    int knot;                  ///< index of the knot that problem_pose() refuses, or -1
     double unit;               ///< unit of all weights but the jets': the oscillator's |g|² at `first`, else 1
     start_cost cost;           ///< of the start's swing, times calm; weights 0 if it is free
 } problem;
@@ -132,11 +134,29 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p);
 /// Whether a description has noise that its knots are solved over: some amount, an oscillator of constant poles that has a frequency.
 bool variation_is_set(const wiggly_desc *desc);
 
+/// The height of the farthest knot above the equilibrium. The noise is the variation times that, or times 1 if it is 0.
+double variation_farthest(const wiggly_desc *desc);
+
 /// Adds every sample's noise to u, once the domain is known, and the value before `first` to the held value.
 void variation_add(problem *p);
 
-/// Checks a description and applies the rules of the start; y receives the equilibrium if it moves, N numbers. Returns the error or WIGGLY_OK.
-wiggly_status problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);
+/// Checks a description. Returns the error or WIGGLY_OK; `knot` receives the index of a knot that is wrong, or -1.
+wiggly_status problem_check(wiggly_solver *solver, const wiggly_desc *desc, int *knot);
+
+/// Applies the rules of the start to a description that was checked last; y receives the equilibrium if it moves, N numbers.
+void problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p);
+
+/// The magnitude of a description's curve, from its values alone; of one that the solver checked last.
+double scale_size(const wiggly_solver *solver, const wiggly_desc *desc);
+
+/// 1, or for a magnitude whose squares a double cannot hold the power of two that brings it near 1.
+double scale_for(double size);
+
+/// Multiplies all values of a description by a power of two, in the solver's memory. The rest of the solve is the same but for that.
+void scale_values(wiggly_solver *solver, double scale, wiggly_desc *desc);
+
+/// Divides a curve that was solved so, with all arrays, by it; `desc` has the unscaled values.
+void scale_back(const wiggly_desc *desc, double scale, wiggly_curve *curve);
 
 /// Solves by the chain: x of the system, M numbers each (x_im in complex mode). false if the chain cannot: a single knot with nothing else,
 /// digits lost, or numbers so large that something might overflow.

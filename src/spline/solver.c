@@ -102,6 +102,7 @@ static wiggly_solver *lay_out(arena *a, int samples, int knots)
     at->limits.all = arena_take(a, k, sizeof *at->limits.all);
     at->limits.held = arena_take(a, n, sizeof *at->limits.held);
     at->filled = arena_take(a, k, sizeof *at->filled);
+    at->scaled = arena_take(a, k, sizeof *at->scaled);
     at->order = arena_take(a, k, sizeof *at->order);
     at->knot_at = arena_take(a, n, sizeof *at->knot_at);
     return solver;

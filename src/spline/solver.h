@@ -53,6 +53,9 @@ struct wiggly_solver {
     forced_response response; ///< to the moving equilibrium
     double *y;                ///< equilibrium, if the curve has no array for it
     wiggly_knot *filled;      ///< the knots of one of many
+    wiggly_knot *scaled;      ///< the knots in other units
+    bool y_is_safe;           ///< no equilibrium of the description that was checked last is beyond SAFE_VALUE
+    double scale;             ///< those units: the power of two that all values are multiplied by
     int *order;               ///< indices of the description's knots by sample
     int *knot_at;             ///< scratch: index of the knot on each sample, or -1
 };
@@ -97,6 +100,12 @@ minimum solver_refine(wiggly_solver *solver, factorisation *factor);
 
 /// wiggly_solve() of a description that was read (desc_read()).
 wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
+
+/// The same of one that was checked last (problem_check()), and whose values' squares a double can hold.
+wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
+
+/// Divides such a curve by the power of two that scale_values() multiplied `desc` by.
+void solver_scale_back(const wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
 
 /// The rows of a description, with knots fixed in x, as solver_minimise() would find them, and its matrix: for comparisons with
 /// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.

@@ -75,6 +75,15 @@ static void join_knots(wiggly_solver *solver, const problem *p)
     for (int i = before + 1; before >= 0 && i < rows->count; i++) rows->x[2 * i] = rows->x[2 * before];
 }
 
+/// Whether x is a double in the caller's units, too, and its sum with the equilibrium.
+static bool is_told(const wiggly_solver *solver, const problem *p, const wiggly_curve *curve)
+{
+    if (solver->scale >= 1) return true;
+    const double most = 0.25 * DBL_MAX * solver->scale;
+    return extent_size(extent_of(curve->re + p->first, p->count)) < most &&
+           (p->desc->mode != WIGGLY_COMPLEX || extent_size(extent_of(curve->im + p->first, p->count)) < most);
+}
+
 /// Solves the problem; if it is singular, solves the nearest one that is not.
 static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
@@ -82,7 +91,7 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     for (;;) {
         *result = attempt(solver, p, curve);
         bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
-        if (result->solved &&
+        if (result->solved && is_told(solver, p, curve) &&
             !(may_be_singular &&
               (result->weak || problem_blew_up(p, result->by_chain ? &solver->chain : NULL, curve))))
             return status;
@@ -169,9 +178,11 @@ wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, do
 {
     problem p;
     wiggly_desc own;
+    int knot;
     wiggly_status status = desc_read(desc, &own);
-    if (status == WIGGLY_OK) status = problem_pose(solver, &own, y, &p);
+    if (status == WIGGLY_OK) status = problem_check(solver, &own, &knot);
     if (status != WIGGLY_OK) return status;
+    problem_pose(solver, &own, y, &p);
     for (int i = 0; i < desc->samples; i++) y[i] = problem_about(&p, i);
     problem_set_rows(solver, &p);
     system_matrix(&solver->rows, &solver->matrix);
@@ -255,14 +266,12 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     return status == WIGGLY_OK ? solver_solve(solver, &own, curve) : status;
 }
 
-wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
+wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
 {
-    if (desc->samples == 0 && desc->knot_count == 0) return solve_nothing(desc, curve);
     problem p;
     wiggly_curve all = with_arrays(solver, curve);
-    wiggly_status status = problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
-    if (status != WIGGLY_OK) curve->knot = p.knot;
-    if (status != WIGGLY_OK) return status;
+    wiggly_status status;
+    problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
     const bool limited = limits_are_set(desc) && !solver->pulls; // pins have priority
     wiggly_desc ordered;
     if (limited) limits_begin(solver, &p, &ordered, curve, &all);
@@ -278,5 +287,25 @@ wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
         p.strict = true;
     }
     keep_asked(curve, all);
+    return status;
+}
+
+void solver_scale_back(const wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
+{
+    if (solver->scale == 1) return;
+    wiggly_curve all = with_arrays(solver, curve);
+    scale_back(desc, solver->scale, &all);
+    keep_asked(curve, all);
+}
+
+wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
+{
+    if (desc->samples == 0 && desc->knot_count == 0) return solve_nothing(desc, curve);
+    wiggly_status status = problem_check(solver, desc, &curve->knot);
+    if (status != WIGGLY_OK) return status;
+    wiggly_desc scaled = *desc;
+    scale_values(solver, scale_for(scale_size(solver, desc)), &scaled);
+    status = solver_solve_scaled(solver, &scaled, curve);
+    if (status < WIGGLY_ERROR_ARGUMENT) solver_scale_back(solver, desc, curve);
     return status;
 }

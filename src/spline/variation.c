@@ -81,15 +81,16 @@ bool variation_is_set(const wiggly_desc *desc)
            poles_are_constant(desc) && poles_at(desc, 0, 0).natural > 0;
 }
 
-/// The factor for noise of spread 1: the variation times the height of the farthest knot, or times 1 without knots.
-static double size_of(const problem *p)
+double variation_farthest(const wiggly_desc *desc)
 {
+    const wiggly_param *y = &desc->equilibrium;
     double farthest = 0;
-    for (int k = 0; k < p->desc->knot_count; k++) {
-        const wiggly_knot *knot = &p->desc->knots[k];
-        if (!knot->still) farthest = fmax(farthest, fabs(knot->value - problem_y(p, knot->sample)));
+    for (int k = 0; k < desc->knot_count; k++) {
+        const wiggly_knot *knot = &desc->knots[k];
+        const double about = y->track ? y->track[knot->sample] : y->value;
+        if (!knot->still) farthest = fmax(farthest, fabs(knot->value - about));
     }
-    return p->desc->variation * (farthest > 0 ? farthest : 1);
+    return farthest;
 }
 
 static source source_of(const problem *p, const poles *at)
@@ -163,7 +164,8 @@ void variation_add(problem *p)
     const coefficients c = poles_coefficients(&at, desc->step);
     const start_cost cost = poles_start_cost(&at, desc->step);
     source s = source_of(p, &at);
-    const double size = size_of(p), half_rate = 0.5 / desc->step;
+    const double farthest = variation_farthest(desc), half_rate = 0.5 / desc->step;
+    const double size = desc->variation * (farthest > 0 ? farthest : 1);
     if (!(cost.row[0].weight > 0 && cost.row[1].weight > 0)) return;
     walk w = {.m = c.m, .p = c.p, .gain = cplx_scale(size * sqrt(cost.row[1].weight / s.cell), c.g)};
     if (loops) close_loop(&w, &s, p->count);
