@@ -51,8 +51,9 @@ struct usage {
 /// enum solver_choice.
 #define OPTION_SOLVER(solver)                                                                                        \
     {                                                                                                                \
-        "--solver", NULL, "chain|band", "chain: fast, band: reference (default: band up to 4096 samples)",           \
-            OPTION_WORD, solver, 0, 0                                                                                \
+        "--solver", NULL, "chain|band",                                                                              \
+            "chain: fast, band: reference (default: band up to 4096 samples, 300 between knots)", OPTION_WORD,       \
+            solver, 0, 0                                                                                             \
     }
 /// 1 + enum theme_kind.
 #define OPTION_THEME(theme, help)                                                                                    \

@@ -122,7 +122,7 @@ static void solve(struct evaluation *evaluation, const struct document *document
     wiggly_desc desc = storage_describe(evaluation, document, spline, cubic);
     assert(document->splines[spline]->knot_count <= storage->solver_knots);
     storage_add_knots(&desc, document, spline, storage->knots);
-    wiggly_set_method(storage->solver, evaluation_method(evaluation));
+    wiggly_set_method(storage->solver, evaluation_method(evaluation, &desc));
     const wiggly_status status = wiggly_solve(storage->solver, &desc, curve);
     if (status >= WIGGLY_ERROR_ARGUMENT) storage_flatten(curve, &desc);
     count_solved(evaluation, document, spline, status);
@@ -301,16 +301,38 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     storage->is_new = false;
 }
 
-wiggly_method evaluation_method(const struct evaluation *evaluation)
+/// Samples of a spline's longest stretch without a knot: between two, round a loop, from rest, and after the last where jets reach there.
+static int longest_gap(const wiggly_desc *desc)
 {
-    if (evaluation->solver != SOLVER_BY_LENGTH) return evaluation->solver == SOLVER_BAND ? WIGGLY_BAND : WIGGLY_CHAIN;
-    return evaluation->samples <= SOLVER_LONGEST_BAND ? WIGGLY_BAND : WIGGLY_CHAIN;
+    const int knots = desc->knot_count, last = desc->samples - 1;
+    int longest = 0;
+    for (int k = 1; k < knots; k++) {
+        const int gap = desc->knots[k].sample - desc->knots[k - 1].sample;
+        longest = gap > longest ? gap : longest;
+    }
+    const int before = knots > 0 ? desc->knots[0].sample : last,
+              after = knots > 0 ? last - desc->knots[knots - 1].sample : 0;
+    const bool reaches = desc->mode == WIGGLY_REAL || desc->passive == WIGGLY_FILTER;
+    const int seam = desc->start == WIGGLY_LOOP ? before + after : 0, rest = desc->start == WIGGLY_REST ? before : 0,
+              end = reaches ? after : 0, outer = seam > rest ? seam : rest;
+    longest = outer > longest ? outer : longest;
+    return end > longest ? end : longest;
 }
 
-const char *evaluation_solver(const struct evaluation *evaluation)
+static bool is_band(const struct evaluation *evaluation)
 {
-    return evaluation_method(evaluation) == WIGGLY_BAND ? "band" : "chain";
+    if (evaluation->solver != SOLVER_BY_LENGTH) return evaluation->solver == SOLVER_BAND;
+    return evaluation->samples <= SOLVER_LONGEST_BAND;
 }
+
+wiggly_method evaluation_method(const struct evaluation *evaluation, const wiggly_desc *desc)
+{
+    if (!is_band(evaluation)) return WIGGLY_CHAIN;
+    const bool by_length = evaluation->solver == SOLVER_BY_LENGTH;
+    return by_length && longest_gap(desc) > SOLVER_LONGEST_GAP ? WIGGLY_CHAIN : WIGGLY_BAND;
+}
+
+const char *evaluation_solver(const struct evaluation *evaluation) { return is_band(evaluation) ? "band" : "chain"; }
 
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position)
 {

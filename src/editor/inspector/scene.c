@@ -35,7 +35,9 @@ static const struct number_row rows[ROWS] = {
 static void build_solver(struct inspector *in)
 {
     const struct rect r = inspector_labelled(in, "solver");
-    ui_hint(&in->ui, r, "Band: all samples at once, as in the paper. Chain: from knot to knot, beyond 4096 samples");
+    ui_hint(&in->ui, r,
+            "Band: all samples at once, as in the paper. Chain: from knot to knot, beyond 4096 samples or 300 "
+            "without a knot");
     if (in->core->evaluation) ui_label(&in->ui, r, evaluation_solver(in->core->evaluation), theme()->text);
 }
 
