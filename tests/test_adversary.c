@@ -197,6 +197,34 @@ TEST(loops_whose_swing_grows)
     assert_true(all);
 }
 
+/// Two poles that the sample rate makes one: a speed between samples would have an infinite coefficient, and what its limit costs is told.
+TEST(poles_that_alias_to_one)
+{
+    int inexact = 0;
+    for (int n = 0; n < 96; n++) {
+        wiggly_desc *desc = begin(30, 27);
+        const double off = (const double[]){0, 1e-12, 1e-9}[n % 3];
+        desc->mode = n / 3 % 2 ? WIGGLY_REAL : WIGGLY_COMPLEX;
+        desc->start = (wiggly_start)(n / 6 % 2); // free, or from rest
+        desc->frequency.value = (n / 12 % 2 ? 30 : 15) * (1 - off);
+        desc->bandwidth.value = 1;
+        desc->calm = n / 24 % 2 ? 1e-3 : 1;
+        add_knot(7, -0.2952921474333854);
+        add_knot(14, 1.2555603111723084);
+        set_slope(1.88);
+        if (n / 48) problem.knots[1].stiffness = 5.6e-8;
+        add_knot(24, -2.21);
+        if (n % 2) set_slope(-1);
+        add_knot(17, -1.05);
+        struct adversary_verdict v;
+        adversary_judge(*state, &problem, &v);
+        inexact += v.said == WIGGLY_INEXACT;
+        if (v.fault && !v.needless) tell("poles that alias", &v);
+        assert_true(!v.fault || v.needless);
+    }
+    assert_true(inexact > 0);
+}
+
 /// Of two samples, the earliest knot's: of the oscillator its total, of the filter its x.
 TEST(two_samples_of_a_cubic)
 {

@@ -298,11 +298,35 @@ minimum solver_refine(wiggly_solver *solver, factorisation *f)
     return result;
 }
 
+/// How far x would move if speeds whose coefficients are cut were seen as they are: from another side, and by any heavier row.
+static double change_by_cut(wiggly_solver *solver)
+{
+    system_rows *rows = &solver->rows;
+    const cplx cut = {rows->steep, rows->steep};
+    for (int s = 0; s < rows->slope_count; s++) {
+        slope_row *row = &rows->slopes[s];
+        const cplx both = cplx_add(row->ahead, row->behind);
+        row->here = cplx_add(cplx_scale(2, row->here), cplx_mul(cut, both));
+        row->ahead = cplx_scale(2, row->ahead), row->behind = cplx_scale(2, row->behind);
+    }
+    for (int i = 0; i < 2; i++) {
+        struct start_row *row = &rows->start.row[i];
+        row->on_x = cplx_add(cplx_scale(2, row->on_x), cplx_mul(cut, row->on_e));
+        row->on_e = cplx_scale(2, row->on_e);
+    }
+    if (rows->tail.re != 0 || rows->tail.im != 0) rows->tail = cplx_add(rows->tail, cut);
+    system_gradient(rows);
+    solve(solver);
+    return largest_modulus(rows->gradient, rows->count, rows->is_complex);
+}
+
 minimum solver_minimise(wiggly_solver *solver)
 {
     factorisation f = solver_factor(solver);
     minimum result = solver_refine(solver, &f);
-    if (result.solved && !result.unrefined) result.error += sensitivity(solver);
+    if (!result.solved) return result;
+    if (!result.unrefined) result.error += sensitivity(solver);
+    if (solver->rows.steep > 0) result.error += 8 * change_by_cut(solver);
     return result;
 }
 

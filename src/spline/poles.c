@@ -204,7 +204,8 @@ static double z_over_sinh(double z2)
     return z2 > 0 ? -2 * z * maths_exp(-z) / maths_expm1(-2 * z) : z / maths_sin(z);
 }
 
-/// Limit for the coefficient of a speed; it would be infinite if two poles alias to the same λ.
+/// Limit for the coefficient of a speed; it would be infinite if two poles alias to the same λ. What it is then multiplied by may be any number, but
+/// the ratio to what it is added to is known to h (s₀−s₁) over it.
 static const double steepest = 1e8;
 
 // With μ = λ − 1, w' = s₀ w + Q (w₁ − λ₀ w) = (s₀ − Q μ₀) w + Q e, and Q = (s₀−s₁)/(λ₀−λ₁) = z / sinh z · exp(−(s₀+s₁)h/2) / h with
@@ -217,11 +218,12 @@ speed_form poles_speed(const poles *at, double step, bool backwards)
     cplx s0 = {fmax(at->s[0].re * step, -DEEPEST) / step, at->s[0].im};
     cplx s1 = {fmax(at->s[1].re * step, alike ? -DEEPEST : -3 * DEEPEST) / step, at->s[1].im};
     cplx z = cplx_scale(0.5 * h, cplx_sub(s0, s1)), mean = cplx_scale(0.5 * h, cplx_add(s0, s1));
-    double ratio = fmin(fmax(z_over_sinh(z.re * z.re - z.im * z.im), -steepest), steepest);
+    const double exact = z_over_sinh(z.re * z.re - z.im * z.im), ratio = fmin(fmax(exact, -steepest), steepest);
+    const double cut = fabs(exact) < steepest ? 0 : 2 * sqrt(cplx_norm(z)) / steepest;
     cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));
     cplx on_x = cplx_sub(cplx_scale(h, s0), cplx_mul(q, cplx_expm1(cplx_scale(h, s0))));
     if (s0.im == -s1.im) on_x.im = q.im = 0; // conjugate or real poles: not even rounding may couple Im x to Re x
-    return backwards ? (speed_form){cplx_scale(-1, on_x), q} : (speed_form){on_x, q};
+    return backwards ? (speed_form){cplx_scale(-1, on_x), q, cut} : (speed_form){on_x, q, cut};
 }
 
 start_cost poles_start_seen_from(start_cost cost, const poles *damped, const poles *at, double step)

@@ -59,6 +59,7 @@ typedef struct start_cost {
 /// (x_j − x_{j−1}).
 typedef struct speed_form {
     cplx on_x, on_e;
+    double cut; ///< how much of on_e on_x may be off by, because the poles nearly alias to one; 0: nothing
 } speed_form;
 
 /// Faster decay makes no difference to a double, but weights and their products stay finite.

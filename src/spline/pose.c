@@ -140,10 +140,14 @@ static void set_about(wiggly_solver *solver, problem *p)
 }
 
 /// The filter's start cost is that of the first sample. The oscillator's is that of the fastest sample up to the first still knot.
-static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
+static start_cost cost_of_start(wiggly_solver *solver, problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    if (poles_are_constant(desc)) return problem_filter(solver, p)->start;
+    p->cut = 0;
+    if (poles_are_constant(desc)) {
+        p->cut = problem_filter(solver, p)->cut;
+        return problem_filter(solver, p)->start;
+    }
     const int end = p->still >= 0 && p->still < p->latest ? p->still : p->latest;
     int at = problem_oscillates(p) ? poles_fastest(desc, p->first, end, NULL) : p->first;
     poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
@@ -151,6 +155,7 @@ static start_cost cost_of_start(wiggly_solver *solver, const problem *p)
     if (!problem_oscillates(p)) return cost;
     double weight = maths_exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&here, desc->step));
     for (int i = 0; i < 2; i++) cost.row[i].weight *= weight;
+    p->cut = fmax(poles_speed(&damped, desc->step, false).cut, poles_speed(&here, desc->step, false).cut);
     return poles_start_seen_from(cost, &damped, &here, desc->step);
 }
 

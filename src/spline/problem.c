@@ -110,6 +110,8 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
     const wiggly_desc *desc = p->desc;
     if (solver->method == WIGGLY_BAND || p->pulls || p->level_slope || !poles_are_constant(desc)) return false;
     if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
+    if (problem_oscillates(p) && problem_filter(solver, p)->cut > 0)
+        return false; // only the band knows what that changes
     if (desc->mode == WIGGLY_COMPLEX && !imaginary_fit(solver, p)) return false;
     if (p->start == WIGGLY_REST && desc->knot_count > 0 && knot_at(solver, p, 0)->sample < 2)
         return false; // held at a limit: too close to the node at rest
@@ -231,7 +233,7 @@ static chain_speed speed_of(speed_form form, cplx lambda, double jet)
 
 static void set_speeds(chain *c, const problem *p, const constant_filter *f)
 {
-    speed_form form = {{0, 0}, {1, 0}};
+    speed_form form = {.on_e = {1, 0}};
     if (problem_oscillates(p)) form = f->ahead;
     c->speed[VIEW_AHEAD] = speed_of(form, f->lambda, 0);
     c->speed[VIEW_BOTH] = speed_of(form, f->lambda, 0.5);

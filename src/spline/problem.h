@@ -52,6 +52,7 @@ typedef struct problem {
     int still;                 ///< sample of the earliest still knot, or -1
     double unit;               ///< unit of all weights but the jets': the oscillator's |g|² at `first`, else 1
     start_cost cost;           ///< of the start's swing, times calm; weights 0 if it is free
+    double cut;                ///< of the speeds that it sees (speed_form)
 } problem;
 
 static inline double problem_y(const problem *p, int sample)

@@ -224,7 +224,7 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
 }
 
 /// The speed by the poles from both sides, or from one at an end; on the tail, the tail's speed.
-static void see_speed(const problem *p, slope_row *row)
+static void see_speed(system_rows *rows, const problem *p, slope_row *row)
 {
     const double h = p->desc->step;
     const sides from = sides_of(p, row->sample);
@@ -236,6 +236,7 @@ static void see_speed(const problem *p, slope_row *row)
     poles at = poles_at(p->desc, p->first + row->sample, problem_least_damping(p));
     const double part = 1.0 / (from.ahead + from.behind);
     speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
+    rows->steep = fmax(rows->steep, forward.cut);
     if (from.ahead) row->here = cplx_scale(part, forward.on_x), row->ahead = cplx_scale(part, forward.on_e);
     if (from.behind) {
         row->here = cplx_add(row->here, cplx_scale(part, backward.on_x));
@@ -253,7 +254,7 @@ static void add_slope(system_rows *rows, const problem *p, int sample, double sl
 {
     slope_row row = problem_slope(p, sample, slope, stiffness);
     if (!(row.weight > 0)) return;
-    if (problem_oscillates(p)) see_speed(p, &row);
+    if (problem_oscillates(p)) see_speed(rows, p, &row);
     rows->slopes[rows->slope_count++] = row;
 }
 
@@ -324,6 +325,7 @@ static void set_tail(system_rows *rows, const problem *p)
     if (!rows->is_complex) return;
     poles own = poles_at(p->desc, p->latest, 0);
     speed_form ahead = poles_speed(&own, p->desc->step, false);
+    rows->steep = fmax(rows->steep, ahead.cut);
     rows->tail = poles_tail(poles_passive(&own), &ahead, p->desc->step);
 }
 
@@ -357,6 +359,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->jet_from = rows->loop ? 0 : 1;
     rows->jet_to = rows->loop ? rows->count - 1 : rows->count - 2;
     rows->start = p->cost;
+    rows->steep = p->cost.row[0].weight > 0 ? p->cut : 0;
     rows->cut = problem_oscillates(p) && p->cost.row[0].weight > heaviest_start;
     rows->pulls = p->pulls;
     rows->first = p->first;

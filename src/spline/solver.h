@@ -17,6 +17,7 @@ typedef struct constant_filter {
     double floor;     ///< least damping ratio
     poles at;
     start_cost start; ///< at calm 1; the oscillator's is in units of the jets' weight
+    double cut;       ///< of the speeds that it sees
     cplx lambda, delta2;
     int run;          ///< samples of a stretch that the chain fills from one state
     speed_form ahead; ///< the speed that the poles give from a sample and the next

@@ -38,6 +38,7 @@ typedef struct system_rows {
     bool fast;            ///< some coefficients have a rest
     bool unlike;          ///< jets' weights differ so much that a squared matrix would lose the light ones
     bool cut;             ///< a jet would weigh more beside another than it does here
+    double steep;         ///< the largest cut of a speed that a row sees (speed_form)
     bool is_held;         ///< the start costs enough, or there is none: only knot-free stretches cost digits
     double noise;         ///< rounding of the known values, if they are differences to an equilibrium
     bool is_open;         ///< the start costs nothing
