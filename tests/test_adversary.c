@@ -225,6 +225,28 @@ TEST(poles_that_alias_to_one)
     assert_true(inexact > 0);
 }
 
+/// A frequency that jumps from 0, overdamped: some jets weigh a hundred times as much as others, and the light ones lose digits in the square.
+TEST(jumps_from_frequency_0)
+{
+    enum { SAMPLES = 85 };
+    double frequency[SAMPLES], damping[SAMPLES];
+    bool all = true;
+    for (int n = 0; n < 40; n++) {
+        wiggly_desc *desc = begin(12, SAMPLES);
+        for (int i = 0; i < SAMPLES; i++)
+            frequency[i] = i < 56 ? 0 : 0.559,
+            damping[i] = i < 70 ? 8 + 0.3 * n + 6 * sin(7.3 * i) : fmax(0, 8 * sin(n + 0.7 * i));
+        desc->mode = WIGGLY_REAL;
+        desc->frequency = track_of(frequency, SAMPLES);
+        desc->damping = track_of(damping, SAMPLES);
+        add_knot(0, 0);
+        problem.knots[0].still = true;
+        add_knot(18, -0.04);
+        all = stands(*state, "a jump from frequency 0") && all;
+    }
+    assert_true(all);
+}
+
 /// Of two samples, the earliest knot's: of the oscillator its total, of the filter its x.
 TEST(two_samples_of_a_cubic)
 {

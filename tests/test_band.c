@@ -53,6 +53,31 @@ static void compare(pair *p, const wiggly_desc *desc)
     if (!(error <= 10 * fmax(p->usual.error, 1e-12))) fail_msg("off by %g, estimate %g", error, p->usual.error);
 }
 
+/// Two poles near each other and undamped: in the frame that turns with them a gap bends as a cubic's, though it swings, and no pivot shows it.
+TEST(undamped_bands_over_long_gaps)
+{
+    static const wiggly_knot
+        nodes[] = {{.sample = 16, .value = -0.41},
+                   {.sample = 116, .value = 1.13},
+                   {.sample = 216, .value = -1.23},
+                   {.sample = 316, .value = -0.3, .has_slope = true, .slope = -1.4, .stiffness = 76}},
+        poses[] = {{.sample = 0, .has_phase = true}, {.sample = 1200, .value = 1, .has_phase = true, .phase = 0.3}};
+    static double pace[SAMPLES];
+    for (int i = 0; i < SAMPLES; i++) pace[i] = 1.2 + 0.3 * sin(0.002 * i);
+    for (int kind = 0; kind < 8; kind++) {
+        wiggly_desc desc = wiggly_default_desc();
+        desc.samples = kind % 2 ? 1241 : 317;
+        desc.step = 1.0 / 60;
+        desc.knots = kind % 2 ? poses : nodes, desc.knot_count = kind % 2 ? 2 : 4;
+        desc.frequency.value = 1.2;
+        if (kind / 2 % 2) desc.frequency.track = pace;
+        desc.damping.value = kind / 4 * 1e-3;
+        desc.bandwidth.value = kind % 2 ? 0.02 : 0;
+        desc.calm = kind % 2 ? 1 : 0.13;
+        compare(*state, &desc);
+    }
+}
+
 /// A frequency that rises from 0, and knots hundreds of samples apart: the worst that a knot-free stretch can be.
 TEST(a_track_from_0_over_long_gaps)
 {

@@ -25,7 +25,8 @@ static const double rounding = 2 * DBL_EPSILON; ///< of a coefficient
 static const double unsettled = 1e-3;           ///< share of the largest |x|: an error this large counts as unknown
 /// Amplifications: the most that the squared matrix shows reliably, and where rounding alone makes a result useless.
 static const double largest_squared = 1e6, hopeless = 1e10;
-static const double too_much = 1e-1; ///< beyond, the squared matrix does not help refinement
+static const double correctable = 1e-6; ///< the share of x that a plain solve may be off by before one correction
+static const double too_much = 1e-1;    ///< beyond, the squared matrix does not help refinement
 
 /// Bits of a magnitude; their order is that of the numbers, with NaN above all.
 static inline int64_t bits_of(double x)
@@ -207,6 +208,19 @@ static double amplification(wiggly_solver *solver)
     return sqrt(largest);
 }
 
+/// Corrects a plain solve once, in double. False if it had lost so many digits that this is not enough.
+static bool correct(wiggly_solver *solver, minimum *result)
+{
+    const system_rows *rows = &solver->rows;
+    system_right_side(rows);
+    solve(solver);
+    const double change = largest_modulus(rows->gradient, rows->count, rows->is_complex);
+    if (!(change <= correctable * result->largest)) return false;
+    for (int i = 0; i < 2 * rows->count; i++) rows->x[i] += rows->gradient[i];
+    result->error = 4 * change * (change / result->largest);
+    return true;
+}
+
 /// Refines x, starting from the known values alone. False if a number overflowed.
 static bool refine(wiggly_solver *solver, const factorisation *f, minimum *result)
 {
@@ -235,8 +249,9 @@ static bool refine(wiggly_solver *solver, const factorisation *f, minimum *resul
         result->error = change * contraction / (1 - contraction);
         // The first solve uses the rows' factor but a right-hand side in double. It may be all wrong, and the next one right.
         before = f->squared || result->sweeps > 1 ? change : INFINITY;
-        if (result->sweeps == 1 && rows->is_held && f->error <= enough(rows)) {
-            result->error = f->error * result->largest;
+        if (result->sweeps == 1 && rows->is_held && f->error <= enough(rows) &&
+            (!rows->is_tested || correct(solver, result))) {
+            result->error = (rows->is_tested ? result->error : 0) + f->error * result->largest;
             result->unrefined = true;
             return true;
         }
@@ -279,7 +294,8 @@ minimum solver_refine(wiggly_solver *solver, factorisation *f)
     if (f->squared && !settled && rows->count >= 3) {
         reset(rows);
         *f = factor_rows(solver);
-        if (f->rank == RANK_BROKEN) return (minimum){0};
+        result = (minimum){0};
+        if (f->rank == RANK_BROKEN) return result;
         result.solved = refine(solver, f, &result);
     }
     if (!result.solved) return result;

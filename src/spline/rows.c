@@ -12,6 +12,12 @@ static const double heaviest_start = 1e26;
 /// ln of the largest ratio of two jets' weights. Beyond, the lighter one loses too many digits.
 static const double unlike_jets = 16;
 
+/// The same, from which on what the light jets lose must be measured.
+static const double partly_unlike = 4;
+
+/// After so many samples without a knot it must be, too: two poles of a band near each other bend a gap as a cubic's do, however they swing.
+enum { LONG_GAP = 64 };
+
 /// If the oscillator's frequency is below this share of the fastest one's, Im x is held.
 static const double slow_part = 0.1;
 
@@ -130,6 +136,7 @@ static double set_varying(system_rows *rows, const problem *p, bool weighted)
         }
     }
     rows->unlike = oscillates && heaviest - lightest > unlike_jets;
+    rows->is_tested = oscillates && heaviest - lightest > partly_unlike;
     if (oscillates && desc->mode == WIGGLY_COMPLEX)
         return fmax(slowest, slow_part * least_highest); // below, Im x is held
     return slowest;
@@ -149,6 +156,7 @@ static void set_stretch(system_rows *rows, const wiggly_solver *solver, const pr
         before = sample;
     }
     const double whole = desc->mode == WIGGLY_COMPLEX ? 1.6 * p->count : longest; // knots do not hold Im x
+    rows->is_tested = rows->is_tested || (desc->mode == WIGGLY_COMPLEX && longest > LONG_GAP);
     rows->stretch = fmin(whole, swings_back / (slowest * desc->step));
 }
 
@@ -353,7 +361,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     rows->loop = p->start == WIGGLY_LOOP;
-    rows->fast = rows->unlike = false;
+    rows->fast = rows->unlike = rows->is_tested = false;
     rows->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     rows->count = problem_rows(p);
     rows->jet_from = rows->loop ? 0 : 1;

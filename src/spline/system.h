@@ -35,13 +35,14 @@ typedef struct system_pulls {
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
-    bool fast;            ///< some coefficients have a rest
-    bool unlike;          ///< jets' weights differ so much that a squared matrix would lose the light ones
-    bool cut;             ///< a jet would weigh more beside another than it does here
-    double steep;         ///< the largest cut of a speed that a row sees (speed_form)
-    bool is_held;         ///< the start costs enough, or there is none: only knot-free stretches cost digits
-    double noise;         ///< rounding of the known values, if they are differences to an equilibrium
-    bool is_open;         ///< the start costs nothing
+    bool fast;      ///< some coefficients have a rest
+    bool unlike;    ///< jets' weights differ so much that a squared matrix would lose the light ones
+    bool cut;       ///< a jet would weigh more beside another than it does here
+    double steep;   ///< the largest cut of a speed that a row sees (speed_form)
+    bool is_tested; ///< knots so far apart, or jets so unlike, that the pivots alone do not show the digits lost
+    bool is_held;   ///< the start costs enough, or there is none: only knot-free stretches cost digits
+    double noise;   ///< rounding of the known values, if they are differences to an equilibrium
+    bool is_open;   ///< the start costs nothing
     int jet_from, jet_to; ///< a loop has a jet at every sample
     double stretch;       ///< samples of the longest knot-free stretch, or until x swings back if that is less
     coefficients *at;     ///< of row i, except g, which is included in `drive`
