@@ -63,7 +63,7 @@ TEST(only_the_shape_counts)
         other[i].value = 20 + 7 * other[i].value;
         other[i].sample *= 4;
     }
-    desc.knots = other, desc.step /= 2, desc.equilibrium.value = 20;
+    desc.knots = other, desc.samples *= 4, desc.step /= 2, desc.equilibrium.value = 20;
     wiggly_explain(&desc, again);
     assert_near(again[0].frequency, best[0].frequency / 2, 1e-9);
     assert_near(again[0].damping, best[0].damping, 1e-9);
@@ -82,7 +82,31 @@ TEST(what_cannot_be_told_is_not)
     assert_int_equal(wiggly_explain(&desc, best), 0);
     static wiggly_knot many[2000];
     for (int i = 0; i < 2000; i++) many[i] = (wiggly_knot){.sample = 6 * i, .value = i % 2 ? 1 : -1};
-    desc.knots = many, desc.knot_count = 2000;
+    desc.samples = 12000, desc.knots = many, desc.knot_count = 2000;
     assert_true(wiggly_explain(&desc, best) >= 1);
     assert_near(best[0].frequency, 2, 0.02);
+}
+
+/// What wiggly_solve() would refuse: nothing is read outside the equilibrium's track, nor where there are no knots.
+TEST(what_is_not_valid_has_no_frequency)
+{
+    for (int i = 0; i < 8; i++) {
+        wiggly_knot knots[MOST];
+        wiggly_desc desc;
+        wiggly_explanation best[2];
+        plant(3, WIGGLY_COMPLEX, knots, &desc);
+        double *track = calloc((size_t)desc.samples, sizeof *track);
+        desc.equilibrium.track = track;
+        assert_true(wiggly_explain(&desc, best) >= 1);
+        if (i == 0) knots[2].sample = 1000000;
+        if (i == 1) knots[2].sample = -1;
+        if (i == 2) desc.knots = NULL;
+        if (i == 3) knots[2].value = NAN;
+        if (i == 4) track[7] = INFINITY;
+        if (i == 5) knots[2].sample = knots[1].sample;
+        if (i == 6) desc.step = -1;
+        if (i == 7) desc.knot_count = -1;
+        if (wiggly_explain(&desc, best) != 0) fail_msg("case %d", i);
+        free(track);
+    }
 }

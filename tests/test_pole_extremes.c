@@ -3,6 +3,7 @@
 
 #include "spline/poles.h"
 #include "textbook_parts.h"
+#include <limits.h>
 
 static const double step = 1.0 / 30;
 
@@ -75,6 +76,18 @@ TEST(beyond_the_largest_nothing_changes)
         assert_memory_equal(&found, &expected, sizeof found);
         for (int k = 0; k < 2; k++) assert_true(isfinite(found.s[k][0] * found.s[k][0]));
     }
+}
+
+TEST(poles_are_those_of_a_sample_or_0)
+{
+    double *frequency = calloc(3, sizeof *frequency);
+    wiggly_desc desc = describe(WIGGLY_REAL, 0, 0);
+    desc.samples = 3, desc.frequency.track = frequency;
+    for (int i = 0; i < 3; i++) frequency[i] = 1 + i;
+    const int outside[] = {-1, 3, 1 << 30, INT_MIN};
+    for (int i = 0; i < 3; i++) assert_near(wiggly_poles_at(&desc, i).s[0][1], 2 * M_PI * frequency[i], 1e-14);
+    for (int i = 0; i < 4; i++) assert_near(wiggly_poles_at(&desc, outside[i]).z[0][0], 0, 0);
+    free(frequency);
 }
 
 static void assert_speed(const wiggly_desc *desc, double tolerance)

@@ -3,6 +3,7 @@
 #include "near.h"
 
 #include "curve.h"
+#include <limits.h>
 
 enum { MAX = 512 };
 
@@ -364,6 +365,7 @@ TEST(memory_may_be_the_callers)
 {
     assert_int_equal(wiggly_memsize(0, 0), 0);
     assert_int_equal(wiggly_memsize(10, -1), 0);
+    assert_true(wiggly_memsize(10, INT_MAX) > wiggly_memsize(10, INT_MAX - 1));
     size_t size = wiggly_memsize(60, 4);
     double *memory = malloc(size);
     wiggly_solver *mine = NULL;

@@ -1,6 +1,6 @@
 /// The frequency and damping that explain knots best (docs/mathematics.md, Frequency).
 #include "maths/maths.h"
-#include "spline/desc.h"
+#include "spline/problem.h"
 #include "spline/symmetric.h"
 #include <math.h>
 #include <string.h>
@@ -111,9 +111,12 @@ static wiggly_explanation refine(const sight *s, wiggly_explanation at, double r
 int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2])
 {
     wiggly_desc own;
+    int wrong;
+    bool is_safe;
     if (!best || desc_read(desc, &own) != WIGGLY_OK) return 0;
+    if (desc_check(&own, &wrong, &is_safe) != WIGGLY_OK) return 0;
     const sight s = sight_of(&own);
-    if (s.count < WIGGLY_FEWEST_EXPLAINED) return 0;
+    if (s.count < WIGGLY_FEWEST_EXPLAINED || !(s.smallest > 0)) return 0; // two on one sample
     const double lowest = 0.5 / (s.mean * (s.count - 1)), highest = fmax(headroom * 0.5 / s.smallest, 2 * lowest);
     const double pitch = maths_log(highest / lowest) / (PITCHES - 1), ratio = maths_exp(pitch);
     wiggly_explanation all[PITCHES];

@@ -254,7 +254,7 @@ wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)
 {
     wiggly_desc own;
     wiggly_poles out = {{{0}}, {{0}}};
-    if (desc_read(desc, &own) != WIGGLY_OK) return out;
+    if (desc_read(desc, &own) != WIGGLY_OK || sample < 0 || sample >= own.samples) return out;
     const poles at = poles_at(&own, sample, 0);
     for (int k = 0; k < 2; k++) {
         const cplx z = cplx_exp(cplx_scale(own.step, at.s[k]));

@@ -26,11 +26,8 @@ static bool param_is_within(wiggly_param param, int samples, double limit)
 
 static bool is_part(double x) { return x >= 0 && x <= 1; }
 
-static wiggly_status check_desc(wiggly_solver *solver, const wiggly_desc *desc)
+static wiggly_status check_settings(const wiggly_desc *desc, bool *y_is_safe)
 {
-    if (desc->samples < 0 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
-        return WIGGLY_ERROR_ARGUMENT;
-    if (desc->samples > solver->samples || desc->knot_count > solver->knots) return WIGGLY_ERROR_CAPACITY;
     if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
     if (!(desc->step > 0 && desc->step < INFINITY) || !is_part(desc->calm)) return WIGGLY_ERROR_NUMBER;
     if (!(desc->variation >= 0 && desc->variation < INFINITY)) return WIGGLY_ERROR_NUMBER;
@@ -39,7 +36,7 @@ static wiggly_status check_desc(wiggly_solver *solver, const wiggly_desc *desc)
         const wiggly_param *param = desc_param(desc, m);
         const bool is_y = param == &desc->equilibrium,
                    is_within = param_is_within(*param, desc->samples, is_y ? SAFE_VALUE : DBL_MAX);
-        if (is_y) solver->y_is_safe = is_within;
+        if (is_y) *y_is_safe = is_within;
         if (!is_within && !(is_y && param_is_within(*param, desc->samples, LARGEST_VALUE)))
             return WIGGLY_ERROR_NUMBER;
     }
@@ -58,16 +55,25 @@ static wiggly_status check_knot(const wiggly_desc *desc, const wiggly_knot *knot
     return knot->value < desc->low || knot->value > desc->high ? WIGGLY_ERROR_KNOT_LIMIT : WIGGLY_OK;
 }
 
-/// Checks the knots and fills `order`; `knot` receives a wrong one. Knots already in order, like a document's, are visited once.
+wiggly_status desc_check(const wiggly_desc *desc, int *knot, bool *y_is_safe)
+{
+    *knot = -1;
+    if (desc->samples < 0 || desc->knot_count < 0 || (desc->knot_count > 0 && !desc->knots))
+        return WIGGLY_ERROR_ARGUMENT;
+    wiggly_status status = check_settings(desc, y_is_safe);
+    for (int k = 0; k < desc->knot_count && status == WIGGLY_OK; k++) {
+        status = check_knot(desc, &desc->knots[k]);
+        if (status != WIGGLY_OK) *knot = k;
+    }
+    return status;
+}
+
+/// Fills `order`; `knot` receives one on an earlier one's sample. Knots already in order, like a document's, are visited once.
 static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
 {
     bool ordered = true;
     for (int k = 0; k < desc->knot_count; k++) {
-        const int sample = desc->knots[k].sample;
-        const wiggly_status status = check_knot(desc, &desc->knots[k]);
-        *knot = k;
-        if (status != WIGGLY_OK) return status;
-        ordered = ordered && (k == 0 || sample > desc->knots[k - 1].sample);
+        ordered = ordered && (k == 0 || desc->knots[k].sample > desc->knots[k - 1].sample);
         solver->order[k] = k;
     }
     if (ordered) return WIGGLY_OK;
@@ -193,8 +199,9 @@ static void fill(double *x, double value, int count)
 
 wiggly_status problem_check(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
 {
-    *knot = -1;
-    wiggly_status status = check_desc(solver, desc);
+    wiggly_status status = desc_check(desc, knot, &solver->y_is_safe);
+    if (status == WIGGLY_OK && (desc->samples > solver->samples || desc->knot_count > solver->knots))
+        return WIGGLY_ERROR_CAPACITY;
     if (status == WIGGLY_OK) status = order_knots(solver, desc, knot);
     if (status == WIGGLY_OK) *knot = -1;
     return status;

@@ -141,6 +141,10 @@ double variation_farthest(const wiggly_desc *desc);
 /// Adds every sample's noise to u, once the domain is known, and the value before `first` to the held value.
 void variation_add(problem *p);
 
+/// Checks a description that was read, but not whether two knots are on one sample; `knot` receives the index of a wrong one, else -1;
+/// `y_is_safe` whether the equilibrium is within SAFE_VALUE.
+wiggly_status desc_check(const wiggly_desc *desc, int *knot, bool *y_is_safe);
+
 /// Checks a description. Returns the error or WIGGLY_OK; `knot` receives the index of a knot that is wrong, or -1.
 wiggly_status problem_check(wiggly_solver *solver, const wiggly_desc *desc, int *knot);
 

@@ -86,7 +86,8 @@ static wiggly_solver *lay_out(arena *a, int samples, int knots)
     at->samples = samples;
     at->knots = knots;
     at->longest_squared = INT_MAX;
-    c->stretch_capacity = knots + 1;
+    c->stretch_capacity =
+        knots; // with the start at rest there is one node more than knots, and one stretch less than nodes
     lay_out_numbers(at, a, n);
     lay_out_columns(arena_take(a, RUN_COLUMNS, CHAIN_RUN * sizeof(double) + LINE), runs, RUN_COLUMNS, CHAIN_RUN);
     rows->at = arena_take(a, n, sizeof *rows->at);

@@ -148,6 +148,7 @@ static int explain(const struct core *core, const struct spline *spline, wiggly_
         const int sample = document_sample(core->document, spline->knots[k].frame);
         knots[k] = (wiggly_knot){.sample = sample, .value = spline->knots[k].value};
     }
+    desc.samples = document_samples(core->document);
     desc.step = document_step(core->document);
     desc.mode = spline_mode(spline);
     desc.knots = knots;
