@@ -372,6 +372,28 @@ TEST(a_pin_on_the_way_changes_nothing)
     wiggly_destroy(solver);
 }
 
+/// On a filter whose equilibrium moves, two pins that one spline can meet are met.
+TEST(pins_on_a_moving_equilibrium_are_met)
+{
+    static double memory[5 * SAMPLES * MOST_SPLINES];
+    for (unsigned n = 0; n < 60; n++) {
+        wiggly_curve curve;
+        struct random_group *g = make_group(n, 1, 2);
+        wiggly_desc *desc = &g->descs[0];
+        desc->passive = WIGGLY_FILTER;
+        desc->equilibrium.track = g->track;
+        for (int i = 0; i < SAMPLES; i++) g->track[i] = 3 * sin((0.05 + 0.01 * n) * i);
+        desc->knot_count = 2;
+        g->knots[0][0].sample = 60, g->knots[0][1].sample = 200;
+        for (int p = 0; p < 2; p++) {
+            g->pin[p].sample = 100 + (int)(1 + n % 20) * p;
+            g->pulls[p][0] = (wiggly_pull){.c = {{1, 0}, {0, 0}, {0, 0}}};
+        }
+        assert_int_equal(solve_group(g, WIGGLY_CHAIN, memory, &curve), WIGGLY_OK);
+        for (int p = 0; p < 2; p++) assert_near(g->pin[p].left[0], 0, 1e-9 * largest(&curve, 1));
+    }
+}
+
 static int wrong_knot; ///< of the second spline, as status_of() found it
 
 static wiggly_status status_of(struct random_group *g)

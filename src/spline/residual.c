@@ -237,8 +237,9 @@ static void pull_plainly(const system_rows *rows)
     }
 }
 
-void system_forget_known(const system_rows *rows)
+void system_forget_known(system_rows *rows)
 {
+    rows->driven = NULL;
     memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
     memset(rows->drive, 0, sizeof *rows->drive * (size_t)rows->count);
     for (int i = 0; i < rows->slope_count; i++) rows->slopes[i].target = 0;

@@ -81,8 +81,8 @@ void system_right_side(const system_rows *rows);
 /// The rows' pull at x, in plain double, at fixed unknowns, too: the force that holds them is its opposite.
 void system_forces(const system_rows *rows);
 
-/// Sets all known values to 0: the solution is then the response to pulls.
-void system_forget_known(const system_rows *rows);
+/// Sets all known values, targets and drives to 0: the solution is then the response to pulls.
+void system_forget_known(system_rows *rows);
 
 /// The squared matrix Rᵀ W R with fixed unknowns as rows of the identity, ready to be factored.
 void system_matrix(const system_rows *rows, pentadiagonal *matrix);
