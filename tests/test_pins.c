@@ -394,6 +394,36 @@ TEST(pins_on_a_moving_equilibrium_are_met)
     }
 }
 
+/// Pins on neighbouring frames that hardly anything holds: what the rounds leave of them belongs to the error.
+TEST(a_pin_that_is_missed_is_not_called_met)
+{
+    static double memory[5 * SAMPLES * MOST_SPLINES];
+    int missed = 0;
+    for (unsigned n = 0; n < 200; n++) {
+        wiggly_curve curve;
+        struct random_group *g = make_group(n, 1, 5);
+        wiggly_desc *desc = &g->descs[0];
+        desc->calm = 1e-12;
+        desc->frequency.value *= 0.01;
+        desc->equilibrium.track = NULL;
+        desc->knot_count = 1;
+        g->knots[0][0].sample = 60;
+        for (int p = 0; p < 5; p++) {
+            g->pin[p].sample = 100 + p;
+            g->pulls[p][0] = (wiggly_pull){.c = {{1, 0}, {0, 0}, {0, 0}}};
+        }
+        const wiggly_status status = solve_group(g, WIGGLY_CHAIN, memory, &curve);
+        double left = 0;
+        for (int p = 0; p < 5; p++) left = fmax(left, fabs(g->pin[p].left[0]) / largest(&curve, 1));
+        if (left <= 1e-8) continue;
+        missed++;
+        assert_int_equal(status, WIGGLY_INEXACT);
+        if (!(curve.error >= left)) fail_msg("group %u: %g is missed, and an error of %g told", n, left, curve.error);
+    }
+    print_message("%d missed\n", missed);
+    assert_true(missed > 0);
+}
+
 static int wrong_knot; ///< of the second spline, as status_of() found it
 
 static wiggly_status status_of(struct random_group *g)

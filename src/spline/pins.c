@@ -15,6 +15,8 @@
 /// Correction rounds, and the miss they tolerate, as a share of the largest target.
 enum { MAX_ROUNDS = 3 };
 static const double near_enough = 1e-10;
+/// How much farther than one pull several together may move x.
+static const double together = 10;
 
 // --- arguments -------------------------------------------------------------------------------------------------------
 
@@ -319,6 +321,7 @@ static bool respond_alone(pulled *of, double *compliance, double *alone)
     system_rows *rows = &of->solver->rows;
     factorisation factor;
     memset(of->pulls.pull, 0, sizeof *of->pulls.pull * (size_t)count);
+    of->spread = 0;
     if (!find_alone(of, &factor, alone)) {
         of->problem.level_slope = true; // as for a spline without pins
         if (!of->problem.free_end || !find_alone(of, &factor, alone)) return false;
@@ -329,10 +332,11 @@ static bool respond_alone(pulled *of, double *compliance, double *alone)
         if (i % 2 == 1 && !rows->is_complex) continue;
         system_forget_known(rows);
         of->pulls.pull[i / 2] = (cplx){i % 2 == 0, i % 2 == 1};
-        bool solved = solver_refine(of->solver, &factor).solved;
+        const minimum found = solver_refine(of->solver, &factor);
         of->pulls.pull[i / 2] = (cplx){0, 0};
-        if (!solved) return false;
+        if (!found.solved) return false;
         read_pulled(of, row);
+        if (row[i] > 0) of->spread = fmax(of->spread, found.largest / sqrt(row[i]));
     }
     return true;
 }
@@ -477,19 +481,33 @@ static bool find_miss(wiggly_group *g)
     return most <= near_enough * size;
 }
 
+/// Adds what the misses leave to the curves' errors: the pulls that would meet them have that energy, Σ λ S λ.
+static wiggly_status add_miss(wiggly_group *g, double energy, wiggly_status status)
+{
+    for (int s = 0; s < g->rows.splines && status < WIGGLY_ERROR_ARGUMENT; s++) {
+        const pulled *of = &g->pulled[s];
+        if (of->pulls.count == 0) continue;
+        const double moved = together * of->spread * sqrt(of->scale * energy);
+        const wiggly_status own = solver_add_error(of->solver, of->curve, moved, WIGGLY_OK);
+        status = own > status ? own : status;
+    }
+    return status;
+}
+
 /// λ and the curves if all rows are equalities.
 static wiggly_status pull(wiggly_group *g)
 {
     const int n = g->rows.count;
     wiggly_status status = WIGGLY_OK;
     symmetric_reduce(n, n, g->system);
-    for (int round = 0; round < MAX_ROUNDS; round++) {
-        symmetric_solve(n, g->system, g->miss);
+    for (int round = 0, met = 0;; round++) {
+        const double energy = symmetric_solve(n, g->system, g->miss);
+        const wiggly_status judged = met || round == MAX_ROUNDS ? add_miss(g, energy, status) : status;
+        if (round == MAX_ROUNDS || (met && judged == status)) return judged;
         for (int r = 0; r < n; r++) g->lambda[r] += g->miss[r];
         status = solve_splines(g);
-        if (find_miss(g)) break;
+        met = find_miss(g);
     }
-    return status;
 }
 
 /// S λ + the misses: the targets for a λ computed from scratch.
@@ -506,13 +524,20 @@ static void find_want(wiggly_group *g)
 static wiggly_status press(wiggly_group *g)
 {
     wiggly_status status = solve_splines(g);
-    for (int round = 0; round < MAX_ROUNDS && !find_miss(g); round++) {
+    bool met = find_miss(g);
+    for (int round = 0; round < MAX_ROUNDS && !met; round++) {
         find_want(g);
         const bool found = bounds_find_pushes(g, near_enough);
         status = solve_splines(g);
         if (!found && status < WIGGLY_INEXACT) status = WIGGLY_INEXACT;
+        met = find_miss(g);
     }
-    return status;
+    double energy = 0; // of each row alone
+    for (int r = 0; r < g->rows.count && !met; r++) {
+        const bool is_free = r >= g->rows.fixed && g->lambda[r] == 0 && g->miss[r] <= 0;
+        if (!is_free) energy += g->miss[r] * (g->miss[r] / g->system[(g->rows.count + 1) * r]);
+    }
+    return add_miss(g, energy, status);
 }
 
 static void tell_bounds(const wiggly_group *g, wiggly_bound *bounds, int bound_count)

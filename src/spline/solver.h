@@ -108,6 +108,9 @@ wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc
 /// Divides such a curve by the power of two that scale_values() multiplied `desc` by.
 void solver_scale_back(const wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
 
+/// Adds an error of x to that of the curve just solved. Returns the status, WIGGLY_INEXACT for WIGGLY_OK if that is too much.
+wiggly_status solver_add_error(const wiggly_solver *solver, wiggly_curve *curve, double error, wiggly_status status);
+
 /// The rows of a description, with knots fixed in x, as solver_minimise() would find them, and its matrix: for comparisons with
 /// other solvers. `y` receives the equilibrium, N numbers. WIGGLY_OK, or what is wrong with the description.
 wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, double *y);

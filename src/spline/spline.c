@@ -159,18 +159,16 @@ static bool is_unmoved(const problem *p)
 /// If the total is a smaller share of x than this, its error is relative to that share of x.
 static const double negligible = 1e-6;
 
-/// Sets the error relative to the larger of the total's range and its largest magnitude.
-static wiggly_status judge(wiggly_curve *curve, const minimum *result, wiggly_status status)
+/// Adds an error of x, relative to the larger of the total's range and its largest magnitude.
+static wiggly_status judge(wiggly_curve *curve, double error, wiggly_status status)
 {
-    curve->error = 0;
-    if (result->error > 0) {
+    if (error > 0) {
         const extent total = extent_of(curve->total, curve->samples), re = extent_of(curve->re, curve->samples);
         const double size = fmax(fmax(total.high - total.low, extent_size(total)), negligible * extent_size(re));
-        curve->error = size > 0 ? result->error / size : 0;
+        curve->error += size > 0 ? error / size : 0;
         // A curve that is all error has no meaningful size.
         if (curve->error > 1 && curve->error < DBL_MAX) curve->error = DBL_MAX;
     }
-    curve->refinements = result->sweeps > 1 ? result->sweeps - 1 : 0;
     return status == WIGGLY_OK && !(curve->error <= tolerance(curve->mode)) ? WIGGLY_INEXACT : status;
 }
 
@@ -281,12 +279,21 @@ wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc
         if (status >= WIGGLY_ERROR_ARGUMENT) return status;
         problem_complete(solver, &p, &all);
         if (limited) limits_clamp(solver, &p, &all);
-        result.error += p.response.error;
-        status = judge(&all, &result, status);
+        all.error = 0;
+        all.refinements = result.sweeps > 1 ? result.sweeps - 1 : 0;
+        status = judge(&all, result.error + p.response.error, status);
         if (status != WIGGLY_INEXACT || !result.unrefined) break;
         p.strict = true;
     }
     keep_asked(curve, all);
+    return status;
+}
+
+wiggly_status solver_add_error(const wiggly_solver *solver, wiggly_curve *curve, double error, wiggly_status status)
+{
+    wiggly_curve all = with_arrays(solver, curve);
+    status = judge(&all, error, status);
+    curve->error = all.error;
     return status;
 }
 

@@ -75,13 +75,21 @@ void symmetric_reduce(int n, int count, double *a)
     }
 }
 
-void symmetric_solve(int n, const double *a, double *b)
+double symmetric_solve(int n, const double *a, double *b)
 {
-    for (int i = 0; i < n; i++) b[i] = (b[i] - dot(a + n * i, b, i)) / a[n * i + i];
+    double energy = 0;
+    for (int i = 0; i < n; i++) {
+        const double *row = a + n * i, rest = b[i] - dot(row, b, i);
+        const double pivot =
+            row[i] < INFINITY ? row[i] : sqrt(lost * dot(row, row, i)); // a left-out row's is at most that
+        energy += rest == 0 ? 0 : rest / pivot * (rest / pivot);
+        b[i] = rest / row[i];
+    }
     for (int i = n - 1; i >= 0; i--) {
         b[i] /= a[n * i + i];
         for (int j = 0; j < i; j++) b[j] -= a[n * i + j] * b[i];
     }
+    return energy;
 }
 
 void symmetric_multiply(int n, int stride, const double *a, const double *x, double *y)

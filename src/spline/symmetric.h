@@ -9,8 +9,8 @@ void symmetric_eigen(int n, double *a, double *values, double *vectors);
 /// on those before it is left out: its unknown becomes 0.
 void symmetric_reduce(int n, int count, double *a);
 
-/// b ← a⁻¹ b, with all of a's rows factored.
-void symmetric_solve(int n, const double *a, double *b);
+/// b ← a⁻¹ b, with all of a's rows factored. Returns bᵀ a⁻¹ b; a row that was left out counts at least as much as its pivot was in doubt.
+double symmetric_solve(int n, const double *a, double *b);
 
 /// y ← a x.
 void symmetric_multiply(int n, int stride, const double *a, const double *x, double *y);
