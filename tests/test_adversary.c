@@ -151,6 +151,26 @@ TEST(overdamped_loops_from_frequency_0)
     assert_true(all);
 }
 
+/// Swing that costs next to nothing is held by the imaginary rows, which the chain only adds to what it has solved.
+TEST(starts_that_cost_next_to_nothing)
+{
+    bool all = true;
+    for (int exponent = 10; exponent <= 20; exponent += 2) {
+        for (int kind = 0; kind < 4; kind++) {
+            wiggly_desc *desc = begin(kind % 2 ? 12 : 25, kind % 2 ? 192 : 34);
+            desc->calm = 7.3 * pow(10, -exponent);
+            desc->passive = kind / 2 ? WIGGLY_FILTER : WIGGLY_OSCILLATOR;
+            desc->frequency.value = kind % 2 ? 0.888 : kind / 2 ? 23.7 : 11;
+            desc->damping.value = kind % 2 ? 0.3 : 0.01;
+            desc->bandwidth.value = 0;
+            add_knot(kind % 2 ? 77 : 16, 1);
+            if (kind % 2) add_knot(191, 2);
+            all = stands(*state, "a start that costs next to nothing") && all;
+        }
+    }
+    assert_true(all);
+}
+
 /// A friction without a spring: what it loses in speed comes back from the equilibrium, and its circle closes.
 TEST(loops_without_a_spring)
 {

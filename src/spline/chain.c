@@ -360,6 +360,21 @@ static double error_of(const chain *c, double size)
     return c->lost > TELLING_LOSS ? 16 * DBL_EPSILON * c->lost * size : 0;
 }
 
+/// Lets the imaginary rows pull on the nodes: once if they hardly move them, else until what remains is negligible. Returns that, at least the
+/// square of the last relative move.
+static double add_imaginary(chain *c, double size)
+{
+    double before = size;
+    for (int sweep = 0;; sweep++) {
+        chain_pull_imaginary(c, sweep > 0);
+        chain_solve_nodes(c);
+        const double moved = take_solution(c), left = 4 * moved * (moved / before);
+        const bool shrinks = moved < 0.5 * before;
+        if (!shrinks || left <= refined * size || sweep == MAX_SWEEPS) return shrinks ? left : 4 * moved;
+        before = moved;
+    }
+}
+
 bool chain_solve(chain *c, double *x_re, double *x_im)
 {
     if (!c->kept) {
@@ -377,12 +392,8 @@ bool chain_solve(chain *c, double *x_re, double *x_im)
     if (c->rank == CHAIN_WEAK && c->count <= LONGEST_FOR_BAND) return false;
     if (must_refine(c) && !refine(c, size)) return false;
     if (c->rank == CHAIN_WEAK || (c->loose && c->lost > TELLING_LOSS)) c->error += sensitivity(c);
-    if (c->im_weight > 0) {
-        chain_pull_imaginary(c);
-        chain_solve_nodes(c);
-        take_solution(c);
-    }
+    const double omitted = c->im_weight > 0 ? add_imaginary(c, size) : 0;
     c->size = size;
-    c->error = fmax(c->error, error_of(c, size));
+    c->error = fmax(c->error, error_of(c, size)) + omitted;
     return fill(c, x_re, x_im);
 }

@@ -102,7 +102,7 @@ typedef struct chain {
     int turned;          ///< a loop's: sample of its first node
     cplx lambda, delta2; ///< mean of the poles, square of half their difference
     start_cost start;    ///< times calm; on the first node
-    double im_weight;    ///< of (Im x)² at every sample, to first order; 0 if negligible
+    double im_weight;    ///< of (Im x)² at every sample; 0 if negligible
     chain_speed speed[VIEW_COUNT];
     cplx tail;       ///< d / x of a settled node
     bool oscillates; ///< speeds are those given by the poles
@@ -199,8 +199,8 @@ void chain_gradient(chain *chain);
 void chain_pull(const chain *chain, int j, cplx on_x, cplx on_d);
 /// Removes it from known parts, and moves it from a tied d to Im x.
 void chain_hold_known(const chain *chain, int j);
-/// The same for the imaginary rows alone.
-void chain_pull_imaginary(chain *chain);
+/// The same for the imaginary rows alone; from the second time on with the gradient, which is then not yet 0.
+void chain_pull_imaginary(chain *chain, bool again);
 static inline int chain_next(const chain *c, int j) { return j + 1 < c->node_count ? j + 1 : 0; }
 /// Number of stretches: one less than nodes, in a loop the same.
 static inline int chain_stretches(const chain *c) { return c->cyclic ? c->node_count : c->node_count - 1; }

@@ -1,7 +1,7 @@
 /// The imaginary rows of a short spline, ω Σ (Im x_k)², which the chain leaves out, as a load on its nodes.
 //
-// Below two periods they affect x noticeably, but so little that first order is enough: at the x found without them each sample pulls
-// with −ω j Im x_k. Their effect at the nodes,
+// Below two periods they affect x noticeably, but so little that one or a few corrections are enough: at the x found so far each sample
+// pulls with −ω j Im x_k. Their effect at the nodes,
 //
 //     Σ (∂x_k / ∂s)* (−ω j Im x_k),
 //
@@ -127,10 +127,10 @@ static void pull_tail(chain *c)
     chain_pull(c, last, on_node.x, on_node.d);
 }
 
-void chain_pull_imaginary(chain *c)
+void chain_pull_imaginary(chain *c, bool again)
 {
     for (int j = 0; j < c->node_count; j++) c->rows[j].right[0] = c->rows[j].right[1] = c->rows[j].right[2] = 0;
-    if (c->lost > TELLING_LOSS) chain_gradient(c); // includes the first solve's error
+    if (again || c->lost > TELLING_LOSS) chain_gradient(c); // includes the first solve's error
     for (int j = 0; j < chain_stretches(c); j++) pull_stretch(c, j);
     if (!c->cyclic) pull_tail(c);
     for (int j = 0; j < c->node_count; j++) {
