@@ -470,6 +470,52 @@ TEST(what_is_right_behind_the_last_knot_is_held)
     assert_true(held > 0);
 }
 
+/// Long splines that lie along a limit: with every sample there keyed they are the same curve, or the error says how far they are from it.
+TEST(no_sample_just_beyond_a_limit_is_forgotten)
+{
+    enum { LONG = 5000, MOST = 7 };
+    static double room[2][2][LONG];
+    static wiggly_knot knots[MOST], all[LONG];
+    wiggly_curve limited = {.size = sizeof limited, .total = room[0][0], .re = room[0][1]},
+                 keyed = {.size = sizeof keyed, .total = room[1][0], .re = room[1][1]};
+    wiggly_solver *large;
+    assert_int_equal(wiggly_create(LONG, LONG, &large), WIGGLY_OK);
+    const int layouts = quick_or_all(20, 600);
+    for (int n = 110; n < 110 + layouts; n++) {
+        seed = (unsigned)n * 2654435761U + 17;
+        for (int i = 0; i < 4; i++) uniform();
+        wiggly_desc desc = wiggly_default_desc();
+        desc.samples = (int)of_range(2000, LONG);
+        desc.mode = WIGGLY_CUBIC;
+        desc.start = n % 3 ? WIGGLY_FREE : WIGGLY_LOOP;
+        desc.knots = knots;
+        desc.knot_count = (int)of_range(3, MOST);
+        for (int k = 0; k < desc.knot_count; k++) {
+            const int part = desc.samples / desc.knot_count;
+            const double value = uniform() < 0.4 ? of_range(-1, 1) : uniform() < 0.5 ? -1 : 1;
+            knots[k] = (wiggly_knot){.sample = k * part + (int)of_range(0, part - 1), .value = value};
+        }
+        desc.low = -1, desc.high = 1, desc.has_low = desc.has_high = true;
+        const wiggly_status status = wiggly_solve(large, &desc, &limited);
+        const int given = desc.knot_count;
+        desc.has_low = desc.has_high = false, desc.knots = all, desc.knot_count = 0;
+        for (int i = 0, k = 0; i < desc.samples; i++) {
+            const bool is_given = k < given && knots[k].sample == i;
+            const bool is_inside = n % 3 == 0 || (i > knots[0].sample && i < knots[given - 1].sample);
+            if (is_given || (is_inside && fabs(limited.total[i]) >= 1))
+                all[desc.knot_count++] = (wiggly_knot){.sample = i, .value = limited.total[i]};
+            k += is_given;
+        }
+        if (desc.start == WIGGLY_LOOP && all[desc.knot_count - 1].sample == desc.samples - 1) desc.knot_count--;
+        assert_true(wiggly_solve(large, &desc, &keyed) <= WIGGLY_INEXACT);
+        double off = 0;
+        for (int i = 0; i < desc.samples; i++) off = fmax(off, fabs(limited.re[i] - keyed.re[i]));
+        if (off > (status == WIGGLY_OK ? 1e-9 : limited.error))
+            fail_msg("layout %d: %d, off by %g", n, (int)status, off);
+    }
+    wiggly_destroy(large);
+}
+
 static int create(void **state)
 {
     (void)state;

@@ -10,6 +10,7 @@
 enum { EXCHANGES = 6 };
 
 static const double beyond = 1e-10; ///< share of the total's size by which a sample may miss a limit
+static const double rounded = 1e-5; ///< share of that which is rounding
 static const double faint = 1e-3;   ///< share of the strongest pull; weaker ones are ignored
 static const double reach = 10;     ///< how many times its excess the curve may be off
 
@@ -60,14 +61,6 @@ static limits_part tail_of(const problem *p)
     return tail;
 }
 
-/// How far a sample is above the high limit (positive) or below the low one (negative); 0: within.
-static double excess(const limits_work *w, int sample, double slack)
-{
-    const wiggly_desc *desc = w->p->desc;
-    double total = limits_total(w, sample);
-    return total > desc->high + slack ? total - desc->high : total < desc->low - slack ? total - desc->low : 0;
-}
-
 static void hold_nothing(limits_work *w)
 {
     const problem *p = w->p;
@@ -95,7 +88,7 @@ static double find_excess(const limits_work *w)
     double most = 0;
     for (int n = 0; n < 2; n++) {
         for (int i = parts[n]->from; i <= parts[n]->to; i++)
-            most = fmax(most, limits_hold(w, i) ? 0 : fabs(excess(w, i, 0)));
+            most = fmax(most, limits_hold(w, i) ? 0 : fabs(limits_excess(w, i, 0)));
     }
     return most;
 }
@@ -125,13 +118,13 @@ static void exchange(limits_work *w, double slack)
     for (int i = 0; i < w->p->desc->samples; i++) hardest = fmax(hardest, pull_of(w, i));
     for (int n = 0; n < 2; n++) {
         for (int i = parts[n]->from; i <= parts[n]->to; i++) {
-            const double by = held[i] == LIMITS_FREE ? excess(w, i, slack) : 0, sign = by > 0 ? 1 : -1;
+            const double by = held[i] == LIMITS_FREE ? limits_excess(w, i, slack) : 0, sign = by > 0 ? 1 : -1;
             if (pull_of(w, i) > faint * hardest) {
                 held[i] = LIMITS_FREE;
                 limits_part_of(w, i)->held--;
             }
-            if (by == 0 || (i > parts[n]->from && sign * excess(w, i - 1, 0) > fabs(by)) ||
-                (i < parts[n]->to && sign * excess(w, i + 1, 0) >= fabs(by)))
+            if (by == 0 || (i > parts[n]->from && sign * limits_excess(w, i - 1, 0) > fabs(by)) ||
+                (i < parts[n]->to && sign * limits_excess(w, i + 1, 0) >= fabs(by)))
                 continue;
             limits_take(w, i, by > 0);
         }
@@ -144,11 +137,11 @@ static bool rests_on_one(limits_work *w)
     double slack = find_slack(w), most = slack;
     int at = -1;
     for (int i = w->body.from; i <= w->body.to; i++) {
-        const double by = fabs(excess(w, i, 0));
+        const double by = fabs(limits_excess(w, i, 0));
         if (by > most) most = by, at = i;
     }
     if (at < 0 || problem_is_asked(w->p)) return false;
-    limits_take(w, at, excess(w, at, 0) > 0);
+    limits_take(w, at, limits_excess(w, at, 0) > 0);
     w->attempts++; // held samples have to be freed
     return limits_solve(w) && find_excess(w) <= slack && limits_release(w) <= slack;
 }
@@ -167,9 +160,10 @@ static bool finish(void *user)
         if (!w->has_room) return true;
         const double slack = find_slack(w);
         w->missed = fmax(find_excess(w), limits_release(w));
-        if (w->missed <= slack) return true;
+        const bool is_right = w->missed <= slack;
+        if (is_right && (n == EXCHANGES || limits_catch(w, rounded * slack) <= slack)) return true;
         if (n == EXCHANGES) return false;
-        exchange(w, slack);
+        exchange(w, is_right ? rounded * slack : slack);
     }
 }
 
@@ -186,6 +180,7 @@ wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
     hold_nothing(&w);
     const bool found = rests_on_one(&w) || one_sided_solve(&w.search, find_slack(&w));
     if (!w.has_room) return WIGGLY_ERROR_CAPACITY;
+    if (found) result->error += 2 * limits_catch(&w, rounded * find_slack(&w));
     if (!found) result->error += reach * fmax(w.missed, find_excess(&w)), result->unrefined = false;
     return w.status;
 }

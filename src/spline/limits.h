@@ -64,6 +64,9 @@ void limits_measure(limits_work *w);
 /// How far x would move if samples pulled by limits were freed; 0 if none is.
 double limits_release(limits_work *w);
 
+/// How far x would move if free samples beyond a limit by more than `slack` were held there; 0 if none is.
+double limits_catch(limits_work *w, double slack);
+
 static inline bool limits_has_body(const limits_work *w) { return w->body.to >= w->body.from; }
 static inline bool limits_has_tail(const limits_work *w) { return w->tail.to >= w->tail.from; }
 
@@ -82,6 +85,14 @@ static inline void limits_take(limits_work *w, int sample, bool high)
 static inline double limits_total(const limits_work *w, int sample)
 {
     return problem_about(w->p, sample) + w->curve->re[sample];
+}
+
+/// How far a sample is above the high limit (positive) or below the low one (negative); 0: within, or no farther beyond than `slack`.
+static inline double limits_excess(const limits_work *w, int sample, double slack)
+{
+    const wiggly_desc *desc = w->p->desc;
+    double total = limits_total(w, sample);
+    return total > desc->high + slack ? total - desc->high : total < desc->low - slack ? total - desc->low : 0;
 }
 
 static inline bool limits_hold(const limits_work *w, int sample) { return w->solver->limits.held[sample] & 1; }

@@ -6,13 +6,15 @@
 //     row i of the tail: d_{i+1} − a_i d_i − b_i d_{i−1} − c_i v, c_i = φ_{i+1} − a_i φ_i − b_i φ_{i−1}        (d₀ = φ₀ = 0)
 //
 // With constant poles all c_i but c₀ are rounding. A stiff spring passes v from block to block, as each block's second number.
+#include "spline/bound_tail.h"
 #include "spline/limits.h"
 #include <string.h>
 
 enum { SWEEPS = 2 };
 
-static const double lossy = 1e8; ///< from this loss of digits in a complex factor on, its solutions are refined
-static const double stiff = 1e6; ///< that spring's weight, relative to the first row
+static const double lossy = 1e8;    ///< from this loss of digits in a complex factor on, its solutions are refined
+static const double stiffest = 1e8; ///< of what holds a sample, relative to its row
+static const double stiff = 1e6;    ///< that spring's weight, relative to the first row
 
 static double on_own(const coefficients *at) { return -2 - at->m.re; }
 static double on_before(const coefficients *at) { return 1 + at->m.re + at->p.re; }
@@ -171,10 +173,27 @@ static void solve(void *user, double *force)
     for (int i = 0; i < w->search.count; i++) force[i] = x[from + 2 * i];
 }
 
+/// The largest change of x, both parts, that forces make with the present factor. After the last knot Im x follows from Re x.
+static double largest_move(limits_work *w, double *force)
+{
+    static const double im[2] = {0, 1};
+    const double *x = w->solver->rows.x;
+    double most = 0, *e = w->solver->limits.pushed[0];
+    solve(w, force);
+    for (int i = 0; i < 2 * w->solver->matrix.count; i++) most = fmax(most, fabs(x[i]));
+    const bound_tail tail = bound_tail_of(w->p, 1);
+    for (int i = tail.begin + 1; i < tail.end && tail.is_complex; i++) e[i] = x[2 * (i - w->first)];
+    for (int i = tail.begin + 1; i < tail.end && tail.is_complex; i++) {
+        const tail_row row = bound_tail_row(&tail, i, im);
+        most = fmax(most, fabs(bound_tail_see(&tail, &row, e)));
+    }
+    return most;
+}
+
 double limits_release(limits_work *w)
 {
     const limit_memory *m = &w->solver->limits;
-    double *force = w->search.move, most = 0;
+    double *force = w->search.move;
     bool any = false;
     for (int i = 0; i < w->search.count; i++) {
         const int sample = w->from + i;
@@ -185,9 +204,28 @@ double limits_release(limits_work *w)
     if (!any) return 0;
     w->fresh = true;
     if (!factor(w, NULL)) return INFINITY;
-    solve(w, force);
-    for (int i = 0; i < w->search.count; i++) most = fmax(most, fabs(force[i]));
-    return most;
+    return largest_move(w, force);
+}
+
+double limits_catch(limits_work *w, double slack)
+{
+    const limit_memory *m = &w->solver->limits;
+    double *force = w->search.move;
+    bool any = false;
+    for (int i = 0; i < w->search.count; i++) {
+        force[i] = m->held[w->from + i] == LIMITS_FREE ? limits_excess(w, w->from + i, slack) : 0;
+        any = any || force[i] != 0;
+    }
+    if (!any) return 0;
+    set_system(w);
+    w->fresh = false;
+    for (int i = 0; i < w->search.count; i++) {
+        const bool stays = limits_hold(w, w->from + i) || force[i] != 0;
+        m->stiffness[i] = stays ? stiffest * w->solver->rows.jet_weight[w->from - w->first + i] : 0;
+        force[i] *= m->stiffness[i];
+    }
+    if (!factor(w, m->stiffness)) return INFINITY;
+    return largest_move(w, force);
 }
 
 void limits_measure(limits_work *w)
