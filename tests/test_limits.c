@@ -410,6 +410,20 @@ TEST(what_cannot_be_is_an_error)
     limit(&l, 0.9);
     assert_int_equal(wiggly_solve(solver, &l.desc, &curve), WIGGLY_ERROR_KNOT_LIMIT);
     assert_true(fabs(l.knots[curve.knot].value) > l.desc.high);
+    for (int kind = 0; kind < 6; kind++) { // at a still knot the total is what moves by itself
+        make_layout(&l, 5, (wiggly_mode)(kind % 3), 240, 1.0 / 24);
+        vary(&l, 0, kind / 3, MOVING);
+        for (int i = 0; i < 240; i++) track[i] = 2 * l.largest * sin(0.11 * i);
+        l.knots[2] = (wiggly_knot){.sample = 128, .still = true};
+        limit(&l, 1.15);
+        memcpy(y, track, sizeof y);
+        y[0] = 17;
+        assert_int_equal(wiggly_solve(solver, &l.desc, &curve), WIGGLY_ERROR_KNOT_LIMIT);
+        assert_int_equal(curve.knot, 2);
+        assert_true(y[0] == 17); // nothing is touched
+    }
+    make_layout(&l, 5, WIGGLY_CUBIC, 240, 1.0 / 24);
+    l.desc.has_low = l.desc.has_high = true;
     l.desc.high = l.desc.low = l.knots[0].value;
     assert_int_equal(wiggly_solve(solver, &l.desc, &curve), WIGGLY_ERROR_LIMITS);
     l.desc.high = NAN, l.desc.has_low = false;

@@ -216,7 +216,7 @@ TEST(wrong_descriptions_are_named_and_leave_the_curve_alone)
                       seam = {.sample = 49, .value = 1};
     const wiggly_knot nan[] = {good, {.sample = 2, .value = NAN}}, steep = {.has_slope = true, .slope = INFINITY},
                       slack = {.has_slope = true, .stiffness = -1}, lost = {.has_phase = true, .phase = NAN},
-                      both = {.still = true, .has_phase = true};
+                      both = {.still = true, .has_phase = true}, rests[] = {good, {.sample = 9, .still = true}};
     double broken_track[50] = {[7] = NAN};
     const struct {
         wiggly_status expected;
@@ -239,6 +239,8 @@ TEST(wrong_descriptions_are_named_and_leave_the_curve_alone)
         {WIGGLY_ERROR_KNOT_NUMBER, 0, .knots = &lost, .count = 1},
         {WIGGLY_ERROR_KNOT_STILL, 0, .knots = &both, .count = 1},
         {WIGGLY_ERROR_KNOT_LIMIT, 0, .knots = &good, .count = 1, .low = -1, .high = 0.5},
+        {WIGGLY_ERROR_KNOT_LIMIT, 0, .knots = &good, .count = 1, .low = 1.5, .high = 2},
+        {WIGGLY_ERROR_KNOT_LIMIT, 1, .knots = rests, .count = 2, .low = 0.5, .high = 2},
         {WIGGLY_ERROR_LIMITS, -1, .low = 1, .high = -1},
         {WIGGLY_ERROR_LIMITS, -1, .low = -1, .high = INFINITY},
         {WIGGLY_ERROR_ARGUMENT, -1, .count = 1},

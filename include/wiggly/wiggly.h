@@ -53,7 +53,7 @@ typedef enum wiggly_status {
     WIGGLY_ERROR_KNOT_OUTSIDE,  ///< a knot is outside the samples (a loop's last sample is its first)
     WIGGLY_ERROR_KNOT_TWICE,    ///< two knots share a sample
     WIGGLY_ERROR_KNOT_STILL,    ///< a still knot has a slope or a phase
-    WIGGLY_ERROR_KNOT_LIMIT,    ///< a knot is beyond a limit
+    WIGGLY_ERROR_KNOT_LIMIT,    ///< a knot is beyond a limit; a still one where the equilibrium takes it
     WIGGLY_ERROR_PIN,           ///< a pin is outside the samples, or on a spline without a motion of its own
     WIGGLY_STATUS_COUNT
 } wiggly_status;

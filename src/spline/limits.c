@@ -14,17 +14,23 @@ static const double rounded = 1e-5; ///< share of that which is rounding
 static const double faint = 1e-3;   ///< share of the strongest pull; weaker ones are ignored
 static const double reach = 10;     ///< how many times its excess the curve may be off
 
-void limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
-                  wiggly_curve *all)
+int limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
+                 wiggly_curve *all)
 {
     limit_memory *m = &solver->limits;
-    for (int k = 0; k < p->desc->knot_count; k++) m->own[k] = p->desc->knots[solver->order[k]];
+    for (int k = 0; k < p->desc->knot_count; k++) {
+        const wiggly_knot *knot = &p->desc->knots[solver->order[k]];
+        const double total = p->about ? p->about[knot->sample] : problem_y(p, knot->sample);
+        if (knot->still && !(total >= p->desc->low && total <= p->desc->high)) return solver->order[k];
+        m->own[k] = *knot;
+    }
     for (int k = 0; k < p->desc->knot_count; k++) solver->order[k] = k;
     *ordered = *p->desc;
     ordered->knots = m->own;
     p->desc = ordered;
     if (!curve->re) all->re = m->re;
     if (!curve->im) all->im = m->im;
+    return -1;
 }
 
 /// The part up to the last knot, or to the end if nothing moves freely after it.

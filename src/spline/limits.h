@@ -10,8 +10,9 @@ static inline bool limits_are_set(const wiggly_desc *desc) { return desc->low > 
 
 /// Sorts the knots of a limited spline that was just posed into the solver's memory, with room for held samples between them: its
 /// description becomes `ordered`. `all` is the curve with the solver's arrays for those that `curve` lacks.
-void limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
-                  wiggly_curve *all);
+/// Returns the index of a still knot whose total is beyond a limit, else -1.
+int limits_begin(wiggly_solver *solver, problem *p, wiggly_desc *ordered, const wiggly_curve *curve,
+                 wiggly_curve *all);
 
 /// problem_find() for a limited spline. WIGGLY_ERROR_CAPACITY if more samples must be held than there is room for.
 wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);

@@ -269,10 +269,11 @@ wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc
     problem p;
     wiggly_curve all = with_arrays(solver, curve);
     wiggly_status status;
-    problem_pose(solver, desc, all.y ? all.y : solver->y, &p);
     const bool limited = limits_are_set(desc) && !solver->pulls; // pins have priority
+    problem_pose(solver, desc, all.y && !limited ? all.y : solver->y, &p);
     wiggly_desc ordered;
-    if (limited) limits_begin(solver, &p, &ordered, curve, &all);
+    curve->knot = limited ? limits_begin(solver, &p, &ordered, curve, &all) : -1;
+    if (curve->knot >= 0) return WIGGLY_ERROR_KNOT_LIMIT;
     for (;;) {
         minimum result = {0};
         status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
