@@ -267,6 +267,30 @@ TEST(jumps_from_frequency_0)
     assert_true(all);
 }
 
+/// A slope is that of the total: at an end of the domain, and where y begins to move, what y adds to it is one-sided.
+TEST(slopes_beside_a_moving_equilibrium)
+{
+    static const double y[] = {0.5, 2, -1, 0.3, 0.9, -0.7, 0.2, 1.5, 0.1, -2, 0.4, 0.5};
+    bool all = true;
+    for (int kind = 0; kind < 3 * 3 * 2 * 4; kind++) {
+        wiggly_desc *desc = begin(24, 12);
+        desc->mode = (wiggly_mode)(kind % 3);
+        desc->start = (wiggly_start)(kind / 3 % 3);
+        desc->passive = (wiggly_passive)(kind / 9 % 2);
+        desc->frequency.value = 3;
+        desc->damping.value = 0.1;
+        desc->equilibrium = track_of(y, 12);
+        const int first = kind / 18 % 2 ? 3 : 0, last = kind / 36 ? 10 : 8;
+        add_knot(first, 1);
+        set_slope(20);
+        add_knot(5, -1);
+        add_knot(last + (desc->start != WIGGLY_LOOP), 0.5);
+        set_slope(-30);
+        all = stands(*state, "a slope beside a moving equilibrium") && all;
+    }
+    assert_true(all);
+}
+
 /// Of two samples, the earliest knot's: of the oscillator its total, of the filter its x.
 TEST(two_samples_of_a_cubic)
 {
