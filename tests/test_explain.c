@@ -64,9 +64,16 @@ TEST(only_the_shape_counts)
         other[i].sample *= 4;
     }
     desc.knots = other, desc.samples *= 4, desc.step /= 2, desc.equilibrium.value = 20;
-    wiggly_explain(&desc, again);
-    assert_near(again[0].frequency, best[0].frequency / 2, 1e-9);
-    assert_near(again[0].damping, best[0].damping, 1e-9);
+    for (int size = 0; size < 4; size++) {
+        const double scale = (const double[]){1, 1e200, 1e298, 1e-200}[size];
+        for (int i = 0; i < desc.knot_count; i++) other[i].value *= scale;
+        desc.equilibrium.value *= scale;
+        assert_true(wiggly_explain(&desc, again) >= 1);
+        for (int i = 0; i < desc.knot_count; i++) other[i].value /= scale;
+        desc.equilibrium.value /= scale;
+        assert_near(again[0].frequency, best[0].frequency / 2, 1e-9);
+        assert_near(again[0].damping, best[0].damping, 1e-9);
+    }
 }
 
 TEST(what_cannot_be_told_is_not)

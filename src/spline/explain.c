@@ -46,6 +46,9 @@ static sight sight_of(const wiggly_desc *desc)
         if (knot->still) continue;
         sight_add(&s, knot->sample * desc->step, knot->value - (y->track ? y->track[knot->sample] : y->value));
     }
+    double size = 0;
+    for (int k = 0; k < s.count; k++) size = fmax(size, fabs(s.value[k]));
+    for (int k = 0; k < s.count; k++) s.value[k] *= scale_for(size); // their squares are a double's
     for (int k = 1; k < s.count; k++) s.smallest = fmin(s.smallest, s.time[k] - s.time[k - 1]);
     if (s.count > 1) s.mean = (s.time[s.count - 1] - s.time[0]) / (s.count - 1);
     return s;
