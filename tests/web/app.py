@@ -365,6 +365,15 @@ def pastes(browser, url):
     pages[1].key('Ctrl+V')
     told(pages[1], 'knots from the other page', lambda text: text.startswith('*'))
     expect(len(scene(pages[1])['splines'][0]['knots']) == 10, 'five more')
+    for length in 1_400_000, 20_000_000:  # more than the stack, more than the app takes
+        pages[1].evaluate(f'''(data => {{
+            data.setData('text/plain', 'x'.repeat({length}));
+            dispatchEvent(new KeyboardEvent('keydown', {{ key: 'v', code: 'KeyV', ctrlKey: true }}));
+            dispatchEvent(new ClipboardEvent('paste', {{ clipboardData: data }}));
+        }})(new DataTransfer())''')
+        frames(pages[1])
+    pages[1].key('Ctrl+Z')
+    told(pages[1], 'a program that goes on', lambda text: not text.startswith('*'))
     for page in pages:
         expect(not (found := page.problems()), f'the console says {found}')
         page.close()

@@ -49,6 +49,12 @@ function download(FS, path) {
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);
 }
 
+/// Calls one of surface.c's functions with a text of any length.
+export function tell(app, call, text, ...more) {
+  const copy = app.allocateUTF8(text);
+  copy ? app[`_${call}`](copy, ...more) : app.page.say('There is not enough memory for that.');
+}
+
 /// Puts files into the user's folder and opens the first that is a scene or a character.
 export async function receive(app, files) {
   const paths = [];
@@ -59,7 +65,7 @@ export async function receive(app, files) {
     paths.push(path);
   }
   const first = paths.find(path => /\.(json|glb|gltf)$/i.test(path)) ?? paths[0];
-  if (first) app.ccall('web_drop', null, ['string'], [first]);
+  if (first) tell(app, 'web_drop', first);
 }
 
 // Links: the scene's JSON without spaces, deflated, in base64 for addresses.

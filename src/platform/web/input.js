@@ -1,10 +1,12 @@
 // Mouse, pen, fingers and keys, as the app's events (surface.c's web_… functions).
+import { tell } from './files.js';
 
 const SHIFT = 1, CTRL = 2, ALT = 4, SUPER = 8, FINGER = 16;
 const RELEASE = 0, PRESS = 1, REPEAT = 2;
 const LEFT = 0, RIGHT = 1, MIDDLE = 2;
 const TURN = 0.08, ZOOM = 0.12; // of the stage for a notch of the wheel: radians, and a power of e
 const STILL = 6; // logical pixels that a finger may shake
+const LONGEST_TEXT = 17 << 20; // letters, more than the app takes: it says so
 const BUTTONS = [LEFT, MIDDLE, RIGHT]; // by the browser's numbers
 const NAMES = { ' ': 'Space', ArrowLeft: 'Left', ArrowRight: 'Right', ArrowUp: 'Up', ArrowDown: 'Down' };
 const isMac = /Mac|iPhone|iPad/.test(navigator.platform);
@@ -25,7 +27,7 @@ function nameOf(event) {
 }
 
 export function listen(canvas, app) {
-  const key = (name, action, mods = 0) => app.ccall('web_key', null, ['string', 'number', 'number'], [name, action, mods]);
+  const key = (name, action, mods = 0) => tell(app, 'web_key', name, action, mods);
   const type = text => { for (const c of text) app._web_text(c.codePointAt(0)); };
   const tap = (name, mods = 0) => { key(name, PRESS, mods); key(name, RELEASE, mods); };
   const place = event => {
@@ -38,7 +40,9 @@ export function listen(canvas, app) {
   const focus = () => { if (document.activeElement !== canvas) canvas.focus({ preventScroll: true }); };
   canvas.addEventListener('pointerdown', event => {
     focus();
-    canvas.setPointerCapture(event.pointerId);
+    try {
+      canvas.setPointerCapture(event.pointerId);
+    } catch { /* it was lifted already */ }
   });
   for (const [name, action] of [['mousedown', PRESS], ['mouseup', RELEASE]])
     canvas.addEventListener(name, event => { if (event.button < 3) app._web_button(BUTTONS[event.button], action, modsOf(event), ...place(event)); });
@@ -94,6 +98,7 @@ export function listen(canvas, app) {
   // Keys. What is typed arrives after its key, as from a window.
   const down = new Map();
   addEventListener('keydown', event => {
+    if (!event.key) return; // a browser's own filling in of a form
     const name = nameOf(event), mods = modsOf(event);
     const typed = event.key.length === 1 && (event.getModifierState('AltGraph') || !(mods & (CTRL | ALT | SUPER)));
     if (event.isComposing || event.key === 'Unidentified' || event.key === 'F12') return; // input events follow, or the browser's tools
@@ -103,6 +108,7 @@ export function listen(canvas, app) {
     if (typed) type(event.key);
   });
   addEventListener('keyup', event => {
+    if (!event.key) return;
     key(down.get(event.code) ?? nameOf(event), RELEASE, modsOf(event));
     down.delete(event.code);
   });
@@ -110,7 +116,7 @@ export function listen(canvas, app) {
     for (const name of down.values()) key(name, RELEASE);
     down.clear();
   });
-  addEventListener('paste', event => app.ccall('web_clipboard', null, ['string'], [event.clipboardData.getData('text')]));
+  addEventListener('paste', event => tell(app, 'web_clipboard', (event.clipboardData?.getData('text') ?? '').slice(0, LONGEST_TEXT)));
 
   // A keyboard on the screen types into a field that nobody sees.
   const field = document.getElementById('typed');

@@ -1,6 +1,6 @@
 // Starts the app in its page, and does what it asks of a browser (surface.c's page_… functions).
 import { listen } from './input.js';
-import { fetches, isFetching, makeFolders, readLink, receive, writeLink } from './files.js';
+import { fetches, isFetching, makeFolders, readLink, receive, tell, writeLink } from './files.js';
 
 const canvas = document.getElementById('canvas');
 const prefers = what => matchMedia(`(prefers-${what})`).matches;
@@ -55,6 +55,7 @@ const page = {
     navigator.serviceWorker?.register('sw.js').catch(() => {});
   },
   fetches: path => fetches(app.FS, path, say),
+  say,
   waits: isFetching,
   stopped: () => say('wiggly has ended. Reload the page to start it again.'),
   choose: () => Object.assign(document.createElement('input'), {
@@ -101,7 +102,7 @@ for (const type of ['dragover', 'drop']) addEventListener(type, event => event.p
 addEventListener('drop', event => receive(app, event.dataTransfer.files).catch(error => say(error.message)));
 addEventListener('hashchange', async () => {
   const path = await findLinked();
-  if (path) app.ccall('web_drop', null, ['string'], [path]);
+  if (path) tell(app, 'web_drop', path);
 });
 addEventListener('visibilitychange', () => document.hidden && app._web_hidden());
 canvas.addEventListener('webglcontextlost', () => say('The graphics driver was reset. Reload the page: what you did is kept.'));

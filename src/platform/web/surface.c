@@ -212,7 +212,8 @@ EMSCRIPTEN_KEEPALIVE void web_hidden(void)
 void platform_debug_gl(void) {}
 int platform_gl_complaints(void) { return 0; }
 
-// Events, called by input.js. Positions are logical pixels from the canvas's top left; the mods of a finger have FINGER, too.
+// Events, called by input.js. Positions are logical pixels from the canvas's top left; the mods of a finger have FINGER, too. A text is the
+// callee's to free: it comes by malloc(), because a user's text may be larger than the stack.
 
 static const unsigned FINGER = 16;
 
@@ -248,9 +249,10 @@ EMSCRIPTEN_KEEPALIVE void web_wheel(float dx, float dy, unsigned mods, float x, 
 }
 
 /// `name` as replays have it.
-EMSCRIPTEN_KEEPALIVE void web_key(const char *name, int action, unsigned mods)
+EMSCRIPTEN_KEEPALIVE void web_key(char *name, int action, unsigned mods)
 {
     const int key = key_from_name(name);
+    free(name);
     if (key != KEY_NONE)
         push((struct event){.kind = EVENT_KEY, .key = key, .action = (enum event_action)action, .mods = mods});
 }
@@ -270,15 +272,15 @@ EMSCRIPTEN_KEEPALIVE void web_size(int width, int height, float scale)
     push((struct event){.kind = EVENT_SIZE, .x = (float)width / scale, .y = (float)height / scale, .scale = scale});
 }
 
-EMSCRIPTEN_KEEPALIVE void web_drop(const char *path)
+EMSCRIPTEN_KEEPALIVE void web_drop(char *path)
 {
     if (shown) event_queue_push_drop(&shown->queue, path, clock_now());
+    free(path);
 }
 
 /// The text that the next paste inserts.
-EMSCRIPTEN_KEEPALIVE void web_clipboard(const char *text)
+EMSCRIPTEN_KEEPALIVE void web_clipboard(char *text)
 {
-    if (!shown) return;
-    free(shown->clipboard);
-    shown->clipboard = need_text(text);
+    free(shown ? shown->clipboard : text);
+    if (shown) shown->clipboard = text;
 }

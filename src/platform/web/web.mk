@@ -15,7 +15,7 @@ WEB_CFLAGS := -Os -msimd128 -D__SSE__=1 -D__SSE2__=1 $(WARNINGS) $(filter-out -f
 WEB_CPPFLAGS = $(OWN_CPPFLAGS) -isystem src/platform/web -isystem $(WASM)/include -isystem $(JANSSON)/src
 JANSSON_CFLAGS := -w -DHAVE_UNISTD_H -DHAVE_STDINT_H -Dutf8_encode=jansson_utf8_encode# which is a name of ours
 WEB_LDFLAGS := -Os -lnodefs.js -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sALLOW_MEMORY_GROWTH=1 -sINITIAL_MEMORY=64MB \
-    -sENVIRONMENT=web,node -sMODULARIZE=1 -sEXPORT_NAME=createWiggly -sEXPORTED_RUNTIME_METHODS=FS,callMain,ccall -sINVOKE_RUN=0
+    -sENVIRONMENT=web,node -sMODULARIZE=1 -sEXPORT_NAME=createWiggly -sEXPORTED_RUNTIME_METHODS=FS,callMain,allocateUTF8 -sINVOKE_RUN=0
 WEB_FILES := $(wildcard $(addprefix src/platform/web/,*.html *.js *.json)) assets/desktop/wiggly.svg
 WEB_PAGE := $(addprefix $(B)/web/,$(filter-out sw.js,$(notdir $(WEB_FILES))) wiggly.js)
 
