@@ -220,7 +220,11 @@ static bool start(struct app *app, struct error *error)
     app_open_editor(app);
     app->table.models = models_create();
     app->table.history = history_create(NULL);
-    if (!app_open(app, o->scene, error)) return false;
+    if (!app_open(app, o->scene, error)) {
+        if (!o->scene || !platform_in_page() || !is_live(app)) return false;
+        fprintf(stderr, "wiggly live: %s; the start scene opens instead\n", error->text); // not an empty page
+        if (!app_open(app, NULL, error)) return false;
+    }
     uint64_t hash = scene_hash(app->table.document);
     if (!check_scene(app, hash, error) || !check_outputs(app, error)) return false;
     if (o->record) {

@@ -187,13 +187,13 @@ static void mention(struct app *app)
     recovery_release(&entry.slot);
 }
 
-/// Offers the newest recovery file. A start with a scene offers that scene's only.
+/// Offers the newest recovery file. A start with a scene offers that scene's only, but in a page, whose link may be older than the work.
 static void offer(struct app *app)
 {
     struct personal *personal = app->personal;
     struct recovery_entry *entry = &personal->offered;
     struct recovery_offer shown = {0};
-    const bool named = app->options->scene != NULL;
+    const bool named = app->options->scene && !platform_in_page();
     int count;
     personal->is_offered = recovery_find(personal->state_folder, named ? app_path(app) : NULL, entry, &count);
     if (!personal->is_offered) {

@@ -21,6 +21,7 @@ MODELS = pathlib.Path(__file__).parents[2] / 'assets/models'
 STILL = {'color_scheme': 'light', 'reduced_motion': 'reduce'}
 KNOT, LOWER = (125, 470), (125, 530)  # the first knot of "sway" at 1280 × 720
 FOUND, PANELS = (150, 210), (60, 300, 250, 420)  # on a phone of 390 × 844: the first command found; x, y, width, height of the curves and settings
+HOME, RECOVERY = '/home/web_user', '/home/web_user/.local/state/wiggly/recovery-1'
 STAGE = (340, 20, 650, 370)  # x, y, width, height: beside the card
 FIRST_FRAME = "performance.getEntriesByName('first frame')[0]?.startTime"
 FETCHED = "performance.getEntriesByType('resource').some(({ name }) => name.endsWith('.glb'))"
@@ -77,6 +78,16 @@ def title(page):
 def described(page):
     """What a screen reader says of the canvas."""
     return page.evaluate("document.getElementById(document.getElementById('canvas').getAttribute('aria-describedby')).textContent")
+
+
+def said(page):
+    return page.evaluate("document.getElementById('said').textContent")
+
+
+def stored(page, path):
+    """The first knot's value of a scene in the page's files, or None."""
+    return page.evaluate(f'''wiggly.FS.analyzePath('{path}').exists &&
+        JSON.parse(wiggly.FS.readFile('{path}', {{ encoding: 'utf8' }})).splines[0].knots[0].value''')
 
 
 def told(page, what, condition):
@@ -153,6 +164,12 @@ def edits(browser, url):
     page.close()
 
 
+def link_of(data):
+    """Bytes as a link's part behind #."""
+    deflate = zlib.compressobj(9, wbits=-15)
+    return '#' + base64.urlsafe_b64encode(deflate.compress(data) + deflate.flush()).decode().rstrip('=')
+
+
 def links(browser, url):
     page = opened(browser, url)
     link = share(page)
@@ -163,16 +180,33 @@ def links(browser, url):
     other = opened(browser, url + link)
     expect(scene(other) == sent, 'a link holds the scene, for a stranger, too')
     reopened(other, url + link[:-20])
-    expect('cut off' in other.until('words', "document.getElementById('said').textContent"), 'a broken link is said to be one')
+    expect('cut off' in said(other), f'a broken link is said to be one: {said(other)}')
+    for words, data in (('holds no scene: splines[0].name: expected', b'{"wiggly": 1, "frames": [0, 9], "splines": [{"name": 3}]}'),
+                        ('holds no scene: splines[0]: expected', b'{"wiggly": 1, "frames": [0, 9], "splines": [{"na'),
+                        ('holds no scene: scene: expected', b'x'), ('holds more than 4 MB', b' ' * (300 << 20))):
+        reopened(other, url + link_of(data))
+        expect(words in said(other), f'a broken scene is said to be one: {said(other)}')
+        expect(scene(other)['splines'][0]['name'] == 'sway', 'and the start scene is there')
     other.close()
+
+
+def shared(browser, url):
+    page = opened(browser, url)
+    link, start = share(page), scene(page)
+    page.drag(KNOT, LOWER)
+    until('the newer work in a recovery file', lambda: stored(page, RECOVERY))
+    reopened(page, url + link)
+    expect(not title(page).startswith('*'), "the link's scene is there at first")
+    page.key('Enter')
+    told(page, 'the work that is newer than the link', lambda text: text.startswith('*'))
+    expect(scene(page) != start, 'it is another scene')
+    page.close()
 
 
 def kept(browser, url):
     page = opened(browser, url)
     work = changed(page)
-    value, file = work['splines'][0]['knots'][0]['value'], "'/home/web_user/.local/state/wiggly/recovery-1'"
-    page.until('a recovery file with the work', f"""wiggly.FS.analyzePath({file}).exists &&
-        JSON.parse(wiggly.FS.readFile({file}, {{ encoding: 'utf8' }})).splines[0].knots[0].value === {value}""")
+    until('a recovery file with the work', lambda: stored(page, RECOVERY) == work['splines'][0]['knots'][0]['value'])
     reopened(page, url)
     page.key('Enter')
     told(page, 'the work as it was before the reload', lambda text: text.startswith('*'))
@@ -454,6 +488,7 @@ CASES = [
     ('the page starts without a complaint, plays, and says what it is', starts),
     ('mouse and keys edit the scene, and undo', edits),
     ('a link holds the scene', links),
+    ('after a reload of the link, work that is newer is offered', shared),
     ('unsaved work is offered again after a reload', kept),
     ('each tab keeps its own work, and all share what is saved', tabs),
     ('exports and scenes are downloads, and scenes come back by a drop', files),

@@ -2,7 +2,8 @@
 import { HOME, keep, put } from './store.js';
 
 const SCENES = '/usr/share/wiggly/scenes', MODELS = '/usr/share/wiggly/models';
-const LARGEST_LINK = 32000;
+const LARGEST_LINK = 32000, LARGEST_SCENE = 4 << 20; // characters; bytes
+const PIECE = 1024; // bytes that are inflated at a time, to 1 MB at most
 
 /// Makes the program's folders and the user's. A file that is put into the user's by the user's wish, which is not a hidden one, is also
 /// downloaded.
@@ -70,16 +71,33 @@ export async function receive(app, files) {
 
 // Links: the scene's JSON without spaces, deflated, in base64 for addresses.
 
-const through = (bytes, stream) => new Response(new Blob([bytes]).stream().pipeThrough(stream)).arrayBuffer();
+/// What a stream makes of bytes. It stops beyond `most` bytes, of which a small link can hold any number.
+async function through(bytes, stream, most = Infinity) {
+  const source = new ReadableStream({
+    start(to) {
+      for (let at = 0; at < bytes.length; at += PIECE) to.enqueue(bytes.subarray(at, at + PIECE));
+      to.close();
+    },
+  });
+  const reader = source.pipeThrough(stream).getReader(), parts = [];
+  for (let size = 0, part; !(part = await reader.read()).done;) {
+    parts.push(part.value);
+    size += part.value.length;
+    if (size <= most) continue;
+    reader.cancel().catch(() => {});
+    throw new RangeError('too large');
+  }
+  return new Uint8Array(await new Blob(parts).arrayBuffer());
+}
 
 /// Of a scene's JSON. A RangeError says why there is none.
 export async function writeLink(scene) {
   const text = JSON.stringify(JSON.parse(scene));
   const [, own] = /"((?!\.\.\/models\/)[^"]*\.(?:glb|gltf|obj))"/i.exec(text) ?? [];
   if (own) throw new RangeError(`A link holds no characters: send ${own.slice(own.lastIndexOf('/') + 1)} and the saved scene instead.`);
-  const bytes = new Uint8Array(await through(new TextEncoder().encode(text), new CompressionStream('deflate-raw')));
+  const all = new TextEncoder().encode(text), bytes = await through(all, new CompressionStream('deflate-raw'));
   const link = '#' + btoa(Array.from(bytes, byte => String.fromCharCode(byte)).join('')).replace(/\+/g, '-').replace(/\//g, '_').replace(/=+$/, '');
-  if (link.length > LARGEST_LINK) throw new RangeError('The scene is too large for a link: save it and send the file.');
+  if (all.length > LARGEST_SCENE || link.length > LARGEST_LINK) throw new RangeError('The scene is too large for a link: save it and send the file.');
   return link;
 }
 
@@ -88,10 +106,10 @@ export async function readLink(FS, link) {
   if (link.length < 2) return null;
   try {
     const bytes = Uint8Array.from(atob(link.slice(1).replace(/-/g, '+').replace(/_/g, '/')), c => c.charCodeAt(0));
-    const scene = await through(bytes, new DecompressionStream('deflate-raw'));
-    FS.writeFile(`${SCENES}/link.json`, new Uint8Array(scene));
-  } catch {
-    throw new Error('The link is cut off or changed: ask for it again.');
+    FS.writeFile(`${SCENES}/link.json`, await through(bytes, new DecompressionStream('deflate-raw'), LARGEST_SCENE));
+  } catch (error) {
+    throw new Error(error instanceof RangeError ? 'The link holds more than 4 MB, too much for a scene.'
+      : 'The link is cut off or changed: ask for it again.');
   }
   return `${SCENES}/link.json`;
 }

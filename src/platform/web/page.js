@@ -6,12 +6,12 @@ const canvas = document.getElementById('canvas');
 const prefers = what => matchMedia(`(prefers-${what})`).matches;
 const SETTINGS = '/home/web_user/.config/wiggly/settings';
 
-let timer;
-/// Says something above the canvas for a while.
+let app, timer;
+/// Says something above the canvas for a while, which begins with the first frame.
 function say(text) {
   document.getElementById('said').textContent = text;
   clearTimeout(timer);
-  const end = () => app.isShown && !isFetching() && (document.getElementById('said').textContent = ''); // "Loading …" stays
+  const end = () => app?.isShown && !isFetching() && (document.getElementById('said').textContent = '');
   timer = setTimeout(end, 4000);
 }
 
@@ -49,8 +49,8 @@ const page = {
   copy: text => navigator.clipboard?.writeText(text).catch(() => say('The browser refused the clipboard.')),
   fullscreen: () => (document.fullscreenElement ? document.exitFullscreen() : document.body.requestFullscreen()).catch(() => {}),
   shown() {
-    if (!timer) say(''); // "Loading …"
     app.isShown = true;
+    say(timer ? document.getElementById('said').textContent : ''); // "Loading …" goes
     performance.mark('first frame');
     navigator.serviceWorker?.register('sw.js').catch(() => {});
   },
@@ -63,19 +63,22 @@ const page = {
     onchange() { receive(app, this.files).catch(error => say(error.message)); },
   }).click(),
   async share(scene) {
+    let link;
     try {
-      const link = await writeLink(scene);
+      link = await writeLink(scene);
       history.replaceState(null, '', link);
       await navigator.clipboard?.writeText(location.href);
       say(navigator.clipboard ? 'The link is copied.' : 'The link is in the address bar.');
     } catch (error) {
-      say(error instanceof RangeError ? error.message : 'The link is in the address bar.');
+      const why = error instanceof RangeError ? error.message : 'The scene cannot be a link: save it and send the file.';
+      say(link ? 'The link is in the address bar.' : why);
     }
   },
 };
 
 /// A message of the command line, for a page.
-const plain = text => text.replace(/^wiggly(?: live)?: (.)/, (_, first) => first.toUpperCase()).replace(/[^.]$/, '$&.');
+const plain = text => text.replace(/\S*\/link\.json:(\d+: )?/, 'the link holds no scene: ')
+  .replace(/^wiggly(?: live)?: (.)/, (_, first) => first.toUpperCase()).replace(/[^.]$/, '$&.');
 
 /// The command line: the user's theme if none was chosen, stillness if the system asks for it, and what the link holds.
 function commandLine(FS, linked) {
@@ -86,7 +89,7 @@ function commandLine(FS, linked) {
   return linked ? [...line, linked] : line;
 }
 
-const app = await createWiggly({
+app = await createWiggly({
   canvas, page, print: text => console.log(text), printErr: text => (console.warn(text), say(plain(text))),
   onAbort: () => say('wiggly has stopped. Reload the page: what you did is kept.'),
 }).catch(error => {
