@@ -24,6 +24,9 @@ FOUND, PANELS = (150, 210), (60, 300, 250, 420)  # on a phone of 390 × 844: the
 HOME, RECOVERY = '/home/web_user', '/home/web_user/.local/state/wiggly/recovery-1'
 STAGE = (340, 20, 650, 370)  # x, y, width, height: beside the card
 FIRST_FRAME = "performance.getEntriesByName('first frame')[0]?.startTime"
+STORED = '''new Promise(done => (indexedDB.open('wiggly').onsuccess = ({ target: { result: database } }) => {
+    database.transaction('files').objectStore('files').getAllKeys().onsuccess = ({ target }) => done(target.result.length > 2);
+}))'''
 FETCHED = "performance.getEntriesByType('resource').some(({ name }) => name.endsWith('.glb'))"
 # How many pixels of the canvas differ from the last look at it.
 LOOK = '''(([x, y, width, height]) => {
@@ -278,6 +281,94 @@ def files(browser, url):
     page.close()
 
 
+def save_as(page, name):
+    page.key('Ctrl+Shift+S')
+    frames(page)
+    page.key('Ctrl+A')
+    page.type(name)
+    page.key('Enter')
+    told(page, 'the new name', lambda text: text.startswith(name))
+
+
+def received(browser, url):
+    page = opened(browser, url)
+    page.downloads(OUT)
+    page.drag(KNOT, LOWER)
+    save_as(page, 'walk.json')
+    mine = stored(page, f'{HOME}/walk.json')
+    page.key('I')
+    told(page, 'unsaved work', lambda text: text.startswith('*walk.json'))
+    theirs = OUT / 'received' / 'walk.json'
+    theirs.parent.mkdir()
+    theirs.write_bytes((MODELS.parent / 'scenes/tail.json').read_bytes())
+    page.drop(600, 200, theirs)
+    until('the file that was dropped', lambda: stored(page, f'{HOME}/walk-2.json'))
+    expect(stored(page, f'{HOME}/walk.json') == mine, 'the scene that was saved is as it was')
+    frames(page)
+    page.key('Escape')
+    frames(page)
+    expect(title(page).startswith('*walk.json'), f'the work stays: {title(page)}')
+    page.key('Ctrl+S')
+    told(page, 'the saved scene', lambda text: text.startswith('walk.json'))
+    mine = stored(page, f'{HOME}/walk.json')
+    page.drop(600, 200, theirs)
+    told(page, 'the dropped scene by a free name', lambda text: text.startswith('walk-2.json'))
+    expect(stored(page, f'{HOME}/walk.json') == mine, 'and under its own the first one is')
+
+    glb = (MODELS / 'dog.glb').read_bytes()
+    length = int.from_bytes(glb[12:16], 'little')
+    gltf = json.loads(glb[20:20 + length])
+    gltf['buffers'][0]['uri'] = 'dog.bin'
+    (theirs.parent / 'dog.gltf').write_text(json.dumps(gltf))
+    (theirs.parent / 'dog.bin').write_bytes(glb[28 + length:])
+    page.evaluate(f"wiggly.FS.writeFile('{HOME}/dog.bin', 'other')")
+    look(page)
+    page.drop(600, 200, theirs.parent / 'dog.bin', theirs.parent / 'dog.gltf')
+    until('the character whose buffer had the name of another file', lambda: look(page) > 5000)
+    expect(page.evaluate(f"wiggly.FS.readFile('{HOME}/dog.bin').length") == 5, 'and that file is as it was')
+
+    page.evaluate('''(data => {
+        data.items.add(new File(['{}'], 'x'.repeat(1.5e6) + '.json'));
+        document.body.dispatchEvent(new DragEvent('drop', { bubbles: true, dataTransfer: data }));
+    })(new DataTransfer())''')
+    page.until('a file whose name is larger than the stack', f"wiggly.FS.readdir('{HOME}').some(name => name.length === 255)")
+    frames(page)
+    expect(not (found := page.problems()), f'the console says {found}')
+    page.close()
+
+
+def cleared(browser, url):
+    page = opened(browser, url)
+    page.downloads(OUT)
+    page.key('I')
+    until('a recovery file', lambda: stored(page, RECOVERY))
+    browser.call('Storage.clearDataForOrigin', session=page.session, origin=url.rstrip('/'), storageTypes='all')
+    page.key('Ctrl+Z')
+    work = changed(page)
+    until('the work in a recovery file', lambda: stored(page, RECOVERY) == work['splines'][0]['knots'][0]['value'])
+    save_as(page, 'cleared.json')
+    until('its download', (OUT / 'cleared.json').exists)
+    page.drag(LOWER, KNOT)
+    told(page, 'a star', lambda text: text.startswith('*'))
+    frames(page)
+    page.until('files in a new database', STORED)
+    reopened(page, url)
+    expect(stored(page, f'{HOME}/cleared.json'), 'the saved scene is kept')
+    page.key('Enter')
+    told(page, 'the work since', lambda text: text.startswith('*cleared.json'))
+
+    page.evaluate("new Promise(done => (indexedDB.deleteDatabase('wiggly').onsuccess = done))")  # another page of the same host
+    page.evaluate("IDBFactory.prototype.open = () => { throw new Error('no') }")
+    save_as(page, 'refused.json')
+    until('the download of what is not kept', (OUT / 'refused.json').exists)
+    page.until('a word that nothing is kept', "/keeps no more files/.test(document.getElementById('said').textContent)")
+    frames(page)
+    page.drag(KNOT, LOWER)
+    told(page, 'a program that goes on', lambda text: text.startswith('*refused.json'))
+    expect(not (found := page.problems()), f'the console says {found}')
+    page.close()
+
+
 def characters(browser, url):
     page = opened(browser, url)
     look(page)
@@ -492,6 +583,8 @@ CASES = [
     ('unsaved work is offered again after a reload', kept),
     ('each tab keeps its own work, and all share what is saved', tabs),
     ('exports and scenes are downloads, and scenes come back by a drop', files),
+    ('files that come replace none', received),
+    ('without a database it goes on, and downloads what is saved', cleared),
     ('a character is dropped in, and the built-in dog opens', characters),
     ('two fingers pan, zoom and turn', touches),
     ('on a phone a finger drags, pins, reads the help and presents', phone),

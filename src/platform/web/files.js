@@ -4,6 +4,7 @@ import { HOME, keep, put } from './store.js';
 const SCENES = '/usr/share/wiggly/scenes', MODELS = '/usr/share/wiggly/models';
 const LARGEST_LINK = 32000, LARGEST_SCENE = 4 << 20; // characters; bytes
 const PIECE = 1024; // bytes that are inflated at a time, to 1 MB at most
+const LONGEST_NAME = 255; // letters
 
 /// Makes the program's folders and the user's. A file that is put into the user's by the user's wish, which is not a hidden one, is also
 /// downloaded.
@@ -18,9 +19,15 @@ export async function makeFolders(FS, onRefused) {
 const coming = new Set(), refused = new Set(); // paths
 export const isFetching = () => coming.size > 0;
 
-// On a first visit characters come before the service worker does: they are fetched again, so that it keeps them.
-navigator.serviceWorker?.addEventListener('controllerchange', () => performance.getEntriesByType('resource')
-  .forEach(({ name }) => name.endsWith('.glb') && fetch(name).catch(() => {})));
+/// Lets a service worker keep the page, where the browser has one. On a first visit characters come before the worker does: they are
+/// fetched again, so that it keeps them.
+export async function keepPage() {
+  try {
+    navigator.serviceWorker.addEventListener('controllerchange', () => performance.getEntriesByType('resource')
+      .forEach(({ name }) => name.endsWith('.glb') && fetch(name).catch(() => {})));
+    await navigator.serviceWorker.register('sw.js');
+  } catch { /* the page needs a network each time */ }
+}
 
 /// Whether a file is on its way. One that does not come is asked for again the next time.
 export function fetches(FS, path, say) {
@@ -56,17 +63,43 @@ export function tell(app, call, text, ...more) {
   copy ? app[`_${call}`](copy, ...more) : app.page.say('There is not enough memory for that.');
 }
 
-/// Puts files into the user's folder and opens the first that is a scene or a character.
-export async function receive(app, files) {
-  const paths = [];
-  for (const file of files) {
-    const path = `${HOME}/${file.name}`;
-    app.FS.writeFile(path, new Uint8Array(await file.arrayBuffer()));
-    put(app.FS, path);
-    paths.push(path);
+/// A file that was dropped or chosen. Its name is valid UTF-8 and one part of a path.
+async function take(file) {
+  try {
+    const name = new TextDecoder().decode(new TextEncoder().encode(file.name)).replace(/[/\0]/g, '_') || 'file';
+    return { name: Array.from(name).slice(-LONGEST_NAME).join(''), bytes: new Uint8Array(await file.arrayBuffer()) };
+  } catch {
+    throw new Error(`${file.name} could not be read: a folder, or too large a file.`);
   }
-  const first = paths.find(path => /\.(json|glb|gltf)$/i.test(path)) ?? paths[0];
-  if (first) tell(app, 'web_drop', first);
+}
+
+/// `name`, or with a number if another file has it.
+function freePath(FS, { name, bytes }) {
+  const [, stem, end] = /^(.+?)(\.[^.]*)?$/s.exec(name);
+  for (let n = 1; ; n++) {
+    const path = `${HOME}/${n > 1 ? `${stem}-${n}${end ?? ''}` : name}`, { exists, object } = FS.analyzePath(path);
+    const there = exists && bytes && FS.isFile(object.mode) ? FS.readFile(path) : null;
+    if (!exists || (there?.length === bytes?.length && there?.every((byte, k) => byte === bytes[k]))) return path;
+  }
+}
+
+/// Puts files into the user's folder and opens the first that is a scene or a character. They replace no file: one alone gets a free name,
+/// several, which may name each other, a folder of their own.
+export async function receive(app, files) {
+  const { FS } = app, taken = await Promise.all(Array.from(files, take));
+  if (!taken.length) return;
+  const first = taken.find(({ name }) => /\.(json|glb|gltf)$/i.test(name)) ?? taken[0];
+  let paths = taken.map(file => freePath(FS, file));
+  if (taken.length > 1 && taken.some(({ name }, n) => paths[n] !== `${HOME}/${name}`)) {
+    const folder = freePath(FS, { name: first.name.replace(/(.)\.[^.]*$/, '$1') });
+    paths = taken.map(({ name }) => `${folder}/${name}`);
+    FS.mkdir(folder);
+  }
+  taken.forEach(({ bytes }, n) => {
+    FS.writeFile(paths[n], bytes);
+    put(paths[n]);
+  });
+  tell(app, 'web_drop', paths[taken.indexOf(first)]);
 }
 
 // Links: the scene's JSON without spaces, deflated, in base64 for addresses.

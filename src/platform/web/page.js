@@ -1,6 +1,7 @@
 // Starts the app in its page, and does what it asks of a browser (surface.c's page_… functions).
 import { listen } from './input.js';
-import { fetches, isFetching, makeFolders, readLink, receive, tell, writeLink } from './files.js';
+import { fetches, isFetching, keepPage, makeFolders, readLink, receive, tell, writeLink } from './files.js';
+import { isRefusing } from './store.js';
 
 const canvas = document.getElementById('canvas');
 const prefers = what => matchMedia(`(prefers-${what})`).matches;
@@ -14,6 +15,8 @@ function say(text) {
   const end = () => app?.isShown && !isFetching() && (document.getElementById('said').textContent = '');
   timer = setTimeout(end, 4000);
 }
+
+addEventListener('beforeunload', event => isRefusing() && document.title.startsWith('*') && event.preventDefault());
 
 // The canvas's size in device pixels, which a frame takes over just before it is drawn. On a phone, all of the app is smaller.
 const LEAST = { width: 360, height: 380 }; // logical pixels
@@ -47,12 +50,16 @@ const page = {
   describe: text => (document.getElementById('scene').textContent = text),
   cursor: name => (canvas.style.cursor = name),
   copy: text => navigator.clipboard?.writeText(text).catch(() => say('The browser refused the clipboard.')),
-  fullscreen: () => (document.fullscreenElement ? document.exitFullscreen() : document.body.requestFullscreen()).catch(() => {}),
+  async fullscreen() {
+    try {
+      await (document.fullscreenElement ? document.exitFullscreen() : document.body.requestFullscreen());
+    } catch { /* a phone may have none */ }
+  },
   shown() {
     app.isShown = true;
     say(timer ? document.getElementById('said').textContent : ''); // "Loading …" goes
     performance.mark('first frame');
-    navigator.serviceWorker?.register('sw.js').catch(() => {});
+    keepPage();
   },
   fetches: path => fetches(app.FS, path, say),
   say,

@@ -18,11 +18,11 @@ self.addEventListener('activate', event => event.waitUntil(takeOver()));
 
 /// What is not kept from the start, such as a character, is kept once it was fetched.
 async function answer(request) {
-  const cache = await caches.open(cached);
-  const kept = await cache.match(request, { ignoreSearch: true });
+  const cache = await caches.open(cached).catch(() => null);
+  const kept = await cache?.match(request, { ignoreSearch: true }).catch(() => null);
   if (kept) return kept;
   const fetched = await fetch(request);
-  if (fetched.ok && fetched.type === 'basic') await cache.put(request, fetched.clone());
+  if (fetched.ok && fetched.type === 'basic') await cache?.put(request, fetched.clone()).catch(() => {}); // it may be full
   return fetched;
 }
 self.addEventListener('fetch', event => {
