@@ -14,4 +14,4 @@ echo "  $size bytes over the wire"
 holds "at most 1.0 MB go over the wire" [ "$size" -le 1000000 ]
 
 cd "$page" || exit 1
-holds "addresses are relative" not grep -nE "(src|href)=\"/|(fetch|register|from|import)\(? ?['\"]/|https?://[^w]" index.html page.js files.js store.js input.js manifest.json
+holds "addresses are relative" not grep -nE "(src|href)=\"/|(fetch|register|from|import)\(? ?['\"]/|https?://[^w]" index.html page.js files.js store.js stopped.js input.js manifest.json

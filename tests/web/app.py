@@ -369,6 +369,39 @@ def cleared(browser, url):
     page.close()
 
 
+def stops(browser, url):
+    for number, (what, ends) in enumerate((('an error', "setTimeout(() => { throw new Error('for the test') })"),
+                                           ('a promise', "void Promise.reject(new Error('for the test'))"),
+                                           ('the program', "wiggly.page.title = () => { throw new Error('for the test') }"))):
+        page = browser.page(fresh=True)
+        if number:
+            page.resize(390, 844, mobile=True)
+        page.prefer(color_scheme='dark' if number == 1 else 'light', reduced_motion='reduce')
+        reopened(page, url)
+        page.downloads(OUT)
+        page.key('I')
+        value = scene(page)['splines'][0]['knots'][0]['value']
+        until('the work in a recovery file', lambda: stored(page, RECOVERY) == value)
+        page.evaluate(ends)
+        page.key('Ctrl+Z')  # the title changes
+        text = page.until(f'words on {what}', "document.querySelector('dialog[open]')?.innerText")
+        page.screenshot(OUT / f'stopped-{number}.png')
+        expect('wiggly has stopped' in text and 'is kept as of' in text and 'for the test' in text, f'it says so: {text}')
+        page.key('Escape')
+        page.evaluate("document.getElementById('work').click()")
+        file = OUT / 'untitled.recovered.json'
+        until('the download of the work', file.exists)
+        expect(json.loads(file.read_text())['splines'][0]['knots'][0]['value'] == value, 'it is the work')
+        file.unlink()
+        page.evaluate("longTasks.isOld = true")
+        page.key('Space')
+        page.until('a reload by the button', f'!longTasks.isOld && {FIRST_FRAME}')
+        frames(page)
+        page.key('Enter')
+        told(page, 'the work', lambda text: text.startswith('*'))
+        page.close()
+
+
 def characters(browser, url):
     page = opened(browser, url)
     look(page)
@@ -585,6 +618,7 @@ CASES = [
     ('exports and scenes are downloads, and scenes come back by a drop', files),
     ('files that come replace none', received),
     ('without a database it goes on, and downloads what is saved', cleared),
+    ('where it stops it says so, and offers what is kept', stops),
     ('a character is dropped in, and the built-in dog opens', characters),
     ('two fingers pan, zoom and turn', touches),
     ('on a phone a finger drags, pins, reads the help and presents', phone),

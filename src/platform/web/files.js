@@ -49,9 +49,9 @@ export function fetches(FS, path, say) {
   return true;
 }
 
-function download(FS, path) {
+export function download(FS, path, name = path.slice(path.lastIndexOf('/') + 1)) {
   const link = document.createElement('a');
-  link.download = path.slice(path.lastIndexOf('/') + 1);
+  link.download = name;
   link.href = URL.createObjectURL(new Blob([FS.readFile(path)]));
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 60000);

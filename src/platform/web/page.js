@@ -1,13 +1,14 @@
 // Starts the app in its page, and does what it asks of a browser (surface.c's page_… functions).
 import { listen } from './input.js';
 import { fetches, isFetching, keepPage, makeFolders, readLink, receive, tell, writeLink } from './files.js';
+import { isStopped, stop } from './stopped.js';
 import { isRefusing } from './store.js';
 
 const canvas = document.getElementById('canvas');
 const prefers = what => matchMedia(`(prefers-${what})`).matches;
 const SETTINGS = '/home/web_user/.config/wiggly/settings';
 
-let app, timer;
+let app, timer, lastError = '';
 /// Says something above the canvas for a while, which begins with the first frame.
 function say(text) {
   document.getElementById('said').textContent = text;
@@ -16,6 +17,17 @@ function say(text) {
   timer = setTimeout(end, 4000);
 }
 
+/// Of an error that nobody expected: the program may be wrong from here on.
+function fall(error) {
+  if (isStopped() || /-extension:/.test(error?.stack)) return;
+  const isOutside = error?.stack && !error.stack.includes('wasm');
+  try {
+    if (isOutside) app?._web_hidden(); // the program itself is well
+  } catch { /* what was kept last stays */ }
+  stop(app, 'wiggly has stopped', { cause: error?.name === 'ExitStatus' ? lastError : `${error}` });
+}
+addEventListener('error', event => event.error && fall(event.error)); // without one: a resize that takes two frames, another site's script
+addEventListener('unhandledrejection', event => fall(event.reason));
 addEventListener('beforeunload', event => isRefusing() && document.title.startsWith('*') && event.preventDefault());
 
 // The canvas's size in device pixels, which a frame takes over just before it is drawn. On a phone, all of the app is smaller.
@@ -63,8 +75,8 @@ const page = {
   },
   fetches: path => fetches(app.FS, path, say),
   say,
-  waits: isFetching,
-  stopped: () => say('wiggly has ended. Reload the page to start it again.'),
+  waits: () => isFetching() || isStopped(),
+  stopped: () => stop(app, 'wiggly has ended'),
   choose: () => Object.assign(document.createElement('input'), {
     type: 'file', multiple: true, accept: '.json,.glb,.gltf,.bin,.png,.jpg,.obj',
     onchange() { receive(app, this.files).catch(error => say(error.message)); },
@@ -96,11 +108,14 @@ function commandLine(FS, linked) {
   return linked ? [...line, linked] : line;
 }
 
-app = await createWiggly({
-  canvas, page, print: text => console.log(text), printErr: text => (console.warn(text), say(plain(text))),
-  onAbort: () => say('wiggly has stopped. Reload the page: what you did is kept.'),
-}).catch(error => {
-  say('wiggly could not start. It needs a browser from 2023 or later, and a network at the first visit.');
+function complain(text) {
+  console.warn(text);
+  lastError = plain(text);
+  say(lastError);
+}
+
+app = await createWiggly({ canvas, page, print: text => console.log(text), printErr: complain, onAbort: fall }).catch(error => {
+  stop(app, 'wiggly could not start', { note: 'It needs a browser from 2023 or later, and a network at the first visit.', cause: `${error}` });
   throw error;
 });
 globalThis.wiggly = app;
@@ -114,6 +129,9 @@ addEventListener('hashchange', async () => {
   const path = await findLinked();
   if (path) tell(app, 'web_drop', path);
 });
-addEventListener('visibilitychange', () => document.hidden && app._web_hidden());
-canvas.addEventListener('webglcontextlost', () => say('The graphics driver was reset. Reload the page: what you did is kept.'));
+addEventListener('visibilitychange', () => document.hidden && !isStopped() && app._web_hidden());
+canvas.addEventListener('webglcontextlost', () => {
+  if (!isStopped()) app._web_hidden();
+  stop(app, 'The graphics driver was reset');
+});
 app.callMain(commandLine(app.FS, linked));
