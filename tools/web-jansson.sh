@@ -1,7 +1,10 @@
 #!/bin/sh
 # Fetches the source of Debian's jansson, which Emscripten compiles, into FOLDER, with Debian's patches. apt-get checks what it gets, with
-# lists of sources of its own: the system's stay as they are. Usage: tools/web-jansson.sh FOLDER
+# lists of sources of its own: the system's stay as they are. Sources other than those that were reviewed are refused.
+# Usage: tools/web-jansson.sh FOLDER
 set -eu
+export LC_ALL=C
+reviewed=4b7f17dca9e33ecb7c42cbad6dac0fc731d44776acddc6449d2b59dc1eb8c66d # SHA-256 of 2.14's, with Debian's patch
 folder=$1
 work=$folder.new
 lists=$work/lists
@@ -42,6 +45,12 @@ tar -xf "$work"/jansson_*.debian.tar.* -C "$work/source"
 for patch in $(sed 's/[ #].*//' "$work/source/debian/patches/series" 2>/dev/null); do
     patch -s -p1 -d "$work/source" <"$work/source/debian/patches/$patch"
 done
+got=$(cat "$work"/source/src/*.[ch] "$work/source/src/jansson_config.h.in" | sha256sum | cut -d ' ' -f 1)
+[ "$got" = "$reviewed" ] || {
+    echo "the source of jansson is another one than was reviewed: expected SHA-256 $reviewed, got $got. Name a folder: make web JANSSON=path/to/jansson" >&2
+    rm -rf "$work"
+    exit 3
+}
 rm -rf "$folder"
 mv "$work/source" "$folder"
 rm -rf "$work"
