@@ -22,6 +22,15 @@ holds() { # <what> <command>...
 
 not() { ! "$@"; } # <command>...
 
+# Whether groups of npm/fetched.txt are in a folder; else says why not. A package that is another one than the list names is a failed case.
+npm_has() { # <folder> <group>...
+    local status=0
+    timeout 180 npm/fetch.sh "$@" 2>"$scratch/fetch" || status=$?
+    [ $status -ne 3 ] || ok "npm sends what npm/fetched.txt names" 1
+    [ $status -eq 0 ] || echo "skip - $(tail -n 1 "$scratch/fetch")"
+    return $status
+}
+
 # Runs a command and expects an exit status; its output is in $out and $err.
 expect() { # <status> <what> <command>...
     local wanted=$1 what=$2 status=0

@@ -3,6 +3,7 @@
 /// getVertexPosition).
 #include "gltf_builder.h"
 #include <ftw.h>
+#include <sys/wait.h>
 
 #define MODELS "/usr/share/assimp/models/glTF2/"
 
@@ -129,11 +130,9 @@ static bool fetch_profiles(char *folder, size_t size)
     char command[1024];
     snprintf(folder, size, "%s/gltf-others/node_modules/@webxr-input-profiles/assets/dist/profiles",
              build ? build : "build");
-    snprintf(command, sizeof command,
-             "mkdir -p '%s/gltf-others' && timeout 60 npm install --silent --no-audit --no-fund --no-save --prefix "
-             "'%s/gltf-others' @webxr-input-profiles/assets@1.0.20 >/dev/null 2>&1",
-             build ? build : "build", build ? build : "build");
-    if (access(folder, R_OK) != 0 && system(command) != 0) print_message("npm could not fetch it\n");
+    snprintf(command, sizeof command, "timeout 60 npm/fetch.sh '%s/gltf-others' profiles", build ? build : "build");
+    const int status = system(command);
+    assert_false(WIFEXITED(status) && WEXITSTATUS(status) == 3); // another package
     return there(folder, "there are no models of @webxr-input-profiles/assets");
 }
 

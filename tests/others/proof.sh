@@ -8,10 +8,6 @@ here=tests/others
 place=$B/proof
 mkdir -p "$place"
 
-have_three() {
-    [ -e "$place/node_modules/three/package.json" ] && [ -e "$place/node_modules/gltf-validator/package.json" ] ||
-        timeout 120 npm install --silent --no-audit --no-fund --no-save --prefix "$place" three@0.187.0 gltf-validator@2.0.0-dev.3.10
-}
 have_python() { # <module> <package>
     [ -x "$place/venv/bin/python" ] || python3 -m venv "$place/venv" || return 1
     "$place/venv/bin/python" -c "import importlib.util as u, sys; sys.exit(u.find_spec('$1') is None)" ||
@@ -82,7 +78,7 @@ each_scene() { # <who> <ending> <scenes> <command>...
         compares "$who: ${entry%%:*}.$ending" "$@" "$scratch/${entry%%:*}.$ending" $(caches "${entry%%:*}" "${entry#*:}")
     done
 }
-if fetched three.js have_three; then
+if npm_has "$place" three validator; then
     each_scene three.js glb "$scenes" node $here/three.mjs "$place"
     for clip in $clips; do
         export CLIP=$clip
