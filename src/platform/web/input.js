@@ -126,11 +126,12 @@ export function listen(canvas, app) {
     else if (event.inputType === 'insertLineBreak') tap('Enter');
     else type(event.data ?? '');
   });
-  document.getElementById('bar').addEventListener('pointerdown', event => {
-    const { key: name, mods, does } = event.target.closest('button')?.dataset ?? {};
+  const bar = document.getElementById('bar');
+  bar.addEventListener('pointerdown', event => {
+    const { key: name, mods } = event.target.closest('button')?.dataset ?? {};
     if (name) event.preventDefault(); // the canvas keeps the focus
     if (name) tap(name, Number(mods ?? 0));
-    if (does) setTimeout(() => field.focus());
   });
+  bar.addEventListener('click', event => event.target.closest('[data-does]') && field.focus()); // earlier, the button would take the focus
   focus();
 }
