@@ -26,6 +26,10 @@ PROGRAM = os.environ.get("WIGGLY", str(TREE / "build" / "wiggly"))
 KNOTS = [(0, 0), (1, 1), (2.5, -0.4), (3, 0.2)]
 
 
+class Tail(Spline):
+    pass
+
+
 def load_tests(loader, tests, pattern):
     for name in sorted(name for name in sys.modules if name.split(".")[0] == "wiggly"):
         tests.addTests(doctest.DocTestSuite(sys.modules[name]))
@@ -210,6 +214,8 @@ class Splines(unittest.TestCase):
             (lambda: Spline(frequency=np.ones(5)).poles(sample=5), "sample"),
             (lambda: solve_many(Spline(), [0], [1], 5, parts="total"), "parts: .* got 'total'"),
             (lambda: Group([Spline()]).solve(5, pins=[Pin(0, {0: [1, 0]}, [0, 0, 0])]), r"three numbers, .* got \(2,\)"),
+            (lambda: Group([Spline(), Spline()], [1]), r"weights: expected one a spline, 2, got an array of shape \(1,\)"),
+            (lambda: Group([Spline()], 1), r"weights: .* got an array of shape \(\)"),
             (lambda: Group([Spline()]).solve(5, pins=[Pin(float("nan"), {}, [0, 0, 0])]), "a pin is outside"),
             (lambda: Group([Spline()]).solve(5, pins=[Pin(0, {3: [1, 0, 0]}, [0, 0, 0])]), "^a pointer is missing or a count"),
         ):
@@ -264,6 +270,59 @@ class Splines(unittest.TestCase):
             solver.solve()
         self.assertEqual(caught.exception.status, Status.KNOT_TWICE)
 
+    def test_a_prepared_solver_keeps_its_memory_whatever_is_assigned(self):
+        solver = Spline(KNOTS, frequency=1).prepare(97)
+        knots = solver.knots.copy()
+        knots["value"][1] = 0.3
+        solver.knots = knots
+        knots["value"][1] = 9
+        self.assertEqual(solver.solve().total[24], 0.3)
+        for wrong in (knots[:2], knots["value"], [0, 1, 2, 3], None):
+            with self.assertRaisesRegex(ValueError, r"knots: expected an array of shape \(4,\) like the solver's own, got"):
+                solver.knots = wrong
+        with self.assertRaises(ValueError):
+            solver.knots.resize(2, refcheck=False)
+        with self.assertRaises(AttributeError):
+            solver.curve = Spline().solve(5)
+        total = solver.solve().total
+        self.assertEqual(total[24], 0.3)
+        solver.curve.__init__(3, 1)
+        others = [np.zeros((5, 97)) for _ in range(9)]
+        total[24] = 9
+        solver.solve()
+        self.assertEqual(total[24], 0.3)
+        self.assertFalse(np.any(others))
+
+    def test_a_prepared_solver_is_copied_with_memory_of_its_own(self):
+        solver = Tail(KNOTS, frequency=np.full(97, 1.5)).prepare(97)
+        solver.knots["value"][1] = 0.7
+        expected = solver.solve().total.copy()
+        for copied in (copy.copy(solver), copy.deepcopy(solver), pickle.loads(pickle.dumps(solver))):
+            np.testing.assert_array_equal(copied.curve.total, expected)
+            np.testing.assert_array_equal(copied.solve().total, expected)
+            copied.knots["value"][1] = -0.5
+            self.assertEqual(copied.solve().total[24], -0.5)
+            del copied
+        np.testing.assert_array_equal(solver.solve().total, expected)
+        with self.assertRaisesRegex(TypeError, "cannot be copied"):
+            copy.copy(solver._handle)
+
+    def test_a_track_keeps_its_memory_whatever_becomes_of_its_array(self):
+        track = np.full(97, 1.5)
+        spline = Spline(KNOTS, frequency=track)
+        solver = spline.prepare(97)
+        expected = solver.solve().total.copy()
+        with self.assertRaises(ValueError):
+            track.resize(10**6, refcheck=False)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", DeprecationWarning)
+            track.dtype = np.float32
+        with self.assertRaisesRegex(ValueError, r"expected an array of shape \(194,\), .* got \(97,\)"):
+            spline.solve(194)
+        np.testing.assert_array_equal(solver.solve().total, expected)
+        spline.__init__([])
+        np.testing.assert_array_equal(solver.solve().total, expected)
+
     def test_tracks_change_in_place(self):
         frequency, equilibrium = np.full(97, 1.5), np.zeros(97)
         solver = Spline(KNOTS, frequency=frequency, equilibrium=equilibrium).prepare(97)
@@ -274,8 +333,9 @@ class Splines(unittest.TestCase):
         np.testing.assert_array_equal(solver.solve()._block, expected._block)
 
     def test_splines_can_be_pickled(self):
-        spline = Spline(iter(KNOTS), frequency=np.full(97, 1.5), limits=(-1, None), variation=0.2, seed=4)
+        spline = Tail(iter(KNOTS), frequency=np.full(97, 1.5), limits=(-1, None), variation=0.2, seed=4)
         other = pickle.loads(pickle.dumps(spline))
+        self.assertIs(type(other), Tail)
         np.testing.assert_array_equal(other.solve(97)._block, spline.solve(97)._block)
 
     def test_curves_can_be_copied_and_pickled(self):
@@ -368,6 +428,18 @@ class Groups(unittest.TestCase):
         self.assertAlmostEqual(held.curves[0].total[lowest], bound.least, 8)
         self.assertGreater(held.push[0], 0)
         self.assertLess(held.missing[0], 1e-8)
+
+    def test_weights_that_change_later_are_checked_again(self):
+        group = Group([Spline(KNOTS, frequency=1), Spline(frequency=1)], [1, 2])
+        group.weights = np.ones(4)[::2]
+        expected = group.solve(97).curves[0].total
+        group.weights = [1, 1]
+        np.testing.assert_array_equal(group.solve(97).curves[0].total, expected)
+        for change in (lambda: setattr(group, "weights", np.ones(1)), lambda: group.splines.append(Spline(frequency=1))):
+            change()
+            with self.assertRaisesRegex(ValueError, f"weights: expected one a spline, {len(group.splines)}, got an array of shape"):
+                group.solve(97)
+            group.weights = np.ones(2)
 
     def test_errors_name_spline_and_knot(self):
         with self.assertRaises(wiggly.Error) as caught:

@@ -67,15 +67,21 @@ class Group:
 
     def __init__(self, splines: Sequence[Spline], weights: ArrayLike | None = None) -> None:
         self.splines = list(splines)
-        self.weights = np.ones(len(self.splines)) if weights is None else np.ascontiguousarray(weights, dtype=float)
-        if self.weights.shape != (len(self.splines),):
-            raise ValueError(f"weights: expected one a spline, {len(self.splines)}, got {self.weights.shape}")
+        self.weights = np.ones(len(self.splines)) if weights is None else np.asarray(weights, dtype=float)
+        self._checked_weights(len(self.splines))
+
+    def _checked_weights(self, count: int) -> NDArray[np.float64]:
+        weights: NDArray[np.float64] = np.asarray(self.weights, dtype=float, order="C")
+        if weights.shape != (count,):
+            raise ValueError(f"weights: expected one a spline, {count}, got an array of shape {weights.shape}")
+        return weights
 
     def solve(self, n: int, fps: float = 24, *, pins: Sequence[Pin] = (), bounds: Sequence[Bound] = (), solver: str = "chain") -> Together:
         """The curves of `n` samples through knots and pins, within the bounds."""
         described = [spline._describe(n, fps) for spline in self.splines]
-        curves = [Curve(n, 1 / fps) for _ in self.splines]
+        curves = [Curve(n, 1 / fps) for _ in described]
         count = len(curves)
+        weights = self._checked_weights(count)
         descs = (CDesc * count)(*(desc for desc, _ in described))
         structs = (CCurve * count)(*(curve._struct for curve in curves))
         c_pins = (CPin * len(pins))(*(_pin(pin, fps) for pin in pins))
@@ -90,7 +96,7 @@ class Group:
             lib.wiggly_group_create_bounded, lib.wiggly_group_destroy, max(n, 1), room, max(count, 1), len(pins), len(bounds))  # fmt: skip
         lib.wiggly_group_set_method(group.at, word("solver", solver, SOLVERS))
         code = lib.wiggly_group_solve_bounded(
-            group.at, addressof(descs), self.weights.ctypes.data, addressof(structs), count,
+            group.at, addressof(descs), weights.ctypes.data, addressof(structs), count,
             addressof(c_pins), len(pins), addressof(c_bounds), len(bounds))  # fmt: skip
         wrong = next((i for i, struct in enumerate(structs) if struct.knot >= 0), None) if code >= Status.ARGUMENT else None
         report(code, -1 if wrong is None else structs[wrong].knot, wrong)

@@ -11,7 +11,7 @@ from ctypes import POINTER, Structure, byref, c_bool, c_double, c_int, c_size_t,
 from ctypes.util import find_library
 from enum import IntEnum
 from pathlib import Path
-from typing import Callable
+from typing import Callable, NoReturn
 
 import numpy as np
 
@@ -221,6 +221,9 @@ class Handle:
         self._destroy = destroy
         report(create(*room, byref(handle)))
         self.at = handle.value
+
+    def __reduce__(self) -> NoReturn:
+        raise TypeError("memory of the library cannot be copied or pickled")
 
     def __del__(self) -> None:
         if self.at:

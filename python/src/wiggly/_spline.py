@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import copy
+import weakref
 from collections.abc import Iterable
 from ctypes import addressof, byref, c_double, sizeof
 from typing import Any, NamedTuple, Optional
@@ -148,7 +150,8 @@ class Spline:
             passive=passive, limits=limits, variation=variation, seed=seed)  # fmt: skip
         self.times, self._knots = read_knots(self.knots)
         self._tracks: list[NDArray[np.float64]] = []
-        self._desc = desc = CDesc(sizeof(CDesc), knot_count=len(self._knots), calm=calm, has_calm=True)
+        self._fixed: list[weakref.ref[NDArray[np.float64]]] = []
+        self._desc = desc = CDesc(sizeof(CDesc), calm=calm, has_calm=True)
         desc.mode, desc.start, desc.passive = word("mode", mode, MODES), word("start", start, STARTS), word("passive", passive, PASSIVES)
         if not 0 <= seed < 2**31:
             raise ValueError(f"seed: expected a whole number from 0 to 2**31 - 1, got {seed!r}")
@@ -161,7 +164,7 @@ class Spline:
         desc.bandwidth, desc.equilibrium = self._param(bandwidth), self._param(equilibrium)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        return _remade, (self.knots, self.parameters)
+        return _remade, (type(self), self.knots, self.parameters)
 
     def __repr__(self) -> str:
         return f"<wiggly.Spline through {len(self.times)} knots>"
@@ -172,7 +175,8 @@ class Spline:
         track = np.asarray(number, dtype=float, order="C")
         if track.ndim == 0:
             return CParam(float(track))
-        self._tracks.append(track)
+        self._tracks.append(track[:])  # a view: your array may get another shape or type, and the library still reads what is there
+        self._fixed.append(weakref.ref(track))  # NumPy resizes no array that is referred to
         return CParam(0, track.ctypes.data)
 
     def _describe(self, n: int, fps: float, samples: NDArray[Any] | None = None) -> tuple[CDesc, NDArray[Any]]:
@@ -190,7 +194,7 @@ class Spline:
             report(Status.KNOT_OUTSIDE, int((~(far < 2**31)).argmax()))
         knots["sample"] = samples
         desc = CDesc.from_buffer_copy(self._desc)
-        desc.knots, desc.samples, desc.step = knots.ctypes.data, n, 1 / fps
+        desc.knots, desc.knot_count, desc.samples, desc.step = knots.ctypes.data, len(knots), n, 1 / fps
         return desc, knots
 
     def _room(self, n: int) -> int:
@@ -246,8 +250,8 @@ class Spline:
         return Poles(*(np.array(pair, dtype=float).view(complex)[:, 0] for pair in (poles.s, poles.z)))
 
 
-def _remade(knots: Any, parameters: dict[str, Any]) -> Spline:
-    return Spline(knots, **parameters)
+def _remade(kind: type[Spline], knots: Any, parameters: dict[str, Any]) -> Spline:
+    return kind(knots, **parameters)
 
 
 def solve_into(solver: int | None, desc: CDesc, curve: Curve, method: str = "chain") -> None:
@@ -262,13 +266,15 @@ def solve_into(solver: int | None, desc: CDesc, curve: Curve, method: str = "cha
 class Solver:
     """A prepared spline whose knots change in place: nothing is allocated in `solve`.
 
+    A copy has memory of its own, and a pickled solver is prepared anew where it is read.
+
     Attributes
     ----------
     knots : structured ndarray, shape (k,)
         The library's own knots. Write to them: `knots["value"][1] = 0.7`; also "sample", "slope", "phase" and the flags
-        "has_slope", "has_phase", "still".
+        "has_slope", "has_phase", "still". An array that you assign is copied into them; its shape must be theirs.
     curve : Curve
-        What `solve` fills. Its arrays are the same at every solve; copy what you keep.
+        What `solve` fills, read only. Its arrays are the same at every solve; copy what you keep.
 
     Examples
     --------
@@ -280,17 +286,44 @@ class Solver:
     """
 
     def __init__(self, spline: Spline, n: int, fps: float = 24) -> None:
-        self.curve = Curve(n, 1 / fps if fps > 0 else 0)
-        self._spline = spline  # holds the tracks
-        self._desc, self.knots = spline._describe(n, fps)
+        self._prepare(spline, n, fps, Curve(n, 1 / fps if fps > 0 else 0))
+
+    def _prepare(self, spline: Spline, n: int, fps: float, curve: Curve) -> None:
+        self._made_of, self._curve = (spline, n, fps), curve
+        self._desc, self._memory = spline._describe(n, fps)
+        self._held = *spline._tracks, curve._struct, curve._block  # what the library reads and writes, whatever becomes of spline and curve
+        self._knots = self._memory[:]  # a view cannot be resized
         self._handle = Handle(lib.wiggly_create, lib.wiggly_destroy, max(n, 1), spline._room(n))
         self._call = lib.wiggly_solve
-        self._arguments = (self._handle.at, addressof(self._desc), self.curve._at)
+        self._arguments = (self._handle.at, addressof(self._desc), curve._at)
+
+    def __getstate__(self) -> tuple[Any, ...]:
+        return *self._made_of, copy.deepcopy(self._curve), self._memory.copy()
+
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        *made_of, knots = state
+        self._prepare(*made_of)
+        self.knots = knots
+
+    @property
+    def knots(self) -> NDArray[Any]:
+        return self._knots
+
+    @knots.setter
+    def knots(self, knots: NDArray[Any]) -> None:
+        given, own = np.asarray(knots), self._memory
+        if given.dtype != own.dtype or given.shape != own.shape:
+            raise ValueError(f"knots: expected an array of shape {own.shape} like the solver's own, got {given.dtype} of shape {given.shape}")
+        own[:] = given
+
+    @property
+    def curve(self) -> Curve:
+        return self._curve
 
     def solve(self) -> Curve:
         """Solves the knots as they are now into `curve`, and returns it."""
         code = self._call(*self._arguments)
-        curve = self.curve
+        curve = self._curve
         if code or curve.status:
             report(code, curve._struct.knot)
             curve.status = Status(code)
