@@ -103,6 +103,8 @@ OWN_CPPFLAGS := -Isrc -Iinclude -D_GNU_SOURCE
 OWN_CFLAGS := $(OPTIMISE) $(WARNINGS)
 # After the user's flags: what the code is written for, and what its results depend on.
 FIXED_CFLAGS := -std=c11 -fno-fast-math -ffp-contract=off -fPIC -fno-semantic-interposition $(ERRORS) $(SANITIZERS)
+# The folder of the clone is not in what is built, so that any two build the same bytes; only a debugger is told it.
+PLACE := $(if $(DEBUG),,'-ffile-prefix-map=$(subst ','\'',$(CURDIR))=.')
 SPLINE_CFLAGS := $(if $(VARIANT),,-O3 -fno-math-errno -fno-trapping-math)
 
 # src/timing/allocations.c counts what our own objects allocate, src/model/draco.cpp limits what Draco allocates.
@@ -118,7 +120,7 @@ $(B)/obj/src/spline/%.o $(B)/obj/src/maths/%.o: FIXED_CFLAGS += $(filter -f%,$(S
 $(LIBRARY_OBJECTS): FIXED_CFLAGS += -fno-lto
 $(LIBRARY_OBJECTS): PKG_CFLAGS :=
 
-COMPILE = $(CC) $(OWN_CPPFLAGS) $(PKG_CFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS)
+COMPILE = $(CC) $(OWN_CPPFLAGS) $(PKG_CFLAGS) $(CPPFLAGS) $(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS) $(PLACE)
 OBJCOPY ?= $(shell $(CC) -print-prog-name=objcopy)
 LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
@@ -232,6 +234,7 @@ install: $(if $(BORROWED),,$(B)/wiggly $(LIBRARIES))
 	$(Q)for file in assets/cmake/*.in; do \
 	    name=$${file##*/}; sed -e 's|@VERSION@|$(VERSION)|; s|@MAJOR@|$(MAJOR)|' $$file > "$(ROOT)/lib/cmake/wiggly/$${name%.in}"; \
 	done
+	chmod 644 "$(ROOT)/share/doc/wiggly/copyright" "$(ROOT)/share/man/man1/wiggly.1" "$(ROOT)/lib/pkgconfig/wiggly.pc" "$(ROOT)"/lib/cmake/wiggly/*
 	$(Q)[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig
 	$(Q)tools/install-from.sh --done $(B)
 
@@ -261,7 +264,7 @@ $(B)/obj/src/model/draco.o: src/model/draco.cpp src/model/draco.h $(B)/flags $(B
 	@mkdir -p $(@D)
 	$(if $(Q),@echo "CC $<")
 	$(Q)$(CC) $(if $(filter -DWITH_DRACO,$(CODECS)),-x c++ -std=c++17 $(OWN_CPPFLAGS) $(CPPFLAGS) -Wall -Wextra $(filter -Werror,$(WARNINGS)),-x c) \
-	    $(OPTIMISE) $(CFLAGS) -fPIC $(SANITIZERS) $(if $(SANITIZE),-fno-sanitize=undefined) -c $(if $(filter -DWITH_DRACO,$(CODECS)),$<,/dev/null) -o $@
+	    $(OPTIMISE) $(CFLAGS) -fPIC $(PLACE) $(SANITIZERS) $(if $(SANITIZE),-fno-sanitize=undefined) -c $(if $(filter -DWITH_DRACO,$(CODECS)),$<,/dev/null) -o $@
 
 $(B)/obj/%.o: $(GENERATED)/%.c $(B)/flags | packages
 	@mkdir -p $(@D)

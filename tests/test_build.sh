@@ -27,6 +27,15 @@ flags=$(compile_line | grep -o -- '-Werror=[a-z-]*' | tr '\n' ' ')
 # shellcheck disable=SC2086
 expect 1 "an implicit declaration is an error" gcc $flags -c "$scratch/implicit.c" -o "$scratch/implicit.o"
 
+# Two clones build the same bytes, also where a name needs quotes.
+for clone in one "it's another"; do
+    mkdir "$scratch/$clone" && cp -r Makefile include src tools "$scratch/$clone"
+    expect 0 "an object is built in a folder called $clone" env CCACHE_DISABLE=1 make -C "$scratch/$clone" SETS= build/obj/src/spline/batch.o build/obj/build.o
+done
+holds "it has the same bytes in both" diff -r "$scratch/one/build" "$scratch/it's another/build"
+grep -aq "$scratch" "$scratch/one/build/obj/src/spline/batch.o"
+ok "and does not name its folder" $((! $?))
+
 # A tree of somebody else's, built by them.
 mkdir "$scratch/their tree"
 cp -r Makefile LICENSE wiggly.pc.in include src shaders assets tools tests "$scratch/their tree"

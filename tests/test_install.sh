@@ -4,11 +4,16 @@ CC=${CC:-gcc}
 sanitizers=""
 [ -n "${SANITIZE:-}" ] && sanitizers="-fsanitize=address,undefined"
 
-# What was built for the tests: another test may be at the same build folder.
+# What was built for the tests: another test may be at the same build folder. Root may keep its files to itself; not these.
+umask 077
 make BORROWED=yes B="${B:-build}" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/stage" PREFIX=/opt/wiggly install >"$scratch/log" 2>&1
 status=$?
 [ $status -eq 0 ] || cat "$scratch/log"
 ok "make install" $status
+umask 022
+find "$scratch/stage" \( -type d ! -perm -755 -o -type f ! -perm -644 \) >"$scratch/hidden"
+cat "$scratch/hidden"
+holds "everybody can read all of it" [ ! -s "$scratch/hidden" ]
 
 root=$scratch/stage/opt/wiggly
 for file in bin/wiggly lib/libwiggly.a lib/libwiggly.so lib/cmake/wiggly/wigglyConfig.cmake lib/pkgconfig/wiggly.pc include/wiggly/wiggly.h include/wiggly/more.h share/wiggly/scenes/tail.json \

@@ -77,5 +77,5 @@ cc -O1 -shared -fPIC -o $build/calls.so $build/calls.c
 APP_FRAME=$(nm $build/wiggly | awk '$3 == "app_frame" { print $1 }') LD_PRELOAD=$PWD/$build/calls.so \
     $build/wiggly live tests/replays/session.json --no-draw --frames 80 --replay tests/replays/session.replay \
     2>$build/calls.txt >/dev/null || true
-sed -n 's/^@/0x/p' $build/calls.txt | addr2line -e $build/wiggly | sort -u | grep -c "^$PWD/src/" |
+sed -n 's/^@/0x/p' $build/calls.txt | addr2line -e $build/wiggly | sort -u | grep -c "^\./src/" |
     sed 's/^/functions that frame 70 of the recorded session, a knot drag, runs and frame 30 does not: /'
