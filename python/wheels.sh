@@ -15,8 +15,7 @@ declare -A targets=(
     [macosx_11_0_arm64]=aarch64-macos.11.0
 )
 python=$folder/bin/python
-[ -x "$python" ] || python3 -m venv "$folder"
-"$python" -c 'import hatchling, ziglang' 2>/dev/null || "$folder/bin/pip" install --quiet --retries 0 hatchling==1.33.0 ziglang==0.17.1
+"$(dirname "$0")/fetch.sh" "$folder" wheel
 export ZIG_GLOBAL_CACHE_DIR=$folder/zig ZIG_LOCAL_CACHE_DIR=$folder/zig
 cd "$(dirname "$0")"
 [ $# -gt 0 ] || set -- "${!targets[@]}"

@@ -6,8 +6,7 @@ has_bpy() { "$1" -c "import importlib.util as u, sys; sys.exit(u.find_spec('bpy'
 
 fetch() { # <version>
     place=$B/bpy/$1
-    has_bpy "$place/bin/python" ||
-        { python3 -m venv "$place" && timeout 900 "$place/bin/pip" install --quiet --retries 0 numpy "bpy==$1"; } >"$scratch/fetch" 2>&1 ||
+    timeout 900 python/fetch.sh "$place" "bpy-$1" >"$scratch/fetch" 2>&1 ||
         { echo "skip - bpy $1 could not be fetched: $(tail -n 1 "$scratch/fetch")"; return; }
     pythons="$pythons $place/bin/python"
 }

@@ -30,12 +30,12 @@ thorough || exit 0
 # --- two workers, of which one is killed
 
 . tests/venv.sh
-"$place/bin/python" -c 'import distributed' 2>/dev/null || pip_install distributed ||
+fetch farm ||
     { echo "skip - dask.distributed could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
 for i in 2 3 4 5 6 7 8; do python3 examples/farm.py "$shots" "$scratch/one" --only $i >/dev/null; done
 groups=()
 at_end() { kill -9 "${groups[@]/#/-}" 2>/dev/null; wait; }
-start() { setsid "$place/bin/dask" "$@" >>"$scratch/dask" 2>&1 & groups+=($!); }
+start() { setsid "$place/bin/python" -m dask "$@" >>"$scratch/dask" 2>&1 & groups+=($!); }
 start scheduler --port 0 --no-dashboard --scheduler-file "$scratch/scheduler.json"
 address() { sed -n 's/.*"address": "\([^"]*\)".*/\1/p' "$scratch/scheduler.json" 2>/dev/null; }
 for _ in $(seq 600); do [ -n "$(address)" ] && break; sleep 0.1; done

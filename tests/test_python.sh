@@ -6,7 +6,7 @@ command -v python3 >/dev/null || { echo "skip - python3 is not installed"; exit 
 python=python3
 if ! python3 -c 'import numpy' 2>/dev/null; then
     python=$place/bin/python
-    "$python" -c 'import numpy' 2>/dev/null || pip_install numpy ||
+    "$python" -c 'import numpy' 2>/dev/null || fetch numpy ||
         { echo "skip - NumPy could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
 fi
 
@@ -16,6 +16,39 @@ export WIGGLY_LIBRARY
 expect 0 "the package does what its pages say" "$python" -W error::DeprecationWarning -m unittest discover -s python/tests
 thorough || exit 0
 
+# --- what is fetched: by its hash, and into this clone
+
+mkdir -p "$scratch/fetch.d/links" "$scratch/clone/build"
+cp python/fetch.sh "$scratch/fetch.d"
+python3 - "$scratch/fetch.d/links/thing-1.0-py3-none-any.whl" <<'END'
+import sys, zipfile
+with zipfile.ZipFile(sys.argv[1], 'w') as wheel:
+    wheel.writestr('thing.py', '')
+    wheel.writestr('thing-1.0.dist-info/METADATA', 'Metadata-Version: 2.1\nName: thing\nVersion: 1.0\n')
+    wheel.writestr('thing-1.0.dist-info/WHEEL', 'Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n')
+    wheel.writestr('thing-1.0.dist-info/RECORD', 'thing.py,,\n')
+END
+hash=$(sha256sum <"$scratch/fetch.d/links/thing-1.0-py3-none-any.whl")
+own_fetch() { # <folder> <group>
+    env PIP_NO_INDEX=1 PIP_FIND_LINKS="$scratch/fetch.d/links" "$scratch/fetch.d/fetch.sh" "$@"
+}
+has_thing() { "$1/bin/python" -c 'import thing' 2>/dev/null; }
+echo "thing==1.0 --hash=sha256:${hash%% *} # some more" >"$scratch/fetch.d/fetched.txt"
+sed 's/:..../:0000/; s/some/wrong/' "$scratch/fetch.d/fetched.txt" >"$scratch/wrong" && cat "$scratch/wrong" >>"$scratch/fetch.d/fetched.txt"
+first=$scratch/clone/build/python
+expect 1 "a package whose hash is not the one that is listed is refused" own_fetch "$first" wrong
+says "and pip says so" "DO NOT MATCH THE HASHES" "$err"
+holds "and is not there" not has_thing "$first"
+cp -a "$scratch/clone" "$scratch/copied clone"
+expect 0 "one with its hash is installed in a copied clone" own_fetch "$scratch/copied clone/build/python" some
+holds "where it is" has_thing "$scratch/copied clone/build/python"
+holds "and not in the one that was copied" not has_thing "$first"
+expect 0 "pip there is its own" "$scratch/copied clone/build/python/bin/pip" --version
+says "by its path" "$scratch/copied clone" "$out"
+ln -sf /nowhere/python "$first/bin/python3"
+expect 0 "where Python is gone, the folder is made anew" own_fetch "$first" more
+holds "and has the package" has_thing "$first"
+
 # --- wheels: what is in them, what leaves their library, what they need
 
 # All that make wheel builds only where it has: the first one for Windows takes minutes.
@@ -23,11 +56,11 @@ case $(uname -m) in x86_64 | aarch64) own=manylinux_2_17_$(uname -m) ;; *) echo 
 platforms=("$own" macosx_11_0_arm64)
 ! ls "$B"/wheels/*-win_amd64.whl >/dev/null 2>&1 || platforms=()
 rm -rf "$B/wheels"
-pip_install hatchling ziglang numpy auditwheel mypy ||
+fetch wheel check ||
     { echo "skip - the wheels, because zig could not be fetched: $(tail -n 1 "$scratch/fetch")"; exit 0; }
-expect 0 "the types are right" "$place/bin/mypy" --cache-dir "$scratch/mypy" --config-file python/pyproject.toml python/src/wiggly
+expect 0 "the types are right" "$place/bin/python" -m mypy --cache-dir "$scratch/mypy" --config-file python/pyproject.toml python/src/wiggly
 sed -n '/^```python$/,/^```$/{/^```/!p;}' docs/python.md >"$scratch/page.py"
-expect 0 "and those of a strict user" env MYPYPATH=python/src "$place/bin/mypy" --cache-dir "$scratch/mypy" --strict "$scratch/page.py"
+expect 0 "and those of a strict user" env MYPYPATH=python/src "$place/bin/python" -m mypy --cache-dir "$scratch/mypy" --strict "$scratch/page.py"
 expect 1 "without a C compiler nothing is built" bash -c "cd python && CC=/nowhere/cc '$place/bin/python' -m hatchling build -t wheel -d '$scratch'"
 says "which says why" "the compiler '/nowhere/cc' was not found" "$err"
 expect 0 "wheels are built" python/wheels.sh "$B" "${platforms[@]}"
@@ -51,16 +84,17 @@ for wheel in "$B"/wheels/*.whl; do
 done
 for wheel in "$B"/wheels/*-manylinux*.whl; do
     platform=${wheel##*-none-}
-    expect 0 "auditwheel looks into $platform" "$place/bin/auditwheel" show "$wheel"
+    expect 0 "auditwheel looks into $platform" "$place/bin/python" -m auditwheel show "$wheel"
     says "which is what it says" "\"${platform%.whl}\"" "$out"
 done
 
 # --- the wheel of this machine, without the tree
 
 unset WIGGLY_LIBRARY PYTHONPATH
-python3 -m venv "$scratch/venv" >/dev/null
-expect 0 "it installs" "$scratch/venv/bin/pip" install --quiet numpy "$B/wheels/"*-"$own".whl
+python/fetch.sh "$scratch/venv" numpy wheel
+pip=("$scratch/venv/bin/python" -m pip install --quiet --force-reinstall --no-deps --no-build-isolation)
+expect 0 "it installs" "${pip[@]}" "$B/wheels/"*-"$own".whl
 expect 0 "and does the same" "$scratch/venv/bin/python" -m unittest discover -s python/tests
 expect 0 "a source distribution is made" bash -c "cd python && '$place/bin/python' -m hatchling build -t sdist -d '$scratch'"
-expect 0 "and installs with a C compiler" "$scratch/venv/bin/pip" install --quiet --force-reinstall --no-deps "$scratch"/wiggly-*.tar.gz
+expect 0 "and installs with a C compiler" "${pip[@]}" "$scratch"/wiggly-*.tar.gz
 expect 0 "and does the same, too" "$scratch/venv/bin/python" -m unittest discover -s python/tests

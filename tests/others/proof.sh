@@ -8,11 +8,6 @@ here=tests/others
 place=$B/proof
 mkdir -p "$place"
 
-have_python() { # <module> <package>
-    [ -x "$place/venv/bin/python" ] || python3 -m venv "$place/venv" || return 1
-    "$place/venv/bin/python" -c "import importlib.util as u, sys; sys.exit(u.find_spec('$1') is None)" ||
-        timeout 900 "$place/venv/bin/pip" install --quiet numpy "$2"
-}
 fetched() { # <what> <command>...
     local what=$1
     shift
@@ -87,8 +82,8 @@ if npm_has "$place" three validator; then
     expect 0 "the validator reads all of them" node $here/validate.js "$place" "$scratch"/*.gl*
     holds "without an error" [ "$(grep -c ': 0 errors' <<<"$out")" -eq "$(ls "$scratch"/*.gl* | wc -l)" ]
 fi
-if fetched usd-core have_python pxr usd-core==26.11; then each_scene usd-core usda "$scenes $others" "$place/venv/bin/python" $here/usd.py; fi
-if fetched bpy have_python bpy bpy==4.5.15; then
+if fetched usd-core timeout 900 python/fetch.sh "$B/python" numpy usd; then each_scene usd-core usda "$scenes $others" "$B/python/bin/python" $here/usd.py; fi
+if fetched bpy timeout 900 python/fetch.sh "$place/venv" bpy-4.5.15; then
     each_scene Blender glb "$scenes" "$place/venv/bin/python" $here/blender.py
     each_scene Blender gltf turned:dog "$place/venv/bin/python" $here/blender.py
     for scene in tail follow dog small; do

