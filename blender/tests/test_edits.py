@@ -1,4 +1,5 @@
 """What animators do to a rig that wiggles: a right result or one sentence, and nothing left behind."""
+import json
 import tempfile
 from common import *
 from wiggly_blender import prop
@@ -198,6 +199,146 @@ def frames():
                     bpy.ops.wiggly.key(kind=kind)
                     update()
             ok(f'{name} {follow} {loop}: keys at the ends', all(abs(v) < 100 for v in values(rig)))
+
+
+def problem_of(rig, name='tail side'):
+    return solve.problems.get(solve.key_of(rig, rig.wiggly.splines[name])) or ''
+
+
+def far_frames():
+    """Whatever a number is, each later edit goes on: what is wrong is said, and the rest is solved."""
+    rig = wagging()
+    before = values(rig)
+    curve = curves.find(rig, '["tail side"]')
+    for what, frame, value in (('far', 1e9, 1), ('farther', -1e30, 1), ('at no frame', math.inf, 0), ('without a value', 20, math.nan)):
+        point = curve.keyframe_points.insert(25, 0)
+        point.co = frame, value
+        curve.update()
+        update()
+        said = problem_of(rig)
+        ok(f'a key that is {what} is said to be wrong', said and 'Traceback' not in said, said)
+        key(rig, 'tail up', (10, 1))
+        ok('and other keys are followed', abs(values(rig, 'tail up')[9] - 1) < 1e-6 and not problem_of(rig, 'tail up'), problem_of(rig, 'tail up'))
+        curve.keyframe_points.remove(next(each for each in curve.keyframe_points if each.co[0] not in (10, 30)))
+        curve.update()
+        update()
+        ok('without it all is as before', values(rig) == before and not problem_of(rig), problem_of(rig))
+    spline = rig.wiggly.splines['tail side']
+    spline.last = 2000000000
+    update()
+    ok('a last frame ends where frames of Blender do', 'expected 1000000 at most' in problem_of(rig) and spline.last == settings.FARTHEST, problem_of(rig))
+    spline.last = 60
+    for more in ('{', '[]', '{"limits": [1]}', '{"limits": ["a", 1]}', '{"variation": 5}', '{"passive": "no"}'):
+        spline.more = more
+        rig.location.x += 1
+        update()
+        ok(f'{more}: is said to be wrong', problem_of(rig), problem_of(rig))
+    spline.more = '{"limits": [-9, 9]}'
+    bpy.context.scene.frame_end = 30000
+    update()
+    ok('a curve between limits is shorter', 'expected 20000 at most' in problem_of(rig), problem_of(rig))
+
+
+def two_keys_on_one_frame():
+    rig = wagging()
+    curve = key(rig, 'tail side', (10.3, 0.2))
+    ok('keys that share a frame are named', 'Keys at 10 and 10.3 are at one frame' in problem_of(rig) and abs(values(rig)[9] - 0.2) < 1e-6, problem_of(rig))
+    curve.keyframe_points[1].co[1] = 1
+    curve.update()
+    update()
+    ok('but not if they are alike', not problem_of(rig), problem_of(rig))
+    rig = fresh(frames=(1, 49))
+    add(rig, follow=False, loop=True)
+    key(rig, 'tail side', (1, 1), (49, -1))
+    ok('the last frame of a loop is its first', 'Keys at 1 and 49 are at one frame' in problem_of(rig), problem_of(rig))
+
+
+def unlinked():
+    rig = wagging(bend=0.2)
+    bpy.context.scene.frame_set(14)
+    rest = poses(rig, [14])
+    action, slot = rig.animation_data.action, getattr(rig.animation_data, 'action_slot', None)
+    rig.wiggly.chains[0].mute = True
+    update()
+    still = poses(rig, [14])
+    rig.wiggly.chains[0].mute = False
+    rig.animation_data.action = None
+    update()
+    update()
+    ok('a bend goes with its action', apart(poses(rig, [14]), still) < 1e-6 and apart(rest, still) > 0.01, apart(poses(rig, [14]), still))
+    rig.animation_data.action = action
+    if slot:
+        rig.animation_data.action_slot = slot
+    update()
+    ok('and comes back with it', poses(rig, [14]) == rest)
+    strip = rig.animation_data.nla_tracks.new().strips.new('wag', 1, action)
+    if slot:
+        strip.action_slot = slot
+    rig.animation_data.action = None
+    update()
+    ok('a strip keeps it', apart(poses(rig, [14]), rest) < 1e-6, apart(poses(rig, [14]), rest))
+    rig.animation_data.nla_tracks[0].mute = True
+    update()
+    update()
+    ok('until it is muted', apart(poses(rig, [14]), still) < 1e-6, apart(poses(rig, [14]), still))
+
+
+def joined(name='tail', first=True):
+    """A rig, with a chain or without, into which another one with a chain was joined."""
+    rig = wagging() if first else fresh()
+    bpy.ops.object.mode_set(mode='OBJECT')
+    other = bpy.data.objects.new('Other', bpy.data.armatures.new('Other'))
+    bpy.context.scene.collection.objects.link(other)
+
+    def build(bones):
+        above = bones.new('root')
+        above.head, above.tail = (1, -1, 0), (1, 0, 0)
+        for n in range(4):
+            bone = bones.new(f'{name}_{n + 1}')
+            bone.head, bone.parent = above.tail, above
+            bone.tail = bone.head + type(bone.head)((0, 0.2, 0))
+            above = bone
+    edit(other, build)
+    add(other, f'{name}_1', follow=False)
+    key(other, f'{name} side', (20, 1))
+    bpy.ops.object.mode_set(mode='OBJECT')
+    for each in bpy.data.objects:
+        each.select_set(True)
+    bpy.context.view_layer.objects.active = rig
+    bpy.ops.object.join()
+    update()
+    bpy.ops.object.mode_set(mode='POSE')
+    return rig
+
+
+def joined_rigs():
+    rig = joined()
+    rig.wiggly.chains[0].channels[0].lag *= 1.5
+    update()
+    for frame in (10, 14, 25):
+        bpy.context.scene.frame_set(frame)
+        off = max(abs(a - b) for n in (1, 2, 3, 4) for a, b in zip(bend(rig, f'tail_{n}'), bend(rig, f'tail_{n}.001')))
+        ok(f'both tails of joined rigs lag alike at frame {frame}', off < 1e-3 and abs(bend(rig, 'tail_4')[2]) > 0.5, off, bend(rig, 'tail_4'))
+    path = os.path.join(tempfile.mkdtemp(), 'joined.json')
+    bpy.ops.wiggly.export_scene(filepath=path)
+    rows = [(each['name'], each['from'], each['to']) for each in json.load(open(path))['rigs'][1:]]
+    ok('and are two chains of a scene', rows == [('tail', 'tail_1', 'tail_4'), ('tail 2', 'tail_1.001', 'tail_4.001')], rows)
+    live = poses(rig, range(1, 61))
+    bpy.ops.wiggly.bake()
+    update()
+    ok('both are baked', apart(live, poses(rig, range(1, 61))) < 2e-6, apart(live, poses(rig, range(1, 61))))
+    for first in (True, False):
+        rig = joined('ear', first)
+        bpy.context.scene.frame_set(14)
+        ok('a chain that a joined rig lost its settings of rests', max(map(abs, bend(rig, 'ear_1') + bend(rig, 'ear_4'))) < 1e-3, bend(rig, 'ear_4'))
+        select(rig, 'ear_1')
+        fails('already wiggles: remove that first', bpy.ops.wiggly.add)
+        bpy.ops.wiggly.remove()
+        ok('and can be removed', not rig.pose.bones['ear_1'].constraints and len(rig.wiggly.chains) == first)
+        chain = add(rig, 'ear_1', follow=False)
+        key(rig, chain.channels[0].spline, (14, 1))
+        bpy.context.scene.frame_set(14)
+        ok('and added anew', abs(bend(rig, 'ear_1')[2]) > 1, bend(rig, 'ear_1'))
 
 
 def remapped():
@@ -466,5 +607,5 @@ def settings_ends():
     ok('no size', True)
 
 
-main(shared_action, bones_deleted, bone_inserted, copied_constraints, renamed, action_gone, frames, remapped, moved_strip, stretch_baked, bake_driven,
+main(shared_action, bones_deleted, bone_inserted, copied_constraints, renamed, action_gone, frames, far_frames, two_keys_on_one_frame, unlinked, joined_rigs, remapped, moved_strip, stretch_baked, bake_driven,
      bake_turns, strips, channels, pose_keys, undone, properties, overrides, two_scenes, settings_ends)

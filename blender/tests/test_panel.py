@@ -68,6 +68,13 @@ def panel():
     ok('the panel offers to take other frames', any('Refresh' in row for row in shown()), shown())
 
 
+def a_joined_rig():
+    rig = fresh()
+    add(rig, follow=False)
+    rig.wiggly.chains[0].name = 'other'
+    ok('bends without settings are named', any('"tail" was joined without its settings' in row for row in shown()), shown())
+
+
 def a_property():
     rig = fresh()
     prop.add(rig, 'location', 0)
@@ -75,4 +82,4 @@ def a_property():
     ok('a property that wiggles has its settings', rows.count('frequency') == 1 and any('location' in row for row in rows), rows)
 
 
-main(panel, a_property)
+main(panel, a_joined_rig, a_property)

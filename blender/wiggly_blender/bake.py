@@ -13,7 +13,7 @@ def bake(context, owner, chain):
         raise ValueError(f'"{owner.name}" has no action to bake into: set a key first')
     if chain.mute:
         raise ValueError(f'"{chain.name}" is muted: unmute it to bake it')
-    bones = chains.row_of(owner, chain)
+    bones = [bone for row in chains.all_rows_of(owner, chain) for bone in row]
     modes = [curve for curve in curves.list_of(owner) if curve.data_path.endswith('.rotation_mode')]
     driven = [each.data_path.rpartition('.rotation_')[0] for each in [*owner.animation_data.drivers, *modes]]
     frames = range(scene.frame_start, scene.frame_end + 1)

@@ -57,10 +57,12 @@ def played(context, owner):
     """An armature at each frame of the scene. Time may be stretched, and actions have frames of their own."""
     scene, now = context.scene, (context.scene.frame_current, context.scene.frame_subframe)
     stretch = scene.render.frame_map_new / scene.render.frame_map_old
-    for frame in range(scene.frame_start, scene.frame_end + 1):
-        scene.frame_set(math.floor(frame * stretch), subframe=frame * stretch % 1)
-        yield owner.evaluated_get(context.evaluated_depsgraph_get())
-    scene.frame_set(now[0], subframe=now[1])
+    try:
+        for frame in range(scene.frame_start, scene.frame_end + 1):
+            scene.frame_set(math.floor(frame * stretch), subframe=frame * stretch % 1)
+            yield owner.evaluated_get(context.evaluated_depsgraph_get())
+    finally:
+        scene.frame_set(now[0], subframe=now[1])
 
 
 def refresh(context, owner):

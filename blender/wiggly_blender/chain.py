@@ -6,10 +6,12 @@ chain's axes into the bone. Each angle is gain · (y + Re(e^(-j·n·lag) x)).
 import contextlib
 import json
 import math
+from types import SimpleNamespace
 import bpy
 from mathutils import Matrix, Vector
-from . import curves, solve
+from . import curves, settings, solve
 
+ENDS = ' <', '', ' >'  # of the names of three constraints: into the chain's axes, the bend, and back
 AXES = {'side': 'z', 'up': 'x', 'twist': 'y'}
 USUAL_LENGTH, USUAL_FREQUENCY, SLOWEST, FASTEST = 0.5, 1.5, 0.8, 3.5  # longer chains swing slower, like a pendulum
 SOLVED = {'frequency', 'damping', 'bandwidth', 'calm', 'start', 'first', 'last'}
@@ -21,19 +23,31 @@ def constraint_name(chain, end=''):
     return f'Wiggle {chain.name}{end}'
 
 
-def bones_of(owner, chain):
-    """The chain's bones, from the first to the last. Constraints that were copied to other bones have no drivers."""
-    name = constraint_name(chain)
+def rows_of(owner, chain):
+    """Rows of bones that a chain bends, each from its first to its last: one row, or more after rigs with chains of this name were joined.
+    Constraints that were copied to other bones have no drivers."""
+    name, rows = constraint_name(chain), []
     driven = {driver.data_path.rpartition('.')[0] for driver in owner.animation_data.drivers} if owner.animation_data else ()
-    return sorted((bone for bone in owner.pose.bones if name in bone.constraints and bone.constraints[name].path_from_id() in driven),
-                  key=lambda bone: len(bone.parent_recursive))
+    bones = [bone for bone in owner.pose.bones if name in bone.constraints and bone.constraints[name].path_from_id() in driven]
+    for bone in sorted(bones, key=lambda bone: len(bone.parent_recursive)):
+        row = next((row for row in rows if row[-1] in bone.parent_recursive), None)
+        if row:
+            row.append(bone)
+        else:
+            rows.append([bone])
+    return sorted(rows, key=lambda row: bones.index(row[0]))
 
 
-def row_of(owner, chain):
-    bones = bones_of(owner, chain)
-    if not bones:
+def bones_of(owner, chain):
+    """The bones of a chain's first row."""
+    return next(iter(rows_of(owner, chain)), [])
+
+
+def all_rows_of(owner, chain):
+    rows = rows_of(owner, chain)
+    if not rows:
         raise ValueError(f'"{chain.name}" has no bones any more: remove it')
-    return bones
+    return rows
 
 
 def of_selection(context):
@@ -109,7 +123,7 @@ def constrain(owner, chain, bones):
         for con in [con for con in bone.constraints if con.type == 'TRANSFORM' and con.name.startswith('Wiggle ')]:  # copied from another bone
             bone.constraints.remove(con)
         into = (bone.bone.matrix_local.to_3x3().inverted() @ axes).to_quaternion()
-        ends = ('',) if into.angle < 1e-4 else (' <', '', ' >')
+        ends = ('',) if into.angle < 1e-4 else ENDS
         for end in ends:
             con = bone.constraints.new('TRANSFORM')
             con.name = constraint_name(chain, end)
@@ -144,9 +158,9 @@ def weights(channel, n, count):
 
 def drive(owner, chain, bones=None):
     """Writes the drivers of a chain anew."""
-    bones = bones or bones_of(owner, chain)
+    rows = [bones] if bones else rows_of(owner, chain)
     undrive(owner, chain)
-    for n, bone in enumerate(bones):
+    for n, bone, bones in ((n, bone, row) for row in rows for n, bone in enumerate(row)):
         path = bone.constraints[constraint_name(chain)].path_from_id()
         for axis in sorted({channel.axis for channel in chain.channels}):
             sign, terms, rest = -1 if chain.mirror and axis != 'up' else 1, [], 0
@@ -196,7 +210,35 @@ def undrive(owner, chain):
 
 
 def constraints_of(bone, chain):
-    return [con for con in (bone.constraints.get(constraint_name(chain, end)) for end in (' <', '', ' >')) if con]
+    return [con for con in (bone.constraints.get(constraint_name(chain, end)) for end in ENDS) if con]
+
+
+def unbend(owner, chain):
+    """Removes the drivers and constraints of a chain."""
+    undrive(owner, chain)
+    for bone in owner.pose.bones:
+        for con in constraints_of(bone, chain):
+            bone.constraints.remove(con)
+
+
+def strays(owner):
+    """Chains, known by name only, that came with a rig which was joined: Blender keeps their bends, which then follow the samples of other chains."""
+    chains = owner.wiggly.chains if settings.of(owner) else ()
+    known = {constraint_name(chain, end) for chain in chains for end in ENDS}
+    names = {con.name for bone in owner.pose.bones for con in bone.constraints if con.type == 'TRANSFORM' and con.name.startswith('Wiggle ')} - known
+    driven = ''.join(driver.data_path for driver in owner.animation_data.drivers) if names and owner.animation_data else ''
+    return [SimpleNamespace(name=name[7:]) for name in sorted(names) if f'.constraints{curves.path_of(name)}.to_min_' in driven]
+
+
+def mend(owner):
+    """After rigs were joined: the lag begins anew in each row, and what follows samples of other chains rests."""
+    for chain in strays(owner):
+        for bone in owner.pose.bones:
+            for con in constraints_of(bone, chain):
+                con.mute = True
+    for chain in owner.wiggly.chains if settings.of(owner) else ():
+        if len(rows_of(owner, chain)) > 1:
+            drive(owner, chain)
 
 
 @contextlib.contextmanager
@@ -229,7 +271,8 @@ def check_local(owner):
 def check(owner, bones):
     """Raises what keeps a chain from being made."""
     check_local(owner)
-    taken = [bone for chain in owner.wiggly.chains for bone in bones_of(owner, chain)]
+    taken = [bone for chain in owner.wiggly.chains for row in rows_of(owner, chain) for bone in row]
+    taken += [bone for chain in strays(owner) for bone in owner.pose.bones if constraints_of(bone, chain)]
     for bone in bones:
         if bone in taken:
             raise ValueError(f'"{bone.name}" already wiggles: remove that first')
@@ -267,10 +310,7 @@ def make(owner, bones, follow, loop=False):
 def remove(owner, chain):
     """Takes a chain away, with all that it added."""
     check_local(owner)
-    undrive(owner, chain)
-    for bone in owner.pose.bones:
-        for con in constraints_of(bone, chain):
-            bone.constraints.remove(con)
+    unbend(owner, chain)
     wiggly = owner.wiggly
     wiggly.active = max(0, min(wiggly.active, len(wiggly.chains) - 2))
     names = {channel.spline for channel in chain.channels}

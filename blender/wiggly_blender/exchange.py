@@ -40,7 +40,7 @@ def spline_out(owner, spline, model, fps):
     out = {'name': spline.name, 'mode': spline.mode, **{name: short(getattr(spline, name)) for name in NUMBERS}}
     out['equilibrium'] = short(spline.equilibrium)
     if spline.follow != 'none':
-        out['equilibrium'] = {'model': model, 'joint': spline.joint or chains.row_of(owner, chain)[-1].name, 'of': spline.follow,
+        out['equilibrium'] = {'model': model, 'joint': spline.joint or chains.all_rows_of(owner, chain)[0][-1].name, 'of': spline.follow,
                               'gain': short(spline.follow_gain)}
         if spline.chain:
             out['equilibrium']['chain'] = spline.chain
@@ -51,14 +51,16 @@ def spline_out(owner, spline, model, fps):
 
 
 def chain_out(owner, chain, model):
-    bones = chains.row_of(owner, chain)
-    out = {'type': 'chain', 'name': chain.name, 'model': model, 'from': bones[0].name, 'to': bones[-1].name,
-           'turn': short(chain.turn), 'mirror': chain.mirror, 'channels': []}
-    for channel in chain.channels:
-        ramps = json.loads(channel.ramps or '{}')
-        out['channels'].append({'spline': channel.spline, 'axis': channel.axis, 'of': channel.of,
-                                **{name: ramps.get(name, short(getattr(channel, name))) for name in ('lag', 'gain')}})
-    return out
+    """One a row: each is a chain of the scene, with the same splines."""
+    for n, bones in enumerate(chains.all_rows_of(owner, chain), 1):
+        name = chain.name if n == 1 else chains.unique(f'{chain.name} {n}', owner.wiggly.chains.keys())
+        out = {'type': 'chain', 'name': name, 'model': model, 'from': bones[0].name, 'to': bones[-1].name,
+               'turn': short(chain.turn), 'mirror': chain.mirror, 'channels': []}
+        for channel in chain.channels:
+            ramps = json.loads(channel.ramps or '{}')
+            out['channels'].append({'spline': channel.spline, 'axis': channel.axis, 'of': channel.of,
+                                    **{name: ramps.get(name, short(getattr(channel, name))) for name in ('lag', 'gain')}})
+        yield out
 
 
 def write(context, owner, path):
@@ -73,7 +75,7 @@ def write(context, owner, path):
         rig['clip'] = action.name
     out = {'wiggly': 1, 'fps': short(fps), 'frames': [scene.frame_start, scene.frame_end],
            'splines': [spline_out(owner, spline, owner.name, fps) for spline in owner.wiggly.splines if spline.name in names],
-           'rigs': [rig] + [chain_out(owner, chain, owner.name) for chain in owner.wiggly.chains]}
+           'rigs': [rig] + [out for chain in owner.wiggly.chains for out in chain_out(owner, chain, owner.name)]}
     with open(path + '.new', 'w', encoding='utf-8') as file:
         json.dump(out, file, indent=2, ensure_ascii=False)
         file.write('\n')

@@ -2,6 +2,7 @@
 import bpy
 from bpy.props import BoolProperty, CollectionProperty, EnumProperty, FloatProperty, IntProperty, PointerProperty, StringProperty
 
+FARTHEST = 1_048_574  # Blender's last frame
 # Drivers of a library override cannot differ from the library's, so what they are written from has no override.
 SAME = {'LIBRARY_OVERRIDABLE'}
 MANY = {'LIBRARY_OVERRIDABLE', 'USE_INSERTION'}
@@ -41,8 +42,8 @@ class Spline(bpy.types.PropertyGroup):
     joint: StringProperty(name='Bone', description='The bone it follows; empty is the last one of the chain', override=SAME)
     chain: StringProperty(override=SAME)  # whose direction counts; empty: as of one that points to the front
     follow_gain: FloatProperty(name='Strength', default=1, override=SAME)
-    first: IntProperty(name='First Frame', description='Where the motion starts', override=SAME, update=changed('first'))
-    last: IntProperty(name='Last', description='Where the motion ends. Of a loop, this frame repeats the first', override=SAME, update=changed('last'))
+    first: IntProperty(name='First Frame', description='Where the motion starts', min=-FARTHEST, max=FARTHEST, override=SAME, update=changed('first'))
+    last: IntProperty(name='Last', description='Where the motion ends. Of a loop, this frame repeats the first', min=-FARTHEST, max=FARTHEST, override=SAME, update=changed('last'))
     slot: IntProperty(override=SAME)  # of its samples
     path: StringProperty(override=SAME)  # of a property that it moves
     before: StringProperty()  # its value before that, to the last digit

@@ -9,6 +9,7 @@ from . import curves, settings as stored
 
 solved = {}  # (ID, its name, spline) → the inputs solved last
 SETTINGS = 'frequency', 'damping', 'bandwidth', 'calm', 'start', 'mode', 'more', 'equilibrium', 'follow'
+LONGEST, LONGEST_HELD = 1_000_000, 20_000  # frames of a spline, and of one with limits
 problems = {}  # the same → what is wrong with the answer
 edits = [0]  # how many there were
 cached = [None, []]  # how many IDs there were, and which have splines
@@ -33,6 +34,10 @@ def owners():
     """All IDs with splines."""
     count = tuple(len(getattr(bpy.data, kind)) for kind in KINDS)
     if cached[0] != count:
+        from . import chain as chains
+        for each in bpy.data.objects:
+            if each.pose and each.is_editable and not each.override_library:
+                chains.mend(each)
         cached[:] = count, [each for each in possible() if stored.of(each)]
     return cached[1]
 
@@ -43,7 +48,7 @@ def forget():
     cached[0] = None
 
 
-def range_of(spline, scene, curve):
+def range_of(spline, scene, curve, held):
     """First and last frame. The first is not the scene's: a part that is rendered alone moves as in the whole."""
     first, last = spline.first, spline.last
     if spline.start != 'loop':
@@ -51,12 +56,15 @@ def range_of(spline, scene, curve):
         if curve and len(curve.keyframe_points):
             first = min(first, math.floor(curve.keyframe_points[0].co[0]))
             last = max(last, math.ceil(curve.keyframe_points[-1].co[0]))
+    most = LONGEST_HELD if held else LONGEST
+    if last - first >= most or max(-first, last) > stored.FARTHEST:
+        raise ValueError(f'It has frames from {first:.7g} to {last:.7g}: expected {most} at most, and none beyond {stored.FARTHEST}')
     return first, max(last, first + 3)
 
 
 def knots_of(curve, spline, first, last, fps, im):
-    """A knot for each sample that has a key."""
-    found = {}
+    """A knot for each sample that has a key, and what is to be said of keys that share one."""
+    found, said = {}, ''
     for point in curve.keyframe_points if curve else ():
         sample = math.floor(point.co[0] - first + 0.5)
         if spline.start == 'loop':
@@ -67,18 +75,19 @@ def knots_of(curve, spline, first, last, fps, im):
         elif not is_pose and curves.held(point, curves.POSE):
             curves.hold(point, curves.POSE, None)
         if point.type == 'MOVING_HOLD':
-            found[sample] = wiggly.Knot(sample / fps, still=True)
-            continue
-        slope = curves.slope(point)
-        found[sample] = wiggly.Knot(sample / fps, point.co[1], slope=None if slope is None else slope * fps,
-                                    phase=point.back if is_pose else None,
-                                    stiffness=point.amplitude if curves.held(point, curves.STIFF) else None)
-    return list(found.values())
+            knot = wiggly.Knot(sample / fps, still=True)
+        else:
+            slope = curves.slope(point)
+            knot = wiggly.Knot(sample / fps, point.co[1], slope=None if slope is None else slope * fps, phase=point.back if is_pose else None,
+                               stiffness=point.amplitude if curves.held(point, curves.STIFF) else None)
+        if found.setdefault(sample, (knot, point))[0] != knot:
+            said = f'Keys at {found[sample][1].co[0]:g} and {point.co[0]:g} are at one frame: the later one counts'
+        found[sample] = knot, point
+    return [knot for knot, _ in found.values()], said
 
 
-def more(spline):
-    """What only a scene of wiggly can say."""
-    said = json.loads(spline.more or '{}')
+def more(said):
+    """What only a scene of wiggly can say of a spline."""
     varied = said.get('variation', {})
     return {'passive': said.get('passive', 'oscillator'), 'limits': said.get('limits'), 'variation': varied.get('amount', 0),
             'seed': varied.get('seed', 0)}
@@ -102,31 +111,35 @@ def solve(owner, spline, scene, known, other=None):
     action = curves.action_of(owner)
     curve, im = known.get((curves.path_of(spline.name), 0)), known.get(curves.slot_path(spline, 'im'))
     y = known.get(curves.slot_path(spline, 'y')) if spline.follow != 'none' else None
-    if not action or not (curve or y) and owner.animation_data.nla_tracks:  # a strip may move it
+    if not (curve or y) and owner.animation_data.nla_tracks:  # a strip may move it
         return
     said = note(owner, spline, curve, other)
     if curve and (curve.mute or curve.group and curve.group.mute):
         curve = None
-    first, last = range_of(spline, scene, curve)
-    fps = fps_of(scene)
-    y_first, y = curves.samples(y)
-    given = (*(getattr(spline, name) for name in SETTINGS), first, last, scene.frame_start, scene.frame_end, fps, y_first, y.tobytes(), action.name_full, said)
-    key = key_of(owner, spline)
-    if im and solved.get(key) == (curves.read(curve), given):
-        return
-    knots = knots_of(curve, spline, first, last, fps, im)
-    middle = [y[min(max(frame - y_first, 0), len(y) - 1)] for frame in range(first, last + 1)] if y else spline.equilibrium
-    described = wiggly.Spline(knots, frequency=spline.frequency, damping=spline.damping, bandwidth=spline.bandwidth,
-                              calm=spline.calm, equilibrium=middle, start=spline.start, mode=spline.mode, **more(spline))
-    solved[key] = curves.read(curve), given
+    key, fps, now = key_of(owner, spline), fps_of(scene), None
     try:
+        settings = more(json.loads(spline.more or '{}'))
+        first, last = range_of(spline, scene, curve, settings['limits'])
+        y_first, y = curves.samples(y)
+        given = (*(getattr(spline, name) for name in SETTINGS), first, last, scene.frame_start, scene.frame_end, fps, y_first, y.tobytes(),
+                 action.name_full, said)
+        now = curves.read(curve), given
+        if im and solved.get(key) == now:
+            return
+        knots, shared = knots_of(curve, spline, first, last, fps, im)
+        now = curves.read(curve), given  # a pose may hold its phase now
+        middle = [y[min(max(frame - y_first, 0), len(y) - 1)] for frame in range(first, last + 1)] if y else spline.equilibrium
+        described = wiggly.Spline(knots, frequency=spline.frequency, damping=spline.damping, bandwidth=spline.bandwidth, calm=spline.calm,
+                                  equilibrium=middle, start=spline.start, mode=spline.mode, **settings)
         with warnings.catch_warnings():
             warnings.simplefilter('ignore')
             answer = described.solve(last - first + 1, fps)
-    except wiggly.Error as problem:
-        problems[key] = str(problem)
+    except (ArithmeticError, AttributeError, LookupError, TypeError, ValueError) as problem:
+        problems[key] = str(problem) if isinstance(problem, ValueError) else f'It cannot be solved: {problem!r}'
         return
-    problems[key] = said or (answer.status.sentence if answer.status else '')
+    finally:
+        solved[key] = now
+    problems[key] = said or shared or (answer.status.sentence if answer.status else '')
     for part, values in (('re', answer.re), ('im', answer.im)):
         start, values = first, list(values)
         if spline.start == 'loop':  # through the scene's frames, and one more on either side for motion blur
@@ -151,6 +164,14 @@ def insert(owner, spline, frame, kind):
     curve.update()
 
 
+def rest(owner):
+    """Ends the bends of an action that was taken away: its last samples would stay. A strip may move them."""
+    samples, tracks = owner.get(curves.SAMPLES, ()), owner.animation_data.nla_tracks if owner.animation_data else ()
+    if any(samples) and not any(not strip.mute for track in tracks if not track.mute for strip in track.strips):
+        owner[curves.SAMPLES] = [0.0] * len(samples)
+        owner.update_tag()
+
+
 def home_of(owner, scene):
     """The scene whose frames count: the first one that an object is in. Two windows would else solve it in turn, without end."""
     if len(bpy.data.scenes) == 1 or not isinstance(owner, bpy.types.Object):
@@ -162,13 +183,15 @@ def solve_all(scene):
     rulers = {}
     for owner in owners():
         action = curves.action_of(owner)
-        if stored.of(owner) and owner.is_editable and (not action or action.is_editable):
+        if stored.of(owner) and owner.is_editable and not action:
+            rest(owner)
+        elif stored.of(owner) and owner.is_editable and action.is_editable:
             muted = {channel.spline for chain in owner.wiggly.chains if chain.mute for channel in chain.channels}
             known, home = curves.all_of(owner), home_of(owner, scene)
             differs = fps_of(home) != fps_of(scene) or (home.frame_start, home.frame_end) != (scene.frame_start, scene.frame_end)
-            slot = owner.animation_data.action_slot.handle if action and curves.LAYERED else 0
+            slot = owner.animation_data.action_slot.handle if curves.LAYERED else 0
             for spline in owner.wiggly.splines:
-                ruler = rulers.setdefault((action.name_full, slot, spline.slot), owner) if action else owner
+                ruler = rulers.setdefault((action.name_full, slot, spline.slot), owner)
                 if ruler != owner:
                     solved.pop(key_of(owner, spline), None)
                     problems[key_of(owner, spline)] = f'The action is shared: its keys swing with the settings of "{ruler.name}"'

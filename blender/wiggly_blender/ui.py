@@ -60,7 +60,12 @@ class WIGGLY_OT_remove(Operator):
     bl_idname, bl_label = 'wiggly.remove', 'Remove Wiggle'
 
     def run(self, context, owner):
-        chains.remove(owner, active(owner))
+        strays = chains.strays(owner)
+        for each in strays:
+            chains.check_local(owner)
+            chains.unbend(owner, each)
+        if not strays:
+            chains.remove(owner, active(owner))
 
 
 class WIGGLY_OT_refresh(Operator):
@@ -236,6 +241,8 @@ class WIGGLY_PT_panel(bpy.types.Panel):
         row = layout.row(align=True)
         row.operator('wiggly.add', icon='ADD')
         row.operator('wiggly.remove', text='', icon='REMOVE')
+        for each in chains.strays(owner):
+            layout.label(text=f'"{each.name}" was joined without its settings: remove it, then add it', icon='ERROR')
         if not wiggly or not wiggly.chains:
             layout.label(text='Select the first bone of a chain in Pose Mode')
             return
