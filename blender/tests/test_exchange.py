@@ -102,6 +102,120 @@ def dog():
         ok('and moves as in wiggly', off[worst] < 1e-5, worst, off[worst], {k: round(v, 4) for k, v in off.items()})
 
 
+def bytes_of(*paths):
+    found = []
+    for path in paths:
+        with open(path, 'rb') as file:
+            found.append(file.read())
+    return found
+
+
+def nothing_is_overwritten():
+    rig = fresh()
+    add(rig, follow=False)
+    key(rig, 'tail side', (10, 1))
+    bpy.ops.object.mode_set(mode='OBJECT')
+    place = tempfile.mkdtemp()
+    scene, model, mine = (os.path.join(place, name) for name in ('a.json', 'a.glb', 'mine'))
+    for path in (model, mine):
+        with open(path, 'w') as file:
+            file.write('mine')
+    os.symlink(mine, scene + '.new')
+
+    def fails(words, **options):
+        listed, before = sorted(os.listdir(place)), bytes_of(model, mine)
+        try:
+            bpy.ops.wiggly.export_scene(**{'filepath': scene, **options})
+            ok(f'is refused: {words}', False)
+        except RuntimeError as problem:
+            ok(f'is refused: {words}', words in str(problem), problem)
+        ok('and leaves all files alone', sorted(os.listdir(place)) == listed and bytes_of(model, mine) == before, os.listdir(place))
+
+    fails('is there already')
+    fails('expected a name that ends in .json', filepath=model)
+    os.mkdir(scene)
+    fails('is a folder', overwrite=True)
+    os.rmdir(scene)
+    name = rig.wiggly.chains[0].channels[0].spline
+    rig.wiggly.chains[0].channels[0].ramps = '{'
+    fails('Expecting', overwrite=True)
+    rig.wiggly.chains[0].channels[0].ramps = ''
+    bpy.ops.wiggly.export_scene(filepath=scene, overwrite=True)
+    with open(scene) as file:
+        ok('if you say so, a model is overwritten', json.load(file)['splines'][0]['name'] == name and bytes_of(model)[0][:4] == b'glTF')
+    ok('nothing is written through a link', bytes_of(mine) == [b'mine'] and sorted(os.listdir(place)) == ['a.glb', 'a.json', 'a.json.new', 'mine'])
+
+
+def everything():
+    scene = bpy.context.scene
+    kinds = [getattr(bpy.data, each.identifier) for each in bpy.data.bl_rna.properties if each.type == 'COLLECTION']
+    return (sorted(each.name_full for kind in kinds for each in kind), scene.render.fps, scene.render.fps_base, scene.frame_start, scene.frame_end,
+            scene.frame_current, [each.name for each in bpy.context.selected_objects], bpy.context.view_layer.objects.active)
+
+
+def failed_imports_change_nothing():
+    assets = os.path.abspath(os.path.join(here, '..', '..', 'assets'))
+    with open(os.path.join(assets, 'scenes', 'dog.json')) as file:
+        good = file.read().replace('../models', f'{assets}/models').replace('"fps": 24', '"fps": 30')
+    rig = fresh(frames=(3, 77))
+    add(rig)
+    key(rig, 'tail side', (10, 1))
+    bpy.ops.object.mode_set(mode='OBJECT')
+    bpy.context.preferences.edit.use_global_undo = True
+    bpy.context.scene.frame_set(12)
+    broken = os.path.join(folder, 'broken.glb')
+    with open(os.path.join(assets, 'models', 'dog.glb'), 'rb') as file, open(broken, 'wb') as copy:
+        copy.write(file.read()[:20000])
+    before, moved = everything(), poses(rig, [5, 20])
+    bpy.context.scene.frame_set(12)
+    path = os.path.join(folder, 'wrong.json')
+
+    def changed(change):
+        data = json.loads(good)
+        chain, model = (next(each for each in data['rigs'] if each['type'] == kind) for kind in ('chain', 'model'))
+        change(data, next(each for each in data['splines'] if each['name'] == chain['channels'][0]['spline']), chain, model)
+        return data
+
+    def knot(**more):
+        return lambda data, spline, chain, model: spline.update(knots=[{'frame': 1, 'value': 0}, {'frame': 5, 'value': 1, **more}])
+
+    for words, change in (
+            ('a row of bones', lambda data, spline, chain, model: data['rigs'][-1].update(to='nowhere')),
+            ('wrong.json', lambda data, spline, chain, model: model.update(model=broken)),
+            ('frames from', lambda data, spline, chain, model: data.update(frames=[0, 1000000000])),
+            ('frames from', lambda data, spline, chain, model: data.update(frames=[0, 9.5])),
+            ('frames a second', lambda data, spline, chain, model: data.update(fps=1e9)),
+            ('as its frame, got 1000000000', knot(frame=1000000000)), ('as its value, got "a"', knot(value='a')),
+            ('as its slope, got NaN', knot(slope=math.nan)), ('as its frame, got null', knot(frame=None)),
+            ('a track', lambda data, spline, chain, model: spline.update(frequency={'spline': 'x'})),
+            ('mode, got "cubical"', lambda data, spline, chain, model: spline.update(mode='cubical')),
+            ('two numbers as its limits, got "none"', lambda data, spline, chain, model: spline.update(limits='none')),
+            ('"tail": ', lambda data, spline, chain, model: spline.update(limits=['a', 1])),
+            ('as its variation, got 5', lambda data, spline, chain, model: spline.update(variation=5)),
+            ('passive', lambda data, spline, chain, model: spline.update(passive='no')),
+            ('there is no spline', lambda data, spline, chain, model: chain.update(channels=[{'spline': 'no'}])),
+            ('axis, got "along"', lambda data, spline, chain, model: chain.update(channels=[{'spline': spline['name'], 'axis': 'along'}])),
+            ('as its lag', lambda data, spline, chain, model: chain.update(channels=[{'spline': spline['name'], 'lag': [1, 'x']}]))):
+        with open(path, 'w') as file:
+            json.dump(changed(change), file)
+        try:
+            bpy.ops.wiggly.import_scene(filepath=path)
+            ok(f'is refused: {words}', False)
+        except RuntimeError as problem:
+            ok(f'is refused: {words}', words in str(problem) and 'Traceback' not in str(problem) and 'wrong.json' in str(problem), problem)
+        bpy.context.view_layer.update()
+        ok('and changes nothing', everything() == before, [(a, b) for a, b in zip(everything(), before) if a != b])
+    ok('the rig that was there moves as before', poses(rig, [5, 20]) == moved)
+    bpy.context.scene.frame_set(12)
+    bpy.ops.ed.undo_push(message='start')
+    with open(path, 'w') as file:
+        file.write('\ufeff' + good)
+    bpy.ops.wiggly.import_scene('EXEC_DEFAULT', True, filepath=path)
+    ok('after a byte order mark a scene is read', bpy.context.scene.render.fps == 30 and len(bpy.data.objects) > 1, everything())
+    bpy.ops.ed.undo()
+    ok('an import is one undo step', everything()[:7] == before[:7], everything(), before)
+
+
 def strange_files():
     bpy.ops.wm.read_factory_settings(use_empty=True)
     start = {'wiggly': 1, 'frames': [0, 9], 'splines': [], 'rigs': []}
@@ -120,4 +234,4 @@ def strange_files():
             ok(f'{what} is refused', words in str(problem), problem)
 
 
-main(round_trip, dog, strange_files)
+main(round_trip, dog, nothing_is_overwritten, failed_imports_change_nothing, strange_files)

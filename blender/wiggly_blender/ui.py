@@ -1,4 +1,5 @@
 """Operators, the panel, and menus."""
+import os
 import bpy
 from bpy.props import BoolProperty, EnumProperty, StringProperty
 from bpy_extras.io_utils import ExportHelper, ImportHelper
@@ -175,7 +176,7 @@ class WIGGLY_OT_import(Operator, ImportHelper):
         return context.mode == 'OBJECT'
 
     def run(self, context, _):
-        left = exchange.read(context, self.filepath)
+        left = exchange.read(context, bpy.path.abspath(self.filepath))
         if left:
             self.report({'WARNING'}, 'Left out: ' + ', '.join(left))
 
@@ -184,10 +185,17 @@ class WIGGLY_OT_export(Operator, ExportHelper):
     """Writes the active armature as a scene of wiggly, and everything as a .glb beside it"""
     bl_idname, bl_label, filename_ext = 'wiggly.export_scene', 'Wiggly Scene (.json, .glb)', '.json'
     bl_options = {'REGISTER'}
+    overwrite: BoolProperty(name='Overwrite Character', description='Replaces the .glb that is there already', options={'SKIP_SAVE'})
+
+    def draw(self, _):
+        model = exchange.model_of(self.filepath)
+        if os.path.lexists(model):
+            self.layout.label(text=f'{os.path.basename(model)} is there already')
+            self.layout.prop(self, 'overwrite')
 
     def run(self, context, owner):
         active(owner)
-        exchange.write(context, owner, self.filepath)
+        exchange.write(context, owner, bpy.path.abspath(self.filepath), self.overwrite)
 
 
 class WIGGLY_UL_chains(bpy.types.UIList):
