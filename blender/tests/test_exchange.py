@@ -92,8 +92,11 @@ def dog():
             animation.action_slot = animation.action_suitable_slots[0]
         known = heads(frames)[1]
     bpy.ops.wm.read_factory_settings(use_empty=True)
+    mine = bpy.data.actions.new('Walk')
+    mine.use_fake_user = True
     bpy.ops.wiggly.import_scene(filepath=scene)
     rig, found = heads(frames)
+    ok('it has its own action, whatever others are called', rig.animation_data.action != mine and mine.users == 1)
     ok('the dog has its chains', len(rig.wiggly.chains) == 3, list(rig.wiggly.chains.keys()))
     if known:
         off = {name: max((now[name] - then[name]).length for now, then in zip(found, known)) for name in found[0]}

@@ -255,7 +255,7 @@ def chain_in(owner, data):
 
 def model_in(data, folder):
     """Imports a character and gives back its armature."""
-    before = set(bpy.data.objects)
+    before = {*bpy.data.objects, *bpy.data.actions}
     bpy.ops.import_scene.gltf(filepath=os.path.join(folder, data['model']))
     new = [each for each in bpy.data.objects if each not in before]
     owner = next((each for each in new if each.type == 'ARMATURE'), None)
@@ -267,7 +267,8 @@ def model_in(data, folder):
         if not each.parent:
             each.matrix_world = place @ each.matrix_world
     clip = data.get('clip')
-    action = next((each for each in bpy.data.actions if clip and (each.name == clip or each.name.startswith(clip + '_'))), None)
+    actions = [each for each in bpy.data.actions if each not in before]  # their names differ where there were such before
+    action = next((each for each in actions if clip and (each.name == clip or each.name.startswith((clip + '_', clip + '.')))), None)
     if action:
         owner.animation_data_create().action = action
         if curves.LAYERED:
