@@ -1,10 +1,12 @@
-"""Point caches of ours (.pc2), and what is off against them."""
+"""Vertices of ours (.pc2, .npy), and what is off against them."""
 import sys
 import numpy as np
 
 
 def read_cache(path):
     """Positions by frame and vertex, and the first frame."""
+    if path.endswith('.npy'):
+        return np.load(path), 0.0
     data = open(path, 'rb').read()
     vertices, = np.frombuffer(data, '<i4', 1, 16)
     first, = np.frombuffer(data, '<f4', 1, 20)

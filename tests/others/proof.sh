@@ -47,14 +47,16 @@ END
 else
     echo "ok - skipped: assimp-testmodels is not installed"
 fi
-caches() { # <scene> <rigs>: their files, in the order of the meshes
-    for rig in ${2//,/ }; do echo "$scratch/$1-$rig.pc2"; done
+caches() { # <scene> <rigs> <ending>: their files, in the order of the meshes. A .pc2 stands in its node, a .npy does not
+    for rig in ${2//,/ }; do echo "$scratch/$1-$rig.$3"; done
 }
 for entry in $scenes $others; do
     scene=${entry%%:*} rigs=${entry#*:}
     export_to "$scene" "$scene.glb" --substeps 1
     export_to "$scene" "$scene.usda" --substeps 1
-    for rig in ${rigs//,/ }; do export_to "$scene" "$scene-$rig.pc2" --rig "$rig" --substeps 1; done
+    for rig in ${rigs//,/ }; do
+        for ending in pc2 npy; do export_to "$scene" "$scene-$rig.$ending" --rig "$rig" --substeps 1; done
+    done
 done
 # a file with all of its clips
 clips="Walk Trot Idle"
@@ -70,7 +72,8 @@ each_scene() { # <who> <ending> <scenes> <command>...
     shift 3
     for entry in $scenes; do
         case $entry in *:dog) export CLIP=Walk ;; *) unset CLIP ;; esac
-        compares "$who: ${entry%%:*}.$ending" "$@" "$scratch/${entry%%:*}.$ending" $(caches "${entry%%:*}" "${entry#*:}")
+        compares "$who: ${entry%%:*}.$ending" "$@" "$scratch/${entry%%:*}.$ending" \
+            $(caches "${entry%%:*}" "${entry#*:}" "$([ "$ending" = usda ] && echo npy || echo pc2)")
     done
 }
 if npm_has "$place" three validator; then

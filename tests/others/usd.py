@@ -1,7 +1,7 @@
 """Skins a .usda with usd-core's own UsdSkel and compares every vertex at ten of its keys with point caches of the same rigs, one after
 the other. Every texture that it names must be there.
 
-Usage: python usd.py file.usda rig.pc2...
+Usage: python usd.py file.usda rig.npy...
 """
 import os
 import sys
@@ -23,7 +23,7 @@ assert UsdSkel.BakeSkinning(stage.Traverse(), Gf.Interval(*times)), 'UsdSkel can
 
 
 def points_at(mesh, root, time):
-    """In the space of its SkelRoot, which a character's own file and its .pc2 have."""
+    """In the space of its SkelRoot, which a character's own file and its .npy have."""
     points = np.array(UsdGeom.Mesh(mesh).GetPointsAttr().Get(time), float)
     world, rooted = (np.array(UsdGeom.Xformable(p).ComputeLocalToWorldTransform(time)) for p in (mesh, stage.GetPrimAtPath(root)))
     place = world @ np.linalg.inv(rooted)
