@@ -240,6 +240,33 @@ static int open_edges(const struct surface *surface)
     return open;
 }
 
+/// A corner of a box drawn out far along an axis: the tip is thinner than a voxel, and its vertex goes to the end of what is left.
+TEST(a_long_thin_tip_follows_the_nearest_element)
+{
+    for (int axis = 0; axis < 3; axis++) {
+        for (int shape = 0; shape < 2; shape++) {
+            struct cut cut = {0};
+            add_box(&cut.surface, (const double[3]){0, 0, 0}, (const double[3]){1, 1, 1});
+            cut.surface.position[7][axis] = shape ? 5123 : 256;
+            cut_into(&cut, 300);
+            const struct lattice *lattice = &cut.lattice;
+            for (int v = 0; v < 8; v++) {
+                double nearest = INFINITY, own = INFINITY;
+                for (int i = 0; i < 4 * lattice->tet_count; i++) {
+                    const double *node = lattice->node[lattice->tet[i / 4][i % 4]];
+                    const float *at = cut.surface.position[v];
+                    const double away =
+                        hypot(hypot(node[0] - (double)at[0], node[1] - (double)at[1]), node[2] - (double)at[2]);
+                    nearest = fmin(nearest, away);
+                    if (i / 4 == lattice->host[v]) own = fmin(own, away);
+                }
+                assert_true(own <= nearest + lattice->cell);
+            }
+            cut_free(&cut);
+        }
+    }
+}
+
 TEST(open_edges_are_counted)
 {
     struct surface box = {0};

@@ -122,30 +122,99 @@ static void number(struct lattice *lattice, const struct tiling *t, int *index, 
     }
 }
 
-/// The inside voxel nearest to a point given in voxels: searches shells of growing distance.
-static int nearest_inside(const struct tiling *t, const double at[3])
+enum { LEVELS = 26 }; ///< of halving the longest side; there are fewer than 2²⁵ voxels
+
+/// Which blocks of 2, 4, 8 … voxels hold some of the lattice: level l has those of 2ˡ.
+struct pyramid {
+    const struct tiling *tiling;
+    int top, size[LEVELS][3];
+    uint8_t *any[LEVELS]; ///< from level 1 on
+};
+
+static int block_index(const struct pyramid *p, int level, const int block[3])
 {
-    const int *size = t->voxels.size;
-    int middle[3], reach = size[0] > size[1] ? size[0] : size[1], found = -1;
-    reach = reach > size[2] ? reach : size[2];
-    for (int c = 0; c < 3; c++) middle[c] = (int)fmax(0, fmin(size[c] - 1, floor(at[c])));
-    double nearest = INFINITY;
-    for (int r = 0; r <= reach && r - 1 <= nearest; r++) {
-        for (int i = middle[0] - r; i <= middle[0] + r; i++) {
-            for (int j = middle[1] - r; j <= middle[1] + r; j++) {
-                bool wall = abs(i - middle[0]) == r || abs(j - middle[1]) == r;
-                for (int k = middle[2] - r; k <= middle[2] + r; k += wall || r == 0 ? 1 : 2 * r) {
-                    if (i < 0 || j < 0 || k < 0 || i >= size[0] || j >= size[1] || k >= size[2]) continue;
-                    int voxel = (i * size[1] + j) * size[2] + k;
-                    const double away[3] = {i + 0.5 - at[0], j + 0.5 - at[1], k + 0.5 - at[2]};
-                    if (t->element[voxel] < 0 || vec3_length(away) >= nearest) continue;
-                    nearest = vec3_length(away);
-                    found = voxel;
+    return (block[0] * p->size[level][1] + block[1]) * p->size[level][2] + block[2];
+}
+
+static void pyramid_create(struct pyramid *p, const struct tiling *t)
+{
+    *p = (struct pyramid){.tiling = t};
+    memcpy(p->size[0], t->voxels.size, sizeof p->size[0]);
+    while (p->size[p->top][0] > 1 || p->size[p->top][1] > 1 || p->size[p->top][2] > 1) {
+        const int below = p->top++, *from = p->size[below];
+        for (int c = 0; c < 3; c++) p->size[p->top][c] = (from[c] + 1) / 2;
+        const int *size = p->size[p->top];
+        p->any[p->top] = need_zeroed((size_t)size[0] * (size_t)size[1] * (size_t)size[2], 1);
+        int at = 0;
+        for (int i = 0; i < from[0]; i++) {
+            for (int j = 0; j < from[1]; j++) {
+                for (int k = 0; k < from[2]; k++, at++) {
+                    const bool any = below > 0 ? p->any[below][at] : t->element[at] >= 0;
+                    if (any) p->any[p->top][block_index(p, p->top, (const int[3]){i / 2, j / 2, k / 2})] = 1;
                 }
             }
         }
     }
-    return found;
+}
+
+static void pyramid_free(struct pyramid *p)
+{
+    for (int l = 1; l <= p->top; l++) free(p->any[l]);
+}
+
+/// A search for the voxel of the lattice nearest to a point given in voxels.
+struct nearest {
+    const struct pyramid *pyramid;
+    double at[3], distance;
+    int middle[3],
+        ring; ///< the voxel that holds the point, and the largest of the three steps from there to the found one
+    int found;
+};
+
+/// Searches a block. Of voxels equally far the one in the inner ring is found, then the first.
+static void search(struct nearest *n, int level, const int block[3])
+{
+    const struct pyramid *p = n->pyramid;
+    const int index = block_index(p, level, block);
+    double away[3];
+    int ring = 0, toward[3];
+    if (level > 0 ? !p->any[level][index] : p->tiling->element[index] < 0) return;
+    for (int c = 0; c < 3; c++) {
+        const int first = block[c] << level, end = (block[c] + 1) << level;
+        away[c] = fmax(0, fmax(first + 0.5 - n->at[c], n->at[c] - (end - 0.5)));
+        toward[c] = n->at[c] >= (first + end) / 2;
+    }
+    const double distance = vec3_length(away);
+    if (distance > n->distance) return;
+    if (level > 0) {
+        for (int child = 0; child < 8; child++) { // first the one on the point's side
+            int part[3];
+            bool exists = true;
+            for (int c = 0; c < 3; c++) {
+                part[c] = 2 * block[c] + ((child >> c & 1) ^ toward[c]);
+                exists = exists && part[c] < p->size[level - 1][c];
+            }
+            if (exists) search(n, level - 1, part);
+        }
+        return;
+    }
+    for (int c = 0; c < 3; c++) {
+        const int steps = abs(block[c] - n->middle[c]);
+        ring = steps > ring ? steps : ring;
+    }
+    const bool is_first = ring < n->ring || (ring == n->ring && index < n->found);
+    if (distance == n->distance && !is_first) return;
+    n->distance = distance;
+    n->ring = ring;
+    n->found = index;
+}
+
+static int nearest_inside(const struct pyramid *p, const double at[3])
+{
+    struct nearest n = {.pyramid = p, .at = {at[0], at[1], at[2]}, .distance = INFINITY, .found = -1};
+    for (int c = 0; c < 3; c++) n.middle[c] = (int)fmax(0, fmin(p->size[0][c] - 1, floor(at[c])));
+    search(&n, p->top, (const int[3]){0, 0, 0});
+    return n.found;
 }
 
 /// Barycentric coordinates of a point.
@@ -181,6 +250,8 @@ static void embed(struct lattice *lattice, const struct tiling *t, const int *in
     lattice->weight = pool_take(&lattice->pool, count + 1, sizeof *lattice->weight);
     double(*normal)[3] = normals_of(&solid->shape);
     uint8_t *used = surface_used_vertices(surface);
+    struct pyramid pyramid;
+    pyramid_create(&pyramid, t);
     for (int i = 0; i < surface->vertex_count; i++) {
         double at[3], length = vec3_length(normal[i]);
         lattice->host[i] = -1;
@@ -190,10 +261,11 @@ static void embed(struct lattice *lattice, const struct tiling *t, const int *in
             double inward = length > 0 ? 0.5 * normal[i][c] / length : 0;
             at[c] = ((double)surface->position[i][c] - t->voxels.origin[c]) / t->voxels.spacing - inward;
         }
-        lattice->host[i] = index[t->element[nearest_inside(t, at)]];
+        lattice->host[i] = index[t->element[nearest_inside(&pyramid, at)]];
         locate(lattice, lattice->host[i], surface->position[i], lattice->weight[i]);
     }
     stage_tell("placing the vertices", surface->vertex_count, surface->vertex_count);
+    pyramid_free(&pyramid);
     free(normal);
     free(used);
 }
