@@ -10,6 +10,8 @@ enum { TEXT = 1 << 20 };
 
 #define FRAMES "\"wiggly\": 1, \"frames\": [0, 48]"
 #define SPLINE "\"splines\": [{\"name\": \"s\", \"knots\": [{\"frame\": 0, \"value\": 1}]}]"
+#define TAIL "\"type\": \"tail\", \"name\": \"t\""
+#define SOFT "\"type\": \"character\", \"model\": \"m.glb\""
 #define RIGS "{" FRAMES ", " SPLINE ", \"rigs\": ["
 
 static struct document *parse(const char *text, size_t size, struct error *error)
@@ -85,7 +87,7 @@ static const struct count {
      "1", "]}]}]}", 1, 256, "from 1 to 256"},
     {RIGS "{\"type\": \"character\", \"model\": \"m.glb\", \"coordinates\": [",
      "{\"name\": \"c%d\", \"spline\": \"s\"}", "]}]}", 0, 4, "at most 4 elements"},
-    {"{\"wiggly\": 1, \"frames\": [0, 2000], \"splines\": [{\"name\": \"s\", \"frequency\": 1}], \"rigs\": "
+    {"{\"wiggly\": 1, \"frames\": [0, 1023], \"splines\": [{\"name\": \"s\", \"frequency\": 1}], \"rigs\": "
      "[{\"type\": \"tail\", \"name\": \"t\", \"spline\": \"s\", \"pins\": [",
      "{\"frame\": %d, \"joint\": 3, \"to\": [0, 0, 0]}", "]}]}", 0, 1024, "at most 1024"},
     {"{" FRAMES ", \"unknown\": ", "[", "", 0, 63, "at most 64 levels"}, // the scene itself is the first
@@ -267,12 +269,12 @@ WORLD_TEST(rigs_of_an_edit, world_open(world))
     takes(text);
 }
 
-/// So many samples each of so many splines, the first with a limit or none.
-static void write_long(char *text, int splines, int samples, bool limited)
+/// So many samples each of so many splines, the first ones with a limit.
+static void write_long(char *text, int splines, int samples, int limited)
 {
     char *at = text + sprintf(text, "{\"wiggly\": 1, \"frames\": [0, %d], \"splines\": [", samples - 1);
     for (int s = 0; s < splines; s++) {
-        const char *limits = limited && s == 0 ? ", \"limits\": [0, null]" : "";
+        const char *limits = s < limited ? ", \"limits\": [0, null]" : "";
         at += sprintf(at, "%s{\"name\": \"s%d\"%s}", s ? ", " : "", s, limits);
     }
     sprintf(at, "]}");
@@ -282,15 +284,20 @@ TEST(samples_of_a_scene)
 {
     static const struct {
         int splines, samples;
-        bool limited;
+        int limited;
         const char *says; ///< NULL: taken
     } cases[] = {
-        {10, 100000, false, NULL},
-        {1, 100001, false, "frames: expected at most 100000 samples a spline, got 100001"},
-        {11, 90909, false, NULL},
-        {11, 90910, false, "frames: expected at most 1000000 samples over all splines, got 11 times 90910"},
-        {2, 20000, true, NULL},
-        {2, 20001, true, "splines[0].limits: expected at most 20000 samples where a spline has a low or high limit"},
+        {10, 100000, 0, NULL},
+        {1, 100001, 0, "frames: expected at most 100000 samples a spline, got 100001"},
+        {11, 90909, 0, NULL},
+        {11, 90910, 0, "frames: expected at most 1000000 samples over all splines, got 11 times 90910"},
+        {2, 20000, 1, NULL},
+        {12, 20000, 10, NULL},
+        {12, 18182, 11,
+         "splines[10].limits: expected at most 200000 samples over all splines with a low or high limit, got 11 "
+         "times "
+         "18182"},
+        {2, 20001, 1, "splines[0].limits: expected at most 20000 samples where a spline has a low or high limit"},
     };
     char text[2000];
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
@@ -312,6 +319,91 @@ WORLD_TEST(samples_of_limits, world_open(world))
     world_must(world, edit_number(world, 0, PARAMETER_HIGH, 1e6));
     assert_refused(world, edit_frames(world, 0, 20000), says);
     assert_int_equal(document_longest(world->document), 19999);
+}
+
+/// Each pin takes a solve of each spline that it moves, and a floor one of each dip.
+TEST(samples_of_pins)
+{
+    static const struct {
+        int pins, splines, last; ///< frame
+        const char *rig, *says;  ///< what the file has before the pins; NULL: taken
+    } cases[] = {
+        {5, 2, 99999, TAIL, NULL},
+        {10, 2, 52427, TAIL, NULL},
+        {10, 2, 52428, TAIL, "rigs[0].pins: expected at most 1048576 samples over all pins"},
+        {11, 2, 52427, TAIL, "rigs[0].pins: expected at most 1048576 samples over all pins"},
+        {10, 3, 52427, TAIL, "rigs[0].pins: expected at most 1048576 samples over all pins"},
+        {0, 2, 10484, SOFT ", \"floor\": 0", NULL},
+        {0, 2, 10485, SOFT ", \"floor\": 0", "rigs[0].floor: expected at most 1048576 samples over all pins"},
+        {0, 2, 99999, SOFT, NULL},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[4000],
+            *at = text + sprintf(text, "{\"wiggly\": 1, \"frames\": [0, %d], \"splines\": [", cases[i].last);
+        const bool is_soft = cases[i].pins == 0;
+        for (int s = 0; s < cases[i].splines; s++)
+            at += sprintf(at, "%s{\"name\": \"s%d\", \"frequency\": 1}", s ? ", " : "", s);
+        at += sprintf(at, "], \"rigs\": [{%s, \"%s\": [", cases[i].rig, is_soft ? "coordinates" : "channels");
+        for (int s = 0; s < cases[i].splines; s++)
+            at += sprintf(at, "%s{\"name\": \"c\", \"spline\": \"s%d\"}", s ? ", " : "", s);
+        at += sprintf(at, "], \"pins\": [");
+        for (int p = 0; p < cases[i].pins; p++)
+            at += sprintf(at, "%s{\"frame\": %d, \"joint\": 3, \"to\": [0, 0, 0]}", p ? ", " : "", p);
+        sprintf(at, "]}]}");
+        if (cases[i].says)
+            refuses(text, cases[i].says);
+        else
+            takes(text);
+    }
+}
+
+/// An edit is held to the same.
+TEST(samples_of_an_edit_with_pins)
+{
+    struct error refusal;
+    struct document *document = document_of_text(
+        "{\"frames\": [0, 95324], \"splines\": [{\"name\": \"s\", \"frequency\": 1}], \"rigs\": [{" TAIL
+        ", \"spline\": \"s\"}]}");
+    for (int p = 0; p < 11; p++)
+        assert_done(edit_pin_add(document, 0, &(struct pin){.frame = p, .point = 3}, &error));
+    assert_false(edit_pin_add(document, 0, &(struct pin){.frame = 11, .point = 3}, &refusal));
+    assert_non_null(strstr(refusal.text, "t: pins: expected at most 1048576 samples over all pins"));
+    assert_false(edit_range(document, 0, 95325, RANGE_REFUSE, &refusal));
+    assert_int_equal(document->rigs[0]->pin_count, 11);
+    assert_int_equal(document->last_frame, 95324);
+    document_destroy(document);
+}
+
+/// Joints of tails count once, and again for each channel.
+TEST(joints_of_all_tails)
+{
+    static const struct {
+        int tails, joints, channels;
+        bool is_taken;
+    } cases[] = {{781, 256, 0, true},  {782, 256, 0, false}, {12, 256, 64, true},
+                 {13, 256, 64, false}, {1000, 100, 1, true}, {1001, 100, 1, false}};
+    struct error refusal;
+    char *text = malloc(TEXT);
+    assert_non_null(text);
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char *at = text + sprintf(text, "%s", RIGS);
+        for (int t = 0; t < cases[i].tails; t++) {
+            at += sprintf(at, "%s{\"type\": \"tail\", \"name\": \"t%d\", \"joints\": %d, \"channels\": [",
+                          t ? ", " : "", t, cases[i].joints);
+            for (int c = 0; c < cases[i].channels; c++) at += sprintf(at, "%s{\"spline\": \"s\"}", c ? "," : "");
+            at += sprintf(at, "]}");
+        }
+        sprintf(at, "]}");
+        if (!cases[i].is_taken) {
+            refuses(text,
+                    "rigs: expected at most 200000 joints over all tails, counted once and for each channel, got ");
+            continue;
+        }
+        struct document *document = document_of_text(text);
+        assert_false(edit_tail_add(document, 0, -1, &refusal)); // one more of the same
+        document_destroy(document);
+    }
+    free(text);
 }
 
 /// A name has no limit: a long one comes back from its file byte by byte.

@@ -224,6 +224,10 @@ docs/measuring.md~a 99 % bootstrap~said~99 % interval
 docs/measuring.md~a loop of 10,000,000 samples~tools/wiggly-bench.c~SAMPLES = 10000000
 docs/scene-format.md~at most 100,000 samples~src/scene/document.h~SPLINE_MAX_SAMPLES = 100000,
 docs/scene-format.md~20,000 with `limits`~src/scene/document.h~LIMITED_MAX_SAMPLES = 20000,
+docs/scene-format.md~200,000 of them with `limits`~src/scene/document.h~SCENE_MAX_LIMITED = 200000,
+docs/scene-format.md~at most 1,048,576~src/scene/rig.h~SCENE_MAX_PINNED = 1 << 20,
+docs/scene-format.md~A floor counts as 50 pins~src/scene/rig.h~FLOOR_PINS = 50,
+docs/scene-format.md~at most 200,000 joints~src/scene/rig.h~SCENE_MAX_JOINTS = 200000,
 docs/scene-format.md~1,000,000 samples~src/scene/document.h~SCENE_MAX_SAMPLES = 1000000,
 docs/scene-format.md~100,000 knots~src/scene/document.h~SCENE_MAX_KNOTS = 100000,
 docs/scene-format.md~frames per second (24); samples per frame (1)~saved~"fps": 24, "substeps": 1,

@@ -236,27 +236,44 @@ int document_samples(const struct document *document)
     return (document->last_frame - document->first_frame) * document->substeps + 1;
 }
 
-static int most_samples(int splines, bool limited)
+static int most_samples(int splines, int limited)
 {
-    const int each = limited ? LIMITED_MAX_SAMPLES : SPLINE_MAX_SAMPLES;
-    return splines > SCENE_MAX_SAMPLES / each ? SCENE_MAX_SAMPLES / splines : each;
+    int most = limited > 0 ? LIMITED_MAX_SAMPLES : SPLINE_MAX_SAMPLES;
+    if (limited > SCENE_MAX_LIMITED / most) most = SCENE_MAX_LIMITED / limited;
+    return splines > SCENE_MAX_SAMPLES / most ? SCENE_MAX_SAMPLES / splines : most;
 }
 
-bool document_check_samples(int splines, long long samples, bool limited, struct error *error)
+bool document_check_samples(int splines, int limited, long long samples, struct error *error)
 {
     if (samples <= most_samples(splines, limited)) return true;
     if (samples > SPLINE_MAX_SAMPLES)
         return fail(error, ERROR_INPUT, "at most %d samples a spline, got %lld", SPLINE_MAX_SAMPLES, samples);
-    if (limited && samples > LIMITED_MAX_SAMPLES)
+    if (limited > 0 && samples > LIMITED_MAX_SAMPLES)
         return fail(error, ERROR_INPUT, "at most %d samples where a spline has a low or high limit, got %lld",
                     LIMITED_MAX_SAMPLES, samples);
+    if (limited * samples > SCENE_MAX_LIMITED)
+        return fail(error, ERROR_INPUT,
+                    "at most %d samples over all splines with a low or high limit, got %d times %lld",
+                    SCENE_MAX_LIMITED, limited, samples);
     return fail(error, ERROR_INPUT, "at most %d samples over all splines, got %d times %lld", SCENE_MAX_SAMPLES,
                 splines, samples);
 }
 
+bool document_check_joints(const struct document *document, struct error *error)
+{
+    int sum = 0;
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        if (rig->kind == RIG_TAIL) sum += rig->tail.joints * (1 + rig->tail.channel_count);
+    }
+    return sum <= SCENE_MAX_JOINTS ||
+           fail(error, ERROR_INPUT, "at most %d joints over all tails, counted once and for each channel, got %d",
+                SCENE_MAX_JOINTS, sum);
+}
+
 int document_longest(const struct document *document)
 {
-    return (most_samples(document->spline_count, document_is_limited(document)) - 1) / document->substeps;
+    return (most_samples(document->spline_count, document_count_limited(document)) - 1) / document->substeps;
 }
 
 bool document_has_motions(const struct document *document)
@@ -275,12 +292,11 @@ bool document_loops(const struct document *document)
     return false;
 }
 
-bool document_is_limited(const struct document *document)
+int document_count_limited(const struct document *document)
 {
-    for (int i = 0; i < document->spline_count; i++) {
-        if (spline_is_limited(document->splines[i])) return true;
-    }
-    return false;
+    int count = 0;
+    for (int i = 0; i < document->spline_count; i++) count += spline_is_limited(document->splines[i]);
+    return count;
 }
 
 double document_step(const struct document *document) { return 1 / (document->fps * document->substeps); }

@@ -19,6 +19,7 @@ enum {
     SPLINE_MAX_SAMPLES = 100000, ///< per spline
     LIMITED_MAX_SAMPLES = 20000, ///< per spline, if one has a low or high limit
     SCENE_MAX_SAMPLES = 1000000, ///< over all splines together
+    SCENE_MAX_LIMITED = 200000,  ///< over those with a low or high limit
     SCENE_MAX_KNOTS = 100000,    ///< over all splines together
     SCENE_MAX_FPS = 100000,
     SCENE_MAX_FRAME = 1000000000, ///< limit of first and last, either sign
@@ -132,8 +133,11 @@ void document_remove_rig(struct document *document, int at);
 /// Number of samples N of every spline.
 int document_samples(const struct document *document);
 
-/// Whether `splines` splines may have `samples` samples each; `limited`: one of them has a low or high limit.
-bool document_check_samples(int splines, long long samples, bool limited, struct error *error);
+/// Whether `splines` splines may have `samples` samples each; `limited` of them have a low or high limit.
+bool document_check_samples(int splines, int limited, long long samples, struct error *error);
+
+/// Whether its tails have no more joints than a frame can pose.
+bool document_check_joints(const struct document *document, struct error *error);
 
 /// The largest number of frames that the document's splines allow.
 int document_longest(const struct document *document);
@@ -144,8 +148,8 @@ bool document_has_motions(const struct document *document);
 /// Whether a spline of the document loops; new splines then loop too.
 bool document_loops(const struct document *document);
 
-/// Whether a spline of the document has a low or high limit.
-bool document_is_limited(const struct document *document);
+/// How many splines of the document have a low or high limit.
+int document_count_limited(const struct document *document);
 
 /// Seconds between samples.
 double document_step(const struct document *document);

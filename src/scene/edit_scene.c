@@ -61,7 +61,7 @@ static bool check_timing(const struct document *document, const struct timing *t
     if (timing->first < -SCENE_MAX_FRAME || timing->last > SCENE_MAX_FRAME) {
         return fail(error, ERROR_INPUT, "frames must be from -%d to %d", SCENE_MAX_FRAME, SCENE_MAX_FRAME);
     }
-    return document_check_samples(document->spline_count, samples, document_is_limited(document), error);
+    return document_check_samples(document->spline_count, document_count_limited(document), samples, error);
 }
 
 static void set_timing(struct document *document, const struct timing *timing)
@@ -220,7 +220,7 @@ static bool suits_pins(const struct document *document, struct error *error)
 
 bool edit_end(struct document *document, struct document *before, bool good, struct error *error)
 {
-    good = good && suits_pins(document, error);
+    good = good && document_check_joints(document, error) && suits_pins(document, error);
     if (good) {
         document_destroy(before);
     } else {

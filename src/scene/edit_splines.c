@@ -14,10 +14,10 @@
 /// Whether another spline fits.
 static bool fits(const struct document *document, const struct spline *added, struct error *error)
 {
-    const bool limited = spline_is_limited(added) || document_is_limited(document);
+    const int limited = spline_is_limited(added) + document_count_limited(document);
     long long total = added->knot_count;
     for (int i = 0; i < document->spline_count; i++) total += document->splines[i]->knot_count;
-    if (!document_check_samples(document->spline_count + 1, document_samples(document), limited, error)) return false;
+    if (!document_check_samples(document->spline_count + 1, limited, document_samples(document), error)) return false;
     return total <= SCENE_MAX_KNOTS ||
            fail(error, ERROR_INPUT, "the limit is %d knots over all splines", SCENE_MAX_KNOTS);
 }
@@ -227,7 +227,8 @@ static bool check_limit(const struct document *document, const struct spline *sp
     const double other = spline->parameter[is_high ? PARAMETER_LOW : PARAMETER_HIGH].value;
     if (value == row->standard) return true;
     if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: a limit must be finite", spline->name);
-    if (!document_check_samples(1, document_samples(document), true, error)) return false;
+    const int limited = document_count_limited(document) + !spline_is_limited(spline);
+    if (!document_check_samples(document->spline_count, limited, document_samples(document), error)) return false;
     if (is_high ? value <= other : value >= other)
         return fail(error, ERROR_INPUT, "%s: the low limit must be below the high one", spline->name);
     for (int k = 0; k < spline->knot_count; k++) {

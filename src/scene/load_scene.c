@@ -110,7 +110,7 @@ static void load_domain(struct reader *reader, const struct value *scene)
     long long samples = ((long long)frames[1] - frames[0]) * document->substeps + 1;
     size_t splines = json_array_size(json_object_get(scene->json, "splines"));
     struct error error;
-    if (!document_check_samples(splines < INT_MAX ? (int)splines : INT_MAX, samples, false, &error)) {
+    if (!document_check_samples(splines < INT_MAX ? (int)splines : INT_MAX, 0, samples, &error)) {
         reader_fail(reader, &range.at, "expected %s", error.text);
         return;
     }
@@ -210,7 +210,10 @@ static void check_pins(struct reader *reader, const struct where *scene_at)
 static void validate_scene(struct reader *reader, const struct where *scene_at)
 {
     struct where splines_at = {.parent = scene_at, .key = "splines"};
+    const struct where rigs_at = {.parent = scene_at, .key = "rigs"};
+    struct error error;
     check_cycles(reader, &splines_at);
+    if (!document_check_joints(reader->document, &error)) reader_fail(reader, &rigs_at, "expected %s", error.text);
     check_aliasing(reader, &splines_at);
     if (reader->has_domain) check_idle(reader, &splines_at);
     if (reader->has_domain && reader->errors == 0) check_pins(reader, scene_at);

@@ -216,7 +216,7 @@ static void check_length(struct reader *reader, const struct where *spline_at, c
     struct where at = {.parent = spline_at, .key = parameter_key(PARAMETER_LOW)};
     struct error error;
     if (!reader->has_domain || !spline_is_limited(spline)) return;
-    if (!document_check_samples(1, document_samples(reader->document), true, &error))
+    if (!document_check_samples(1, ++reader->limited_count, document_samples(reader->document), &error))
         reader_fail(reader, &at, "expected %s", error.text);
 }
 

@@ -78,6 +78,7 @@ struct reader {
     json_t *meadows;            ///< of an old file; NULL: none
     bool has_domain;            ///< frames, fps and substeps are valid
     size_t knot_count;          ///< over all splines
+    int limited_count;          ///< splines with a low or high limit
     struct name_index *names;   ///< sorted; one a spline
     int name_count;
     const char *warned[READER_MAX_WARNED]; ///< unknown keys that were warned about: once each

@@ -92,7 +92,10 @@ struct channel {
 
 // --- kinds of rig
 
-enum { TAIL_MAX_JOINTS = ANGLES_MAX_JOINTS };
+enum {
+    TAIL_MAX_JOINTS = ANGLES_MAX_JOINTS,
+    SCENE_MAX_JOINTS = 200000, ///< over all tails, counted once and for each channel
+};
 
 /// A tail (paper, section 7.1): joints that splines bend, each later than the one before.
 struct tail {
@@ -153,7 +156,11 @@ struct chain {
     bool mirror;     ///< side and twist change sign
 };
 
-enum { SCENE_MAX_PINS = 1024 }; ///< over all rigs together
+enum {
+    SCENE_MAX_PINS = 1024,      ///< over all rigs together
+    SCENE_MAX_PINNED = 1 << 20, ///< samples, counted for each pin and each spline that it moves
+    FLOOR_PINS = 50,            ///< as which a floor counts there
+};
 
 /// A place for a point of a rig at a frame. All splines that drive the rig are solved through it.
 struct pin {
