@@ -185,6 +185,42 @@ STAND_TEST(test_what_cannot_be_a_chain)
     assert_int_equal(stand->opened.document->rig_count, 1);
 }
 
+/// Bones that lie at one place make no chain, at any scale; short ones of a small character do. A single bone without a child bends sensibly.
+TEST(test_bones_at_one_place)
+{
+    static const struct {
+        double height, step;
+        bool is_chain;
+    } cases[] = {{1, 0, false},  {1, 1e-6, false},   {1, 3e-4, false},  {1, 0.01, true},
+                 {100, 1, true}, {100, 0.03, false}, {1e-3, 1e-5, true}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        const float height = (float)cases[i].height,
+                    position[3][3] = {{0, 0, 0}, {0, height, 0}, {0, 0, 0.1f * height}};
+        struct builder b = {0};
+        char parts[600];
+        struct opened opened;
+        struct error refusal = {0};
+        int rig;
+        add_data(&b, FLOAT, "VEC3", 3, position, sizeof position);
+        snprintf(parts, sizeof parts,
+                 "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"nodes\":[{\"mesh\":0},"
+                 "{\"name\":\"a\",\"children\":[2]},{\"name\":\"b\",\"translation\":[0,%g,0],\"children\":[3]},"
+                 "{\"name\":\"c\",\"translation\":[0,0,%g]}],\"scenes\":[{\"nodes\":[0,1]}]",
+                 cases[i].step, cases[i].step);
+        const char *text = builder_json(&b, parts);
+        assert_done(opened_read(&opened, temporary_file("place.gltf", text, strlen(text)), &error));
+        const struct chain_wish wish = {.from = "a", .to = "c", .follows = true};
+        const bool made = chain_make(opened.document, opened.models, &wish, &rig, &refusal);
+        assert_int_equal(made, cases[i].is_chain);
+        if (!made) assert_non_null(strstr(refusal.text, "the bones \"a\" to \"c\" lie at one place"));
+        const struct chain_wish leaf = {.from = "c", .to = "c", .follows = true};
+        const double tall = cases[i].height * opened.document->rigs[0]->model.scale;
+        assert_done(chain_make(opened.document, opened.models, &leaf, &rig, &error));
+        assert_true(opened.document->rigs[rig]->chain.channels[0].gain.value[0] * tall < 3000); // degrees
+        opened_free(&opened);
+    }
+}
+
 TEST(test_sides_of_names)
 {
     static const char *const pairs[][2] = {{"ear_1_L", "ear_1_R"},     {"mixamorig:LeftHand", "mixamorig:RightHand"},

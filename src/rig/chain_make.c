@@ -16,6 +16,8 @@ static const double SLOWEST = 0.8, FASTEST = 3.5, USUAL_DAMPING = 0.12;
 static const double WHOLE_LAG = 110;  ///< degrees from the first bone to the tip
 static const double WHOLE_BEND = 110; ///< degrees for 1 of a spline whose knots set it
 static const double DEGREES = 57.29577951308232;
+static const double SHORTEST = 1e-3; ///< of the character's size; less cannot be bent
+static const double LEAF = 0.03;     ///< of that size: length of a bone without a child, at least
 
 /// A chain's name: its first bone's without the number at the end, made unique. The caller frees it.
 static char *name_chain(const struct document *document, const char *bone)
@@ -32,6 +34,14 @@ static char *name_chain(const struct document *document, const char *bone)
     return name;
 }
 
+/// The diagonal of the character's box, metres.
+static double size_of(const struct imported *imported, double scale)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) square += pow((double)imported->gltf.hi[k] - (double)imported->gltf.lo[k], 2);
+    return scale * sqrt(square);
+}
+
 /// Length along the bones at rest, metres.
 static double length_of(const struct imported *imported, const struct chain_bones *bones, double scale)
 {
@@ -42,13 +52,15 @@ static double length_of(const struct imported *imported, const struct chain_bone
         const float *a = point[n - 1], *b = point[n];
         sum += maths_hypot(maths_hypot((double)(b[0] - a[0]), (double)(b[1] - a[1])), (double)(b[2] - a[2]));
     }
-    return fmax(scale * sum, 1e-3);
+    const bool is_leaf = bones->count == 1 && imported->gltf.nodes[bones->node[0]].child < 0; // its tip is a guess
+    return is_leaf ? fmax(scale * sum, LEAF * size_of(imported, scale)) : scale * sum;
 }
 
 double chain_bend_a_metre(const struct imported *imported, const struct chain_bones *bones, double scale)
 {
     // A bend of g at each of n bones moves the tip by g · length · (n + 1) / 2.
-    return DEGREES * 2 / (length_of(imported, bones, scale) * (bones->count + 1));
+    const double length = fmax(length_of(imported, bones, scale), fmax(SHORTEST * size_of(imported, scale), 1e-6));
+    return DEGREES * 2 / (length * (bones->count + 1));
 }
 
 /// Properties shared by all splines of a new chain.
@@ -144,10 +156,14 @@ bool chain_make(struct document *document, const struct models *models, const st
     if (from >= 0 && !wish->to && last < 0) return false;
     const char *to = wish->to ? wish->to : last < 0 ? wish->from : gltf->nodes[last].name;
     if (!chain_find(gltf, wish->from, to, &bones, error)) return false;
-    char *name = name_chain(document, wish->from);
     const int clip = gltf_find_clip(gltf, model->model.clip);
     const double length = length_of(imported, &bones, model->model.scale);
+    if (!(length > SHORTEST * size_of(imported, model->model.scale)))
+        return fail(error, ERROR_INPUT,
+                    "%s: the bones \"%s\" to \"%s\" lie at one place, so there is nothing to bend: choose others",
+                    model->model.model, wish->from, to);
     const double frequency = fmin(fmax(USUAL_FREQUENCY * sqrt(USUAL_LENGTH / length), SLOWEST), FASTEST);
+    char *name = name_chain(document, wish->from);
     const struct plan plan = {.document = document,
                               .wish = wish,
                               .model = model->name ? model->name : model->model.model,
