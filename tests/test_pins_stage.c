@@ -154,6 +154,35 @@ SESSION_TEST(test_a_marker_is_dragged_on_the_stage_and_on_the_ruler, open_tail(s
     assert_near(pin_of(s, 0)->frame, 40, 0);
 }
 
+/// Of two marks close together on the ruler the nearer one is under the pointer, unless the other is selected and in reach.
+SESSION_TEST(test_the_selected_mark_is_taken_first, open_tail(s))
+{
+    float marks[2][2];
+    pin_the_tip(s);
+    session_key(s, KEY_ESCAPE, 0);
+    session_key(s, KEY_RIGHT, 0);
+    session_key(s, 'H', 0);
+    session_key(s, KEY_ESCAPE, 0);
+    assert_int_equal(pins_of(s), 2);
+    s->editor->curves->view.frame0 -= 400; // frames are so narrow that both marks are in reach
+    s->editor->curves->view.frame1 += 400;
+    session_frame(s);
+    for (int m = 0; m < 2; m++) session_where(s, m ? "pintime(tail,1)" : "pintime(tail,0)", marks[m]);
+    assert_true(marks[1][0] - marks[0][0] > 1 && marks[1][0] - marks[0][0] < 5);
+    for (int chosen = -1; chosen < 2; chosen++) {
+        for (int m = 0; m < 2; m++) {
+            s->editor->core.pin = (struct pin_selection){.any = chosen >= 0, .id = pin_of(s, chosen > 0)->id};
+            session_move(s, marks[m][0], marks[m][1]);
+            session_frame(s);
+            assert_int_equal(s->editor->core.hover.kind, HOVER_PIN);
+            assert_int_equal(s->editor->core.hover.pin, pin_of(s, chosen >= 0 ? chosen : m)->id);
+        }
+    }
+    session_move(s, marks[1][0] + 20, marks[1][1]);
+    session_frame(s);
+    assert_int_not_equal(s->editor->core.hover.kind, HOVER_PIN);
+}
+
 /// A pin that throws a rig far makes its curves high: they come into sight.
 SESSION_TEST(test_the_curves_follow_a_pin, panel_open_models(s, creature))
 {

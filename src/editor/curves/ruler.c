@@ -235,7 +235,7 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
         float xy[2];
         place(curves, core, pin, xy);
         float distance = fabsf(x - xy[0]);
-        if (distance < REACH && core->pin.any && core->pin.id == pin->id) distance = 0;
+        if (distance < REACH && core->pin.any && core->pin.id == pin->id) distance = -1;
         if (distance >= best) continue;
         best = distance;
         hover = (struct hover){.kind = HOVER_PIN, .rig = at.rig, .joint = pin->point, .pin = pin->id};
