@@ -39,10 +39,13 @@ holds "and prints no -0" not grep -E -- '-0(\.0+)?[ ,)]' <<<"$out"
 says "the file has the targets" '"targetNames":["up.re","up.im","up-2.re","up-2.im","side.re","side.im","side-2.re","side-2.im"]' \
     "$(tr -d '\0' <"$scratch/out/box.glb")"
 says "the scene finds the file from where it is" '"model": "out/box.glb"' "$(cat "$scratch/box.json")"
+says "the scene is as long as the motion" '"frames": [0, 59]' "$(cat "$scratch/box.json")"
 expect 0 "the scene is one" "$WIGGLY" check "$scratch/box.json"
 holds "without a complaint" [ -z "$out$err" ]
 first=$(cksum <"$scratch/out/box.glb")
-analyze 0 "one motion twice" "$scratch/up.npy" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 30 -o "$scratch/out/box.glb"
+analyze 0 "one motion twice" "$scratch/up.npy" "$scratch/up.npy" --rest "$scratch/box.obj" --fps 20.6 -o "$scratch/out/box.glb" \
+    --scene "$scratch/slow.json"
+says "the scene has as many frames at any rate" '"frames": [0, 59]' "$(cat "$scratch/slow.json")"
 says "gives names of their own" "  up-2: explains " "$out"
 analyze 0 "the first again" "$scratch/up.npy" "$scratch/side.pc2" --rest "$scratch/up.rest.obj" --fps 30 --modes 2 \
     --method cpca --shake up:side -o "$scratch/out/box.glb" --scene "$scratch/box.json"

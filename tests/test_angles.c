@@ -77,6 +77,9 @@ WORLD_TEST(forms_are_edited_and_undone, world_open(world))
     const struct angles *const turns[] = {&ramp, &longer, &each, &ramp, &one, &each};
     for (size_t i = 0; i < sizeof turns / sizeof *turns; i++) assert_reversible(world, edit_lag(world, turns[i]));
     struct angles wrong = ramp;
+    wrong.ramp[0].at = 0; // the first place has none before it
+    assert_reversible(world, edit_lag(world, &wrong));
+    wrong = ramp;
     wrong.ramp[1].at = 0.25;
     assert_refused(world, edit_lag(world, &wrong), "t: the places of a ramp must ascend");
     wrong.ramp[1].at = 2;

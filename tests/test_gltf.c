@@ -151,6 +151,22 @@ GLTF_TEST(triangles_that_repeat_a_vertex_are_left_out)
     assert_refusal(surface_read(path, &surface, &error), "got none");
 }
 
+/// A surface has the meshes of all nodes, whatever nodes without one stand between them.
+GLTF_TEST(a_surface_has_the_meshes_of_all_nodes)
+{
+    const float corners[3][3] = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    add_data(b, FLOAT, "VEC3", 3, corners, sizeof corners);
+    const char *text = builder_json(
+        b, "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"nodes\":[{},{\"mesh\":0},"
+           "{\"children\":[3]},{\"mesh\":0,\"translation\":[0,0,5]},{}],\"scenes\":[{\"nodes\":[0,1,2,4]}]");
+    struct surface surface;
+    assert_done(surface_read(temporary_file("nodes.gltf", text, strlen(text)), &surface, &error));
+    assert_int_equal(surface.vertex_count, 6);
+    assert_int_equal(surface.index_count, 6);
+    assert_near(surface.position[5][2], 5, 0);
+    surface_free(&surface);
+}
+
 /// Without normals a part keeps the vertices of its file, and is drawn flat (test_model_draw.c). A part without the mesh's targets stays as it is.
 GLTF_TEST(parts_without_normals_or_targets)
 {

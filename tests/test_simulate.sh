@@ -114,7 +114,7 @@ sed 's/^v 0 0 0$/v 0 0 0 1e30 0 0/' "$scratch/box.obj" >"$scratch/bright.obj"
 write_map() { # <name> <shape> <bytes>
     printf "\223NUMPY\1\0\166\0%-117s\n$3" "{'descr': '<f4', 'fortran_order': False, 'shape': $2, }" >"$scratch/$1.npy"
 }
-half='\0\0\0\77' nan='\0\0\300\177' two='\0\0\0\100'
+half='\0\0\0\77' nan='\0\0\300\177' two='\0\0\0\100' minus='\0\0\0\277'
 six=$half$half$half$half$half$half
 write_map map "(8,)" "$six$half$half"
 write_map short "(8,)" "$six"
@@ -122,6 +122,7 @@ write_map long "(9,)" "$six$half$half$half"
 write_map huge "(8, 4611686018427387904)" "$six$half$half"
 write_map wild "(8,)" "$six$half$nan"
 write_map above "(8, 1)" "$two$six$half"
+write_map below "(8,)" "$six$half$minus"
 printf '\223NUMPY\1\0\377\377{ and no more' >"$scratch/endless.npy"
 printf '\223NUMPY\1\0\166\0{ and no more' >"$scratch/header.npy"
 printf 'no' >"$scratch/tiny.npy"
@@ -139,6 +140,7 @@ refused 1 "long.npy: expected an array of 8 numbers, one a vertex" "$scratch/box
 refused 1 "huge.npy: expected" "$scratch/box.obj" --soft "$scratch/huge.npy" "${o[@]}"
 refused 1 "wild.npy: vertex 7: expected a number from 0 to 1, got nan" "$scratch/box.obj" --soft "$scratch/wild.npy" "${o[@]}"
 refused 1 "above.npy: vertex 0: expected a number from 0 to 1, got 2" "$scratch/box.obj" --soft "$scratch/above.npy" "${o[@]}"
+refused 1 "below.npy: vertex 7: expected a number from 0 to 1, got -0.5" "$scratch/box.obj" --soft "$scratch/below.npy" "${o[@]}"
 refused 1 "endless.npy: expected the header of an .npy array" "$scratch/box.obj" --soft "$scratch/endless.npy" "${o[@]}"
 refused 1 "header.npy: expected a header of 128 bytes, got 23" "$scratch/box.obj" --soft "$scratch/header.npy" "${o[@]}"
 refused 1 "tiny.npy: expected a .npy file" "$scratch/box.obj" --soft "$scratch/tiny.npy" "${o[@]}"
