@@ -211,6 +211,8 @@ static cplx before_of(const coefficients *at)
     return (cplx){1 + at->m.re + at->p.re + at->b_rest.re, at->m.im + at->p.im + at->b_rest.im};
 }
 
+static bool is_zero(cplx z) { return z.re == 0 && z.im == 0; }
+
 /// The jets at x in plain double; far from known values and drives they are 0.
 static void pull_plainly(const system_rows *rows)
 {
@@ -219,8 +221,7 @@ static void pull_plainly(const system_rows *rows)
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
         const coefficients *at = &rows->at[i];
         before = here, here = after, after = sample_of(rows, i + 1);
-        if (before.re == 0 && here.re == 0 && after.re == 0 && rows->drive[i].re == 0 && rows->drive[i].im == 0)
-            continue;
+        if (is_zero(before) && is_zero(here) && is_zero(after) && is_zero(rows->drive[i])) continue;
         const bool is_tail = !rows->loop && i == last, is_still = rows->fixed[i] & FIXED_STILL;
         const cplx step = cplx_sub(here, before), ahead = cplx_sub(after, here);
         const cplx next = is_still ? (cplx){0, 0} : is_tail ? cplx_mul(rows->tail, here) : ahead;
