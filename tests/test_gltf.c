@@ -322,6 +322,42 @@ TEST(containers)
     for (int i = 0; i < 2; i++) gltf_free(&gltf[i]);
 }
 
+/// A matrix is a move, a turn and a scale, which clips can change; one that is sheared or flat stays a matrix, and the character says that it
+/// does not move.
+GLTF_TEST(matrices_are_split)
+{
+    static const float times[2] = {0, 1}, places[2][3] = {{0, 0, 0}, {4, 5, 6}};
+    const int input = add_data(b, FLOAT, "SCALAR", 2, times, sizeof times);
+    const int output = add_data(b, FLOAT, "VEC3", 2, places, sizeof places);
+    char members[2048], *end = members;
+    end += sprintf(end,
+                   "\"nodes\":[{\"matrix\":[0,3,0,0,-2,0,0,0,0,0,1,0,5,0,7,1]},"
+                   "{\"matrix\":[-1,0,0,0,0,1,0,0,0,0,4,0,-1,2,0,1]},"
+                   "{\"matrix\":[1,0,0,0,1,1,0,0,0,0,1,0,4,5,6,1]},"
+                   "{\"matrix\":[1,0,0,0,0,0,0,0,0,0,1,0,1,2,3,1]}],\"animations\":[{\"samplers\":[{\"input\":%d,"
+                   "\"output\":%d}],\"channels\":[",
+                   input, output);
+    for (int n = 0; n < 4; n++)
+        end += sprintf(end, "%s{\"sampler\":0,\"target\":{\"node\":%d,\"path\":\"translation\"}}", n ? "," : "", n);
+    strcpy(end, "]}]");
+    read_built(b, members);
+    struct gltf_pose pose;
+    assert_true(gltf_pose_create(&b->gltf, &pose));
+    for (int n = 0; n < 4; n++) assert_int_equal(b->gltf.nodes[n].has_matrix, n > 1);
+    static const double corner[2][3] = {{3, 3, 8}, {-2, 3, 4}}, moved[3] = {4, 5, 6};
+    for (int n = 0; n < 2; n++) { // where (1, 1, 1) comes
+        const float *m = pose.world[n];
+        for (int k = 0; k < 3; k++) assert_near(m[k] + m[4 + k] + m[8 + k] + m[12 + k], corner[n][k], 1e-6);
+    }
+    gltf_pose_clip(&b->gltf, 0, 1, &pose);
+    gltf_pose_world(&b->gltf, &pose);
+    for (int n = 0; n < 3; n++) { // the sheared one is there anyway
+        for (int k = 0; k < 3; k++) assert_near(pose.world[n][12 + k], moved[k], 1e-6);
+    }
+    assert_string_equal(b->gltf.not_shown, "clips of nodes with sheared matrices");
+    gltf_pose_free(&pose);
+}
+
 /// Children may come before parents; what the scene leaves out has no mesh.
 GLTF_TEST(nodes_and_scenes)
 {
@@ -338,7 +374,7 @@ GLTF_TEST(nodes_and_scenes)
     assert_int_equal(gltf_find_node(&b->gltf, "leaf"), 0);
     assert_int_equal(gltf_find_node(&b->gltf, "tree"), -1);
     assert_int_equal(b->gltf.nodes[0].parent, 1);
-    assert_true(b->gltf.nodes[1].has_matrix);
+    assert_false(b->gltf.nodes[1].has_matrix); // it is a move and a turn
     assert_int_equal(b->gltf.nodes[3].mesh, -1);
     assert_string_equal(b->gltf.not_shown, "cameras, other scenes");
     assert_true(gltf_pose_create(&b->gltf, &pose));

@@ -26,7 +26,8 @@ struct gltf_node {
     int child,
         next; ///< the first node below it, and the next one below its parent, by number; −1: none, and next to a root
     struct gltf_place place; ///< at rest
-    float matrix[16];        ///< replaces `place` if `has_matrix`; clips and chains do not move such a node
+    float matrix
+        [16]; ///< replaces `place` if `has_matrix`: it is sheared or flat; clips and chains do not move the node
     bool has_matrix;
     int mesh, skin;   ///< −1: none
     int first_weight; ///< of its mesh's morph targets, in gltf_pose.weights

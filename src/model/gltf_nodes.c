@@ -5,6 +5,31 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const float SHEARED = 1e-4f; ///< cosine between columns of a matrix that is no move, turn and scale
+
+/// Splits a matrix into a move, a turn and a scale, as other programs do, so that clips and chains can move the node. A sheared or flat matrix
+/// stays one.
+static void decompose(struct gltf_node *node)
+{
+    mat3s turn = glms_mat4_pick3(mat4_from(node->matrix));
+    struct gltf_place place;
+    for (int k = 0; k < 3; k++) {
+        place.translation[k] = node->matrix[12 + k];
+        place.scale[k] = glms_vec3_norm(turn.col[k]);
+        if (node->matrix[4 * k + 3] != 0 || !(place.scale[k] > 0) || !isfinite(place.scale[k])) return;
+    }
+    if (node->matrix[15] != 1) return;
+    if (glms_mat3_det(turn) < 0) place.scale[0] = -place.scale[0];
+    for (int k = 0; k < 3; k++) turn.col[k] = glms_vec3_divs(turn.col[k], place.scale[k]);
+    for (int k = 0; k < 3; k++) {
+        if (!(fabsf(glms_vec3_dot(turn.col[k], turn.col[(k + 1) % 3])) < SHEARED)) return;
+    }
+    const versors q = glms_quat_normalize(glms_mat3_quat(turn));
+    memcpy(place.rotation, q.raw, sizeof place.rotation);
+    node->place = place;
+    node->has_matrix = false;
+}
+
 static bool read_place(struct gltf_reader *r, const json_t *json, struct gltf_node *node)
 {
     node->place = (struct gltf_place){.rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}};
@@ -17,6 +42,7 @@ static bool read_place(struct gltf_reader *r, const json_t *json, struct gltf_no
     float *q = node->place.rotation, length = sqrtf(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
     if (!(length > 0) || !isfinite(length)) return gltf_bad(r, ".rotation: expected a unit quaternion, got another");
     for (int k = 0; k < 4; k++) q[k] /= length;
+    if (node->has_matrix) decompose(node);
     return true;
 }
 
@@ -318,7 +344,10 @@ static bool read_channel(struct gltf_reader *r, const json_t *json, const json_t
     int sampler;
     if (!gltf_index(r, target, "node", r->gltf->node_count, &channel.node)) return false;
     if (channel.node < 0) return true;
-    if (!find_target(r->gltf, json_string_value(json_object_get(target, "path")), &channel)) return true;
+    if (!find_target(r->gltf, json_string_value(json_object_get(target, "path")), &channel)) {
+        const bool stays = r->gltf->nodes[channel.node].has_matrix && channel.components > 0;
+        return !stays || gltf_not_shown(r, "clips of nodes with sheared matrices");
+    }
     if (!gltf_index(r, json, "sampler", (int)json_array_size(samplers), &sampler)) return false;
     if (sampler < 0) return gltf_bad(r, ".sampler: expected a sampler, got none");
     gltf_at(r, "animations[%zu].samplers[%d]", clip, sampler);

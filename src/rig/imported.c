@@ -205,8 +205,9 @@ bool chain_find(const struct gltf *gltf, const char *from, const char *to, struc
     for (int i = bones->count - 1, n = last; i >= 0; i--, n = gltf->nodes[n].parent) {
         bones->node[i] = n;
         if (!gltf->nodes[n].has_matrix) continue;
-        return fail(error, ERROR_INPUT, "%s: expected a bone that can turn, got \"%s\", which has a matrix",
-                    gltf->path, gltf->nodes[n].name);
+        return fail(error, ERROR_INPUT,
+                    "%s: expected a bone that can turn, got \"%s\", which a matrix shears or flattens", gltf->path,
+                    gltf->nodes[n].name);
     }
     return true;
 }
