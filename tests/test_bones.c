@@ -223,6 +223,13 @@ SESSION_TEST(test_the_inspector_chooses_the_clip, open_beast(s, ""))
     panel_click(s, "model.clips.0");
     panel_click(s, "item.Nod");
     assert_string_equal(s->document->rigs[0]->model.clip, "Nod");
+    panel_click(s, "model.loops");
+    assert_int_equal(s->document->rigs[0]->model.repeat, REPEAT_ONCE);
+    assert_non_null(strstr(session_saved(s), "\"repeat\": \"once\""));
+    panel_click(s, "model.loops");
+    assert_int_equal(s->document->rigs[0]->model.repeat, REPEAT_LOOP);
+    session_key(s, 'Z', MOD_CTRL);
+    session_key(s, 'Z', MOD_CTRL);
     assert_one_step(s, before);
     panel_click(s, "model.clips.0");
     panel_click(s, "item.none");

@@ -81,15 +81,15 @@ STAND_TEST(test_a_chosen_clip_gives_the_scene_its_length)
 {
     const struct knot knot = {.frame = 20, .value = 1, .stiffness = 1};
     const struct gltf *gltf = &models_imported(stand->opened.models, stand->opened.document, 0)->gltf;
-    assert_done(import_choose_clip(stand->opened.document, 0, gltf, "Trot", &error));
+    assert_done(import_choose_clip(stand->opened.document, 0, gltf, "Trot", REPEAT_BY_CLIP, &error));
     assert_string_equal(stand->opened.document->rigs[0]->model.clip, "Trot");
     assert_int_equal(stand->opened.document->last_frame, 14);
     make(stand, "tail_1", true);
     assert_int_equal(spline_start(stand->opened.document->splines[0]), WIGGLY_LOOP);
-    assert_done(import_choose_clip(stand->opened.document, 0, gltf, "Idle", &error));
+    assert_done(import_choose_clip(stand->opened.document, 0, gltf, "Idle", REPEAT_BY_CLIP, &error));
     assert_int_equal(stand->opened.document->last_frame, 120); // chains go with the clip
     assert_done(edit_knot_insert(stand->opened.document, 0, &knot, &error));
-    assert_done(import_choose_clip(stand->opened.document, 0, gltf, "Trot", &error));
+    assert_done(import_choose_clip(stand->opened.document, 0, gltf, "Trot", REPEAT_BY_CLIP, &error));
     assert_int_equal(stand->opened.document->last_frame, 120); // knots keep their frames
 }
 

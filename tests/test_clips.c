@@ -169,12 +169,149 @@ TEST(a_clip_before_its_first_key)
     } cases[] = {{0, 25, true, 1},  {0, 25, false, 1},   {0, 24, false, 1},
                  {0, 24, true, 24}, {-24, 24, true, 24}, {1, 25, true, 1}};
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
-        const struct gltf_clip clip = {.first = 1 / 24.0, .last = 25 / 24.0, .loops = cases[c].loops};
+        const struct clip_play play = {.first = 1 / 24.0, .length = 1, .loops = cases[c].loops};
         struct document *document = document_create();
         document->fps = 24;
         document->first_frame = cases[c].first;
         document->last_frame = cases[c].last;
-        assert_near(24 * posing_clip_time(document, 0, &clip), cases[c].frame, 1e-5);
+        assert_near(24 * posing_clip_time(document, 0, &play), cases[c].frame, 1e-5);
         document_destroy(document);
     }
+}
+
+// --- what loops
+
+enum gait { CYCLE, WAVE, LEAP, DOOR };
+
+/// Hips, two legs and a tail in a clip of `keys` keys at 24 frames a second.
+struct gait_case {
+    const char *what;
+    enum gait gait;
+    int keys;
+    bool has_copy;      ///< the last key is a copy of the first
+    double travel, end; ///< metres; and the part of the motion by which it ends beside its start
+    bool loops;
+    int frames; ///< of the scene
+};
+
+static const struct gait_case gaits[] = {
+    {"a walk in place", CYCLE, 25, true, 0, 0, true, 24},
+    {"that was cleaned up by hand", CYCLE, 25, true, 0, 0.005, true, 24},
+    {"that was cut by hand", CYCLE, 25, true, 0, 0.05, true, 24},
+    {"a walk with root motion", CYCLE, 25, true, 1.4, 0, true, 24},
+    {"a run without a copy of the first key", CYCLE, 16, false, 0, 0, true, 16},
+    {"one of few keys", CYCLE, 8, false, 0, 0, true, 8},
+    {"a run without a copy, with root motion", CYCLE, 16, false, 3, 0, true, 16},
+    {"a cycle that was cut off", CYCLE, 20, true, 0, 0.2, false, 19},
+    {"a wave that ends near its start", WAVE, 25, true, 0, 0.05, false, 24},
+    {"a wave of few keys", WAVE, 9, true, 0, 0.1, false, 8},
+    {"a wave that comes back", WAVE, 25, true, 0, 0, true, 24},
+    {"a leap forward", LEAP, 25, true, 1.5, 0, false, 24},
+    {"a jump in place", LEAP, 25, true, 0, 0, true, 24},
+    {"a fall", WAVE, 25, true, 0, 1, false, 24},
+    {"a door that slides", DOOR, 2, true, 1, 0, false, 2},
+};
+
+/// Writes a clip's channel for a node; `at` gives its numbers at a key, from 0 to 1.
+static int add_gait(struct builder *b, const struct gait_case *of, int node, char **samplers, char **channels)
+{
+    enum { MOST = 32 };
+    float times[MOST], turns[MOST][4], places[MOST][3];
+    const int parts = of->has_copy ? of->keys - 1 : of->keys;
+    for (int k = 0; k < of->keys; k++) {
+        const double u = (double)k / parts, ease = u * u * (3 - 2 * u), pi = 3.14159265358979323846;
+        const double swing = of->gait == CYCLE ? sin(2 * pi * u + 2 * node) + 0.3 * sin(4 * pi * u + node)
+                                               : 2 * sin(pi * u) * sin(pi * u) * (1 + 0.2 * node);
+        const double turn = of->gait == DOOR ? 0 : 0.4 * swing + 0.8 * of->end * (of->gait == CYCLE ? u : ease);
+        times[k] = (float)(of->gait == DOOR ? k / 12.0 : k / 24.0);
+        memcpy(turns[k], (float[]){(float)sin(turn / 2), 0, 0, (float)cos(turn / 2)}, sizeof turns[k]);
+        const double way = of->gait == LEAP ? ease : u + (of->gait == CYCLE ? 0.02 * sin(4 * pi * u) : 0);
+        memcpy(places[k], (float[]){(float)(of->travel * way), (float)(1 + 0.05 * (of->gait == DOOR ? 0 : swing)), 0},
+               sizeof places[k]);
+    }
+    const size_t count = (size_t)of->keys;
+    const int input = add_data(b, FLOAT, "SCALAR", of->keys, times, count * sizeof *times);
+    for (int path = node == 0 ? 0 : 1; path < 2; path++) {
+        const int output = path ? add_data(b, FLOAT, "VEC4", of->keys, turns, count * sizeof *turns)
+                                : add_data(b, FLOAT, "VEC3", of->keys, places, count * sizeof *places);
+        const char *comma = node + path > 0 ? "," : "";
+        *samplers += sprintf(*samplers, "%s{\"input\":%d,\"output\":%d}", comma, input, output);
+        *channels += sprintf(*channels, "%s{\"sampler\":%d,\"target\":{\"node\":%d,\"path\":\"%s\"}}", comma,
+                             node + path, node, path ? "rotation" : "translation");
+    }
+    return input;
+}
+
+static const char *write_gait(const struct gait_case *of)
+{
+    static const float position[3][3] = {{0, 0, 0}, {0, 1, 0}, {0.1f, 0, 0}};
+    static struct builder b;
+    char samplers[1024], channels[1024], json[4096], *sampler = samplers, *channel = channels;
+    b = (struct builder){0};
+    add_data(&b, FLOAT, "VEC3", 3, position, sizeof position);
+    for (int node = 0; node < (of->gait == DOOR ? 1 : 4); node++) add_gait(&b, of, node, &sampler, &channel);
+    sprintf(
+        json,
+        "\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0}}]}],\"scenes\":[{\"nodes\":[0]}],\"nodes\":["
+        "{\"name\":\"hips\",\"mesh\":0,\"children\":[1,2,3]},{\"name\":\"left\"},{\"name\":\"right\"},"
+        "{\"name\":\"tail\",\"translation\":[0,0,-0.3],\"children\":[4]},{\"name\":\"tip\",\"translation\":[0,0,-0.3]"
+        "}],"
+        "\"animations\":[{\"name\":\"gait\",\"samplers\":[%s],\"channels\":[%s]}]",
+        samplers, channels);
+    const char *text = builder_json(&b, json);
+    return temporary_file("gait.gltf", text, strlen(text));
+}
+
+/// A clip loops if its pose ends as it begins, wherever the character is by then. Its scene is a whole round, and what follows it does not
+/// jump, nor lie back because of the travel.
+TEST(what_loops)
+{
+    for (size_t g = 0; g < sizeof gaits / sizeof *gaits; g++) {
+        const struct gait_case *of = &gaits[g];
+        struct opened opened;
+        int rig;
+        assert_done(opened_read(&opened, write_gait(of), &error));
+        struct document *document = opened.document;
+        const struct gltf_clip *clip = &models_imported(opened.models, document, 0)->gltf.clips[0];
+        if (clip->loops != of->loops) fail_msg("%s %s", of->what, clip->loops ? "loops" : "plays once");
+        assert_near(clip->last + (clip->loops ? clip->gap : 0), of->frames / 24.0, 1e-6);
+        assert_int_equal(document->last_frame - document->first_frame, of->frames);
+        const struct chain_wish wish = {.from = "tail", .follows = true};
+        assert_done(chain_make(document, opened.models, &wish, &rig, &error));
+        assert_int_equal(spline_start(document->splines[0]), of->loops ? WIGGLY_LOOP : WIGGLY_REST);
+        opened_solve(&opened, SOLVER_BY_LENGTH);
+        const int last = document_samples(document) - 1;
+        for (int s = 0; of->loops && s < document->spline_count; s++) {
+            const double *total = opened.evaluation.curves[s].total;
+            assert_near(total[0], total[last], 1e-9);
+            for (int i = 0; s == 0 && i <= last; i++) // across the tail there is nothing but travel
+                if (!(fabs(total[i]) < 0.1)) fail_msg("%s: spline %d at %d is %g", of->what, s, i, total[i]);
+        }
+        opened_free(&opened);
+    }
+}
+
+/// A clip that loops goes on from its last key to its first; one that plays once stays at its end.
+TEST(between_the_last_key_and_the_first)
+{
+    struct gltf gltf;
+    struct gltf_pose pose, end;
+    assert_done(gltf_read(write_gait(&gaits[6]), &gltf, &error));
+    assert_true(gltf_pose_create(&gltf, &pose) && gltf_pose_create(&gltf, &end));
+    const double last = gltf.clips[0].last, gap = gltf.clips[0].gap;
+    assert_near(gap, 1 / 24.0, 1e-6);
+    gltf_pose_loop(&gltf, 0, last + gap, &pose);
+    gltf_pose_clip(&gltf, 0, 0, &end);
+    for (int n = 0; n < 4; n++)
+        for (int k = 0; k < 4; k++) assert_near(pose.place[n].rotation[k], end.place[n].rotation[k], 1e-6);
+    assert_near(pose.place[0].translation[0], 3, 0.1); // a whole round on
+    gltf_pose_loop(&gltf, 0, last + gap / 2, &pose);
+    gltf_pose_clip(&gltf, 0, last, &end);
+    assert_true(pose.place[0].translation[0] > end.place[0].translation[0]);
+    assert_true(pose.place[1].rotation[0] != end.place[1].rotation[0]);
+    gltf_pose_clip(&gltf, 0, last + gap / 2, &pose);
+    assert_memory_equal(pose.place, end.place, 4 * sizeof *pose.place);
+    gltf_pose_free(&pose);
+    gltf_pose_free(&end);
+    gltf_free(&gltf);
 }

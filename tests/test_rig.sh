@@ -3,14 +3,14 @@
 dog=assets/models/dog.glb
 
 expect 0 "without -o it lists" "$WIGGLY" rig $dog
-says "the clips" "Walk (1 s)" "$out"
+says "the clips" "Walk (1 s, loops)" "$out"
 says "and the bones, each under its parent" "          tail_3" "$out"
 
 says "the ways that chains can go" "  tail_1:tail_8 (8 bones)" "$out"
 holds "under one heading" [ "$(grep -c "^chains you can use" <<<"$out")" = 1 ]
 expect 0 "check says what a character is" "$WIGGLY" check $dog
 says "and what it holds" "$dog: a glTF character of 19816 triangles and 43 joints" "$out"
-says "with its clips" "Trot (0.583 s)" "$out"
+says "with its clips" "Trot (0.583 s, loops)" "$out"
 says "and the ways that chains can go" "  ear_1_L:ear_4_L (4 bones)" "$out"
 head -c 5000 $dog >"$scratch/cut.glb"
 expect 1 "check of one that was cut off" "$WIGGLY" check "$scratch/cut.glb"
@@ -41,13 +41,20 @@ holds "two ears share a spline for each axis" [ "$(ears)" = 2 ]
 holds "or have their own" [ "$(ears --own-splines)" = 4 ]
 expect 0 "straight to an animated character" "$WIGGLY" rig $dog --chain tail_1 --clip Trot -o "$scratch/trot.glb"
 expect 0 "which opens" "$WIGGLY" rig "$scratch/trot.glb"
-says "with the clip at its own length" "Trot (0.583 s)" "$out"
+says "with the clip at its own length" "Trot (0.583 s, loops)" "$out"
 expect 0 "the same chains on all clips" "$WIGGLY" rig $dog --chain tail_1 --all-clips -o "$scratch/all.glb"
 says "says how many" "8 bones bent by chains in 3 clips, 161 keys" "$out"
 expect 0 "which are there" "$WIGGLY" rig "$scratch/all.glb"
-says "with their names and lengths" "  Walk (1 s)
-  Trot (0.583 s)
-  Idle (5 s)" "$out"
+says "with their names and lengths" "  Walk (1 s, loops)
+  Trot (0.583 s, loops)
+  Idle (5 s, loops)" "$out"
+expect 0 "a clip that is to play once" "$WIGGLY" rig $dog --chain tail_1 --once -o "$scratch/once.json"
+says "is said" "1 chain; clip Walk plays once" "$out"
+holds "and stays in the scene" grep -q '"repeat": "once"' "$scratch/once.json"
+holds "whose splines begin at rest" not grep -q '"start": "loop"' "$scratch/once.json"
+expect 0 "one that is to loop" "$WIGGLY" rig $dog --chain tail_1 --loop -o "$scratch/loop.glb"
+says "is said, too" "clip Walk loops" "$out"
+expect 2 "both" "$WIGGLY" rig $dog --chain tail_1 --loop --once -o "$scratch/no.json"
 expect 2 "all clips in a scene" "$WIGGLY" rig $dog --chain tail_1 --all-clips -o "$scratch/no.json"
 expect 2 "all clips and some frames" "$WIGGLY" export assets/scenes/dog.json --all-clips --frames 1:9 -o "$scratch/no.glb"
 expect 2 "all clips in a format of one" "$WIGGLY" rig $dog --chain tail_1 --all-clips -o "$scratch/no.usda"

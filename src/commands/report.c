@@ -118,7 +118,8 @@ void contents_print(const struct imported *imported)
     const struct gltf *gltf = &imported->gltf;
     printf("clips:%s\n", gltf->clip_count > 0 ? "" : " none");
     for (int c = 0; c < gltf->clip_count; c++)
-        print_line(stdout, "  %s (%.3g s)", gltf->clips[c].name, gltf->clips[c].last - gltf->clips[c].first);
+        print_line(stdout, "  %s (%.3g s, %s)", gltf->clips[c].name, gltf->clips[c].last - gltf->clips[c].first,
+                   gltf->clips[c].loops ? "loops" : "plays once");
     printf("bones and other nodes:\n");
     for (int n = 0; n < gltf->node_count; n++) {
         if (gltf->nodes[n].parent < 0) print_tree(gltf, n);

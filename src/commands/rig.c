@@ -18,7 +18,7 @@ struct job {
     const char *character, *output, *clip;
     struct option_list chains;
     struct chain_wish wish; ///< the settings of every chain
-    bool plain, all_clips;
+    bool plain, all_clips, loop, once;
 };
 
 /// Splits "A:B" or "A" in place. Names may contain colons, so the splitting colon is one between two existing bones.
@@ -53,8 +53,21 @@ static bool add_chains(const struct job *job, const struct gltf *gltf, struct op
 
 static bool edit(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)
 {
-    return (!job->clip || import_choose_clip(opened->document, 0, gltf, job->clip, error)) &&
+    const enum clip_repeat repeat = job->loop ? REPEAT_LOOP : job->once ? REPEAT_ONCE : REPEAT_BY_CLIP;
+    const char *clip = job->clip ? job->clip : opened->document->rigs[0]->model.clip;
+    return import_choose_clip(opened->document, 0, gltf, clip, repeat, error) &&
            add_chains(job, gltf, opened, error) && models_update(opened->models, opened->document, error);
+}
+
+/// The end of a line: "; clip ", "Walk", " loops"; empty without a clip.
+static void tell_clip(const struct opened *opened, const char *parts[3])
+{
+    const struct model_rig *model = &opened->document->rigs[0]->model;
+    const struct gltf *gltf = &models_imported(opened->models, opened->document, 0)->gltf;
+    const int clip = gltf_find_clip(gltf, model->clip);
+    parts[0] = clip < 0 ? "" : "; clip ";
+    parts[1] = clip < 0 ? "" : model->clip;
+    parts[2] = clip < 0 ? "" : clip_play(model, &gltf->clips[clip]).loops ? " loops" : " plays once";
 }
 
 static bool write_motion(const struct job *job, struct opened *opened, struct error *error)
@@ -65,15 +78,19 @@ static bool write_motion(const struct job *job, struct opened *opened, struct er
     const struct posing posing = opened_posing(opened);
     if (!export_write(&posing, job->output, &options, &report, error)) return false;
     if (*report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
-    print_line(stdout, "wrote %s: %s", job->output, report.text);
+    const char *clip[3];
+    tell_clip(opened, clip);
+    print_line(stdout, "wrote %s: %s%s%s%s", job->output, report.text, clip[0], clip[1], clip[2]);
     return true;
 }
 
 static bool write_scene(const struct job *job, struct opened *opened, struct error *error)
 {
     if (!scene_save(opened->document, job->output, error)) return false;
-    print_line(stdout, "wrote %s: %d chain%s; wiggly %s shows it", job->output, job->chains.count,
-               job->chains.count == 1 ? "" : "s", job->output);
+    const char *clip[3];
+    tell_clip(opened, clip);
+    print_line(stdout, "wrote %s: %d chain%s%s%s%s; wiggly %s shows it", job->output, job->chains.count,
+               job->chains.count == 1 ? "" : "s", clip[0], clip[1], clip[2], job->output);
     return true;
 }
 
@@ -107,6 +124,7 @@ static enum options_result check(const struct usage *usage, const struct job *jo
                              job->output);
     if (job->all_clips && (!job->output || path_has_end(job->output, ".json")))
         return options_wrong(usage, "--all-clips: expected a character to write (-o FILE.glb)");
+    if (job->loop && job->once) return options_wrong(usage, "expected one of --loop and --once, got both");
     return OPTIONS_RUN;
 }
 
@@ -119,6 +137,9 @@ int command_rig(int argc, char **argv)
         {"--output", "-o", "FILE", "scene to write (.json), or the character with its motion (.glb, …)",
          OPTION_OUTPUT, &job.output, 0, 0},
         {"--clip", NULL, "NAME", "clip to play (default: the first)", OPTION_TEXT, &job.clip, 0, 0},
+        {"--loop", NULL, NULL, "let that clip begin again after its end (default: as its keys say)", OPTION_FLAG,
+         &job.loop, 0, 0},
+        {"--once", NULL, NULL, "let that clip play once and stay at its end", OPTION_FLAG, &job.once, 0, 0},
         {"--all-clips", NULL, NULL, "put the chains on every clip of the file (.glb, .gltf)", OPTION_FLAG,
          &job.all_clips, 0, 0},
         {"--frequency", NULL, "HZ", "swings per second (default: by the chain's length)", OPTION_REAL,

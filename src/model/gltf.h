@@ -125,6 +125,7 @@ struct gltf_channel {
     int node;
     enum gltf_path path;
     enum gltf_interpolation interpolation;
+    bool travels;              ///< it carries the character on, steadily, in a clip that loops
     int key_count, components; ///< components: 3, 4 or the mesh's targets
     float *times;              ///< seconds, ascending
     float *values; ///< `components` a key; three times as many for GLTF_CUBIC: tangent in, value, tangent out
@@ -133,7 +134,9 @@ struct gltf_channel {
 struct gltf_clip {
     char *name;         ///< "clip 2" where the file has none; no two are alike
     double first, last; ///< seconds, of its first and last key
-    bool loops;         ///< it ends as it begins
+    bool loops;         ///< it ends as it begins, but for where it has travelled
+    double
+        gap; ///< seconds from the last key to the first again, if it loops; 0 where the last key is a copy of the first
     struct gltf_channel *channels;
     int channel_count;
 };
@@ -209,6 +212,12 @@ void gltf_pose_free(struct gltf_pose *pose);
 /// Places and weights at rest (clip −1) or at a clip's time in seconds, held before the first and after the last key. Leaves `world`
 /// alone. Allocates nothing.
 void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose);
+
+/// The same within a loop: after its last key a clip goes on to its first, for `gap` seconds.
+void gltf_pose_loop(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose);
+
+/// A channel's value at a time: `components` numbers.
+void gltf_channel_at(const struct gltf_channel *channel, double time, float *out);
 
 /// World and joint matrices from places. Allocates nothing.
 void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose);

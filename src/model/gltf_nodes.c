@@ -315,27 +315,6 @@ static bool find_target(const struct gltf *gltf, const char *path, struct gltf_c
     return false;
 }
 
-/// Whether the last key is like the first: within a tenth of the channel's range and a hundredth of its largest value.
-static bool is_closed(const struct gltf_channel *channel)
-{
-    const int width = channel->components, stride = width * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
-    const float *first = channel->values + (channel->interpolation == GLTF_CUBIC ? width : 0);
-    const float *last = first + (size_t)(channel->key_count - 1) * (size_t)stride;
-    float dot = 0, size = 1e-6f;
-    for (int i = 0; channel->path == GLTF_ROTATION && i < 4; i++) dot += first[i] * last[i];
-    for (const float *key = first; key <= last; key += stride)
-        for (int i = 0; i < width; i++) size = fmaxf(size, fabsf(key[i]));
-    for (int i = 0; i < width; i++) {
-        float lo = first[i], hi = first[i];
-        for (const float *key = first; key <= last; key += stride) {
-            lo = fminf(lo, key[i]);
-            hi = fmaxf(hi, key[i]);
-        }
-        if (fabsf((dot < 0 ? -last[i] : last[i]) - first[i]) > 0.1f * (hi - lo) + 0.01f * size) return false;
-    }
-    return true;
-}
-
 static bool read_channel(struct gltf_reader *r, const json_t *json, const json_t *samplers, size_t clip,
                          struct gltf_clip *out)
 {
@@ -356,7 +335,6 @@ static bool read_channel(struct gltf_reader *r, const json_t *json, const json_t
     if (!read_sampler(r, json_array_get(samplers, (size_t)sampler), to)) return false;
     out->first = fmin(out->first, (double)to->times[0]);
     out->last = fmax(out->last, (double)to->times[to->key_count - 1]);
-    out->loops = out->loops && is_closed(to);
     return true;
 }
 
@@ -369,14 +347,13 @@ static bool read_clip(struct gltf_reader *r, const json_t *json, size_t number, 
     clip->channels = gltf_make(r, json_array_size(channels), sizeof *clip->channels);
     if (!clip->channels) return false;
     clip->first = INFINITY;
-    clip->loops = true;
     json_array_foreach(channels, i, channel)
     {
         gltf_at(r, "animations[%zu].channels[%zu]", number, i);
         if (!read_channel(r, channel, samplers, number, clip)) return false;
     }
     clip->first = fmin(clip->first, clip->last); // without a key
-    return true;
+    return gltf_judge_loop(r->gltf, clip) || fail_no_memory(r->error, r->file.path);
 }
 
 bool gltf_read_clips(struct gltf_reader *r)

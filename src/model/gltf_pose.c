@@ -155,6 +155,8 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
 // rotation goes along the great circle, the short way) or, with the tangents b_k out of and a_k into a key,
 //     (2s³ − 3s² + 1) v_k + T (s³ − 2s² + s) b_k + (3s² − 2s³) v_{k+1} + T (s³ − s²) a_{k+1}.
 
+static const double ROUNDING = 1e-7; ///< of a time: keys have single precision, and a frame must not miss its step
+
 /// The last key at or before a time, else the first.
 static int key_at(const struct gltf_channel *channel, double time)
 {
@@ -189,19 +191,18 @@ static void slerp(const float a[4], const float b[4], float s, float out[4])
     for (int k = 0; k < 4; k++) out[k] = from * a[k] + to * sign * b[k];
 }
 
-static void cubic(const float *key, int components, float s, float T, float *out)
+static void cubic(const float *key, const float *arriving, int components, float s, float T, float *out)
 {
-    const float *value = key + components, *leaving = key + 2 * components, *arriving = key + 3 * components;
-    const float *next = key + 4 * components;
+    const float *value = key + components, *leaving = key + 2 * components, *next = arriving + components;
     float s2 = s * s, s3 = s2 * s;
     for (int k = 0; k < components; k++)
         out[k] = (2 * s3 - 3 * s2 + 1) * value[k] + T * (s3 - 2 * s2 + s) * leaving[k] + (3 * s2 - 2 * s3) * next[k] +
                  T * (s3 - s2) * arriving[k];
 }
 
-/// A channel's value at a time: `components` numbers.
-static void channel_at(const struct gltf_channel *channel, double time, float *out)
+void gltf_channel_at(const struct gltf_channel *channel, double time, float *out)
 {
+    if (channel->interpolation == GLTF_STEP) time += ROUNDING * fabs(time);
     int key = key_at(channel, time), n = channel->components;
     bool is_cubic = channel->interpolation == GLTF_CUBIC;
     size_t stride = (size_t)(is_cubic ? 3 * n : n);
@@ -213,7 +214,7 @@ static void channel_at(const struct gltf_channel *channel, double time, float *o
     if (held) {
         memcpy(out, is_cubic ? at + n : at, (size_t)n * sizeof *out);
     } else if (is_cubic) {
-        cubic(at, n, s, (float)T, out);
+        cubic(at, at + stride, n, s, (float)T, out);
     } else if (channel->path == GLTF_ROTATION) {
         slerp(at, at + n, s, out);
     } else {
@@ -222,16 +223,49 @@ static void channel_at(const struct gltf_channel *channel, double time, float *o
     if (channel->path == GLTF_ROTATION) normalise(out);
 }
 
+/// Where a channel's value is in a pose.
+static float *value_in(const struct gltf *gltf, const struct gltf_channel *channel, struct gltf_pose *pose)
+{
+    struct gltf_place *place = &pose->place[channel->node];
+    float *const of[] = {place->translation, place->rotation, place->scale,
+                         pose->weights + gltf->nodes[channel->node].first_weight};
+    return of[channel->path];
+}
+
 void gltf_pose_clip(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose)
 {
     for (int n = 0; n < gltf->node_count; n++) pose->place[n] = gltf->nodes[n].place;
     for (int w = 0; w < gltf->weight_count; w++) pose->weights[w] = gltf->weights[w];
     for (int i = 0; clip >= 0 && i < gltf->clips[clip].channel_count; i++) {
         const struct gltf_channel *channel = &gltf->clips[clip].channels[i];
-        struct gltf_place *place = &pose->place[channel->node];
-        float *const out[] = {place->translation, place->rotation, place->scale,
-                              pose->weights + gltf->nodes[channel->node].first_weight};
-        channel_at(channel, time, out[channel->path]);
+        gltf_channel_at(channel, time, value_in(gltf, channel, pose));
+    }
+}
+
+void gltf_pose_loop(const struct gltf *gltf, int clip, double time, struct gltf_pose *pose)
+{
+    const struct gltf_clip *of = &gltf->clips[clip];
+    const double into = fmin(time - of->last, of->gap), share = into / (of->last - of->first);
+    gltf_pose_clip(gltf, clip, time, pose);
+    for (int i = 0; into > 0 && i < of->channel_count; i++) {
+        const struct gltf_channel *channel = &of->channels[i];
+        const bool is_cubic = channel->interpolation == GLTF_CUBIC;
+        const int n = channel->components, stride = is_cubic ? 3 * n : n;
+        const float *first = channel->values, *last = first + (size_t)(channel->key_count - 1) * (size_t)stride;
+        const float *from = last + (is_cubic ? n : 0), *to = first + (is_cubic ? n : 0), s = (float)(into / of->gap);
+        float *out = value_in(gltf, channel, pose);
+        if (channel->travels) {
+            for (int k = 0; k < n; k++) out[k] = from[k] + (float)share * (from[k] - to[k]);
+        } else if (channel->interpolation == GLTF_STEP) {
+            if (into == of->gap) memcpy(out, to, (size_t)n * sizeof *out);
+        } else if (is_cubic) {
+            cubic(last, first, n, s, (float)of->gap, out);
+        } else if (channel->path == GLTF_ROTATION) {
+            slerp(from, to, s, out);
+        } else {
+            for (int k = 0; k < n; k++) out[k] = (1 - s) * from[k] + s * to[k];
+        }
+        if (channel->path == GLTF_ROTATION) normalise(out);
     }
 }
 

@@ -61,4 +61,7 @@ bool gltf_read_nodes(struct gltf_reader *r);
 bool gltf_read_skins(struct gltf_reader *r);
 bool gltf_read_clips(struct gltf_reader *r);
 
+/// Finds out whether a clip loops, how long after its last key, and what travels. False if memory is short.
+bool gltf_judge_loop(const struct gltf *gltf, struct gltf_clip *clip);
+
 #endif

@@ -157,6 +157,8 @@ bool chain_make(struct document *document, const struct models *models, const st
     const char *to = wish->to ? wish->to : last < 0 ? wish->from : gltf->nodes[last].name;
     if (!chain_find(gltf, wish->from, to, &bones, error)) return false;
     const int clip = gltf_find_clip(gltf, model->model.clip);
+    struct clip_play play = {0};
+    if (clip >= 0) play = clip_play(&model->model, &gltf->clips[clip]);
     const double length = length_of(imported, &bones, model->model.scale);
     if (!(length > SHORTEST * size_of(imported, model->model.scale)))
         return fail(error, ERROR_INPUT,
@@ -173,8 +175,7 @@ bool chain_make(struct document *document, const struct models *models, const st
                               .to = gltf->nodes[bones.node[bones.count - 1]].name,
                               .frequency = wish->frequency > 0 ? wish->frequency : round(10 * frequency) / 10,
                               .damping = wish->damping > 0 ? wish->damping : USUAL_DAMPING,
-                              .loops = document_loops(document) ||
-                                       (clip >= 0 && posing_clip_loops(document, &gltf->clips[clip]))};
+                              .loops = document_loops(document) || posing_clip_loops(document, &play)};
     struct chain chain = {.model = plan.model, .by_file = plan.by_file, .from = plan.from, .to = plan.to};
     const struct chain *twin = wish->own ? NULL : find_twin(document, wish);
     const double bend =

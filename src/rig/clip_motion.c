@@ -14,11 +14,14 @@ struct followed {
     const struct imported *imported;
     struct gltf_pose *pose;
     int node;
-    const struct gltf_clip *clip; ///< NULL: it rests
+    int clip; ///< −1: it rests
+    struct clip_play play;
     enum motion_of of;
     struct chain_axes axes;
     double scale; ///< metres in the world per unit of the file
     double seen;  ///< last angle in degrees, so that turns continue past half a turn
+    double
+        drift; ///< what a round adds, per second: a steady travel bends nothing, and must not jump back after each round
 };
 
 /// The axes of the named chain, else those of a chain that points to the front.
@@ -45,10 +48,11 @@ static bool find(const struct models *models, const struct document *document, c
     *followed = (struct followed){.imported = imported,
                                   .pose = models_pose(models, document, rig, POSE_UNSEEN),
                                   .node = gltf_find_node(&imported->gltf, motion->joint),
-                                  .clip = clip < 0 ? NULL : &imported->gltf.clips[clip],
+                                  .clip = clip,
                                   .of = motion->of,
                                   .axes = axes_of(document, imported, motion->chain),
                                   .scale = model->scale};
+    if (clip >= 0) followed->play = clip_play(model, &imported->gltf.clips[clip]);
     return followed->node >= 0;
 }
 
@@ -67,32 +71,47 @@ static double turn_of(struct followed *followed)
 
 static double look(struct followed *followed, double time)
 {
+    const double travelled = followed->drift * (time - followed->play.first);
     const struct gltf *gltf = &followed->imported->gltf;
-    gltf_pose_clip(gltf, followed->clip ? (int)(followed->clip - gltf->clips) : -1, time, followed->pose);
+    if (followed->clip < 0) {
+        gltf_pose_clip(gltf, -1, 0, followed->pose);
+    } else {
+        gltf_pose_loop(gltf, followed->clip, time, followed->pose);
+    }
     gltf_pose_world(gltf, followed->pose);
-    if (followed->of == MOTION_TURN) return turn_of(followed);
+    if (followed->of == MOTION_TURN) return turn_of(followed) - travelled;
     const vec3s side = vec3_from(followed->axes.side), along = vec3_from(followed->axes.along);
     const vec3s direction = followed->of == MOTION_UP ? side : glms_vec3_cross(side, along);
-    return followed->scale * (double)glms_vec3_dot(direction, vec3_from(followed->pose->world[followed->node] + 12));
+    return followed->scale * (double)glms_vec3_dot(direction, vec3_from(followed->pose->world[followed->node] + 12)) -
+           travelled;
 }
 
-static double length_of(const struct gltf_clip *clip) { return clip ? clip->last - clip->first : 0; }
+static void find_drift(struct followed *followed)
+{
+    const struct clip_play *play = &followed->play;
+    if (!play->loops || !(play->length > 0)) return;
+    const double first = look(followed, play->first);
+    followed->drift = (look(followed, play->first + play->length) - first) / play->length;
+    followed->seen = 0;
+}
 
 static double mean_of(struct followed *followed)
 {
-    const double first = followed->clip ? followed->clip->first : 0, length = length_of(followed->clip);
+    const struct clip_play *play = &followed->play;
     double sum = 0;
-    for (int n = 0; n < MEAN_STEPS; n++) sum += look(followed, first + length * n / MEAN_STEPS);
+    for (int n = 0; n < MEAN_STEPS; n++) sum += look(followed, play->first + play->length * n / MEAN_STEPS);
     return sum / MEAN_STEPS;
 }
 
 /// Number of samples after which the clip repeats exactly, or 0. The scene may begin before the clip.
-static int period_of(const struct document *document, const struct gltf_clip *clip)
+static int period_of(const struct document *document, const struct clip_play *play)
 {
-    const double samples = length_of(clip) / document_step(document);
+    const double samples = play->length / document_step(document);
     const bool waits =
-        clip && document->first_frame / document->fps < clip->first - 1e-6 && !posing_clip_loops(document, clip);
-    return !waits && samples >= 1 && samples < 1e6 && fabs(samples - round(samples)) < 1e-4 ? (int)round(samples) : 0;
+        document->first_frame / document->fps < play->first - 1e-6 && !posing_clip_loops(document, play);
+    return play->loops && !waits && samples >= 1 && samples < 1e6 && fabs(samples - round(samples)) < 1e-4
+               ? (int)round(samples)
+               : 0;
 }
 
 /// Samples a joint, averaged over a frame on either side: clips have keys on frames with straight lines between, and each corner would kick
@@ -111,10 +130,9 @@ static double *raw(struct smoothing *smoothing, int sample)
 static void look_at(struct smoothing *smoothing, const struct document *document, struct followed *followed,
                     int sample)
 {
-    const struct gltf_clip *clip = followed->clip;
     const int end = document_samples(document) - 1;
-    const int held = clip && clip->loops ? sample : sample < 0 ? 0 : sample > end ? end : sample;
-    *raw(smoothing, sample) = look(followed, clip ? posing_clip_time(document, held, clip) : 0);
+    const int held = followed->play.loops ? sample : sample < 0 ? 0 : sample > end ? end : sample;
+    *raw(smoothing, sample) = look(followed, posing_clip_time(document, held, &followed->play));
 }
 
 static double smoothed(struct smoothing *smoothing, int sample)
@@ -130,7 +148,8 @@ bool clip_follow(void *context, const struct document *document, const struct jo
     struct followed followed;
     struct smoothing smoothing = {.substeps = document->substeps};
     if (!find(context, document, motion, &followed)) return false;
-    const int count = document_samples(document), period = period_of(document, followed.clip);
+    const int count = document_samples(document), period = period_of(document, &followed.play);
+    find_drift(&followed);
     const double mean = mean_of(&followed);
     for (int s = 1 - document->substeps; s < document->substeps - 1; s++) look_at(&smoothing, document, &followed, s);
     for (int s = 0; s < count; s++) {

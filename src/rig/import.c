@@ -72,14 +72,16 @@ static double scale_of(const struct gltf *gltf)
     return round(scale / digit) * digit;
 }
 
-/// Gives a document the frame rate and the range of a clip, from its first key to its last. NULL: there is no clip.
-static bool set_range(struct document *document, const struct gltf_clip *clip, struct error *error)
+/// Gives a document the frame rate and the range of a clip, from its first key to its last, or to its first again. NULL: there is no clip.
+static bool set_range(struct document *document, const struct model_rig *model, const struct gltf_clip *clip,
+                      struct error *error)
 {
     const double fps = frame_rate(clip);
     double first = 0, frames = STANDARD_FRAMES;
     if (clip && clip->last > clip->first) {
+        const struct clip_play play = clip_play(model, clip);
         first = fmin(fmax(ceil(clip->first * fps - NEAR), -MOST_FRAMES), MOST_FRAMES);
-        frames = clip->loops ? round((clip->last - clip->first) * fps) : floor(clip->last * fps + NEAR) - first;
+        frames = play.loops ? round(play.length * fps) : floor(clip->last * fps + NEAR) - first;
         frames = fmin(fmax(frames, LEAST_FRAMES), MOST_FRAMES);
     }
     return edit_fps(document, fps, false, error) &&
@@ -89,10 +91,11 @@ static bool set_range(struct document *document, const struct gltf_clip *clip, s
 static bool follows_clip(const struct spline *spline) { return spline->parameter[PARAMETER_EQUILIBRIUM].motion; }
 
 /// Gives a document a clip's range. Splines that follow the clip loop if it does.
-static bool fit_to_clip(struct document *document, const struct gltf_clip *clip, struct error *error)
+static bool fit_to_clip(struct document *document, int rig, const struct gltf_clip *clip, struct error *error)
 {
-    if (!set_range(document, clip, error)) return false;
-    const struct param start = param_number(posing_clip_loops(document, clip) ? WIGGLY_LOOP : WIGGLY_REST);
+    if (!set_range(document, &document->rigs[rig]->model, clip, error)) return false;
+    const struct clip_play play = clip_play(&document->rigs[rig]->model, clip);
+    const struct param start = param_number(posing_clip_loops(document, &play) ? WIGGLY_LOOP : WIGGLY_REST);
     for (int s = 0; s < document->spline_count; s++) {
         if (!follows_clip(document->splines[s])) continue;
         if (!edit_parameter(document, s, PARAMETER_START, &start, error)) return false;
@@ -138,7 +141,7 @@ static bool add_imported(struct document *document, char *file, const struct glt
     const struct rig rig = {.kind = RIG_MODEL,
                             .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = scale_of(gltf)}};
     if (document->spline_count == 0 && document->rig_count == 0) {
-        if (!set_range(document, clip, error)) return false;
+        if (!set_range(document, &rig.model, clip, error)) return false;
     }
     return edit_rig_add(document, &rig, error);
 }
@@ -169,10 +172,12 @@ struct document *import_scene(const char *path, struct error *error)
     return NULL;
 }
 
-static bool set_clip(struct document *document, int rig, const char *clip, struct error *error)
+static bool set_clip(struct document *document, int rig, const char *clip, enum clip_repeat repeat,
+                     struct error *error)
 {
     struct rig changed = *document->rigs[rig];
     char *name = changed.model.clip = clip && clip[0] ? need_text(clip) : NULL;
+    changed.model.repeat = (int)repeat;
     const bool done = edit_rig_set(document, rig, &changed, error);
     free(name);
     return done;
@@ -190,11 +195,11 @@ static bool is_of_clip(const struct document *document)
 }
 
 bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
-                        struct error *error)
+                        enum clip_repeat repeat, struct error *error)
 {
     const int found = gltf_find_clip(gltf, clip);
-    if (!set_clip(document, rig, clip, error)) return false;
-    return found < 0 || !is_of_clip(document) || fit_to_clip(document, &gltf->clips[found], error);
+    if (!set_clip(document, rig, clip, repeat, error)) return false;
+    return found < 0 || !is_of_clip(document) || fit_to_clip(document, rig, &gltf->clips[found], error);
 }
 
 /// Removes knots and pins that were set for another clip.
@@ -215,8 +220,8 @@ struct document *import_with_clip(const struct document *document, int rig, cons
                                   struct error *error)
 {
     struct document *copy = document_copy(document);
-    if (remove_keys(copy, error) && set_clip(copy, rig, gltf->clips[clip].name, error) &&
-        fit_to_clip(copy, &gltf->clips[clip], error))
+    if (remove_keys(copy, error) && set_clip(copy, rig, gltf->clips[clip].name, REPEAT_BY_CLIP, error) &&
+        fit_to_clip(copy, rig, &gltf->clips[clip], error))
         return copy;
     document_destroy(copy);
     return NULL;

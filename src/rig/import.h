@@ -19,7 +19,7 @@ bool import_add(struct document *document, const char *path, int spline, struct 
 /// Makes a model rig play a clip of its file, NULL: none. A scene without splines, or with some that follow the clip and no knots or pins,
 /// takes the clip's frame rate and range, and splines that follow it loop if it does.
 bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
-                        struct error *error);
+                        enum clip_repeat repeat, struct error *error);
 
 /// A copy of a document in which a model rig plays another clip, by its index, in that clip's frames. It has no pins of chains and no knots of
 /// splines that follow the clip, because those were set for the first clip. NULL with a sentence.

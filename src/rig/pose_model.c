@@ -8,20 +8,26 @@
 
 static const double ROUNDING = 1e-6; ///< of a clip's length: times of keys are single precision
 
-bool posing_clip_loops(const struct document *document, const struct gltf_clip *clip)
+bool posing_clip_loops(const struct document *document, const struct clip_play *play)
 {
-    const double times = (document->last_frame - document->first_frame) / document->fps / (clip->last - clip->first);
-    return clip->loops && times > 0.5 && fabs(times - round(times)) < 1e-3;
+    const double times = (document->last_frame - document->first_frame) / document->fps / play->length;
+    return play->loops && times > 0.5 && fabs(times - round(times)) < 1e-3;
 }
 
-double posing_clip_time(const struct document *document, double position, const struct gltf_clip *clip)
+struct clip_play clip_play(const struct model_rig *model, const struct gltf_clip *clip)
+{
+    const bool loops = model->repeat == REPEAT_BY_CLIP ? clip->loops : model->repeat == REPEAT_LOOP;
+    return (struct clip_play){clip->first, clip->last - clip->first + (loops ? clip->gap : 0), loops};
+}
+
+double posing_clip_time(const struct document *document, double position, const struct clip_play *play)
 {
     const double frame = document->first_frame + position / document->substeps;
-    const double length = clip->last - clip->first, into = frame / document->fps - clip->first;
-    if (!(length > 0) || (into < 0 && !posing_clip_loops(document, clip))) return clip->first;
-    double rounds = floor(into / length + ROUNDING), left = into - rounds * length;
-    if (!clip->loops && rounds > 0 && left < ROUNDING * length) left = length; // its last pose is not its first
-    return clip->first + left;
+    const double into = frame / document->fps - play->first;
+    if (!(play->length > 0) || (into < 0 && !posing_clip_loops(document, play))) return play->first;
+    const double rounds = play->loops ? floor(into / play->length + ROUNDING) : 0,
+                 left = into - rounds * play->length;
+    return play->first + (!play->loops && left > (1 - ROUNDING) * play->length ? play->length : left);
 }
 
 struct gltf_pose *posing_clip(const struct posing *posing, int rig, double position, enum pose_memory memory)
@@ -33,7 +39,12 @@ struct gltf_pose *posing_clip(const struct posing *posing, int rig, double posit
     const struct gltf *gltf = &imported->gltf;
     const char *name = document->rigs[rig]->kind == RIG_MODEL ? document->rigs[rig]->model.clip : NULL;
     const int clip = posing->at_rest ? -1 : gltf_find_clip(gltf, name);
-    gltf_pose_clip(gltf, clip, clip < 0 ? 0 : posing_clip_time(document, position, &gltf->clips[clip]), pose);
+    if (clip < 0) {
+        gltf_pose_clip(gltf, clip, 0, pose);
+        return pose;
+    }
+    const struct clip_play play = clip_play(&document->rigs[rig]->model, &gltf->clips[clip]);
+    gltf_pose_loop(gltf, clip, posing_clip_time(document, position, &play), pose);
     return pose;
 }
 

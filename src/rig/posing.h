@@ -56,6 +56,13 @@ bool rig_pose(const struct posing *posing, int rig, double position, const struc
 bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                    struct rig_pose *pose);
 
+/// How a model rig plays a clip of its file: from its first key, in seconds, for a length; then again, or no more.
+struct clip_play {
+    double first, length;
+    bool loops;
+};
+struct clip_play clip_play(const struct model_rig *model, const struct gltf_clip *clip);
+
 /// The rig that a rig bends: a chain's model, −1: there is none. Any other rig is its own body.
 int rig_body(const struct document *document, int rig);
 

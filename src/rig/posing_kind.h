@@ -30,12 +30,12 @@ struct gltf_pose *posing_clip(const struct posing *posing, int rig, double posit
 /// The place of an imported character: columns and place of its space in the world.
 void posing_root(const struct posing *posing, int rig, const struct by_hand *by_hand, double root[12]);
 
-/// Whether a clip ends as it begins and fills the scene's range once or several times.
-bool posing_clip_loops(const struct document *document, const struct gltf_clip *clip);
+/// Whether a clip loops and fills the scene's range once or several times.
+bool posing_clip_loops(const struct document *document, const struct clip_play *play);
 
-/// The time in a clip, seconds, at a position in samples. After its last key a clip starts again. Before its first key it waits there, unless
-/// it loops in the scene.
-double posing_clip_time(const struct document *document, double position, const struct gltf_clip *clip);
+/// The time in a clip, seconds, at a position in samples, for gltf_pose_loop(). A clip that loops starts again after its length; one that plays
+/// once stays at its end. Before its first key a clip waits there, unless it loops in the scene.
+double posing_clip_time(const struct document *document, double position, const struct clip_play *play);
 
 /// The values of a rig's inputs, including motion by hand.
 void posing_values(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,

@@ -137,9 +137,13 @@ struct character_rig {
 #define DRIVE_DEFAULT_AMPLITUDE 1.0
 
 /// An imported character: a glTF file, which may be missing and is not read here.
+/// Whether a clip begins again after its end: as its keys say, or as the user does.
+enum clip_repeat { REPEAT_BY_CLIP, REPEAT_ONCE, REPEAT_LOOP };
+
 struct model_rig {
     char *model;        ///< the file, relative to the document's folder unless absolute
     char *clip;         ///< the animation that it plays; NULL: it stands at rest
+    int repeat;         ///< enum clip_repeat
     double position[3]; ///< metres
     double scale;       ///< times the file's metres; above 0
     double turn;        ///< degrees about world up

@@ -116,10 +116,13 @@ const struct rig_functions character_functions = {.word = "character",
 
 // --- imported characters, and chains on them
 
+static const char *const repeats[] = {[REPEAT_BY_CLIP] = "", [REPEAT_ONCE] = "once", [REPEAT_LOOP] = "loop", NULL};
+
 static const struct field model_fields[] = {
     RIG_FIRST(false),
     {FIELD("model", FIELD_PATH, struct rig, model.model), .is_required = true},
     {FIELD("clip", FIELD_TEXT, struct rig, model.clip)},
+    {FIELD("repeat", FIELD_WORD, struct rig, model.repeat), .words = repeats, .is_quiet = true},
     {FIELD("position", FIELD_NUMBERS, struct rig, model.position), .range = FIELD_ANY},
     {FIELD("scale", FIELD_NUMBER, struct rig, model.scale), .range = FIELD_POSITIVE, .usual = {1}},
     {FIELD("turn", FIELD_NUMBER, struct rig, model.turn), .range = FIELD_ANY},

@@ -64,12 +64,12 @@ static void tell(struct core *core, const struct rig *made, int model, bool foll
                  name_fit(made->chain.to, 80), made->chain.to, next, name_fit(clip, 80), clip, *clip ? "." : "");
 }
 
-void bones_choose_clip(struct core *core, int model, const char *clip)
+void bones_choose_clip(struct core *core, int model, const char *clip, enum clip_repeat repeat)
 {
     const struct imported *character = bones_character(core, model);
     const int first = core->document->first_frame, last = core->document->last_frame;
-    if (!character || !core_begin(core, "Choose clip", 0)) return;
-    core_end(core, import_choose_clip(core->document, model, &character->gltf, clip, &core->error));
+    if (!character || !core_begin(core, repeat == REPEAT_BY_CLIP ? "Choose clip" : "Loop clip", 0)) return;
+    core_end(core, import_choose_clip(core->document, model, &character->gltf, clip, repeat, &core->error));
     core->refit_curves = core->document->first_frame != first || core->document->last_frame != last;
 }
 

@@ -18,8 +18,8 @@ void bones_clear(struct core *core);
 /// Number of joints of a tail or chain; 1 for a chain whose bones are missing.
 int bones_joints(const struct core *core, int rig);
 
-/// Sets a model rig's clip (NULL: none) in one step. import_choose_clip() sets the scene's length.
-void bones_choose_clip(struct core *core, int model, const char *clip);
+/// Sets a model rig's clip (NULL: none) and whether it repeats, in one step. import_choose_clip() sets the scene's length.
+void bones_choose_clip(struct core *core, int model, const char *clip, enum clip_repeat repeat);
 
 /// Lists a character's bones below `top` (−1: all) in file order, at most `most`. Returns how many.
 int bones_below(const struct imported *character, int top, int *nodes, int most);

@@ -38,7 +38,21 @@ static void choose_clip(struct inspector *in, const struct dropdown *list)
     for (int c = 0; c < gltf->clip_count && c < MAX_CLIPS; c++)
         items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
     const int picked = ui_popup_list(&in->ui, list->name, items, count, gltf_find_clip(gltf, clip) + 1);
-    if (picked >= 0) bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL);
+    if (picked >= 0)
+        bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL, REPEAT_BY_CLIP);
+}
+
+/// A tick: whether the clip begins again after its end.
+static void build_loops(struct inspector *in, int model, const struct gltf *gltf)
+{
+    const struct model_rig *rig = &in->core->document->rigs[model]->model;
+    const int clip = gltf_find_clip(gltf, rig->clip);
+    if (clip < 0) return;
+    bool loops = clip_play(rig, &gltf->clips[clip]).loops;
+    const struct rect r = inspector_labelled(in, "loops");
+    ui_hint(&in->ui, r, "The clip begins again after its end; else it plays once");
+    if (ui_toggle(&in->ui, r, "model.loops", &loops))
+        bones_choose_clip(in->core, model, rig->clip, loops ? REPEAT_LOOP : REPEAT_ONCE);
 }
 
 static const struct dropdown clip_list = {"model.clips", "The clip of the file that it repeats", choose_clip};
@@ -95,6 +109,7 @@ void inspector_model(struct inspector *in)
     const char *clip = in->core->document->rigs[model]->model.clip;
     if (shown && shown->gltf.clip_count > 0)
         inspector_dropdown(in, &clip_list, inspector_labelled(in, "clip"), in->model, clip ? clip : "None", 0);
+    if (shown) build_loops(in, model, &shown->gltf);
     inspector_numbers(in, place, sizeof place / sizeof place[0], &home);
     if (shown && shown->skeleton.count > 0) build_bone(in);
 }
