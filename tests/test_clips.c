@@ -2,6 +2,7 @@
 #include "export/export.h"
 #include "gltf_builder.h"
 #include "rig/chain_make.h"
+#include "rig/import.h"
 #include "rig/opened.h"
 #include "rig/posing_kind.h"
 
@@ -175,6 +176,69 @@ TEST(a_clip_before_its_first_key)
         document->first_frame = cases[c].first;
         document->last_frame = cases[c].last;
         assert_near(24 * posing_clip_time(document, 0, &play), cases[c].frame, 1e-5);
+        document_destroy(document);
+    }
+}
+
+// --- rates, and ends between frames
+
+/// A clip of `count` evenly spaced keys, the middle one of which is a hit.
+static struct document *scene_of_keys(double first, double step, int count)
+{
+    struct builder *b = calloc(1, sizeof *b);
+    float *times = malloc((size_t)count * sizeof *times), (*places)[3] = calloc((size_t)count, sizeof *places);
+    char json[1024];
+    struct document *document;
+    assert_true(b && times && places);
+    for (int k = 0; k < count; k++) times[k] = (float)(first + k * step);
+    places[count / 2][1] = places[count - 1][0] = 1;
+    const int input = add_data(b, FLOAT, "SCALAR", count, times, (size_t)count * sizeof *times);
+    const int output = add_data(b, FLOAT, "VEC3", count, places, (size_t)count * sizeof *places);
+    sprintf(json,
+            "\"nodes\":[{\"name\":\"it\"}],\"animations\":[{\"name\":\"Hit\",\"samplers\":[{\"input\":%d,"
+            "\"output\":%d}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,\"path\":\"translation\"}}]}]",
+            input, output);
+    const char *text = builder_json(b, json);
+    assert_done(document = import_scene(temporary_file("keys.gltf", text, strlen(text)), &error));
+    free(b);
+    free(times);
+    free(places);
+    return document;
+}
+
+/// A scene has the clip's own rate, and its frames hold the first key and the last. One that is too long for it has fewer frames.
+TEST(a_scene_has_the_rate_and_the_ends_of_its_clip)
+{
+    static const struct {
+        double first, step;
+        int count;
+        double fps;
+        int frames[2];
+    } cases[] = {
+        {0, 1 / 24.0, 25, 24, {0, 24}},
+        {0, 1 / 30.0, 31, 30, {0, 30}},
+        {0, 1 / 25.0, 26, 25, {0, 25}},
+        {0, 1001 / 24000.0, 701, 24000 / 1001.0, {0, 700}},
+        {0, 1001 / 30000.0, 701, 30000 / 1001.0, {0, 700}},
+        {0, 1001 / 60000.0, 701, 60000 / 1001.0, {0, 700}},
+        {0, 1 / 72.0, 73, 72, {0, 72}},
+        {0, 1 / 90.0, 91, 90, {0, 90}},
+        {0, 1 / 100.0, 101, 100, {0, 100}},
+        {0, 1 / 120.0, 121, 120, {0, 120}},
+        {0, 1 / 144.0, 145, 144, {0, 144}},
+        {0, 1 / 1000.0, 301, 1000, {0, 300}},
+        {0, 0.33 / 8, 9, 8 / 0.33, {0, 8}},
+        {0, 0.33, 2, 100, {0, 33}},
+        {5.013, 1 / 24.0, 25, 24, {120, 145}},
+        {-1, 1 / 24.0, 25, 24, {-24, 0}},
+        {0, 173.625, 25, 12, {0, 50004}},
+        {0, 5000, 25, 0.75, {0, 90000}},
+    };
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        struct document *document = scene_of_keys(cases[c].first, cases[c].step, cases[c].count);
+        assert_near(document->fps / cases[c].fps, 1, 1e-6);
+        assert_int_equal(document->first_frame, cases[c].frames[0]);
+        assert_int_equal(document->last_frame, cases[c].frames[1]);
         document_destroy(document);
     }
 }

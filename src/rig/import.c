@@ -14,9 +14,10 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { STANDARD_FRAMES = 120, LEAST_FRAMES = 2, MOST_FRAMES = 100000 };
+enum { STANDARD_FRAMES = 120, LEAST_FRAMES = 2 };
 
-static const double NEAR = 0.01; ///< frames between a key and the frame that it counts for
+static const double SLOWEST_RATE = 0.01; ///< frames a second of the longest clips
+static const double NEAR = 0.01;         ///< frames between a key and the frame that it counts for
 static const double SMALLEST = 0.3, LARGEST = 4, USUAL = 1.6; ///< metres: characters between these keep their size
 
 /// Whether a file begins like a .glb, whatever its name.
@@ -35,29 +36,41 @@ bool import_suits(const char *path)
     return path_has_end(path, ".glb") || path_has_end(path, ".gltf") || path_has_end(path, ".fbx") || is_glb(path);
 }
 
-/// Number of a clip's keys on whole frames.
+/// How far a time may be from its frame, in frames: keys have single precision.
+static double near_frame(double time, double fps) { return NEAR + 1.2e-7 * fabs(time) * fps; }
+
+/// Number of a clip's keys that are whole frames after its first.
 static int keys_on_frames(const struct gltf_clip *clip, double fps)
 {
     int count = 0;
     for (int c = 0; c < clip->channel_count; c++) {
         for (int k = 0; k < clip->channels[c].key_count; k++) {
-            const double frame = (double)clip->channels[c].times[k] * fps;
-            count += fabs(frame - round(frame)) < NEAR;
+            const double time = (double)clip->channels[c].times[k], frame = (time - clip->first) * fps;
+            count += fabs(frame - round(frame)) < near_frame(time, fps);
         }
     }
     return count;
 }
 
+/// The first of some usual rates, and the one of its densest channel, that has most of a clip's keys on frames.
 static double frame_rate(const struct gltf_clip *clip)
 {
-    static const double rates[] = {24, 30, 25, 60, 50, 48};
-    double best = rates[0];
-    int most = clip ? keys_on_frames(clip, best) : 0;
-    for (size_t r = 1; clip && r < sizeof rates / sizeof rates[0]; r++) {
-        const int count = keys_on_frames(clip, rates[r]);
+    static const double usual[] = {24, 30, 25,  60,  50,  48, 24000 / 1001.0, 30000 / 1001.0, 60000 / 1001.0,
+                                   72, 90, 100, 120, 144, 240};
+    enum { USUAL_RATES = sizeof usual / sizeof usual[0] };
+    double best = usual[0];
+    int most = 0, keys = 0;
+    if (!(clip && clip->last > clip->first)) return best;
+    for (int c = 0; c < clip->channel_count; c++)
+        if (clip->channels[c].key_count > keys) keys = clip->channels[c].key_count;
+    const double own = (keys - 1) / (clip->last - clip->first), many = own * fmax(1, ceil(usual[0] / own));
+    const double whole = fabs(many - round(many)) < 1e-5 * many ? round(many) : many;
+    for (int r = 0; r <= USUAL_RATES; r++) {
+        const double rate = r < USUAL_RATES ? usual[r] : whole;
+        const int count = rate <= SCENE_MAX_FPS ? keys_on_frames(clip, rate) : 0;
         if (count <= most) continue;
         most = count;
-        best = rates[r];
+        best = rate;
     }
     return best;
 }
@@ -72,17 +85,23 @@ static double scale_of(const struct gltf *gltf)
     return round(scale / digit) * digit;
 }
 
-/// Gives a document the frame rate and the range of a clip, from its first key to its last, or to its first again. NULL: there is no clip.
+/// Gives a document the frame rate and the range of a clip, from its first key or just before it to its last or just after; of one that loops,
+/// its length in whole frames. The rate is halved where a scene could not hold as many frames. NULL: there is no clip.
 static bool set_range(struct document *document, const struct model_rig *model, const struct gltf_clip *clip,
                       struct error *error)
 {
-    const double fps = frame_rate(clip);
-    double first = 0, frames = STANDARD_FRAMES;
+    const double most = (double)((SPLINE_MAX_SAMPLES - 1) / document->substeps - 1);
+    double fps = frame_rate(clip), first = 0, frames = STANDARD_FRAMES;
     if (clip && clip->last > clip->first) {
         const struct clip_play play = clip_play(model, clip);
-        first = fmin(fmax(ceil(clip->first * fps - NEAR), -MOST_FRAMES), MOST_FRAMES);
-        frames = play.loops ? round(play.length * fps) : floor(clip->last * fps + NEAR) - first;
-        frames = fmin(fmax(frames, LEAST_FRAMES), MOST_FRAMES);
+        while (play.length * fps > most && fps > SLOWEST_RATE) fps /= 2;
+        frames = fmin(fmax(round(play.length * fps), LEAST_FRAMES), most);
+        const bool is_whole = fabs(frames - play.length * fps) < near_frame(clip->last, fps);
+        if (play.loops && !is_whole && frames / play.length <= SCENE_MAX_FPS) fps = frames / play.length;
+        first = floor(clip->first * fps + near_frame(clip->first, fps));
+        if (!play.loops)
+            frames = fmax(fmin(ceil(clip->last * fps - near_frame(clip->last, fps)) - first, most), LEAST_FRAMES);
+        first = fmin(fmax(first, -SCENE_MAX_FRAME), SCENE_MAX_FRAME - frames);
     }
     return edit_fps(document, fps, false, error) &&
            edit_range(document, (int)first, (int)(first + frames), RANGE_TRIM, error);
