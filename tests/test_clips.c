@@ -5,6 +5,8 @@
 #include "rig/import.h"
 #include "rig/opened.h"
 #include "rig/posing_kind.h"
+#include "scene/edit.h"
+#include <jansson.h>
 
 enum { MOST_KEYS = 41, ARM = 0 };
 
@@ -378,4 +380,212 @@ TEST(between_the_last_key_and_the_first)
     gltf_pose_free(&pose);
     gltf_pose_free(&end);
     gltf_free(&gltf);
+}
+
+// --- exports edit the file's own clip
+
+enum { THEIR_SAMPLERS = 8, HAND_SAMPLER = 5 };
+
+/// A clip with all that others write: steps, cubics, sparse and normalised numbers, pointers, channels without a node, extras; with keys between
+/// frames, beginning at 0.51 s. Node 1 and 2 are a chain, node 4 has a matrix.
+static const char *write_theirs(char json[1 << 14])
+{
+    static struct builder b;
+    static const float times[5] = {0.51f, 0.7f, 1, 1.02f, 1.51f}, ends[2] = {0.51f, 1.51f}, middle[2] = {0.8f, 1.2f};
+    static const float steps[5][3] = {{1, 1, 1}, {0, 0, 0}, {1, 1, 1}, {2, 1, 1}, {1, 1, 1}};
+    static const float turns[5][4] = {
+        {0, 0, 0, 1}, {0.1f, 0, 0, 0.995f}, {0, 0.2f, 0, 0.98f}, {0.6f, 0, 0, 0.8f}, {0, 0, 0, 1}};
+    static const short halves[2][4] = {{0, 0, 0, 32767}, {0, 23170, 0, 23170}};
+    static const float cubic[6][3] = {{0}, {1, 2, 3}, {4, 0, -2}, {0, 5, 1}, {2, 2, 2}, {0}};
+    static const unsigned char at[4] = {1};
+    static const float value[3] = {7, 8, 9};
+    char members[4096], sparse[256];
+    b = (struct builder){0};
+    const int t5 = add_data(&b, FLOAT, "SCALAR", 5, times, sizeof times),
+              t2 = add_data(&b, FLOAT, "SCALAR", 2, ends, sizeof ends);
+    const int tm = add_data(&b, FLOAT, "SCALAR", 2, middle, sizeof middle);
+    const int step = add_data(&b, FLOAT, "VEC3", 5, steps, sizeof steps),
+              turn = add_data(&b, FLOAT, "VEC4", 5, turns, sizeof turns);
+    char view[64];
+    snprintf(view, sizeof view, ",\"normalized\":true,\"bufferView\":%d", add_view(&b, halves, sizeof halves, 0));
+    const int half = add_accessor(&b, SHORT, "VEC4", 2, view),
+              cube = add_data(&b, FLOAT, "VEC3", 6, cubic, sizeof cubic);
+    const int index = add_view(&b, at, 1, 0), thing = add_view(&b, value, sizeof value, 0);
+    snprintf(sparse, sizeof sparse,
+             ",\"sparse\":{\"count\":1,\"indices\":{\"bufferView\":%d,\"componentType\":5121},\"values\":{"
+             "\"bufferView\":%d}}",
+             index, thing);
+    const int thin = add_accessor(&b, FLOAT, "VEC3", 2, sparse);
+    snprintf(
+        members, sizeof members,
+        "\"scenes\":[{\"nodes\":[0,3,4]}],\"materials\":[{\"name\":\"glow\"}],\"extensionsUsed\":[\"KHR_animation_"
+        "pointer\",\"EXT_none\"],\"nodes\":["
+        "{\"name\":\"arm\",\"children\":[1]},{\"name\":\"hand\",\"translation\":[0,1,0],\"children\":[2]},{\"name\":"
+        "\"finger\","
+        "\"translation\":[0,0.5,0]},{\"name\":\"prop\"},{\"name\":\"lamp\",\"matrix\":[1,0,0,0,0,0,-1,0,0,1,0,0,3,0,"
+        "0,1]}],"
+        "\"animations\":[{\"extras\":{\"event\":\"step@0.3\"},\"name\":\"Act\",\"extensions\":{\"EXT_none\":{\"k\":["
+        "1.5]}},\"samplers\":["
+        "{\"input\":%d,\"output\":%d,\"interpolation\":\"STEP\",\"extras\":5},{\"input\":%d,\"output\":%d},{"
+        "\"input\":%d,\"output\":%d,"
+        "\"interpolation\":\"CUBICSPLINE\"},{\"input\":%d,\"output\":%d},{\"input\":%d,\"output\":%d},{\"input\":%d,"
+        "\"output\":%d},"
+        "{\"input\":%d,\"output\":%d},{\"input\":%d,\"output\":%d,\"interpolation\":\"CUBICSPLINE\"}],\"channels\":["
+        "{\"sampler\":0,\"target\":{\"node\":3,\"path\":\"scale\"}},{\"sampler\":1,\"target\":{\"node\":3,\"path\":"
+        "\"rotation\"}},"
+        "{\"sampler\":2,\"target\":{\"node\":0,\"path\":\"translation\"}},{\"sampler\":3,\"target\":{\"node\":3,"
+        "\"path\":\"translation\"}},"
+        "{\"sampler\":4,\"target\":{\"path\":\"pointer\",\"extensions\":{\"KHR_animation_pointer\":{\"pointer\":\"/"
+        "materials/0/emissiveFactor\"}}}},"
+        "{\"sampler\":5,\"extras\":1,\"target\":{\"node\":1,\"path\":\"rotation\"}},{\"sampler\":6,\"target\":{"
+        "\"path\":\"translation\"}},"
+        "{\"sampler\":7,\"target\":{\"node\":4,\"path\":\"translation\"}}]}]",
+        t5, step, t2, half, t2, cube, t2, thin, t5, step, t5, turn, tm, thin, tm, cube);
+    snprintf(json, 1 << 14, "%s", builder_json(&b, members));
+    return temporary_file("theirs.gltf", json, strlen(json));
+}
+
+/// Exports a file with a chain that nothing bends, over some frames (0, 0: all).
+static const char *export_plain(const char *file, int first, int last, struct export_options options,
+                                const char *name)
+{
+    struct opened opened;
+    struct export_report report;
+    int rig;
+    assert_done(opened_read(&opened, file, &error));
+    if (last) assert_done(edit_range(opened.document, first, last, RANGE_TRIM, &error));
+    const struct chain_wish wish = {.from = "hand"};
+    assert_done(chain_make(opened.document, opened.models, &wish, &rig, &error));
+    opened_solve(&opened, SOLVER_BY_LENGTH);
+    const struct posing posing = opened_posing(&opened);
+    const char *path = temporary_path(name);
+    assert_done(export_write(&posing, path, &options, &report, &error));
+    opened_free(&opened);
+    return path;
+}
+
+/// Everything in an array is still there and equal.
+static void assert_begins(const json_t *before, const json_t *after, const char *array)
+{
+    size_t i;
+    const json_t *thing;
+    json_array_foreach(json_object_get(before, array), i, thing)
+    {
+        if (!json_equal(thing, json_array_get(json_object_get(after, array), i)))
+            fail_msg("%s[%zu] is another", array, i);
+    }
+}
+
+/// What no chain moves stays bit for bit; a clip by another name is a copy that shares all numbers.
+TEST(exports_edit_the_clip_of_the_file)
+{
+    static const char *const names[] = {NULL, "Else"};
+    static const char *const arrays[] = {"accessors", "bufferViews", "buffers", "materials"};
+    char text[1 << 14];
+    for (int n = 0; n < 2; n++) {
+        const char *file = write_theirs(text);
+        json_t *before = json_loads(text, 0, NULL);
+        json_t *after =
+            json_load_file(export_plain(file, 0, 0, (struct export_options){.clip = names[n]}, "out.gltf"), 0, NULL);
+        for (int a = 0; a < 4; a++) assert_begins(before, after, arrays[a]);
+        json_t *was = json_array_get(json_object_get(before, "animations"), 0),
+               *is = json_array_get(json_object_get(after, "animations"), (size_t)n);
+        assert_int_equal(json_array_size(json_object_get(after, "animations")), n + 1);
+        if (n) assert_true(json_equal(was, json_array_get(json_object_get(after, "animations"), 0)));
+        assert_begins(was, is, "samplers");
+        json_t *hand = json_array_get(json_object_get(is, "channels"), HAND_SAMPLER);
+        assert_int_equal(json_integer_value(json_object_get(hand, "sampler")), THEIR_SAMPLERS);
+        json_object_set_new(hand, "sampler", json_integer(HAND_SAMPLER));
+        assert_begins(was, is, "channels");
+        assert_true(json_equal(json_object_get(was, "extras"), json_object_get(is, "extras")));
+        assert_true(json_equal(json_object_get(was, "extensions"), json_object_get(is, "extensions")));
+        assert_string_equal(json_string_value(json_object_get(is, "name")), n ? "Else" : "Act");
+        json_t *lamp = json_array_get(json_object_get(after, "nodes"), 4);
+        assert_null(json_object_get(lamp, "matrix")); // glTF does not let a clip move one
+        assert_non_null(json_object_get(lamp, "rotation"));
+        json_decref(before);
+        json_decref(after);
+    }
+}
+
+/// A chain's bone that steps still steps, also at the end of a round.
+TEST(a_bone_of_a_chain_keeps_its_steps)
+{
+    static const float times[4] = {0, 0.21f, 0.77f, 1};
+    static const float turns[4][4] = {{0, 0, 0, 1}, {0.6f, 0, 0, 0.8f}, {0, 0.6f, 0, 0.8f}, {0, 0, 0, 1}};
+    static struct builder b;
+    struct gltf before, after;
+    struct gltf_pose was, is;
+    char json[1024];
+    b = (struct builder){0};
+    const int input = add_data(&b, FLOAT, "SCALAR", 4, times, sizeof times);
+    const int output = add_data(&b, FLOAT, "VEC4", 4, turns, sizeof turns);
+    snprintf(
+        json, sizeof json,
+        "\"nodes\":[{\"name\":\"arm\",\"children\":[1]},{\"name\":\"hand\",\"translation\":[0,1,0],\"children\":[2]},"
+        "{\"name\":\"finger\",\"translation\":[0,1,0]}],\"animations\":[{\"name\":\"Act\",\"samplers\":[{\"input\":%"
+        "d,"
+        "\"output\":%d,\"interpolation\":\"STEP\"}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":1,\"path\":"
+        "\"rotation\"}}]}]",
+        input, output);
+    const char *text = builder_json(&b, json), *file = temporary_file("steps.gltf", text, strlen(text));
+    for (int cubic = 0; cubic < 2; cubic++) {
+        assert_done(gltf_read(file, &before, &error));
+        assert_done(gltf_read(export_plain(file, 0, 0, (struct export_options){.is_cubic = cubic}, "out.glb"), &after,
+                              &error));
+        assert_true(gltf_pose_create(&before, &was) && gltf_pose_create(&after, &is));
+        for (int i = 0; i <= 3000; i++) {
+            gltf_pose_clip(&before, 0, i / 3000.0, &was);
+            gltf_pose_clip(&after, 0, i / 3000.0, &is);
+            for (int k = 0; k < 4; k++) assert_near(is.place[1].rotation[k], was.place[1].rotation[k], 1e-5);
+        }
+        gltf_pose_free(&was);
+        gltf_pose_free(&is);
+        gltf_free(&before);
+        gltf_free(&after);
+    }
+}
+
+/// However many rounds of the clip the scene shows, or which part of it, all nodes move as in the clip, also between frames: steps step, and
+/// cubics are the same curves.
+TEST(exports_hold_the_clip_over_any_frames)
+{
+    static const struct {
+        int first, last;
+        double start; ///< seconds of the clip
+        double length;
+    } cases[] = {
+        {0, 0, 0.51, 1}, {51, 351, 0.51, 3}, {73, 142, 0.73, 0.69}, {93, 231, 0.93, 1.38}, {22, 160, 0.51, 1.38}};
+    char text[1 << 14];
+    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+        struct gltf before, after;
+        struct gltf_pose was, is;
+        const char *file = write_theirs(text);
+        assert_done(gltf_read(file, &before, &error));
+        const bool loops = before.clips[0].loops;
+        assert_done(
+            gltf_read(export_plain(file, cases[c].first, cases[c].last, (struct export_options){0}, "out.glb"),
+                      &after, &error));
+        assert_true(gltf_pose_create(&before, &was) && gltf_pose_create(&after, &is));
+        assert_near(after.clips[0].first, 0.51, 1e-6);
+        assert_near(after.clips[0].last, 0.51 + cases[c].length, 1e-5);
+        for (int i = 0; i < 500; i++) {
+            const double into = cases[c].length * (i + 0.5) / 500, lead = cases[c].first == 22 ? 0.29 : 0;
+            double time = fmax(cases[c].start + into - lead - 0.51, 0);
+            time = 0.51 + (loops ? fmod(time, 1) : fmin(time, 1));
+            gltf_pose_clip(&before, 0, time, &was);
+            gltf_pose_clip(&after, 0, 0.51 + into, &is);
+            for (int n = 0; n < before.node_count; n++) {
+                const float *a = (const float *)&was.place[n], *b = (const float *)&is.place[n];
+                for (size_t k = 0; k < sizeof was.place[n] / sizeof *a; k++)
+                    if (!(fabsf(a[k] - b[k]) < 2e-5f))
+                        fail_msg("case %zu at %g s: node %d, number %zu is %g, was %g", c, time, n, k, (double)b[k],
+                                 (double)a[k]);
+            }
+        }
+        gltf_pose_free(&was);
+        gltf_pose_free(&is);
+        gltf_free(&before);
+        gltf_free(&after);
+    }
 }

@@ -223,7 +223,12 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
 
 // --- the rigs at the times that are exported
 
-double range_frame(const struct export_range *range, double key) { return range->first + key * range->spacing; }
+double range_frame(const struct export_range *range, double key)
+{
+    const double whole = round(key);
+    if (!range->frames) return range->first + key * range->spacing;
+    return range->frames[(int)whole] + (key - whole) * range->spacing;
+}
 
 double range_seconds(const struct export_range *range, double key)
 {

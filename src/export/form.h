@@ -49,6 +49,7 @@ struct export_range {
     double first;   ///< frame of the first key
     double spacing; ///< frames between keys
     int key_count;
+    const double *frames;         ///< of the keys, where they are not evenly spaced; NULL: they are
     const char *path;             ///< of the exported file
     const char *rig_choice;       ///< the option for choosing a rig, as named in errors
     char *title;                  ///< name of the animation, by default the scene's
@@ -196,14 +197,11 @@ char *form_text(struct pool *pool, const char *first, const char *second, const 
 bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error);
 void form_close(struct form *form);
 
-/// form.owned of an imported character. Its joints are the nodes that move, first the bones that chains bend; its targets are those of all
-/// nodes.
+/// form.owned of an imported character. Its joints are the bones that chains bend.
 struct model_body {
     const struct gltf *gltf;
     const struct gltf_clip *clip; ///< the clip that plays, or NULL
     int *node;                    ///< of each joint
-    int *joint_of;                ///< of each node, −1: none
-    int bone_count;
 };
 
 // --- all keys of a rig, for animation formats

@@ -71,35 +71,18 @@ static void make_targets(struct form *form, const struct keys *keys, bool clampe
 
 // --- one animation
 
-void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range,
-                       double start)
-{
-    const int count = range->key_count;
-    float *times = need((size_t)count, sizeof *times);
-    *motion =
-        (struct gltf_motion){.file = file, .samplers = json_array(), .channels = json_array(), .key_count = count};
-    for (int k = 0; k < count; k++) times[k] = (float)(start + range_seconds(range, k));
-    motion->times = gltf_file_add(file, ELEMENTS_KEYS, times, (size_t)count, true);
-    free(times);
-}
+static const struct {
+    const char *name;
+    enum gltf_elements elements;
+} paths[] = {{"translation", ELEMENTS_KEY_VECTORS},
+             {"rotation", ELEMENTS_TURNS},
+             {"scale", ELEMENTS_KEY_VECTORS},
+             {"weights", ELEMENTS_KEYS}};
 
-void gltf_motion_free(struct gltf_motion *motion)
+/// Adds a sampler and returns its number: `width` numbers per key, `stride` between keys, and slopes per second (NULL: linear between keys).
+static json_int_t add_sampler(struct gltf_motion *motion, enum gltf_path path, const float *values,
+                              const float *slopes, int width, int stride)
 {
-    json_decref(motion->samplers);
-    json_decref(motion->channels);
-}
-
-/// Adds a node's curve: `width` numbers per key, `stride` between keys, and slopes per second (NULL: linear between keys).
-static void add_numbers(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const float *values,
-                        const float *slopes, int width, int stride)
-{
-    static const struct {
-        const char *name;
-        enum gltf_elements elements;
-    } paths[] = {{"translation", ELEMENTS_KEY_VECTORS},
-                 {"rotation", ELEMENTS_TURNS},
-                 {"scale", ELEMENTS_KEY_VECTORS},
-                 {"weights", ELEMENTS_KEYS}};
     const size_t size = (size_t)width * sizeof *values, count = (size_t)motion->key_count * (slopes ? 3 : 1);
     float *const keys = need(count, size), *at = keys;
     for (size_t from = 0; at < keys + count * (size_t)width; from += (size_t)stride) {
@@ -110,28 +93,23 @@ static void add_numbers(struct gltf_motion *motion, json_int_t node, enum gltf_p
     const json_int_t output = gltf_file_add(motion->file, paths[path].elements, keys,
                                             count * (path == GLTF_WEIGHTS ? (size_t)width : 1), false);
     free(keys);
-    const json_int_t sampler = gltf_append(motion->file, motion->samplers,
-                                           json_pack("{s:I, s:I, s:s}", "input", motion->times, "output", output,
-                                                     "interpolation", slopes ? "CUBICSPLINE" : "LINEAR"));
+    return gltf_append(motion->file, motion->samplers,
+                       json_pack("{s:I, s:I, s:s}", "input", motion->times, "output", output, "interpolation",
+                                 slopes ? "CUBICSPLINE" : "LINEAR"));
+}
+
+json_int_t gltf_motion_add_sampler(struct gltf_motion *motion, enum gltf_path path, const struct keys *keys,
+                                   int column, int width)
+{
+    return add_sampler(motion, path, keys_at(keys, 0, column), keys->slopes ? keys->slopes + column : NULL, width,
+                       keys->width);
+}
+
+void gltf_motion_add_channel(struct gltf_motion *motion, json_int_t node, enum gltf_path path, json_int_t sampler)
+{
     gltf_append(
         motion->file, motion->channels,
         json_pack("{s:I, s:{s:I, s:s}}", "sampler", sampler, "target", "node", node, "path", paths[path].name));
-}
-
-void gltf_motion_add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
-                          int column, int width)
-{
-    add_numbers(motion, node, path, keys_at(keys, 0, column), keys->slopes ? keys->slopes + column : NULL, width,
-                keys->width);
-}
-
-json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name)
-{
-    char *valid = name_from(name, strlen(name)); // it may be an argument
-    json_t *json =
-        json_pack("{s:s, s:O, s:O}", "name", valid, "samplers", motion->samplers, "channels", motion->channels);
-    free(valid);
-    return json;
 }
 
 // --- a scene
@@ -253,7 +231,8 @@ static void add_weights(struct scene *scene, const struct part *part)
         if (!slopes || (part->targets->clamped && weight <= 0)) continue;
         slopes[i] = keys->slopes[(size_t)(i / width) * (size_t)keys->width + (size_t)column] / target->scale;
     }
-    add_numbers(&scene->motion, part->mesh_node, GLTF_WEIGHTS, values, slopes, width, width);
+    gltf_motion_add_channel(&scene->motion, part->mesh_node, GLTF_WEIGHTS,
+                            add_sampler(&scene->motion, GLTF_WEIGHTS, values, slopes, width, width));
     free(values);
     free(slopes);
 }
@@ -269,18 +248,24 @@ static bool differs(const struct keys *keys, int column, int width, const float 
     return false;
 }
 
+static void add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
+                     int column, int width)
+{
+    gltf_motion_add_channel(motion, node, path, gltf_motion_add_sampler(motion, path, keys, column, width));
+}
+
 static void add_animation(struct scene *scene, const struct part *part)
 {
     const struct form *form = part->form;
     const struct keys *keys = part->keys;
     if (keys->travels)
-        gltf_motion_add_keys(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node,
-                             GLTF_TRANSLATION, keys, 0, 3);
+        add_keys(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, GLTF_TRANSLATION, keys,
+                 0, 3);
     for (int j = 0; j < form->joint_count; j++) {
         if (j >= form->first_bone || differs(keys, keys_rotation(j), 4, (const float[]){0, 0, 0, 1}))
-            gltf_motion_add_keys(&scene->motion, part->first_joint + j, GLTF_ROTATION, keys, keys_rotation(j), 4);
+            add_keys(&scene->motion, part->first_joint + j, GLTF_ROTATION, keys, keys_rotation(j), 4);
         if (differs(keys, keys_scale(keys, j), 3, (const float[]){1, 1, 1}))
-            gltf_motion_add_keys(&scene->motion, part->first_joint + j, GLTF_SCALE, keys, keys_scale(keys, j), 3);
+            add_keys(&scene->motion, part->first_joint + j, GLTF_SCALE, keys, keys_scale(keys, j), 3);
     }
     add_weights(scene, part);
 }
@@ -316,7 +301,11 @@ static json_t *make_root(struct scene *scene)
     if (json_array_size(scene->skins) > 0) gltf_set(&scene->file, root, "skins", json_incref(scene->skins));
     if (json_array_size(scene->motion.channels) > 0) {
         const char *name = scene->range->options->clip ? scene->range->options->clip : scene->range->title;
-        gltf_set(&scene->file, root, "animations", json_pack("[o]", gltf_motion_json(&scene->motion, name)));
+        char *valid = name_from(name, strlen(name)); // it may be an argument
+        gltf_set(&scene->file, root, "animations",
+                 json_pack("[{s:s, s:O, s:O}]", "name", valid, "samplers", scene->motion.samplers, "channels",
+                           scene->motion.channels));
+        free(valid);
     }
     return root;
 }
@@ -332,18 +321,21 @@ static void summarise(const struct scene *scene, char summary[FORMAT_SUMMARY])
 static bool write_scene(struct export_range *range, const int *rigs, int count, bool binary, FILE *out,
                         struct error *error)
 {
-    struct scene scene = {.range = range};
-    json_t **const arrays[] = {&scene.roots, &scene.nodes, &scene.meshes, &scene.skins};
+    struct scene scene = {.range = range, .motion = {.file = &scene.file, .key_count = range->key_count}};
+    json_t **const arrays[] = {&scene.roots, &scene.nodes,           &scene.meshes,
+                               &scene.skins, &scene.motion.samplers, &scene.motion.channels};
     enum { ARRAYS = sizeof arrays / sizeof *arrays };
     scene.looks.file = &scene.file;
     for (int i = 0; i < ARRAYS; i++) *arrays[i] = json_array();
     bool done = true;
-    gltf_motion_begin(&scene.motion, &scene.file, range, 0);
+    float *times = need((size_t)range->key_count, sizeof *times);
+    for (int k = 0; k < range->key_count; k++) times[k] = (float)range_seconds(range, k);
+    scene.motion.times = gltf_file_add(&scene.file, ELEMENTS_KEYS, times, (size_t)range->key_count, true);
+    free(times);
     for (int r = 0; done && r < count; r++) done = add_rig(&scene, rigs[r], error);
     done = done && gltf_file_write(&scene.file, make_root(&scene), binary, out, error);
     summarise(&scene, range->summary);
     for (int i = 0; i < ARRAYS; i++) json_decref(*arrays[i]);
-    gltf_motion_free(&scene.motion);
     gltf_looks_free(&scene.looks);
     gltf_file_free(&scene.file);
     return done;

@@ -6,6 +6,7 @@
 #include "model/gltf.h"
 #include "model/gltf_file.h"
 
+/// An animation being written. `file` must outlive it.
 struct gltf_motion {
     struct gltf_file *file;
     json_t *samplers, *channels;
@@ -13,20 +14,19 @@ struct gltf_motion {
     int key_count;
 };
 
-/// Begins an animation with a range's keys, the first of them at `start` seconds. `file` must outlive it.
-void gltf_motion_begin(struct gltf_motion *motion, struct gltf_file *file, const struct export_range *range,
-                       double start);
-void gltf_motion_free(struct gltf_motion *motion);
+/// Adds a sampler for a column of a rig's keys, with tangents if present, and returns its number.
+json_int_t gltf_motion_add_sampler(struct gltf_motion *motion, enum gltf_path path, const struct keys *keys,
+                                   int column, int width);
 
-/// Adds a column of a rig's keys, with tangents if present.
-void gltf_motion_add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
-                          int column, int width);
+/// Adds a channel that moves a node by a sampler.
+void gltf_motion_add_channel(struct gltf_motion *motion, json_int_t node, enum gltf_path path, json_int_t sampler);
 
-/// Returns the animation; the caller owns it.
-json_t *gltf_motion_json(const struct gltf_motion *motion, const char *name);
-
-/// Copies the file of the range's only rig and adds a clip, or replaces the clip of that name. Everything else stays the same, also in the
-/// other container (.glb or .gltf). Without a chain there is no new clip.
+/// Copies the file of the range's only rig and gives its clip, or a copy of that by another name, the keys of chains. Everything else stays the
+/// same, also in the other container (.glb or .gltf). Without a chain the clip stays, too.
 bool gltf_model_write(struct export_range *range, FILE *out, struct error *error);
+
+/// Puts the keys of the chains into the clip that the rig plays, or into a copy of it. `root` is the file's JSON, which `file` continues.
+bool gltf_clip_put(struct export_range *range, struct form *form, struct gltf_file *file, json_t *root,
+                   struct error *error);
 
 #endif

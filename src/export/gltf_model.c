@@ -1,4 +1,4 @@
-/// Writes an imported character's own file with a clip more: parses its JSON, adds to it, and prints it.
+/// Writes an imported character's own file with the keys of its chains: parses its JSON, adds to it, and prints it.
 #include "base/file.h"
 #include "export/gltf.h"
 #include "model/glb.h"
@@ -144,46 +144,7 @@ static bool write_same(const char *path, FILE *out, struct error *error)
     return true;
 }
 
-// --- the clip
-
-static void add_channel(struct gltf_motion *motion, const struct model_body *body, const struct keys *all,
-                        const struct gltf_channel *channel)
-{
-    const int joint = body->joint_of[channel->node];
-    const int columns[] = {keys_offset(all, joint), keys_rotation(joint), keys_scale(all, joint),
-                           keys_weight(all, body->gltf->nodes[channel->node].first_weight)};
-    struct keys keys = *all;
-    if (channel->interpolation != GLTF_CUBIC) keys.slopes = NULL;           // it has corners, or jumps
-    if (channel->path == GLTF_ROTATION && joint < body->bone_count) return; // a chain has it
-    gltf_motion_add_keys(motion, channel->node, channel->path, &keys, columns[channel->path], channel->components);
-}
-
-/// Adds the clip, with keys for all that the one that plays or chains move; one of the same name it replaces.
-static bool put_clip(struct export_range *range, struct form *form, struct original *o, struct error *error)
-{
-    const struct model_body *body = form->owned;
-    struct gltf_motion motion;
-    struct keys keys;
-    json_t *root = o->source.json;
-    const char *plays = range->posing->document->rigs[range->rigs[0]]->model.clip;
-    const char *name = range->options->clip ? range->options->clip : plays ? plays : range->title;
-    if (!keys_collect(range, range->rigs[0], form, &keys, error)) return false;
-    gltf_motion_begin(&motion, &o->file, range, body->clip ? body->clip->first : 0);
-    for (int c = 0; body->clip && c < body->clip->channel_count; c++)
-        add_channel(&motion, body, &keys, &body->clip->channels[c]);
-    for (int j = 0; j < body->bone_count; j++)
-        gltf_motion_add_keys(&motion, body->node[j], GLTF_ROTATION, &keys, keys_rotation(j), 4);
-    json_t *clip = gltf_motion_json(&motion, name);
-    const int known = gltf_find_clip(body->gltf, name);
-    if (known < 0) {
-        gltf_append_to(&o->file, root, "animations", clip);
-    } else if (json_array_set_new(json_object_get(root, "animations"), (size_t)known, clip) != 0) {
-        o->file.without_memory = true;
-    }
-    gltf_motion_free(&motion);
-    o->clips++;
-    return true;
-}
+// --- the clips
 
 /// Adds what the chains make of another clip of the file.
 static bool put_other(struct export_range *range, int clip, struct original *o, struct error *error)
@@ -203,7 +164,8 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
     range->posing = &posing;
     bool done = range_choose_keys(range, &report, error) && form_open(range, rig, &form, error);
     if (done) {
-        done = put_clip(range, &form, o, error);
+        done = gltf_clip_put(range, &form, &o->file, o->source.json, error);
+        o->clips++;
         form_close(&form);
     }
     evaluation_free(&evaluation);
@@ -216,7 +178,8 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
 static bool put_clips(struct export_range *range, struct form *form, struct original *o, struct error *error)
 {
     const struct model_body *body = form->owned;
-    bool done = put_clip(range, form, o, error);
+    bool done = gltf_clip_put(range, form, &o->file, o->source.json, error);
+    o->clips = 1;
     for (int c = 0; done && range->options->all_clips && c < body->gltf->clip_count; c++) {
         const struct gltf_clip *clip = &body->gltf->clips[c];
         if (clip != body->clip && clip->last > clip->first) done = put_other(range, c, o, error);
@@ -259,7 +222,7 @@ static bool write_file(struct export_range *range, struct form *form, FILE *out,
 {
     struct original o = {0};
     const struct model_body *body = form->owned;
-    const bool has_clip = body->bone_count > 0, binary = range->format->is_binary;
+    const bool has_clip = form->joint_count > 0, binary = range->format->is_binary;
     struct rig_pose pose;
     if (!range_pose(range, range->rigs[0], 0, &pose, error)) return false;
     const float *root = range_root(range, range->rigs[0], &pose);
@@ -277,8 +240,9 @@ static bool write_file(struct export_range *range, struct form *form, FILE *out,
     gltf_file_free(&o.file);
     glb_close(&o.source);
     if (has_clip) {
-        snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains in %d clip%s, %ld keys%s", body->bone_count,
-                 o.clips, o.clips == 1 ? "" : "s", range->total, was_packed ? ", meshes decompressed" : "");
+        snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains in %d clip%s, %ld keys%s",
+                 form->joint_count, o.clips, o.clips == 1 ? "" : "s", range->total,
+                 was_packed ? ", meshes decompressed" : "");
     } else {
         snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, %sbecause no chain moves it",
                  was_packed ? "meshes decompressed, " : "");

@@ -1,15 +1,7 @@
-/// An imported character as a form in its file's space: its vertices, and its moving nodes as joints.
+/// An imported character as a form in its file's space: its vertices, and the bones of its chains as joints.
 #include "export/form.h"
 #include "rig/imported.h"
 #include <string.h>
-
-static void add_joint(struct form *form, int node)
-{
-    struct model_body *body = form->owned;
-    if (body->joint_of[node] >= 0) return;
-    body->joint_of[node] = form->joint_count;
-    body->node[form->joint_count++] = node;
-}
 
 /// Adds the bones of all chains on the rig.
 static bool add_bones(struct form *form, const struct document *document, int rig, struct error *error)
@@ -19,9 +11,12 @@ static bool add_bones(struct form *form, const struct document *document, int ri
         const struct chain *chain = &document->rigs[r]->chain;
         struct chain_bones bones;
         if (!chain_find(body->gltf, chain->from, chain->to, &bones, error)) return false;
-        for (int n = 0; n < bones.count; n++) add_joint(form, bones.node[n]);
+        for (int n = 0; n < bones.count; n++) {
+            bool is_new = true;
+            for (int j = 0; j < form->joint_count; j++) is_new = is_new && body->node[j] != bones.node[n];
+            if (is_new) body->node[form->joint_count++] = bones.node[n];
+        }
     }
-    body->bone_count = form->joint_count;
     return true;
 }
 
@@ -36,14 +31,8 @@ static bool open(const struct posing *posing, int rig, const struct rig_pose *po
     body->gltf = gltf;
     body->clip = clip >= 0 ? &gltf->clips[clip] : NULL;
     body->node = pool_take(&form->pool, nodes, sizeof *body->node);
-    body->joint_of = pool_take(&form->pool, nodes, sizeof *body->joint_of);
     form->joints = pool_take(&form->pool, nodes, sizeof *form->joints);
-    for (size_t n = 0; n < nodes; n++) body->joint_of[n] = -1;
     if (!add_bones(form, posing->document, rig, error)) return false;
-    for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
-        if (body->clip->channels[c].path != GLTF_WEIGHTS) add_joint(form, body->clip->channels[c].node);
-    }
-    form->target_count = gltf->weight_count;
     for (int n = 0; n < gltf->node_count; n++) {
         const int count = gltf_vertex_count(gltf, n);
         if (count > 0) form->holder = form->vertex_count == 0 ? n : -1;
@@ -57,13 +46,8 @@ static void key(const struct form *form, const struct rig_pose *pose, struct for
     const struct model_body *body = form->owned;
     const struct gltf_pose *now = pose->model.pose;
     memset(key->translation, 0, sizeof key->translation);
-    for (int j = 0; j < form->joint_count; j++) {
-        const struct gltf_place *place = &now->place[body->node[j]];
-        memcpy(key->offset[j], place->translation, sizeof place->translation);
-        memcpy(key->rotation[j], place->rotation, sizeof place->rotation);
-        memcpy(key->scale[j], place->scale, sizeof place->scale);
-    }
-    memcpy(key->weight, now->weights, (size_t)form->target_count * sizeof *key->weight);
+    for (int j = 0; j < form->joint_count; j++)
+        memcpy(key->rotation[j], now->place[body->node[j]].rotation, sizeof key->rotation[j]);
 }
 
 /// Node by node.
