@@ -6,7 +6,7 @@ build=$(mkdir -p "$1/npm" && realpath "$1/npm")
 cd "$(dirname "$0")"
 package=$build/wiggly
 sources="src/spring.c ../src/maths/maths.c"
-for name in spline solver problem complete poles chain chain_nodes chain_tables chain_gradient tail desc pose; do
+for name in spline solver problem complete poles chain chain_nodes chain_tables chain_gradient tail desc pose scale; do
     sources="$sources ../src/spline/$name.c"
 done
 unset LDFLAGS CFLAGS
