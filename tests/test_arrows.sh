@@ -65,9 +65,9 @@ says "and named, without those that only look in" "src: 4 files include each oth
 {
     echo 'void long_one(void)'
     echo '{'
-    for _ in $(seq 79); do echo '    ;'; done
+    for _ in $(seq 119); do echo '    ;'; done
     echo '}'
 } >"$scratch/long.c"
-expect 1 "a function of 81 lines is refused" tools/check-lengths.sh "$scratch/long.c"
-seq 601 >"$scratch/long.h"
-expect 1 "a file of 601 lines is refused" tools/check-lengths.sh "$scratch/long.h"
+expect 1 "a function of 121 lines is refused" tools/check-lengths.sh "$scratch/long.c"
+seq 1201 >"$scratch/long.h"
+expect 1 "a file of 1,201 lines is refused" tools/check-lengths.sh "$scratch/long.h"
