@@ -40,6 +40,15 @@ typedef struct limit_memory {
     int solves;             ///< after the first one, of the last limited spline
 } limit_memory;
 
+enum { FREE_RUN = 64 }; ///< samples of a free motion that are filled from one
+
+/// Powers of a free motion's step, as far as they were needed.
+typedef struct free_powers {
+    cplx exponent; ///< of the step
+    int count;
+    double re[FREE_RUN], im[FREE_RUN];
+} free_powers;
+
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
@@ -51,6 +60,7 @@ struct wiggly_solver {
     constant_filter filter;
     chain chain; ///< shares its large arrays' memory with the matrix: a solve uses one of the two
     limit_memory limits;
+    free_powers powers;
     forced_response response; ///< to the moving equilibrium
     double *y;                ///< equilibrium, if the curve has no array for it
     wiggly_knot *filled;      ///< the knots of one of many

@@ -2,8 +2,6 @@
 #include "spline/problem.h"
 #include "spline/wide.h"
 
-enum { RUN = 64 }; ///< samples filled from one power
-
 WIDEST static void scale_powers(const double *restrict power_re, const double *restrict power_im, cplx w, int count,
                                 double *restrict re, double *restrict im)
 {
@@ -13,21 +11,32 @@ WIDEST static void scale_powers(const double *restrict power_re, const double *r
     }
 }
 
-/// Fills each run of samples on its own, counted from the knot, so that the result does not depend on `from`.
-static void fill_constant(cplx exponent, cplx w, int from, int count, double *re, double *im)
+/// The first powers of a free motion's step; those of the motion before are kept.
+static const free_powers *powers_of(wiggly_solver *solver, cplx exponent, int needed)
 {
-    double power_re[RUN], power_im[RUN];
-    const int end = from % RUN + count, needed = end < RUN ? end : RUN;
-    cplx turn = cplx_exp(exponent), power = {1, 0};
+    free_powers *p = &solver->powers;
+    if (p->count >= needed && p->exponent.re == exponent.re && p->exponent.im == exponent.im) return p;
+    const cplx turn = cplx_exp(exponent);
+    cplx power = {1, 0};
+    *p = (free_powers){.exponent = exponent, .count = needed};
     for (int i = 0; i < needed; i++) {
-        power_re[i] = power.re, power_im[i] = power.im;
+        p->re[i] = power.re, p->im[i] = power.im;
         power = cplx_mul(power, turn);
     }
+    return p;
+}
+
+/// Fills each run of samples on its own, counted from the knot, so that the result does not depend on `from`.
+static void fill_constant(wiggly_solver *solver, cplx exponent, cplx w, int from, int count, double *re, double *im)
+{
+    const int end = from % FREE_RUN + count;
+    const free_powers *power = powers_of(solver, exponent, end < FREE_RUN ? end : FREE_RUN);
     for (int i = 0; i < count;) {
-        int run = (from + i) / RUN, begin = (from + i) % RUN, rest = RUN - begin;
-        int n = rest < count - i ? rest : count - i;
-        cplx base = run > 0 ? cplx_mul(cplx_exp(cplx_scale(run * (double)RUN, exponent)), w) : w;
-        scale_powers(power_re + begin, power_im + begin, base, n, re + i, im + i);
+        const int run = (from + i) / FREE_RUN, begin = (from + i) % FREE_RUN, rest = FREE_RUN - begin;
+        const int n = rest < count - i ? rest : count - i;
+        cplx base = w;
+        if (run > 0) base = cplx_mul(cplx_exp(cplx_scale(run * (double)FREE_RUN, exponent)), w);
+        scale_powers(power->re + begin, power->im + begin, base, n, re + i, im + i);
         i += n;
     }
 }
@@ -49,7 +58,7 @@ void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from
     if (p->desc->mode != WIGGLY_COMPLEX) {
         for (int i = 0; i < count; i++) re[i] = w.re;
     } else if (poles_are_constant(p->desc)) {
-        fill_constant(problem_filter(solver, p)->passive, w, from, count, re, im);
+        fill_constant(solver, problem_filter(solver, p)->passive, w, from, count, re, im);
     } else {
         fill_varying(p, w, from, count, re, im);
     }
