@@ -15,7 +15,7 @@
 #   make proof    has three.js, Blender and usd-core evaluate what wiggly exports, and takes in files of others
 #   make check    formatting, static analysis, include arrows, lengths
 #   make figures  the paper's figures as SVG and CSV, in FIGURES (build/figures)
-#   make feel     how curves answer to a knot that moves, and how far they overshoot, as a table; fails where poses change too much
+#   make feel     how curves answer to a knot that moves, and how far they overshoot, as a table; fails where poses or wind-up change too much
 #   make adversary SEED=1 COUNT=2000    random splines meant to be hard, judged in quadruple precision; what is wrong is printed as a scene
 #   make fuzz     every reader of files, and exports of what is read, for SECONDS=20 each, or RUNS=10000000 inputs each; SEED=1; needs clang
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session

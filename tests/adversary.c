@@ -341,3 +341,13 @@ void adversary_hold(struct adversary_problem *p, uint64_t seed)
         if (what == 2) *knot = (wiggly_knot){.sample = knot->sample, .still = true};
     }
 }
+
+void adversary_direct(struct adversary_problem *p, uint64_t seed)
+{
+    wiggly_desc *d = &p->desc;
+    for (int i = 0; i < 16; i++) uniform(&seed);
+    if (pick(&seed, 4)) d->mode = WIGGLY_COMPLEX, d->passive = WIGGLY_OSCILLATOR;
+    if (pick(&seed, 4)) d->wind_up = pick(&seed, 3) ? 0.5 : power(&seed, -2, 2);
+    const int rarely = 1 + pick(&seed, 5);
+    for (int k = 0; k < d->knot_count; k++) p->knots[k].settles = !p->knots[k].still && pick(&seed, rarely) == 0;
+}

@@ -38,13 +38,18 @@ void adversary_make(struct adversary_problem *problem, adversary_kind kind, uint
 /// Turns some knots into poses and some into still knots.
 void adversary_hold(struct adversary_problem *problem, uint64_t seed);
 
-/// The nth problem of a search: kinds alternate, and every other round some knots are poses or still.
+/// Lets the motion wind up and some knots settle.
+void adversary_direct(struct adversary_problem *problem, uint64_t seed);
+
+/// The nth problem of a search: kinds alternate; every other round some knots are poses or still, and every other two the motion has a
+/// direction.
 static inline adversary_kind adversary_make_nth(struct adversary_problem *problem, uint64_t seed, uint64_t n)
 {
     const adversary_kind kind = (adversary_kind)(n % ADVERSARY_KINDS);
     const uint64_t own = seed * 0x9E3779B97F4A7C15u + n;
     adversary_make(problem, kind, own);
     if (n / ADVERSARY_KINDS % 2 == 1) adversary_hold(problem, own);
+    if (n / ADVERSARY_KINDS % 4 >= 2) adversary_direct(problem, own);
     return kind;
 }
 

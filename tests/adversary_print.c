@@ -40,8 +40,11 @@ void adversary_print(FILE *out, const struct adversary_problem *p)
     const wiggly_desc *d = &p->desc;
     fprintf(out, "{\"wiggly\": 1, \"fps\": %.17g, \"frames\": [0, %d], \"splines\": [", p->fps, d->samples - 1);
     for (int t = 0; t < p->tracks_used; t++) print_track(out, p, t);
-    fprintf(out, "{\"name\": \"problem\", \"mode\": \"%s\", \"start\": \"%s\", \"passive\": \"%s\", \"calm\": %.17g",
-            modes[d->mode], starts[d->start], d->passive == WIGGLY_FILTER ? "filter" : "oscillator", d->calm);
+    fprintf(out,
+            "{\"name\": \"problem\", \"mode\": \"%s\", \"start\": \"%s\", \"passive\": \"%s\", \"calm\": %.17g, "
+            "\"wind_up\": %.17g",
+            modes[d->mode], starts[d->start], d->passive == WIGGLY_FILTER ? "filter" : "oscillator", d->calm,
+            d->wind_up);
     print_params(out, p);
     fprintf(out, ", \"knots\": [");
     for (int k = 0; k < d->knot_count; k++) {
@@ -49,6 +52,7 @@ void adversary_print(FILE *out, const struct adversary_problem *p)
         fprintf(out, "%s{\"frame\": %d", k ? ", " : "", knot->sample);
         if (knot->still) fprintf(out, ", \"still\": true");
         if (!knot->still) fprintf(out, ", \"value\": %.17g", knot->value);
+        if (knot->settles) fprintf(out, ", \"settles\": true");
         if (knot->has_phase) fprintf(out, ", \"im\": %.17g", knot->phase);
         if (knot->has_slope) fprintf(out, ", \"slope\": %.17g, \"stiffness\": %.17g", knot->slope, knot->stiffness);
         fprintf(out, "}");

@@ -171,7 +171,7 @@ for document in $documents CHANGELOG.md {assets,src/*,tests,tools}/README.md; do
         grep -oE '\]\([^)]*\)' "$document" | tr -d '[]()' | while read -r link; do
             target=$(dirname "$document")/${link%%#*} heading=${link#*#}
             [[ $link == http* || -e $target ]] || echo "$link"
-            [[ $link != *#* ]] || grep -qi "^#* ${heading//-/ }\$" "$target" || echo "$link"
+            [[ $link != *#* ]] || grep -qi "^#* ${heading//-/[ -]}\$" "$target" || echo "$link"
         done
         grep -oE '`(assets|docs|examples|include|src|shaders|tests|tools)/[^` *]*`' "$document" | tr -d '`' |
             while read -r path; do [ -e "$path" ] || echo "$path"; done

@@ -72,6 +72,7 @@ static wiggly_desc read_desc(const struct scene *scene, const json_t *spline, wi
     desc.start = (wiggly_start)choice(spline, "start", (const char *[]){"free", "rest", "loop"});
     desc.passive = (wiggly_passive)choice(spline, "passive", (const char *[]){"oscillator", "filter"});
     if (calm) desc.calm = json_number_value(calm);
+    desc.wind_up = json_number_value(json_object_get(spline, "wind_up"));
     read_param(scene, spline, "frequency", &desc.frequency);
     read_param(scene, spline, "damping", &desc.damping);
     read_param(scene, spline, "bandwidth", &desc.bandwidth);
@@ -96,6 +97,7 @@ static wiggly_desc read_desc(const struct scene *scene, const json_t *spline, wi
             .has_phase = phase != NULL,
             .phase = json_number_value(phase),
             .still = json_is_true(json_object_get(knot, "still")),
+            .settles = json_is_true(json_object_get(knot, "settles")),
         };
     }
     return desc;

@@ -8,6 +8,16 @@
 static const real least_pivot = 1e-28Q;
 static const double blow_up = 1e4;
 
+void textbook_sorted(const wiggly_desc *desc, const wiggly_knot **knots)
+{
+    for (int n = 0; n < desc->knot_count; n++) {
+        int place = n;
+        for (; place > 0 && knots[place - 1]->sample > desc->knots[n].sample; place--)
+            knots[place] = knots[place - 1];
+        knots[place] = &desc->knots[n];
+    }
+}
+
 static void find_knots(const wiggly_desc *desc, struct textbook *b)
 {
     b->earliest = b->last = b->first_still = -1;
@@ -42,6 +52,8 @@ static void open_book(const wiggly_desc *desc, real calm, struct textbook *b)
         bool wraps = b->loop && i == b->samples - 1;
         b->y[i] = wraps ? b->y[0] : textbook_param(desc->equilibrium, i);
     }
+    b->winds_up = desc->wind_up > 0 && b->is_complex && !b->filter && !desc->has_low && !desc->has_high;
+    textbook_settle(desc, b);
     textbook_fill_poles(desc, b->loop ? calm / 20 : 0, b->loop, b->at);
     textbook_forced_response(desc, b);
     size_t n = 2 * (size_t)(b->count > 2 ? b->count : 2);
@@ -217,7 +229,9 @@ bool textbook_as(const wiggly_desc *desc, wiggly_status status, struct textbook 
 {
     bool calmed = status != WIGGLY_OK && desc->calm == 0;
     open_book(desc, calmed ? 0.05Q : (real)desc->calm, b);
-    if (is_still(desc, b)) {
+    if (b->winds_up) {
+        textbook_wind_up(desc, b);
+    } else if (is_still(desc, b)) {
         // w = 0
     } else if (b->count < 3) {
         solve_short(desc, b);
@@ -226,7 +240,7 @@ bool textbook_as(const wiggly_desc *desc, wiggly_status status, struct textbook 
         if (!solve(b)) return false;
     }
     textbook_fill(b, total, re, im);
-    if (b->count >= 3) measure_growth(desc, b);
+    if (b->count >= 3 && !b->winds_up) measure_growth(desc, b);
     return true;
 }
 

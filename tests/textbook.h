@@ -22,6 +22,7 @@ __float128 crealq(__complex128);
 __float128 expm1q(__float128);
 __float128 expq(__float128);
 __float128 fabsq(__float128);
+__float128 floorq(__float128);
 __float128 fmaxq(__float128, __float128);
 __float128 fminq(__float128, __float128);
 __float128 powq(__float128, __float128);
@@ -52,6 +53,7 @@ struct textbook {
     bool solved;       ///< by its matrix
     bool swing_calmed; ///< an undamped loop has almost no swing of its own: u is that of calm 0.05
 
+    bool winds_up, settles;              ///< its motion has a direction; knots move the equilibrium
     bool is_complex, loop, rest, filter; ///< filter: the paper's filter moves by itself
     real h, calm;
     int samples, first, count; ///< domain: samples first … first + count − 1
@@ -63,6 +65,7 @@ struct textbook {
     real tie_rest;
     struct textbook_poles at[TEXTBOOK_MAX], swing[TEXTBOOK_MAX]; ///< of the rows; of u
     real y[TEXTBOOK_MAX], speed[TEXTBOOK_MAX];                   ///< equilibrium; (y + Re u)′
+    real offset_speed[TEXTBOOK_MAX];                             ///< of what settling knots add to y
     number u[TEXTBOOK_MAX];
 
     real band[2 * TEXTBOOK_MAX]

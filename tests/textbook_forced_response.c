@@ -89,10 +89,12 @@ static real range_of_y(const struct textbook *b)
 }
 
 /// Im u: the one-sided form, faded out where it would diverge.
-static real imaginary(const struct textbook *b, const struct textbook_poles *p, struct state at)
+static real imaginary(const struct textbook *b, int sample, struct state at)
 {
+    const struct textbook_poles *p = &b->swing[sample];
     if (!(p->turn > 0)) return 0;
     real tau = powq(p->turn * (b->samples - 1) * b->h, 8), rho = powq(p->turn / p->natural, 8);
+    if (b->settles) at.v += b->offset_speed[sample];
     return -(at.v + p->d * at.q) / p->turn * tau / (1 + tau) * rho / (rho + 1e-8Q);
 }
 
@@ -106,7 +108,7 @@ static bool swing_at_calm(const wiggly_desc *desc, struct textbook *b, real calm
     real largest = 0;
     for (int i = 0; i < b->samples; i++) {
         largest = fmaxq(largest, fabsq(at[i].q));
-        b->u[i] = at[i].q + (b->is_complex ? 1.0Qi * imaginary(b, &b->swing[i], at[i]) : 0);
+        b->u[i] = at[i].q + (b->is_complex ? 1.0Qi * imaginary(b, i, at[i]) : 0);
         // y + q has no jump in its speed: y comes from rest at sample 0, as q does.
         b->speed[i] = at[i].v + (textbook_y_after(b, i) - textbook_y_before(b, i)) / (2 * b->h);
     }

@@ -32,6 +32,18 @@ number textbook_knot(const wiggly_desc *desc, const struct textbook *book, const
 /// u, and the speed of y + Re u: the oscillator's response to the moving equilibrium.
 void textbook_forced_response(const wiggly_desc *desc, struct textbook *book);
 
+/// The knots in order of their samples.
+void textbook_sorted(const wiggly_desc *desc, const wiggly_knot **knots);
+
+/// Samples of the wind-up before a knot of that natural frequency; infinite at 0.
+real textbook_reach(const wiggly_desc *desc, real natural);
+
+/// w of a spline that winds up.
+void textbook_wind_up(const wiggly_desc *desc, struct textbook *book);
+
+/// Moves y to where knots settle.
+void textbook_settle(const wiggly_desc *desc, struct textbook *book);
+
 /// All rows of the energy, squared, and the fixed unknowns. `level` adds slope 0 at the earliest knot.
 void textbook_assemble(const wiggly_desc *desc, struct textbook *book, bool level);
 

@@ -41,6 +41,9 @@ static const struct {
     {"limits", BENCH_LIMITS, REAL | CUBIC, {240}, false},
     {"variation", BENCH_VARIATION, COMPLEX, {240, 1000}, false},
     {"variation", BENCH_VARIATION, REAL, {240}, false},
+    {"wind-up", BENCH_WIND_UP, COMPLEX, {240, 1000}, false},
+    {"resolve-wind-up", BENCH_WIND_UP, COMPLEX, {240, 1000}, true},
+    {"wind-up-track", BENCH_WIND_UP_TRACK, COMPLEX, {240, 1000}, false},
 };
 
 static void run_plans(struct bench *bench)

@@ -52,7 +52,7 @@ typedef enum wiggly_status {
     WIGGLY_ERROR_KNOT_NUMBER,   ///< a knot's number is NaN, infinite or beyond 1e300, or its stiffness is below 0
     WIGGLY_ERROR_KNOT_OUTSIDE,  ///< a knot is outside the samples (a loop's last sample is its first)
     WIGGLY_ERROR_KNOT_TWICE,    ///< two knots share a sample
-    WIGGLY_ERROR_KNOT_STILL,    ///< a still knot has a slope or a phase
+    WIGGLY_ERROR_KNOT_STILL,    ///< a still knot has a slope or a phase, or settles
     WIGGLY_ERROR_KNOT_LIMIT,    ///< a knot is beyond a limit; a still one where the equilibrium takes it
     WIGGLY_ERROR_PIN,           ///< a pin is outside the samples, or on a spline without a motion of its own
     WIGGLY_STATUS_COUNT
@@ -94,6 +94,7 @@ typedef struct wiggly_param {
 typedef struct wiggly_knot {
     int sample;                       ///< 0 … N − 1; of a loop, to N − 2
     bool has_slope, has_phase, still; ///< a still knot has neither
+    bool settles;                     ///< the equilibrium comes to its value and stays; not in cubic mode, nor of a still knot
     double value;                     ///< of the total; ignored at a still knot
     double slope;                     ///< value per second; read where has_slope
     double stiffness;                 ///< 1/s, the cost of missing the slope; 0: 1000, which is firm
@@ -116,6 +117,7 @@ typedef struct wiggly_desc {
     wiggly_param bandwidth;   ///< 0 … 1, how far the frequency may shift, as a fraction of it; complex mode only
     wiggly_param equilibrium; ///< y, what it swings about
     double calm;              ///< 0 … 1, the cost of a swing at the start; 0 means 1 unless has_calm is set
+    double wind_up;           ///< 0 … 100, how long before a knot the motion is pushed, in periods there; 0: at any time
     double low, high;         ///< limits of the total; read where has_low, has_high
     double variation;         ///< another motion through the same knots (wiggly/more.h); 0: none
     bool has_calm, has_low, has_high;
@@ -238,6 +240,7 @@ typedef struct wiggly_many {
     wiggly_numbers stiffness;     ///< 0: 1000
     wiggly_numbers phase;         ///< NaN: free
     wiggly_numbers still;         ///< above 0: a still knot
+    wiggly_numbers settles;       ///< above 0: the motion settles there
     wiggly_rows total, y, re, im; ///< filled: N numbers a spline, as in wiggly_curve
     wiggly_status *status;        ///< filled, or NULL: one a spline, as of wiggly_solve()
     int *knot;                    ///< filled, or NULL: one a spline, as in wiggly_curve, by the place in the arrays

@@ -15,7 +15,7 @@ const numbers = (count) => new Float64Array(wasm.memory.buffer, wasm.vector_numb
 
 /** Total, Re x and Im x of a spline of a scene, by one of the two solvers. */
 function solve(scene, spline, method) {
-  const { fps = 24, substeps = 1, frames } = scene, { knots = [], mode = 'complex', start = 'free', passive = 'oscillator', calm = 1 } = spline
+  const { fps = 24, substeps = 1, frames } = scene, { knots = [], mode = 'complex', start = 'free', passive = 'oscillator', calm = 1, wind_up = 0 } = spline
   const n = (frames[1] - frames[0]) * substeps + 1, values = [0, 0, 0.1, 0], tracks = []
   if ('spring' in spline || 'friction' in spline) {
     wasm.vector_spring(spline.spring ?? 0, spline.friction ?? 0)
@@ -26,15 +26,15 @@ function solve(scene, spline, method) {
     else if (spline[name] instanceof Float64Array) tracks[i] = spline[name]
     else if (spline[name]) tracks[i] = solve(scene, scene.splines.find((other) => other.name === spline[name].spline), method).columns[0]
   })
-  const all = numbers(4 + 4 * n + 8 * knots.length).fill(0)
+  const all = numbers(4 + 4 * n + 9 * knots.length).fill(0)
   all.set(values)
   tracks.forEach((track, i) => all.set(track, 4 + i * n))
-  knots.forEach(({ frame, value = 0, slope, im, still = false, stiffness = 1000 }, i) => {
+  knots.forEach(({ frame, value = 0, slope, im, still = false, settles = false, stiffness = 1000 }, i) => {
     const sample = Math.floor((frame - frames[0]) * substeps + 0.5)
-    all.set([sample, slope !== undefined, im !== undefined && mode === 'complex', still, value, slope ?? 0, stiffness, im ?? 0].map(Number), 4 + 4 * n + 8 * i)
+    all.set([sample, slope !== undefined, im !== undefined && mode === 'complex', still, value, slope ?? 0, stiffness, im ?? 0, settles].map(Number), 4 + 4 * n + 9 * i)
   })
   const used = tracks.reduce((sum, track, i) => sum + (track ? 1 << i : 0), 0)
-  const status = wasm.vector_solve(n, 1 / (fps * substeps), modes.indexOf(mode), starts.indexOf(start), passive === 'filter' ? 1 : 0, calm, knots.length, used, method)
+  const status = wasm.vector_solve(n, 1 / (fps * substeps), modes.indexOf(mode), starts.indexOf(start), passive === 'filter' ? 1 : 0, calm, wind_up, knots.length, used, method)
   return { status, columns: [0, 1, 2].map((i) => numbers(3 * n).slice(i * n, (i + 1) * n)) }
 }
 

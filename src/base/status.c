@@ -18,7 +18,7 @@ static const char *const status_text[WIGGLY_STATUS_COUNT] = {
     [WIGGLY_ERROR_KNOT_NUMBER] = "a knot's number is not finite or beyond 1e300, or its stiffness below 0",
     [WIGGLY_ERROR_KNOT_OUTSIDE] = "a knot is outside the samples (a loop's last one is its first)",
     [WIGGLY_ERROR_KNOT_TWICE] = "two knots share a sample",
-    [WIGGLY_ERROR_KNOT_STILL] = "a still knot has a slope or a phase",
+    [WIGGLY_ERROR_KNOT_STILL] = "a still knot has a slope or a phase, or settles",
     [WIGGLY_ERROR_KNOT_LIMIT] = "a knot is beyond a limit",
     [WIGGLY_ERROR_PIN] =
         "a pin is outside the domain, or on a spline that has no motion of its own: cubic, calm 0 or frequency 0",

@@ -67,6 +67,7 @@ static int fill_knots(const wiggly_many *many, int spline, wiggly_knot *knots, i
                                        .has_slope = !isnan(slope),
                                        .has_phase = !isnan(phase),
                                        .still = number(&many->still, spline, k) > 0,
+                                       .settles = number(&many->settles, spline, k) > 0,
                                        .value = number(&many->value, spline, k),
                                        .slope = slope,
                                        .stiffness = many->stiffness.at ? stiffness : 0,

@@ -15,6 +15,7 @@
     X(bandwidth, PARAM, true)                                                                                        \
     X(equilibrium, PARAM, false)                                                                                     \
     X(calm, NUMBER, false)                                                                                           \
+    X(wind_up, NUMBER, false)                                                                                        \
     X(low, NUMBER, false)                                                                                            \
     X(high, NUMBER, false)                                                                                           \
     X(variation, NUMBER, false)                                                                                      \

@@ -428,6 +428,19 @@ WIDEST static void imaginary_constant(const double *restrict q, const double *re
     for (int i = 0; i < count; i++) im[i] = gain * (speed[i] + d * q[i]);
 }
 
+/// Lets Im u see the offset's speed: a part that lags follows a move later, and does not see the mass that stays behind.
+static void add_offset(const wiggly_desc *desc, double floor, const forced_response *u)
+{
+    const double *o = u->offset, t = (desc->samples - 1) * desc->step;
+    const int last = desc->samples - 1;
+    const bool loops = desc->start == WIGGLY_LOOP;
+    for (int i = 0; i <= last; i++) {
+        const int before = i > 0 ? i - 1 : loops ? last - 1 : 0, after = i < last ? i + 1 : loops ? 1 : last;
+        if (o[after] == o[before]) continue;
+        u->im[i] += oscillator_turn(oscillator_at(desc, i, floor), t) * (o[after] - o[before]) / (2 * desc->step);
+    }
+}
+
 static void set_imaginary(const wiggly_desc *desc, double floor, const forced_response *u)
 {
     double t = (desc->samples - 1) * desc->step;
@@ -462,6 +475,7 @@ wiggly_status forced_response_find(const wiggly_desc *desc, const double *y, dou
     }
     if (desc->mode == WIGGLY_COMPLEX) {
         set_imaginary(desc, floor, u);
+        if (u->offset) add_offset(desc, floor, u);
     } else {
         for (int i = 0; i < desc->samples; i++) u->im[i] = 0;
     }

@@ -9,11 +9,12 @@ enum { RESPONSE_ROOM = 19 };
 
 /// The response u to an equilibrium, as arrays of N numbers.
 typedef struct forced_response {
-    double *total; ///< y + Re u
-    double *im;    ///< Im u; 0 in real mode
-    double *speed; ///< of Re u, 1/s; in the middle of its jump
-    double error;  ///< estimated, of u
-    double *room;  ///< scratch: RESPONSE_ROOM numbers a sample
+    double *total;        ///< y + Re u
+    double *im;           ///< Im u; 0 in real mode
+    double *speed;        ///< of Re u, 1/s; in the middle of its jump
+    double error;         ///< estimated, of u
+    const double *offset; ///< what settling knots add to the equilibrium: Im u sees its speed, too; NULL: nothing
+    double *room;         ///< scratch: RESPONSE_ROOM numbers a sample
 } forced_response;
 
 /// u for the equilibrium y, N numbers, in complex or real mode; in a loop the last is the first. `calm` sets the loop's damping floor.

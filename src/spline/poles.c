@@ -490,3 +490,25 @@ WIDEST void poles_block_exp(const double *restrict x, int count, double *restric
 {
     for (int i = 0; i < count; i++) out[i] = exp_near(x[i]);
 }
+
+WIDEST static void turn_near(const double *restrict real, const double *restrict angle, int count,
+                             double *restrict re, double *restrict im)
+{
+    for (int i = 0; i < count; i++) {
+        double sine, cosine;
+        const double size = exp_near(real[i]);
+        sine_cosine(angle[i], &sine, &cosine);
+        re[i] = size * cosine;
+        im[i] = size * sine;
+    }
+}
+
+void poles_block_turn(const double *real, const double *angle, int count, cplx *out)
+{
+    double re[POLES_BLOCK], im[POLES_BLOCK];
+    bool near = true;
+    for (int i = 0; i < count; i++)
+        near = near && fabs(angle[i]) <= largest_angle && fabs(real[i]) <= largest_exponent;
+    if (near) turn_near(real, angle, count, re, im);
+    for (int i = 0; i < count; i++) out[i] = near ? (cplx){re[i], im[i]} : cplx_exp((cplx){real[i], angle[i]});
+}

@@ -115,6 +115,9 @@ void poles_block_fill(const wiggly_desc *desc, int from, int count, double floor
 /// The centres of any number of samples.
 void poles_block_centres(const wiggly_desc *desc, int from, int count, double floor, double *centre);
 
+/// out ← e^(real + j angle).
+void poles_block_turn(const double *real, const double *angle, int count, cplx *out);
+
 /// out ← eˣ for |x| ≤ 700.
 void poles_block_exp(const double *x, int count, double *out);
 

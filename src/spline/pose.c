@@ -8,6 +8,9 @@
 #include <stdint.h>
 #include <string.h>
 
+/// Periods.
+static const double longest_wind_up = 100;
+
 /// At a lower share of ω_n the jets, and not the free motion, meet a last knot's slope.
 static const double slowest_settling = 0.3;
 
@@ -31,6 +34,7 @@ static wiggly_status check_settings(const wiggly_desc *desc, bool *y_is_safe)
     if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
     if (!(desc->step > 0 && desc->step < INFINITY) || !is_part(desc->calm)) return WIGGLY_ERROR_NUMBER;
     if (!(desc->variation >= 0 && desc->variation < INFINITY)) return WIGGLY_ERROR_NUMBER;
+    if (!(desc->wind_up >= 0 && desc->wind_up <= longest_wind_up)) return WIGGLY_ERROR_NUMBER;
     for (const desc_member *m = desc_members; m->name; m++) {
         if (m->kind != DESC_PARAM) continue;
         const wiggly_param *param = desc_param(desc, m);
@@ -47,7 +51,7 @@ static wiggly_status check_knot(const wiggly_desc *desc, const wiggly_knot *knot
 {
     const int end = desc->samples - (desc->start == WIGGLY_LOOP ? 1 : 0);
     if (knot->sample < 0 || knot->sample >= end) return WIGGLY_ERROR_KNOT_OUTSIDE;
-    if (knot->still) return knot->has_slope || knot->has_phase ? WIGGLY_ERROR_KNOT_STILL : WIGGLY_OK;
+    if (knot->still) return knot->has_slope || knot->has_phase || knot->settles ? WIGGLY_ERROR_KNOT_STILL : WIGGLY_OK;
     if (!(fabs(knot->value) <= LARGEST_VALUE)) return WIGGLY_ERROR_KNOT_NUMBER;
     if (knot->has_phase && !(fabs(knot->phase) <= LARGEST_VALUE)) return WIGGLY_ERROR_KNOT_NUMBER;
     if (knot->has_slope && !(isfinite(knot->slope) && knot->stiffness >= 0 && knot->stiffness < INFINITY))
@@ -125,7 +129,6 @@ static void set_domain(wiggly_solver *solver, problem *p)
 static void set_about(wiggly_solver *solver, problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    p->level = desc->equilibrium.value;
     if (!p->y) return;
     if (desc->mode == WIGGLY_CUBIC) {
         p->level = p->y[0];
@@ -133,8 +136,9 @@ static void set_about(wiggly_solver *solver, problem *p)
         p->about = p->y;
     } else {
         p->response = solver->response;
+        p->response.offset = p->settled ? solver->offset : NULL;
         p->about = p->response.total;
-        if (desc->equilibrium.track) {
+        if (desc->equilibrium.track || p->settled) {
             if (desc->start == WIGGLY_LOOP && !poles_are_constant(desc))
                 chain_forget(&solver->chain); // its tables are where the response is found
             p->status = forced_response_find(desc, p->y, p->calm, &p->response);
@@ -197,6 +201,50 @@ static void fill(double *x, double value, int count)
     for (int i = 0; i < count; i++) x[i] = value;
 }
 
+/// From 0 to 1 with no speed and no acceleration at the ends.
+static double ease(double t) { return t > 0 ? t * t * t * (10 - 15 * t + 6 * t * t) : 0; }
+
+/// Moves the equilibrium to the values of settling knots: each takes it there over the gap before it, or the wind-up's part of that. A constant
+/// equilibrium leaves `y` unused.
+static void settle(wiggly_solver *solver, problem *p, double *y)
+{
+    const wiggly_desc *desc = p->desc;
+    const int knots = desc->knot_count, samples = desc->samples, period = samples - 1;
+    const bool loops = p->start == WIGGLY_LOOP;
+    double *const o = solver->offset;
+    int from = 0;
+    while (from < knots && !desc->knots[solver->order[from]].settles) from++;
+    if (desc->mode == WIGGLY_CUBIC || from == knots) return;
+    p->settled = true;
+    if (!p->y) fill(y, desc->equilibrium.value, samples);
+    p->y = y;
+    const wiggly_knot *before = &desc->knots[solver->order[loops ? from : 0]];
+    double level = before->settles ? before->value - y[before->sample] : 0;
+    if (!loops) fill(o, level, before->sample);
+    for (int n = 1; n < knots + loops;
+         n++) { // the gap that ends in the next knot; a loop comes back to the first that settles
+        const wiggly_knot *knot = &desc->knots[solver->order[((loops ? from : 0) + n) % knots]];
+        const int gap = knot->sample - before->sample + (knot->sample <= before->sample ? period : 0);
+        const double to = knot->settles ? knot->value - y[knot->sample] : level;
+        const poles at = poles_at(desc, knot->sample, 0);
+        const double begin = problem_winds_up(p) ? fmax(0, gap - problem_reach(desc, &at)) : 0;
+        for (int i = 0; i < gap; i++) {
+            const int sample = before->sample + i;
+            o[loops && sample >= period ? sample - period : sample] =
+                level + (to - level) * ease((i - begin) / (gap - begin));
+        }
+        level = to;
+        before = knot;
+    }
+    if (!loops) fill(o + before->sample, level, samples - before->sample);
+    if (loops) o[period] = o[0];
+    for (int i = 0; i < samples; i++) y[i] += o[i];
+    const extent all = extent_of(y, samples);
+    if (all.low < all.high) return;
+    p->level = all.low;
+    if (!variation_is_set(desc)) p->y = NULL;
+}
+
 wiggly_status problem_check(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
 {
     wiggly_status status = desc_check(desc, knot, &solver->y_is_safe);
@@ -218,7 +266,9 @@ void problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, pro
         fill(y, desc->equilibrium.value, desc->samples);
         p->y = y;
     }
+    p->level = desc->equilibrium.value;
     set_domain(solver, p);
+    settle(solver, p, y);
     set_about(solver, p);
     set_start(solver, p);
 }

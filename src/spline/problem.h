@@ -46,6 +46,7 @@ typedef struct problem {
     const system_pulls *pulls; ///< or NULL
     int earliest, latest;      ///< samples of the earliest and of the latest knot or pull, or -1
     bool settles;              ///< w is free after the latest knot: the system ends there
+    bool settled;              ///< knots that settle move the equilibrium
     bool strict;               ///< one plain solve is not enough: the total is far smaller than x
     bool level_slope;          ///< a level slope is implied at the earliest knot
     bool free_end;             ///< c·H = 0
@@ -55,10 +56,7 @@ typedef struct problem {
     double cut;                ///< of the speeds that it sees (speed_form)
 } problem;
 
-static inline double problem_y(const problem *p, int sample)
-{
-    return p->y ? p->y[sample] : p->desc->equilibrium.value;
-}
+static inline double problem_y(const problem *p, int sample) { return p->y ? p->y[sample] : p->level; }
 
 /// The level that w is measured from: a knot's w is its value minus this.
 static inline double problem_about(const problem *p, int sample) { return p->about ? p->about[sample] : p->level; }
@@ -170,6 +168,20 @@ bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, 
 /// w of a posed spline into re and im of the curve, and its status. If the problem is singular, solves the nearest one that is not, and `p`
 /// becomes that.
 wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);
+
+/// Whether the motion has a direction: it winds up before each knot, and swings freely after it.
+static inline bool problem_winds_up(const problem *p)
+{
+    const wiggly_desc *desc = p->desc;
+    const bool is_limited = desc->low > -INFINITY || desc->high < INFINITY;
+    return desc->wind_up > 0 && desc->mode == WIGGLY_COMPLEX && problem_oscillates(p) && !p->pulls && !is_limited;
+}
+
+/// The samples of the wind-up before a knot with these poles; infinite at frequency 0.
+double problem_reach(const wiggly_desc *desc, const poles *at);
+
+/// Solves such a problem: w into re and im of the curve. The result's error is by how far the pushes miss a knot.
+void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *curve, minimum *result);
 
 /// Whether a slope is implied at the earliest knot, because nothing else holds the spline.
 bool problem_implies_slope(const problem *p);

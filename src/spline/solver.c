@@ -51,6 +51,7 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
                   {&rows->gradient, 2},
                   {&rows->jet, 4},
                   {&at->y, 1},
+                  {&at->offset, 1},
                   {&at->response.total, 1},
                   {&at->response.im, 1},
                   {&at->response.speed, 1},
@@ -102,6 +103,8 @@ static wiggly_solver *lay_out(arena *a, int samples, int knots)
     at->limits.own = arena_take(a, k, sizeof *at->limits.own);
     at->limits.all = arena_take(a, k, sizeof *at->limits.all);
     at->limits.held = arena_take(a, n, sizeof *at->limits.held);
+    at->wind.gap = arena_take(a, k, sizeof *at->wind.gap);
+    at->wind.push = arena_take(a, n, sizeof *at->wind.push);
     at->filled = arena_take(a, k, sizeof *at->filled);
     at->scaled = arena_take(a, k, sizeof *at->scaled);
     at->order = arena_take(a, k, sizeof *at->order);
@@ -191,5 +194,6 @@ void wiggly_set_method(wiggly_solver *solver, wiggly_method method) { solver->me
 void solver_forget(wiggly_solver *solver)
 {
     solver->filter.known = false;
+    solver->wind.is_kept = false;
     chain_forget(&solver->chain);
 }

@@ -49,6 +49,35 @@ typedef struct free_powers {
     double re[FREE_RUN], im[FREE_RUN];
 } free_powers;
 
+/// How far a push on one sample moves w at its gap's knot, and the row there.
+typedef struct wind_push {
+    cplx knot, row;
+} wind_push;
+
+/// From a knot to the next one. All is linear in w at the first.
+typedef struct wind_gap {
+    int from, end;    ///< their samples; in a loop the last end lies beyond the seam
+    int begin;        ///< the first sample that is pushed
+    double part;      ///< of that sample's interval
+    bool is_cut;      ///< the gap is shorter than the wind-up
+    wind_push *push;  ///< from `begin` to end − 1
+    cplx back[2];     ///< how far w at `begin` moves knot and row, if its step to the next sample stays
+    cplx at, step;    ///< w at `begin` and that step
+    cplx coast[2];    ///< knot and row without a push
+    cplx both;        ///< the covariance of knot and row
+    double row, knot; ///< the variance of the row, with its own; of the knot where the row is met
+} wind_gap;
+
+/// Memory for splines that wind up (wind_up.c).
+typedef struct wind_memory {
+    bool is_kept, is_constant; ///< the gaps are those of a solve before; parameters are constant
+    wiggly_desc desc;          ///< its description, without knots
+    double floor;              ///< its least damping ratio
+    int count;
+    wind_gap *gap;
+    wind_push *push; ///< one a sample
+} wind_memory;
+
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
@@ -60,9 +89,11 @@ struct wiggly_solver {
     constant_filter filter;
     chain chain; ///< shares its large arrays' memory with the matrix: a solve uses one of the two
     limit_memory limits;
+    wind_memory wind;
     free_powers powers;
     forced_response response; ///< to the moving equilibrium
     double *y;                ///< equilibrium, if the curve has no array for it
+    double *offset;           ///< what settling knots add to it
     wiggly_knot *filled;      ///< the knots of one of many
     wiggly_knot *scaled;      ///< the knots in other units
     bool y_is_safe;           ///< no equilibrium of the description that was checked last is beyond SAFE_VALUE

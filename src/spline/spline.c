@@ -238,6 +238,10 @@ static void solve_plain(wiggly_solver *solver, const problem *p, wiggly_curve *c
 wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
     *result = (minimum){.solved = true};
+    if (problem_winds_up(p)) {
+        problem_solve_gaps(solver, p, curve, result);
+        return p->status;
+    }
     if (!is_plain(p)) return minimise_safely(solver, p, curve, result);
     solve_plain(solver, p, curve);
     return p->status;

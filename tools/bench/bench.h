@@ -60,10 +60,12 @@ enum bench_kind {
     BENCH_ENDS,        ///< knots on the first and the last sample
     BENCH_END_SLOPES,  ///< these with slopes
     BENCH_LOOP,
-    BENCH_TRACK,     ///< the frequency moves
-    BENCH_SHORT,     ///< a single period
-    BENCH_LIMITS,    ///< the curve stays within 1.02 of the largest knot
-    BENCH_VARIATION, ///< another motion through the same knots
+    BENCH_TRACK,         ///< the frequency moves
+    BENCH_SHORT,         ///< a single period
+    BENCH_LIMITS,        ///< the curve stays within 1.02 of the largest knot
+    BENCH_VARIATION,     ///< another motion through the same knots
+    BENCH_WIND_UP,       ///< each knot is wound up for, for half a period
+    BENCH_WIND_UP_TRACK, ///< the same where the frequency moves
 };
 
 /// A spline of a kind; knots[middle] may be changed.

@@ -26,8 +26,8 @@ enum { MOST_BAND = 5 };
 
 static bool is_limited(const wiggly_desc *desc) { return desc->has_high; }
 
-/// Limits, means of several and noise are no linear system, so such a case is timed without LAPACK.
-static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->variation > 0; }
+/// Limits, means of several and noise are no linear system, and gaps are many, so such a case is timed without LAPACK.
+static bool is_alone(const wiggly_desc *desc) { return is_limited(desc) || desc->variation > 0 || desc->wind_up > 0; }
 
 static void work_create(struct work *w, const wiggly_desc *desc, const char *name)
 {

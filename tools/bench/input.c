@@ -71,7 +71,8 @@ void bench_input_create(struct bench_input *input, enum bench_kind kind, wiggly_
     if (kind == BENCH_LOOP) desc->start = WIGGLY_LOOP;
     if (kind == BENCH_REST) desc->start = WIGGLY_REST;
     if (kind == BENCH_EQUILIBRIUM) add_track(input, &desc->equilibrium, 0, 1);
-    if (kind == BENCH_TRACK) add_track(input, &desc->frequency, 1, 0.4);
+    if (kind == BENCH_WIND_UP || kind == BENCH_WIND_UP_TRACK) desc->wind_up = 0.5;
+    if (kind == BENCH_TRACK || kind == BENCH_WIND_UP_TRACK) add_track(input, &desc->frequency, 1, 0.4);
     add_knots(input, kind);
     if (kind == BENCH_LIMITS) set_limits(input, 1.02);
     if (kind == BENCH_VARIATION) desc->variation = 0.5, desc->variation_seed = 7;
