@@ -157,16 +157,17 @@ TEST(parameters_of_a_spline)
     int tried = 0;
     for (int p = 0; p < PARAMETER_COUNT; p++) {
         const struct parameter_row *row = &parameter_rows[p];
+        const char *key = parameter_key((enum parameter)p);
         char text[256];
         if (row->kind == PARAMETER_CHOICE || row->kind == PARAMETER_LIMIT) continue;
         if (p == PARAMETER_VARIATION || p == PARAMETER_SEED) continue; // members of an object
         const double ends[] = {row->minimum, parameter_maximum((enum parameter)p, WIGGLY_COMPLEX)};
         for (int k = 0; k < 2; k++) {
             if (!isfinite(ends[k])) continue;
-            snprintf(text, sizeof text, scene, row->name, ends[k]);
+            snprintf(text, sizeof text, scene, key, ends[k]);
             takes(text);
-            snprintf(text, sizeof text, scene, row->name, nextafter(ends[k], k ? INFINITY : -INFINITY));
-            refuses(text, row->name);
+            snprintf(text, sizeof text, scene, key, nextafter(ends[k], k ? INFINITY : -INFINITY));
+            refuses(text, key);
             tried++;
         }
     }

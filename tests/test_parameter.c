@@ -112,7 +112,7 @@ static double another(const struct spline *spline, enum parameter p)
 /// Makes a parameter another with an evaluation that has solved what was there before, and compares with one that has not.
 static void try_edit(int spline, enum parameter parameter, struct param param)
 {
-    const char *name = parameter_rows[parameter].name;
+    const char *name = parameter_key(parameter);
     struct world world;
     struct evaluation kept = {0}, fresh = {0};
     world_open_scene(&world, scene);

@@ -93,6 +93,27 @@ SESSION_TEST(test_poses_outside_complex_mode_are_freed, assert_remedied(s, POSED
     for (int k = 0; k < 2; k++) assert_false(s->document->splines[0]->knots[k].has_phase);
 }
 
+#define SPLINE(members)                                                                                              \
+    "{\"wiggly\": 2, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"knots\": [{\"frame\": 10, "           \
+    "\"value\": 0.2, \"settles\": true}, {\"frame\": 20, \"value\": 0.3}], " members "}]}"
+
+SESSION_TEST(test_a_wind_up_without_effect_goes,
+             assert_remedied(s, SPLINE("\"mode\": \"real\", \"frequency\": 1, \"wind_up\": 0.5"), WARNING_WIND_UP))
+{
+    assert_near(s->document->splines[0]->parameter[PARAMETER_WIND_UP].value, 0, 0);
+}
+
+SESSION_TEST(test_a_sudden_wind_up_is_lengthened,
+             assert_remedied(s, SPLINE("\"frequency\": 2, \"wind_up\": 0.1"), WARNING_SUDDEN))
+{
+    assert_near(s->document->splines[0]->parameter[PARAMETER_WIND_UP].value, 0.17, 1e-9);
+}
+
+SESSION_TEST(test_a_cubic_does_not_settle, assert_remedied(s, SPLINE("\"mode\": \"cubic\""), WARNING_SETTLES))
+{
+    assert_false(s->document->splines[0]->knots[0].settles);
+}
+
 SESSION_TEST(test_a_pose_against_the_swing_is_freed, assert_remedied(s, FORCED, WARNING_FORCED))
 {
     const struct knot *knots = s->document->splines[0]->knots;

@@ -36,7 +36,8 @@ struct knot {
     double phase;     ///< Im x of a pose
     bool has_slope;
     bool has_phase; ///< it is a pose
-    bool still;     ///< it has neither value, slope nor phase
+    bool still;     ///< it has neither value, slope nor phase, and does not settle
+    bool settles;   ///< the equilibrium comes to its value and stays
     unsigned
         id; ///< unique in the document, as those of splines, rigs and pins, kept through edits and undo; not saved
     struct json_t *extra; ///< unknown keys of the file, owned by the document, or NULL

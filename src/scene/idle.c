@@ -63,12 +63,34 @@ static const char *idle_speed(const struct document *document, const struct spli
     return complex ? "it and both samples beside it hold poses or are still" : "both samples beside it have knots";
 }
 
+const char *spline_idle_wind_up(const struct document *document, int of)
+{
+    const struct spline *spline = document->splines[of];
+    if (!(spline->parameter[PARAMETER_WIND_UP].value > 0)) return NULL;
+    if (spline_mode(spline) != WIGGLY_COMPLEX) return "only Wiggly splines have one";
+    if (spline->parameter[PARAMETER_PASSIVE].value == WIGGLY_FILTER) return "the paper's filter has none";
+    if (spline_is_limited(spline)) return "limits need the whole curve";
+    return pins_move_spline(document, of) ? "pins need the whole curve" : NULL;
+}
+
+/// A spline that winds up takes a slope as a phase.
+static const char *idle_phase(const struct spline *spline, const struct knot *knot)
+{
+    const struct param *damping = &spline->parameter[PARAMETER_DAMPING];
+    const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
+    if (knot->has_phase) return "the pose says the phase";
+    const bool is_still = !param_follows(frequency) && frequency->value == 0;
+    return is_still || (!param_follows(damping) && damping->value >= FULL) ? "the spline hardly swings" : NULL;
+}
+
 const char *knot_idle_slope(const struct document *document, int of, int knot)
 {
     const struct spline *spline = document->splines[of];
     const struct knot *at = &spline->knots[knot];
     int first;
     if (!at->has_slope) return NULL;
+    if (spline->parameter[PARAMETER_WIND_UP].value > 0 && !spline_idle_wind_up(document, of))
+        return idle_phase(spline, at);
     const bool outer = knot == 0 || knot + 1 == spline->knot_count;
     const bool pinned = outer && pins_move_spline(document, of); // pins may be beyond it
     if (samples_solved(document, spline, &first) < 3 && !pinned) return "there are fewer than three samples";

@@ -126,7 +126,7 @@ static void check_cycles(struct reader *reader, const struct where *splines_at)
     if (scene_has_order(document, &cycle)) return;
     const struct spline *spline = document->splines[cycle.spline];
     struct where spline_at = {.parent = splines_at, .index = (size_t)cycle.spline};
-    struct where at = {.parent = &spline_at, .key = parameter_rows[cycle.parameter].name};
+    struct where at = {.parent = &spline_at, .key = parameter_key(cycle.parameter)};
     int leader = spline->parameter[cycle.parameter].track;
     reader_fail(reader, &at, "expected tracks without a cycle, got \"%s\", which follows \"%s\" itself",
                 document->splines[leader]->name, spline->name);

@@ -61,7 +61,7 @@ static bool load_parameter(struct reader *reader, const struct value *object, st
     } else if (row->kind == PARAMETER_LIMIT) {
         load_limit(reader, value, parameter == PARAMETER_HIGH, &param->value);
     } else if (row->kind == PARAMETER_TRACK) {
-        reader_param(reader, value, range, row->name, parameter == PARAMETER_EQUILIBRIUM, param, extra);
+        reader_param(reader, value, range, parameter_key(parameter), parameter == PARAMETER_EQUILIBRIUM, param, extra);
     } else {
         reader_number(reader, value, true, range, &param->value);
     }
@@ -90,10 +90,10 @@ static void load_spring(struct reader *reader, const struct value *object, struc
 /// A still knot may have no slope and no phase.
 static void load_still(struct reader *reader, const struct value *object, void *at)
 {
-    static const char *const held[] = {"value", "im", "slope", "stiffness"};
+    static const char *const held[] = {"settles", "value", "im", "slope", "stiffness"};
     struct knot *knot = at;
     reader_flag(reader, reader_member(object, "still"), &knot->still);
-    for (int i = 0; knot->still && i < 4; i++) {
+    for (int i = 0; knot->still && i < 5; i++) {
         const struct value value = reader_member(object, held[i]);
         if (value.json) reader_fail(reader, &value.at, "expected none beside \"still\"");
     }
@@ -116,6 +116,7 @@ static void print_value(struct members *members, const struct document *document
 const struct field knot_fields[] = {
     {FIELD("frame", FIELD_NUMBER, struct knot, frame), .range = FIELD_ANY, .is_required = true},
     {FIELD("still", FIELD_FLAG, struct knot, still), .is_quiet = true, .load = load_still},
+    {FIELD("settles", FIELD_FLAG, struct knot, settles), .is_quiet = true},
     {FIELD("value", FIELD_NUMBER, struct knot, value), .range = FIELD_ANY, .load = load_value, .print = print_value},
     {FIELD("im", FIELD_NUMBER, struct knot, phase), .range = FIELD_ANY, .flag = offsetof(struct knot, has_phase)},
     {FIELD("slope", FIELD_NUMBER, struct knot, slope), .range = FIELD_ANY, .flag = offsetof(struct knot, has_slope)},

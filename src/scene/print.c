@@ -65,7 +65,7 @@ static void print_spline(struct text *text, const struct document *document, con
         member_string(&members, "color", color);
     }
     for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        const char *name = parameter_rows[p].name;
+        const char *name = parameter_key(p);
         if (p == PARAMETER_LOW) print_limits(&members, spline);
         if (p == PARAMETER_VARIATION) print_variation(&members, spline);
         if (!is_printed(spline, p)) continue;

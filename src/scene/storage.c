@@ -49,7 +49,8 @@ void storage_add_knots(wiggly_desc *desc, const struct document *document, int s
                                  .stiffness = knot->stiffness,
                                  .phase = knot->phase,
                                  .has_phase = knot->has_phase,
-                                 .still = knot->still};
+                                 .still = knot->still,
+                                 .settles = knot->settles};
     }
     desc->knots = knots;
     desc->knot_count = of->knot_count;

@@ -6,6 +6,7 @@
 
 static const double FAR = 2;             ///< height of a curve, in heights of knots
 static const double FAST_RATE = 0.4;     ///< f·(1 + β) in sample rates; at 0.5 swings alias
+static const double LEAST_WIND_UP = 2;   ///< samples
 static const double WIDE_TURN = 0.3;     ///< β · periods between two knots (Figure 4)
 static const double FORCED_TURN = 120;   ///< degrees of poses out of step: midway the swing is down to half of theirs
 static const double MOST_OF_VALUES = 30; ///< degrees out of step by values alone; beyond, freeing a phase cannot help
@@ -329,11 +330,36 @@ static void find_idle(const struct look *look)
     }
 }
 
+/// The wind-up, and knots that settle.
+static void find_direction(const struct look *look)
+{
+    const struct spline *spline = look->spline;
+    const double wind_up = spline->parameter[PARAMETER_WIND_UP].value;
+    const double samples = wind_up / (frequency_of(look) * document_step(look->document));
+    struct warning warning = {.kind = WARNING_WIND_UP, .why = spline_idle_wind_up(look->document, look->of)};
+    if (warning.why) add(look, warning);
+    if (wind_up > 0 && !warning.why && samples < LEAST_WIND_UP)
+        add(look, (struct warning){.kind = WARNING_SUDDEN,
+                                   .amount = samples,
+                                   .remedy = ceil(100 * wind_up * LEAST_WIND_UP / samples) / 100});
+    for (int k = 0; k < spline->knot_count && spline_mode(spline) == WIGGLY_CUBIC; k++) {
+        if (!spline->knots[k].settles) continue;
+        add(look, (struct warning){
+                      .kind = WARNING_SETTLES, .frame = spline->knots[k].frame, .value = spline->knots[k].value});
+        return;
+    }
+}
+
+static bool winds_up(const struct look *look)
+{
+    return look->spline->parameter[PARAMETER_WIND_UP].value > 0 && !spline_idle_wind_up(look->document, look->of);
+}
+
 void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
                       struct warnings *found)
 {
     struct look look;
-    if (look_at(document, evaluation, of, found, &look)) find_far(&look);
+    if (look_at(document, evaluation, of, found, &look) && !winds_up(&look)) find_far(&look);
 }
 
 void warnings_add_forced(const struct document *document, const struct evaluation *evaluation, int of,
@@ -351,10 +377,12 @@ void warnings_add(const struct document *document, const struct evaluation *eval
     struct look look;
     struct warning drift = {0};
     if (!look_at(document, evaluation, of, found, &look)) return;
-    find_far(&look);
+    if (!winds_up(&look)) find_far(&look);
     find_idle(&look);
+    find_direction(&look);
     if (spline_mode(look.spline) == WIGGLY_CUBIC) return;
     find_rate(&look);
+    if (winds_up(&look)) return; // what follows is about the whole curve
     const double frequency = frequency_of(&look);
     for (int k = 0; k < look.spline->knot_count; k++) find_drift(&look, k, frequency, &drift);
     if (drift.amount > 0) add(&look, drift);
@@ -385,6 +413,16 @@ void warning_say(const struct warning *w, char text[WARNING_SENTENCE])
         break;
     case WARNING_SLOPE:
         snprintf(text, size, "Frame %.6g: the slope has no effect: %s.", w->frame, w->why);
+        break;
+    case WARNING_WIND_UP:
+        snprintf(text, size, "The wind-up has no effect: %s.", w->why);
+        break;
+    case WARNING_SUDDEN:
+        snprintf(text, size, "The wind-up is %.2g samples long at the highest frequency: below two, it is a jerk.",
+                 w->amount);
+        break;
+    case WARNING_SETTLES:
+        snprintf(text, size, "Frame %.6g: the knot does not settle, because a Cubic does not swing.", w->frame);
         break;
     case WARNING_PHASE:
         snprintf(text, size, "Frame %.6g: the pose holds only its value, because only Wiggly splines have a phase.",

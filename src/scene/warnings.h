@@ -7,16 +7,22 @@
 /// Why a knot's slope has no effect, as the rest of "the slope has no effect: "; NULL if it has one or if that depends on a track.
 const char *knot_idle_slope(const struct document *document, int of, int knot);
 
+/// Why a spline's wind-up has no effect, as the rest of "the wind-up has no effect: "; NULL if it has one, or there is none.
+const char *spline_idle_wind_up(const struct document *document, int of);
+
 /// Index of the first pose of a spline that is not Wiggly and so has no phases; else -1.
 int spline_idle_pose(const struct spline *spline);
 
 enum warning_kind {
-    WARNING_FAR,    ///< the curve swings more than twice as far as the knots around it and as its average knot
-    WARNING_RATE,   ///< a frequency near half the sample rate
-    WARNING_DRIFT,  ///< bandwidth times the periods between two knots
-    WARNING_FORCED, ///< poses that are out of step with the swing between them
-    WARNING_SLOPE,  ///< a slope that has no effect
-    WARNING_PHASE,  ///< poses of a spline without phases
+    WARNING_FAR,     ///< the curve swings more than twice as far as the knots around it and as its average knot
+    WARNING_RATE,    ///< a frequency near half the sample rate
+    WARNING_DRIFT,   ///< bandwidth times the periods between two knots
+    WARNING_FORCED,  ///< poses that are out of step with the swing between them
+    WARNING_SLOPE,   ///< a slope that has no effect
+    WARNING_PHASE,   ///< poses of a spline without phases
+    WARNING_WIND_UP, ///< a wind-up that has no effect
+    WARNING_SUDDEN,  ///< a wind-up of less than two samples
+    WARNING_SETTLES, ///< knots of a cubic that settle
 };
 
 /// A problem of a spline.
@@ -25,10 +31,10 @@ struct warning {
     int spline;
     double frame, value; ///< where it is; not for a rate
     double from, to;     ///< frames of the knots around it
-    double amount;       ///< Hz; periods; degrees out of step
+    double amount;       ///< Hz; periods; degrees out of step; samples of a wind-up
     double limit;        ///< the highest good frequency, Hz; the present bandwidth
-    double remedy;       ///< that cures it: value of a knot there; substeps; bandwidth
-    const char *why;     ///< reason that a slope has no effect
+    double remedy;       ///< that cures it: value of a knot there; substeps; bandwidth; wind-up
+    const char *why;     ///< reason that a slope or a wind-up has no effect
     double phase;        ///< Im x of a pose there
     double low, high;    ///< limits a little beyond the knots
 };

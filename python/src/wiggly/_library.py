@@ -94,7 +94,7 @@ def warn(text: str) -> None:
 # --- structures of wiggly.h and more.h -----------------------------------------------------------------------------------
 
 KNOT = np.dtype(
-    [("sample", "i4"), ("has_slope", "?"), ("has_phase", "?"), ("still", "?"),
+    [("sample", "i4"), ("has_slope", "?"), ("has_phase", "?"), ("still", "?"), ("settles", "?"),
      ("value", "f8"), ("slope", "f8"), ("stiffness", "f8"), ("phase", "f8")], align=True)  # fmt: skip
 MODES = {"complex": 0, "real": 1, "cubic": 2}
 STARTS = {"free": 0, "rest": 1, "loop": 2}
@@ -111,7 +111,7 @@ class CDesc(Structure):
         ("size", c_size_t), ("knots", c_void_p), ("knot_count", c_int), ("samples", c_int), ("step", c_double),
         ("mode", c_int), ("start", c_int), ("passive", c_int),
         ("frequency", CParam), ("damping", CParam), ("bandwidth", CParam), ("equilibrium", CParam),
-        ("calm", c_double), ("low", c_double), ("high", c_double), ("variation", c_double),
+        ("calm", c_double), ("wind_up", c_double), ("low", c_double), ("high", c_double), ("variation", c_double),
         ("has_calm", c_bool), ("has_low", c_bool), ("has_high", c_bool), ("variation_seed", c_int),
     ]  # fmt: skip
 
@@ -139,6 +139,7 @@ class CMany(Structure):
     _fields_ = [
         ("size", c_size_t), ("count", c_int), ("knot_count", c_int),
         ("sample", CRows), ("value", CRows), ("slope", CRows), ("stiffness", CRows), ("phase", CRows), ("still", CRows),
+        ("settles", CRows),
         ("total", CRows), ("y", CRows), ("re", CRows), ("im", CRows), ("status", c_void_p), ("knot", c_void_p),
     ]  # fmt: skip
 

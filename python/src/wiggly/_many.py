@@ -46,6 +46,7 @@ def solve_many(
     stiffnesses: ArrayLike | None = None,
     phases: ArrayLike | None = None,
     still: ArrayLike | None = None,
+    settles: ArrayLike | None = None,
     parts: tuple[str, ...] = ("total",),
     threads: int | None = None,
     check: bool = True,
@@ -60,8 +61,8 @@ def solve_many(
         Seconds, and values. A time of NaN is no knot, so that splines may have fewer than k.
     n, fps : int, float
         Samples of each, and samples per second.
-    slopes, stiffnesses, phases, still : array_like, broadcast to (count, k), optional
-        As in `Knot`; NaN: no slope, a free phase. `still` above 0: a still knot.
+    slopes, stiffnesses, phases, still, settles : array_like, broadcast to (count, k), optional
+        As in `Knot`; NaN: no slope, a free phase. `still`, `settles` above 0: a knot that is.
     parts : tuple of {"total", "y", "re", "im"}
         Which arrays to fill.
     threads : int, optional
@@ -83,15 +84,15 @@ def solve_many(
     >>> bool((many.total[:, 48] == values[:, 2]).all())
     True
     """
-    given = [a for a in (times, values, slopes, stiffnesses, phases, still) if a is not None]
+    given = [a for a in (times, values, slopes, stiffnesses, phases, still, settles) if a is not None]
     shape = np.broadcast_shapes((1, 1), *(np.shape(a) for a in given))
     if len(shape) != 2:
         raise ValueError(f"times, values: expected arrays that broadcast to (count, knots), got {shape}")
     count, k = shape
     desc, _knots = spline._describe(n, fps, np.zeros(len(spline.times)))
     many, keep = CMany(size=sizeof(CMany), count=count, knot_count=k), []
-    inputs = (nearest_samples(np.asarray(times, dtype=float), fps), values, slopes, stiffnesses, phases, still)
-    for name, array in zip(("sample", "value", "slope", "stiffness", "phase", "still"), inputs):
+    inputs = (nearest_samples(np.asarray(times, dtype=float), fps), values, slopes, stiffnesses, phases, still, settles)
+    for name, array in zip(("sample", "value", "slope", "stiffness", "phase", "still", "settles"), inputs):
         rows, held = _numbers(array, (count, k))
         setattr(many, name, rows)
         keep.append(held)

@@ -19,7 +19,7 @@ from ._spline import Knot, Spline, from_spring, solve_into
 
 PARAMETERS = ("frequency", "damping", "bandwidth", "equilibrium")
 SWING = ("mode", "start", "frequency", "damping", "bandwidth", "spring", "friction")
-PLAIN = (*PARAMETERS, "calm", "mode", "start", "passive", "limits")
+PLAIN = (*PARAMETERS, "calm", "wind_up", "mode", "start", "passive", "limits")
 FAULTS = (ArithmeticError, ArgumentError, AttributeError, LookupError, RecursionError, TypeError, ValueError)
 
 
@@ -125,7 +125,7 @@ class Scene:
             settings["variation"], settings["seed"] = source["variation"]["amount"], source["variation"].get("seed", 0)
         knots = [
             Knot(k["frame"], 0, still=True) if k.get("still") else
-            Knot(k["frame"], k["value"], k.get("slope"), k.get("stiffness"), k.get("im")) for k in source.get("knots", [])
+            Knot(k["frame"], k["value"], k.get("slope"), k.get("stiffness"), k.get("im"), settles=k.get("settles", False)) for k in source.get("knots", [])
         ]  # fmt: skip
         spline, curve = Spline(knots, **settings), Curve(self.n, self._step)
         samples = np.floor((spline.times - self._first) * self._substeps + 0.5)

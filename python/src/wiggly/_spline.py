@@ -46,6 +46,8 @@ class Knot(NamedTuple):
     """Im x, which makes the knot a pose that holds lagging parts, too; None: free."""
     still: bool = False
     """The motion comes to rest and begins again from rest."""
+    settles: bool = False
+    """The equilibrium comes to the value and stays: the curve overshoots and swings about it. Not in cubic mode."""
 
 
 def read_knots(knots: Iterable[Any] | NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray[Any]]:
@@ -58,9 +60,10 @@ def read_knots(knots: Iterable[Any] | NDArray[np.float64]) -> tuple[NDArray[np.f
         return knots[:, 0].astype(float), native
     times, rows = [], []
     for knot in knots:
-        time, value, slope, stiffness, phase, still = knot if type(knot) is Knot else Knot(*knot)
+        time, value, slope, stiffness, phase, still, settles = knot if type(knot) is Knot else Knot(*knot)
         times.append(time)
-        rows.append((0, slope is not None, phase is not None, still, value, slope or 0, stiffness or 0, phase or 0))
+        rows.append(
+            (0, slope is not None, phase is not None, still, settles, value, slope or 0, stiffness or 0, phase or 0))
     return np.array(times, float), np.array(rows, KNOT)
 
 
@@ -91,6 +94,8 @@ class Spline:
         How far the frequency may shift between knots, as a fraction of it, 0 to 1; complex mode only.
     calm : float
         The cost of a swing at the start, 0 to 1; 0 is the paper's formula.
+    wind_up : float
+        How long before a knot the motion is pushed, in periods there; after the knot it swings freely. 0: the whole curve at once.
     equilibrium : float or array_like of shape (n,)
         What the curve swings about, a value.
     mode : {"complex", "real", "cubic"}
@@ -136,6 +141,7 @@ class Spline:
         damping: ArrayLike = 0,
         bandwidth: ArrayLike = 0.1,
         calm: float = 1,
+        wind_up: float = 0,
         equilibrium: ArrayLike = 0,
         mode: str = "complex",
         start: str = "free",
@@ -146,12 +152,12 @@ class Spline:
     ) -> None:
         self.knots = knots if isinstance(knots, np.ndarray) else list(knots)
         self.parameters: dict[str, Any] = dict(
-            frequency=frequency, damping=damping, bandwidth=bandwidth, calm=calm, equilibrium=equilibrium, mode=mode, start=start,
+            frequency=frequency, damping=damping, bandwidth=bandwidth, calm=calm, wind_up=wind_up, equilibrium=equilibrium, mode=mode, start=start,
             passive=passive, limits=limits, variation=variation, seed=seed)  # fmt: skip
         self.times, self._knots = read_knots(self.knots)
         self._tracks: list[NDArray[np.float64]] = []
         self._fixed: list[weakref.ref[NDArray[np.float64]]] = []
-        self._desc = desc = CDesc(sizeof(CDesc), calm=calm, has_calm=True)
+        self._desc = desc = CDesc(sizeof(CDesc), calm=calm, wind_up=wind_up, has_calm=True)
         desc.mode, desc.start, desc.passive = word("mode", mode, MODES), word("start", start, STARTS), word("passive", passive, PASSIVES)
         if not 0 <= seed < 2**31:
             raise ValueError(f"seed: expected a whole number from 0 to 2**31 - 1, got {seed!r}")
@@ -272,7 +278,7 @@ class Solver:
     ----------
     knots : structured ndarray, shape (k,)
         The library's own knots. Write to them: `knots["value"][1] = 0.7`; also "sample", "slope", "phase" and the flags
-        "has_slope", "has_phase", "still". An array that you assign is copied into them; its shape must be theirs.
+        "has_slope", "has_phase", "still", "settles". An array that you assign is copied into them; its shape must be theirs.
     curve : Curve
         What `solve` fills, read only. Its arrays are the same at every solve; copy what you keep.
 

@@ -150,6 +150,33 @@ static bool drop_slope(struct document *document, const struct warning *warning,
     return free_knot(document, warning, warning->frame, true, error);
 }
 
+static bool drop_wind_up(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                         struct error *error)
+{
+    snprintf(text, FIX_TEXT, "set the wind-up to 0");
+    return set(document, warning, PARAMETER_WIND_UP, 0, error);
+}
+
+static bool lengthen_wind_up(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                             struct error *error)
+{
+    snprintf(text, FIX_TEXT, "lengthen the wind-up to %.3g periods", warning->remedy);
+    return set(document, warning, PARAMETER_WIND_UP, warning->remedy, error);
+}
+
+static bool unsettle_all(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                         struct error *error)
+{
+    bool good = true;
+    for (int k = 0; k < document->splines[warning->spline]->knot_count && good; k++) {
+        struct knot knot = document->splines[warning->spline]->knots[k];
+        knot.settles = false;
+        good = edit_knot_set(document, warning->spline, &knot, error);
+    }
+    snprintf(text, FIX_TEXT, "let its knots be plain ones");
+    return good;
+}
+
 /// Remedies for each kind of warning, the gentlest first. A later one must beat those before it, and doing nothing, by a factor.
 static const struct cure {
     const char *label; ///< of the undo step
@@ -162,6 +189,9 @@ static const struct cure {
     [WARNING_FORCED] = {"Free the phase", {free_later, free_earlier, free_both}, 1.25},
     [WARNING_SLOPE] = {"Slope off", {drop_slope}, 1},
     [WARNING_PHASE] = {"Free the phase", {free_all}, 1},
+    [WARNING_WIND_UP] = {"Wind-up off", {drop_wind_up}, 1},
+    [WARNING_SUDDEN] = {"Lengthen wind-up", {lengthen_wind_up}, 1},
+    [WARNING_SETTLES] = {"Settle off", {unsettle_all}, 1},
 };
 
 static bool has_choice(const struct warning *warning) { return cures[warning->kind].remedies[1] != NULL; }
