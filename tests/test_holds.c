@@ -7,7 +7,7 @@
 
 #define HOLDING                                                                                                      \
     "{\"wiggly\": 2, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1,"   \
-    "\"knots\": [{\"frame\": 20, \"value\": 0.8, \"im\": 0.3}, {\"frame\": 34, \"value\": 0.5},"                     \
+    "\"knots\": [{\"frame\": 20, \"value\": 0.8, \"im\": 0.3}, {\"frame\": 34, \"value\": 0.5, \"settles\": true},"  \
     "{\"frame\": 50, \"still\": true}, {\"frame\": 64, \"value\": -0.6, \"im\": 0.45, \"slope\": 1}]}]}"
 
 static void paste_cut(struct session *s)
@@ -67,11 +67,12 @@ static const struct edit {
 /// Whether a spline has those phases, and as many still and free knots as copies.
 static void assert_held(const char *name, const struct spline *spline, const double *phases, int copies)
 {
-    int poses = 0, stills = 0;
+    int poses = 0, stills = 0, settling = 0;
     assert_int_equal(spline->knot_count, 4 * copies);
     for (int k = 0; k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         stills += knot->still;
+        settling += knot->settles;
         if (knot->still && (knot->value != 0 || knot->has_slope || knot->has_phase))
             fail_msg("%s: a still knot holds more", name);
         if (!knot->has_phase) continue;
@@ -79,7 +80,8 @@ static void assert_held(const char *name, const struct spline *spline, const dou
             fail_msg("%s: the phase of pose %d is %g", name, poses, knot->phase);
         poses++;
     }
-    if (poses != 2 * copies || stills != copies) fail_msg("%s: %d poses, %d still knots", name, poses, stills);
+    if (poses != 2 * copies || stills != copies || settling != copies)
+        fail_msg("%s: %d poses, %d still knots, %d that settle", name, poses, stills, settling);
 }
 
 TEST(test_edits_keep_what_knots_hold)
@@ -100,6 +102,23 @@ TEST(test_edits_keep_what_knots_hold)
         assert_held(edits[e].name, s.document->splines[0], edits[e].phases, edits[e].copies);
         session_close(&s);
     }
+}
+
+/// Alt+P and the button, for all selected knots but still ones, in one step each.
+SESSION_TEST(test_knots_settle_and_do_not, session_open(s, HOLDING))
+{
+    const char *original = session_saved(s);
+    session_key(s, 'A', MOD_CTRL);
+    session_key(s, 'P', MOD_ALT);
+    for (int k = 0; k < 4; k++) assert_true(s->document->splines[0]->knots[k].settles == (k != 2));
+    panel_click(s, "settles");
+    for (int k = 0; k < 4; k++) assert_false(s->document->splines[0]->knots[k].settles);
+    for (int i = 0; i < 2; i++) session_key(s, 'Z', MOD_CTRL);
+    assert_saved(s, original);
+    session_click(s, "knot(sway,2)");
+    session_key(s, 'P', MOD_ALT);
+    assert_non_null(strstr(s->editor->core.message.text, "no value to settle at"));
+    assert_saved(s, original);
 }
 
 TEST(test_edits_of_the_scene_keep_what_knots_hold)

@@ -283,6 +283,7 @@ const struct command commands[] = {
             {'P', 0}),
     COMMAND("Still: come to rest at the knot", SLOPES, ON_KNOT, SELECTED, 0, .core = core_set_hold, HOLDS_STILL,
             {'P', SHIFT}),
+    COMMAND("Settle at the knot's value", SLOPES, 0, SELECTED, 0, .core = core_toggle_settles, 0, {'P', ALT}),
 
     COMMAND("Next spline", SPLINE, ON_CURVES, SPLINE, REPEATS, .core = core_activate_neighbour, 1,
             {KEY_PAGE_DOWN, 0}),

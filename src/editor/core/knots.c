@@ -113,6 +113,32 @@ void core_set_hold(struct core *core, int holds)
     core_edited(core, -1);
 }
 
+void core_toggle_settles(struct core *core, int unused)
+{
+    (void)unused;
+    bool all = true, any = false;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        const struct knot *knot = knot_at(core->document, at);
+        any = any || !knot->still;
+        all = all && (knot->settles || knot->still);
+    }
+    if (!any) {
+        if (selected_count(core) > 0) core_message(core, false, "A still knot has no value to settle at.");
+        return;
+    }
+    if (!core_begin(core, all ? "Settle off" : "Settle here", 0)) return;
+    core_collect(core, false);
+    for (int i = 0; i < core->originals.count; i++) {
+        const struct original *original = &core->originals.list[i];
+        struct knot knot = original->knot;
+        if (knot.still) continue;
+        knot.settles = !all;
+        core_put_knot(core, original->spline, &knot);
+    }
+    core_end(core, true);
+    core_edited(core, -1);
+}
+
 void core_remove_knots(struct core *core, const char *label)
 {
     const struct originals *originals = &core->originals;

@@ -31,6 +31,8 @@ static inline enum holds knot_holds(const struct knot *knot)
 {
     return knot->still ? HOLDS_STILL : knot->has_phase ? HOLDS_POSE : HOLDS_VALUE;
 }
+/// Lets the motion settle at the selected knots, or if it does at all of them, at none. Still knots have no value to settle at.
+void core_toggle_settles(struct core *core, int unused);
 /// Makes the selected knots hold that where the curves are now. If all do already, they hold a value only.
 void core_set_hold(struct core *core, int holds);
 

@@ -121,7 +121,8 @@ static void show_handle(const struct curves *curves, struct core *core, const st
     }
 }
 
-/// A diamond for a value, a circle for a pose, a square for a still pose; filled, or with an outline.
+/// A diamond for a value, a circle for a pose, a square for a still pose; filled, or with an outline. Where the motion settles a level line goes
+/// through it.
 static void knot_mark(struct drawlist *list, const struct knot *knot, float x, float y, float r, uint32_t color,
                       uint32_t outline)
 {
@@ -132,10 +133,12 @@ static void knot_mark(struct drawlist *list, const struct knot *knot, float x, f
     if (knot->has_phase) {
         drawlist_disc(list, (const float[]){x, y}, 0.9f * r, color);
         if (outline) drawlist_circle(list, (const float[]){x, y}, 0.9f * r, 1.5f, outline);
-        return;
+    } else {
+        drawlist_convex(list, xy, 4, color);
+        if (outline) drawlist_line(list, xy, 5, 1.5f, outline);
     }
-    drawlist_convex(list, xy, 4, color);
-    if (outline) drawlist_line(list, xy, 5, 1.5f, outline);
+    if (knot->settles)
+        drawlist_line(list, (const float[]){x - 1.5f * r, y, x + 1.5f * r, y}, 2, 1.5f, outline ? outline : color);
 }
 
 /// A short stroke in place of a slope handle.

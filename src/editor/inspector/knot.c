@@ -132,14 +132,14 @@ struct knot_button {
     bool lit;
 };
 
-/// A row of three buttons; returns the pressed one, or -1.
-static int build_buttons(struct inspector *in, const struct knot_button buttons[3])
+/// A row of buttons; returns the pressed one, or -1.
+static int build_buttons(struct inspector *in, int count, const struct knot_button *buttons)
 {
     enum { GAP = 4 };
     struct rect r = ui_row(&in->ui, UI_ROW);
     int pressed = -1;
-    r.w = (r.w - 2 * GAP) / 3;
-    for (int i = 0; i < 3; i++, r.x += r.w + GAP) {
+    r.w = (r.w - (float)((count - 1) * GAP)) / (float)count;
+    for (int i = 0; i < count; i++, r.x += r.w + GAP) {
         ui_hint(&in->ui, r, buttons[i].hint);
         if (ui_button(&in->ui, r, buttons[i].name, buttons[i].label, buttons[i].lit)) pressed = i;
     }
@@ -150,12 +150,22 @@ static void build_holds(struct inspector *in)
 {
     bool any_still;
     const int lit = all_hold(in, &any_still);
+    bool settles = true;
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);)
+        settles &= knot_at(in->core->document, at)->settles;
     const int pressed = build_buttons(
-        in, (const struct knot_button[3]){
-                {"holds.value", "Value", "Hold the value and leave the phase free", lit == HOLDS_VALUE},
-                {"holds.pose", "Pose", "Hold every part that lags as it is seen now (P)", lit == HOLDS_POSE},
-                {"holds.still", "Still", "Come to rest here, and begin from rest (Shift+P)", lit == HOLDS_STILL}});
-    if (pressed >= 0 && pressed != lit) core_set_hold(in->core, pressed);
+        in, 4,
+        (const struct knot_button[]){
+            {"holds.value", "Value", "Hold the value and leave the phase free", lit == HOLDS_VALUE},
+            {"holds.pose", "Pose", "Hold every part that lags as it is seen now (P)", lit == HOLDS_POSE},
+            {"holds.still", "Still", "Come to rest here, and begin from rest (Shift+P)", lit == HOLDS_STILL},
+            {"settles", "Settle", "Let the motion stay here: it overshoots the value and swings about it (Alt+P)",
+             settles}});
+    if (pressed == 3) {
+        core_toggle_settles(in->core, 0);
+    } else if (pressed >= 0 && pressed != lit) {
+        core_set_hold(in->core, pressed);
+    }
 }
 
 /// A number's row, or a note that there is none.
@@ -213,11 +223,12 @@ static void build_slopes(struct inspector *in, bool sloped)
 {
     static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
     const int pressed = build_buttons(
-        in, (const struct knot_button[3]){
-                {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", false},
-                {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", false},
-                {"slope.switch", sloped ? "Remove" : "Add",
-                 sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)", false}});
+        in, 3,
+        (const struct knot_button[]){
+            {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", false},
+            {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", false},
+            {"slope.switch", sloped ? "Remove" : "Add",
+             sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)", false}});
     if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
 }
 
@@ -237,11 +248,12 @@ static void build_overview(struct inspector *in, const struct spline *spline)
     inspector_idle(in, "knots", frames);
     inspector_idle(in, "values", values);
     const int pressed =
-        build_buttons(in, (const struct knot_button[3]){
-                              {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)", false},
-                              {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)", false},
-                              {"knot.all", "All", "Select all knots of the spline (Ctrl+A)", false},
-                          });
+        build_buttons(in, 3,
+                      (const struct knot_button[]){
+                          {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)", false},
+                          {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)", false},
+                          {"knot.all", "All", "Select all knots of the spline (Ctrl+A)", false},
+                      });
     if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, false);
     if (pressed == 1) core_visit_neighbour(in->core, 1);
     if (pressed == 2) core_select_all(in->core, false);
