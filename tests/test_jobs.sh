@@ -68,9 +68,9 @@ for chain in tail ear_1_L; do
     holds "and its loop closes" below "$(off walk $chain. 0 0 walk 24)" 1e-9
 done
 expect 0 "and so do all clips of the file" "$WIGGLY" export "$scratch/walk.json" --all-clips -o "$scratch/pack.glb"
-says "which are there" "  Walk (1 s)
-  Trot (0.583 s)
-  Idle (5 s)" "$("$WIGGLY" rig "$scratch/pack.glb")"
+says "which are there" "  Walk (1 s, loops)
+  Trot (0.583 s, loops)
+  Idle (5 s, loops)" "$("$WIGGLY" rig "$scratch/pack.glb")"
 vertices() { "$WIGGLY" rig "$1" --chain tail_1 --plain --clip "$2" -o "$scratch/$3.pc2"; } # <file> <clip> <name>
 numbers() { od -An -v -tf4 -w4; }
 # The largest distance along an axis between the first and the last frame.
