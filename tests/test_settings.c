@@ -71,6 +71,14 @@ TEST_WITH(folder_make, folder_remove, test_broken)
     settings_free(settings);
 }
 
+/// A byte order mark is no part of a line, which may come first the next time.
+TEST_WITH(folder_make, folder_remove, test_byte_order_marks)
+{
+    struct settings *settings = load("\xEF\xBB\xBFtheme = dark\n\xEF\xBB\xBF\xEF\xBB\xBF own = 1\n");
+    assert_saved(settings, "theme = dark\nown = 1\n");
+    settings_free(settings);
+}
+
 /// Values that a line cannot hold are left out, never written so that they read back as others.
 TEST_WITH(folder_make, folder_remove, test_unstorable)
 {

@@ -11,7 +11,7 @@ complain() {
 for file in "$@"; do
     case $(head -n 1 "$file") in "/// "*) ;; *) complain "$file:1: opens without a /// line that says what it is for" ;; esac
 done
-pages=$(grep -ohE '[A-Za-z_/-]+\.md\b(, [A-Z][a-z]+)?' "$@" /dev/null | sort -u | tr ' ' '@')
+pages=$(grep -ohE '[A-Za-z_/-]+\.md\b(, [A-Z][a-z-]+)?' "$@" /dev/null | sort -u | tr ' ' '@')
 for cited in $pages; do
     page=${cited%%,*}
     heading=${cited#*,@}

@@ -94,11 +94,11 @@ typedef struct wiggly_param {
 typedef struct wiggly_knot {
     int sample;                       ///< 0 … N − 1; of a loop, to N − 2
     bool has_slope, has_phase, still; ///< a still knot has neither
-    bool settles;                     ///< the equilibrium comes to its value and stays; not in cubic mode, nor of a still knot
-    double value;                     ///< of the total; ignored at a still knot
-    double slope;                     ///< value per second; read where has_slope
-    double stiffness;                 ///< 1/s, the cost of missing the slope; 0: 1000, which is firm
-    double phase;                     ///< Im x, like a value; read where has_phase, in complex mode
+    bool settles;     ///< the equilibrium comes to its value and stays; not in cubic mode, nor of a still knot
+    double value;     ///< of the total; ignored at a still knot
+    double slope;     ///< value per second; read where has_slope
+    double stiffness; ///< 1/s, the cost of missing the slope; 0: 1000, which is firm
+    double phase;     ///< Im x, like a value; read where has_phase, in complex mode
 } wiggly_knot;
 
 /// What to solve. Zeroes with `size` set are valid; the comments say what 0 means. In an array, every element has the
@@ -117,9 +117,9 @@ typedef struct wiggly_desc {
     wiggly_param bandwidth;   ///< 0 … 1, how far the frequency may shift, as a fraction of it; complex mode only
     wiggly_param equilibrium; ///< y, what it swings about
     double calm;              ///< 0 … 1, the cost of a swing at the start; 0 means 1 unless has_calm is set
-    double wind_up;           ///< 0 … 100, how long before a knot the motion is pushed, in periods there; 0: at any time
-    double low, high;         ///< limits of the total; read where has_low, has_high
-    double variation;         ///< another motion through the same knots (wiggly/more.h); 0: none
+    double wind_up;   ///< 0 … 100, how long before a knot the motion is pushed, in periods there; 0: at any time
+    double low, high; ///< limits of the total; read where has_low, has_high
+    double variation; ///< another motion through the same knots (wiggly/more.h); 0: none
     bool has_calm, has_low, has_high;
     int variation_seed; ///< which one
 } wiggly_desc;

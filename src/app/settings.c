@@ -50,7 +50,11 @@ static void insert(struct settings *settings, int at, const char *key, const cha
 
 static char *trim(char *text)
 {
-    text += strspn(text, " \t\r");
+    // A byte order mark goes in any line: where those before it are ignored, it comes first the next time.
+    for (size_t mark = 1; mark > 0; text += mark) {
+        text += strspn(text, " \t\r");
+        mark = file_text_mark(text);
+    }
     size_t length = strlen(text);
     while (length > 0 && strchr(" \t\r", text[length - 1])) text[--length] = '\0';
     return text;
@@ -78,7 +82,7 @@ struct settings *settings_load(const char *path, struct error *error)
     size_t size;
     *error = (struct error){0};
     settings->lock = -1;
-    if (access(path, F_OK) != 0 || !file_read_text(path, LARGEST, &data, &size, error)) return settings;
+    if (access(path, F_OK) != 0 || !file_read(path, LARGEST, &data, &size, error)) return settings;
     rest = data;
     for (int number = 1; rest && *rest && number <= MAX_LINES; number++) {
         char *line = strsep(&rest, "\n");

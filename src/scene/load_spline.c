@@ -61,7 +61,8 @@ static bool load_parameter(struct reader *reader, const struct value *object, st
     } else if (row->kind == PARAMETER_LIMIT) {
         load_limit(reader, value, parameter == PARAMETER_HIGH, &param->value);
     } else if (row->kind == PARAMETER_TRACK) {
-        reader_param(reader, value, range, parameter_key(parameter), parameter == PARAMETER_EQUILIBRIUM, param, extra);
+        reader_param(reader, value, range, parameter_key(parameter), parameter == PARAMETER_EQUILIBRIUM, param,
+                     extra);
     } else {
         reader_number(reader, value, true, range, &param->value);
     }
