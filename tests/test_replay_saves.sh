@@ -1,12 +1,12 @@
 # Where a replay writes: into the folder of --saves, by names alone, else nowhere. A recording from anyone must be safe to play.
 . tests/check.sh
-mkdir "$scratch/work" "$scratch/victims"
-cat >"$scratch/work/scene.json" <<'END'
+mkdir "$scratch/scenes" "$scratch/victims"
+cat >"$scratch/scenes/scene.json" <<'END'
 {"wiggly": 1, "frames": [0, 4], "splines": [{"name": "sway", "knots": [{"frame": 0, "value": 0}]}],
 "rigs": [{"type": "tail", "name": "tail", "position": [0, 0.26, 0], "rest": 2, "spline": "sway"}]}
 END
 for name in package.json out.csv out.usda out.gif; do echo victim >"$scratch/victims/$name"; done
-scene=$scratch/work/scene.json
+scene=$scratch/scenes/scene.json
 "$WIGGLY" live --no-draw --size 640x360 --frames 1 --record "$scratch/header" "$scene" >/dev/null 2>&1
 
 frame=0
@@ -38,10 +38,10 @@ type_over() { # <text>
     press F12
 } >"$scratch/events"
 { sed '/^frames/d' "$scratch/header"; echo "frames $((frame + 20))"; cat "$scratch/events"; } >"$scratch/all.replay"
-cp -r "$scratch/work" "$scratch/victims" "$(mkdir "$scratch/before" && echo "$scratch/before")"
-untouched() { diff -r "$scratch/before/work" "$scratch/work" && diff -r "$scratch/before/victims" "$scratch/victims"; }
+cp -r "$scratch/scenes" "$scratch/victims" "$(mkdir "$scratch/before" && echo "$scratch/before")"
+untouched() { diff -r "$scratch/before/scenes" "$scratch/scenes" && diff -r "$scratch/before/victims" "$scratch/victims"; }
 program=$(realpath "$WIGGLY")
-play() { (cd "$scratch/work" && "$program" live --headless --replay ../all.replay "$@" scene.json); }
+play() { (cd "$scratch/scenes" && "$program" live --headless --replay ../all.replay "$@" scene.json); }
 
 expect 0 "a replay that saves, exports and takes a picture" play --result "$scratch/nowhere.json"
 holds "writes nothing" untouched
@@ -58,6 +58,6 @@ holds "with the knot that it made" [ "$(knots "$scratch/saves/package.json")" -g
 expect 0 "which is whole" "$WIGGLY" check "$scratch/saves/package.json"
 holds "and goes on as without" cmp "$scratch/nowhere.json" "$scratch/somewhere.json"
 expect 0 "a folder with the scene itself" play --saves .
-holds "keeps the scene" cmp "$scratch/before/work/scene.json" "$scene"
+holds "keeps the scene" cmp "$scratch/before/scenes/scene.json" "$scene"
 expect 2 "--saves without a replay" "$WIGGLY" live --no-draw --frames 2 --saves "$scratch/saves" "$scene"
 says "is refused" "--saves is for what a replay writes: expected --replay, too" "$err"
