@@ -1,4 +1,4 @@
-/// What an animator feels first: presets, time to settle, what stays in its place, and a sentence on every control near the pointer.
+/// What an animator feels first: presets, time to settle, wind-up, what stays in its place, and a sentence on every control near the pointer.
 #include "panel_session.h"
 
 static const char tail_scene[] =
@@ -48,6 +48,28 @@ SESSION_TEST(test_the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 900
     panel_enter(s, "settle", "1.5");
     const double damping = of(s, PARAMETER_DAMPING)->value;
     assert_true(damping > 0.2 && damping < 0.4);
+}
+
+/// At 24 frames a second a period of 1 Hz has 24; beyond two of them stands the whole curve.
+SESSION_TEST(test_the_wind_up_is_set_in_frames, panel_open(s, tail_scene, 1280, 900))
+{
+    static const struct {
+        const char *typed;
+        double periods;
+    } cases[] = {{"12", 0.5}, {"47", 1.9583}, {"48", 0}, {"1", 0.0417}, {"900", 0}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *before = session_saved(s);
+        panel_enter(s, "wind-up", cases[i].typed);
+        assert_near(of(s, PARAMETER_WIND_UP)->value, cases[i].periods, 0);
+        assert_one_step(s, before);
+    }
+    panel_enter(s, "wind-up", "0");
+    assert_true(s->editor->core.message.is_error);
+    session_key(s, KEY_ESCAPE, 0);
+    panel_click(s, "mode.real");
+    assert_false(panel_shows(s, "wind-up"));
+    inspector_add(s->editor->inspector, ADD_SPLINE);
+    assert_near(of(s, PARAMETER_WIND_UP)->value, 0.5, 0);
 }
 
 static float place_of(struct session *s, const char *name)

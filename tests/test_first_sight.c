@@ -30,8 +30,8 @@ static int count_controls(const struct session *s)
 
 SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
 {
-    static const char *const shown[] = {"preset.cat", "frequency",   "damping",    "settle", "lag",       "gain",
-                                        "knot.next",  "spline.sway", "spline.add", "more",   "look.stiff"};
+    static const char *const shown[] = {"preset.cat", "frequency",   "damping",    "wind-up", "lag",       "gain",
+                                        "knot.next",  "spline.sway", "spline.add", "more",    "look.stiff"};
     static const char *const hidden[] = {"follow.frequency", "gain.ramp",     "gain.curve",     "eye.sway",
                                          "color.sway",       "spline.delete", "section.spline", "section.rigs",
                                          "section.tail",     "section.pins",  "section.poles",  "section.history"};

@@ -161,7 +161,7 @@ SESSION_TEST(test_hidden_and_solo_curves, panel_open(s, scene, 1280, 720))
 }
 
 /// Attached from the list, which has no spline that would make a cycle; detached, it keeps the value at the playhead.
-SESSION_TEST(test_a_track_is_attached_and_detached, panel_open(s, scene, 1280, 720))
+SESSION_TEST(test_a_track_is_attached_and_detached, panel_open(s, scene, 1280, 760))
 {
     session_click(s, "ruler(90)");
     const char *before = session_saved(s);

@@ -33,8 +33,9 @@ static bool add_spline(struct document *document, const char *name, const struct
     } set[] = {{PARAMETER_MODE, knots->mode},
                {PARAMETER_FREQUENCY, knots->frequency},
                {PARAMETER_DAMPING, knots->damping},
+               {PARAMETER_WIND_UP, 0}, // the fit is to the whole curve
                {PARAMETER_BANDWIDTH, knots->bandwidth}};
-    const int spline = document->spline_count, count = knots->mode == WIGGLY_COMPLEX ? 4 : 3;
+    const int spline = document->spline_count, count = knots->mode == WIGGLY_COMPLEX ? 5 : 4;
     if (!edit_spline_add(document, -1, name, NULL, error)) return false;
     for (int i = 0; i < count; i++) {
         const struct param value = param_number(set[i].value);

@@ -1,4 +1,4 @@
-/// The feel of the active spline: frequency, settling time, lag and gain.
+/// The feel of the active spline: frequency, settling time, wind-up, lag and gain.
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -154,7 +154,66 @@ static void build_settle(struct inspector *in)
                                       .step = 0.05,
                                       .decimals = 2};
     struct rect r = ui_row(&in->ui, UI_ROW);
-    if (in->core->more) r.w -= UI_ROW + 2; // lines up with the rows above, which have a button there
+    r.w -= UI_ROW + 2; // lines up with the rows above, which have a button there
+    inspector_number(in, &number, &home, 0, r);
+}
+
+/// Frames of a period at the spline's own frequency.
+static double period_frames(const struct inspector *in)
+{
+    return in->core->document->fps / core_active_spline(in->core)->parameter[PARAMETER_FREQUENCY].value;
+}
+
+static double longest_wind_up(const struct inspector *in)
+{
+    return parameter_rows[PARAMETER_WIND_UP].usual * period_frames(in);
+}
+
+/// The wind-up in frames. The longest stands for the whole curve.
+static double get_wind_up(const struct inspector *in, int which)
+{
+    const double periods = core_active_spline(in->core)->parameter[PARAMETER_WIND_UP].value;
+    (void)which;
+    return periods > 0 ? periods * period_frames(in) : longest_wind_up(in);
+}
+
+static bool set_wind_up(struct inspector *in, int which, double frames, struct error *error)
+{
+    const bool whole = frames >= longest_wind_up(in);
+    const struct param param = param_number(whole ? 0 : round(frames / period_frames(in) * 1e4) / 1e4);
+    (void)which;
+    return edit_parameter(in->core->document, in->core->active, PARAMETER_WIND_UP, &param, error);
+}
+
+static const char *show_wind_up(const struct inspector *in, int which, char text[64])
+{
+    (void)which, (void)text;
+    return core_active_spline(in->core)->parameter[PARAMETER_WIND_UP].value > 0 ? NULL : "whole curve";
+}
+
+static void build_wind_up(struct inspector *in)
+{
+    static const struct number_home home = {.get = get_wind_up, .set = set_wind_up, .shown = show_wind_up};
+    const struct spline *spline = core_active_spline(in->core);
+    const struct parameter_row *row = &parameter_rows[PARAMETER_WIND_UP];
+    const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
+    if (!spline_uses(spline, PARAMETER_WIND_UP, false) || param_follows(frequency) || frequency->value == 0) {
+        inspector_idle(in, row->name, "–");
+        return;
+    }
+    const struct number_row number = {.name = row->name,
+                                      .label = row->name,
+                                      .unit = "frames",
+                                      .hint = row->hint,
+                                      .undo = row->undo,
+                                      .maximum = longest_wind_up(in),
+                                      .lowest = 1,
+                                      .highest = INFINITY,
+                                      .fallback = row->fresh * period_frames(in),
+                                      .step = 1,
+                                      .decimals = 0};
+    struct rect r = ui_row(&in->ui, UI_ROW);
+    if (in->core->more) r.w -= UI_ROW + 2; // lines up, too
     inspector_number(in, &number, &home, 0, r);
 }
 
@@ -253,7 +312,8 @@ void inspector_feel(struct inspector *in)
             inspector_idle(in, parameter_rows[pace[i]].name, "–");
         }
     }
-    build_settle(in);
+    if (in->core->more) build_settle(in);
+    build_wind_up(in);
     build_reach(in);
     const float end = in->ui.y + TEXT;
     if (!build_warnings(in)) build_sentence(in);

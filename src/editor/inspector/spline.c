@@ -282,7 +282,7 @@ void inspector_spline(struct inspector *in)
 
 void inspector_advanced(struct inspector *in)
 {
-    static const enum parameter shown[] = {PARAMETER_BANDWIDTH, PARAMETER_WIND_UP, PARAMETER_CALM, PARAMETER_PASSIVE};
+    static const enum parameter shown[] = {PARAMETER_BANDWIDTH, PARAMETER_CALM, PARAMETER_PASSIVE};
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
 }
 
