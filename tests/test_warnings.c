@@ -98,9 +98,17 @@ SESSION_TEST(test_poses_outside_complex_mode_are_freed, assert_remedied(s, POSED
     "\"value\": 0.2, \"settles\": true}, {\"frame\": 20, \"value\": 0.3}], " members "}]}"
 
 SESSION_TEST(test_a_wind_up_without_effect_goes,
-             assert_remedied(s, SPLINE("\"mode\": \"real\", \"frequency\": 1, \"wind_up\": 0.5"), WARNING_WIND_UP))
+             assert_remedied(s, SPLINE("\"passive\": \"filter\", \"frequency\": 1, \"wind_up\": 0.5"),
+                             WARNING_WIND_UP))
 {
     assert_near(s->document->splines[0]->parameter[PARAMETER_WIND_UP].value, 0, 0);
+}
+
+/// As its bandwidth, it waits for the day that the spline is Wiggly again.
+SESSION_TEST(test_the_wind_up_of_a_spring_is_no_matter,
+             session_open(s, SPLINE("\"mode\": \"real\", \"frequency\": 1, \"wind_up\": 0.5")))
+{
+    assert_int_equal(s->editor->curves->warnings.count, 0);
 }
 
 SESSION_TEST(test_a_sudden_wind_up_is_lengthened,

@@ -337,7 +337,7 @@ static void find_direction(const struct look *look)
     const double wind_up = spline->parameter[PARAMETER_WIND_UP].value;
     const double samples = wind_up / (frequency_of(look) * document_step(look->document));
     struct warning warning = {.kind = WARNING_WIND_UP, .why = spline_idle_wind_up(look->document, look->of)};
-    if (warning.why) add(look, warning);
+    if (warning.why && spline_mode(spline) == WIGGLY_COMPLEX) add(look, warning);
     if (wind_up > 0 && !warning.why && samples < LEAST_WIND_UP)
         add(look, (struct warning){.kind = WARNING_SUDDEN,
                                    .amount = samples,
