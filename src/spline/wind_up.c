@@ -148,11 +148,11 @@ static void set_weights(const wiggly_solver *solver, const problem *p, const win
 }
 
 /// How the free motion reaches the window: w at its first sample and the step from there, for w = 1 at the gap's knot.
-static void begin_window(const wiggly_solver *solver, const problem *p, double sigma, wind_gap *g)
+static void begin_window(const wiggly_solver *solver, const problem *p, double back, wind_gap *g)
 {
     const bool constant = solver->wind.is_constant;
-    const double h = p->desc->step, share = sigma - floor(sigma);
-    const int low = (int)floor(sigma);
+    const double h = p->desc->step, share = ceil(back) - back;
+    const int low = g->end - (int)ceil(back);
     const poles here = poles_here(solver, p, low), next = share > 0 ? poles_here(solver, p, low + 1) : here;
     const cplx pole = cplx_add(cplx_scale(1 - share, poles_passive(&here)), cplx_scale(share, poles_passive(&next)));
     // half the distance of the two poles: from σ on they turn apart, and go on with the speed of one
@@ -168,7 +168,7 @@ static void begin_window(const wiggly_solver *solver, const problem *p, double s
         before = w;
         w = cplx_mul(w, solver->rows.drive[sample_of(p, i)]);
     }
-    const double off = g->begin - sigma, m = 2 * fmax(0, off);
+    const double off = g->begin - g->end + back, m = 2 * fmax(0, off);
     g->at = cplx_scale(maths_cos(apart * off), w);
     cplx ahead = cplx_scale((1 - m) * maths_cos(apart * (off + 1)), cplx_mul(cplx_exp(cplx_scale(h, pole)), w));
     if (m > 0) {
@@ -187,10 +187,10 @@ static void set_gap(wiggly_solver *solver, const problem *p, int from, int end, 
 {
     const poles at = poles_here(solver, p, end);
     const double reach = problem_reach(p->desc, &at);
-    const double sigma = fmax(from, end - reach);
-    *g = (wind_gap){.from = from, .end = end, .begin = (int)floor(sigma + 0.5), .is_cut = !(end - reach > from)};
-    if (g->begin < from) g->begin = from;
-    g->part = g->begin + 0.5 - fmax(g->begin - 0.5, sigma);
+    const double back =
+        fmin(reach, end - from); // from σ; counted from the knot, so that no bit depends on when that is
+    *g = (wind_gap){.from = from, .end = end, .begin = end - (int)ceil(back - 0.5), .is_cut = !(reach < end - from)};
+    g->part = fmin(1, g->begin - end + back + 0.5);
     if (solver->wind.is_constant && like && !g->is_cut) {
         g->push = like->push;
         g->back[0] = like->back[0], g->back[1] = like->back[1];
@@ -200,7 +200,7 @@ static void set_gap(wiggly_solver *solver, const problem *p, int from, int end, 
         if (!solver->wind.is_constant) set_weights(solver, p, g);
         look_back(solver, p, &at, g);
     }
-    begin_window(solver, p, sigma, g);
+    begin_window(solver, p, back, g);
     const cplx first[2] = {g->push[0].knot, g->push[0].row};
     for (int n = 0; n < 2; n++) g->coast[n] = cplx_add(cplx_mul(g->back[n], g->at), cplx_mul(first[n], g->step));
 }
@@ -209,6 +209,15 @@ static void set_gap(wiggly_solver *solver, const problem *p, int from, int end, 
 static cplx mean_of(const wind_gap *g, cplx w)
 {
     return cplx_sub(cplx_mul(g->coast[0], w), cplx_scale(1 / g->row, cplx_mul(g->both, cplx_mul(g->coast[1], w))));
+}
+
+/// The same w at a sample where the phase is free, with the digits that it would have at a pose there: so a free knot can become one and what
+/// follows does not change by a bit.
+static cplx as_posed(const problem *p, int sample, cplx w)
+{
+    const double u = p->response.im ? p->response.im[sample] : 0;
+    for (int n = 0; n < 2 && u != 0; n++) w.im = (w.im + u) - u;
+    return w;
 }
 
 /// w at the end of a gap, from w at its beginning.
@@ -223,7 +232,7 @@ static cplx arrive(const wiggly_solver *solver, const problem *p, const wind_gap
         const double pull = g->knot * to->pull * pole.im;
         there.im = (mean.im + pull * (pole.re * to->w.re - to->slope)) / (1 + pull * pole.im);
     }
-    return there;
+    return as_posed(p, sample_of(p, g->end), there);
 }
 
 /// Fills `count` samples after one by the free motion.
@@ -343,8 +352,8 @@ static cplx start_of(const wiggly_solver *solver, const problem *p)
     const int next = p->desc->knot_count > 1 ? knot_of(solver, p, 1)->sample : p->desc->samples - 1;
     const double turn = at.centre * ((next - knot->sample) * p->desc->step), turn4 = turn * turn * (turn * turn);
     const double fade = fade_of(&at) * turn4 / (1 + turn4);
-    if (fade > 0) return (cplx){to.w.re, (-at.decay * to.w.re - to.slope) / at.centre * fade};
-    return to.w;
+    const cplx swings = {to.w.re, (-at.decay * to.w.re - to.slope) / at.centre * fade};
+    return fade > 0 ? as_posed(p, knot->sample, swings) : to.w;
 }
 
 /// Im w after going once round a loop; or what is left of w there if all knots ask for 0.
@@ -364,7 +373,8 @@ static cplx close_round(const wiggly_solver *solver, const problem *p)
     goal to = goal_of(solver, p, knot_of(solver, p, 0));
     if (to.is_whole) return to.w;
     const double a = go_round(solver, p, (cplx){to.w.re, 0}, true), b = go_round(solver, p, (cplx){0, 1}, false);
-    return (cplx){to.w.re, a * (1 - b) / ((1 - b) * (1 - b) + 1e-4 * b * b)};
+    const cplx closed = {to.w.re, a * (1 - b) / ((1 - b) * (1 - b) + 1e-4 * b * b)};
+    return as_posed(p, p->earliest, closed);
 }
 
 void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *curve, minimum *result)
