@@ -96,7 +96,7 @@ static void check_status(struct session *f)
         transport_show(&f->editor->core, NULL);
         const int texts = assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status);
         // The figures and the scene's name may give way to a long message.
-        assert_in_range(texts, messages[m] == long_message ? 6 : 8, 8);
+        assert_in_range(texts, messages[m] == long_message ? 7 : 9, 9);
     }
 }
 

@@ -38,6 +38,8 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
     core_set_panels(&blind.app.table.editor->core, 0.4, 333);
     assert_false(blind.app.table.editor->core.more);
     blind_key(&blind, KEY_F9, 0);
+    assert_true(blind.app.table.editor->core.keep);
+    blind_key(&blind, 'A', MOD_ALT);
     personal_update(&blind.app);
     end(&blind);
     theme_use(before);
@@ -46,6 +48,7 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
     assert_int_equal(theme_in_use(), other);
     assert_near(blind.app.ui_scale, 1.5, 0);
     assert_true(blind.app.table.editor->core.more);
+    assert_false(blind.app.table.editor->core.keep);
     assert_near(blind.app.table.editor->core.layout.stage_share, 0.4, 1e-6);
     assert_near(blind.app.table.editor->core.layout.inspector_width, 333, 1e-9);
     end(&blind);

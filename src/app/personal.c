@@ -22,6 +22,7 @@ struct choices {
     enum theme_kind theme;
     double ui_scale, stage_share, inspector_width;
     bool more;        ///< the inspector shows all sections
+    bool keep;        ///< an edit leaves what follows as it is
     bool is_welcomed; ///< the card for new users was closed
 };
 
@@ -83,6 +84,7 @@ static struct choices choices_of(const struct app *app)
                             .stage_share = (double)layout->stage_share,
                             .inspector_width = (double)layout->inspector_width,
                             .more = app->table.editor->core.more,
+                            .keep = app->table.editor->core.keep,
                             .is_welcomed = !dialogs_is_welcoming(app->table.editor->dialogs)};
 }
 
@@ -94,7 +96,7 @@ static void note_choices(struct app *app, bool ends)
     if (!ends) now.stage_share = before.stage_share, now.inspector_width = before.inspector_width;
     const bool has_moved = now.stage_share != before.stage_share || now.inspector_width != before.inspector_width;
     if (now.theme == before.theme && now.ui_scale == before.ui_scale && !has_moved &&
-        now.is_welcomed == before.is_welcomed && now.more == before.more)
+        now.is_welcomed == before.is_welcomed && now.more == before.more && now.keep == before.keep)
         return;
     app->personal->choices = now;
     struct settings *settings = open_settings(app);
@@ -105,6 +107,7 @@ static void note_choices(struct app *app, bool ends)
     if (has_moved) settings_set_number(settings, "inspector_width", now.inspector_width);
     if (now.is_welcomed && !before.is_welcomed) settings_set(settings, "welcomed", "yes");
     if (now.more != before.more) settings_set(settings, "more", now.more ? "yes" : "no");
+    if (now.keep != before.keep) settings_set(settings, "keep", now.keep ? "yes" : "no");
     store_settings(app, settings);
 }
 
@@ -121,6 +124,8 @@ static void start_choices(struct app *app, const struct settings *settings)
     ui_scale_fit(app);
     const char *more = settings_get(settings, "more", 0);
     core->more = more && strcmp(more, "yes") == 0;
+    const char *keep = settings_get(settings, "keep", 0);
+    core->keep = !keep || strcmp(keep, "no") != 0;
     if (!settings_get(settings, "welcomed", 0)) dialogs_welcome(app->table.editor->dialogs);
     app->personal->choices = choices_of(app);
 }

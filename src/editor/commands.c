@@ -333,6 +333,7 @@ const struct command commands[] = {
     COMMAND("Dope sheet", CURVES, ON_TIME, NOTHING, 0, .core = core_flip, SWITCH_SHEET, {KEY_F7, 0}),
     COMMAND("Frames or seconds", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SECONDS, {'U', 0}),
     COMMAND("Snap to frames or not", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_SNAP, {'G', 0}),
+    COMMAND("Keep what follows an edit", CURVES, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_KEEP, {'A', ALT}),
 
     GESTURE("Drag the tail, a chain", "Bend it", STAGE, ON_STAGE),
     GESTURE("Drag the body", "Move it (R records)", STAGE, ON_STAGE),

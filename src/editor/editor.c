@@ -25,6 +25,7 @@ struct editor *editor_create(void)
     editor->core.ui_scale = 1;
     editor->core.brush = (struct brush){.radius = 0.12, .strength = 0.4};
     editor->core.overlays.ghost = true;
+    editor->core.keep = true;
     editor_resize(editor, 1280, 720, 1);
     return editor;
 }
@@ -42,6 +43,7 @@ void editor_destroy(struct editor *editor)
     free(editor->core.solo.bits);
     free(editor->core.clipboard);
     free(editor->core.originals.list);
+    free(editor->core.pressed.list);
     free(editor);
 }
 

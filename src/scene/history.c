@@ -162,6 +162,8 @@ void history_end(struct history *history)
 
 bool history_is_open(const struct history *history) { return history->is_open; }
 
+const struct document *history_before(const struct history *history) { return current(history)->document; }
+
 bool history_jump(struct history *history, size_t done)
 {
     assert(!history->is_open);

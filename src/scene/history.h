@@ -27,6 +27,8 @@ void history_restart(struct history *history);
 void history_end(struct history *history);
 /// Whether a step is open.
 bool history_is_open(const struct history *history);
+/// The document as it was before the open step, or is if none is open.
+const struct document *history_before(const struct history *history);
 
 /// Undoes the last step, or redoes the next; false if there is none. No step may be open.
 bool history_undo(struct history *history);

@@ -73,6 +73,11 @@ const char *spline_idle_wind_up(const struct document *document, int of)
     return pins_move_spline(document, of) ? "pins need the whole curve" : NULL;
 }
 
+bool spline_winds_up(const struct document *document, int of)
+{
+    return document->splines[of]->parameter[PARAMETER_WIND_UP].value > 0 && !spline_idle_wind_up(document, of);
+}
+
 /// A spline that winds up takes a slope as a phase.
 static const char *idle_phase(const struct spline *spline, const struct knot *knot)
 {
@@ -89,8 +94,7 @@ const char *knot_idle_slope(const struct document *document, int of, int knot)
     const struct knot *at = &spline->knots[knot];
     int first;
     if (!at->has_slope) return NULL;
-    if (spline->parameter[PARAMETER_WIND_UP].value > 0 && !spline_idle_wind_up(document, of))
-        return idle_phase(spline, at);
+    if (spline_winds_up(document, of)) return idle_phase(spline, at);
     const bool outer = knot == 0 || knot + 1 == spline->knot_count;
     const bool pinned = outer && pins_move_spline(document, of); // pins may be beyond it
     if (samples_solved(document, spline, &first) < 3 && !pinned) return "there are fewer than three samples";

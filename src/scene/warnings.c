@@ -350,16 +350,11 @@ static void find_direction(const struct look *look)
     }
 }
 
-static bool winds_up(const struct look *look)
-{
-    return look->spline->parameter[PARAMETER_WIND_UP].value > 0 && !spline_idle_wind_up(look->document, look->of);
-}
-
 void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
                       struct warnings *found)
 {
     struct look look;
-    if (look_at(document, evaluation, of, found, &look) && !winds_up(&look)) find_far(&look);
+    if (look_at(document, evaluation, of, found, &look) && !spline_winds_up(document, of)) find_far(&look);
 }
 
 void warnings_add_forced(const struct document *document, const struct evaluation *evaluation, int of,
@@ -377,12 +372,12 @@ void warnings_add(const struct document *document, const struct evaluation *eval
     struct look look;
     struct warning drift = {0};
     if (!look_at(document, evaluation, of, found, &look)) return;
-    if (!winds_up(&look)) find_far(&look);
+    if (!spline_winds_up(document, of)) find_far(&look);
     find_idle(&look);
     find_direction(&look);
     if (spline_mode(look.spline) == WIGGLY_CUBIC) return;
     find_rate(&look);
-    if (winds_up(&look)) return; // what follows is about the whole curve
+    if (spline_winds_up(document, of)) return; // what follows is about the whole curve
     const double frequency = frequency_of(&look);
     for (int k = 0; k < look.spline->knot_count; k++) find_drift(&look, k, frequency, &drift);
     if (drift.amount > 0) add(&look, drift);

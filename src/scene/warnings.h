@@ -9,6 +9,8 @@ const char *knot_idle_slope(const struct document *document, int of, int knot);
 
 /// Why a spline's wind-up has no effect, as the rest of "the wind-up has no effect: "; NULL if it has one, or there is none.
 const char *spline_idle_wind_up(const struct document *document, int of);
+/// Whether it is pushed only shortly before its knots.
+bool spline_winds_up(const struct document *document, int of);
 
 /// Index of the first pose of a spline that is not Wiggly and so has no phases; else -1.
 int spline_idle_pose(const struct spline *spline);

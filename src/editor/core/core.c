@@ -35,11 +35,13 @@ bool core_begin(struct core *core, const char *label, uint64_t merge)
     history_begin(core->history, label, merge);
     core->error = (struct error){0};
     core->message = (struct message){0};
+    core_keep_phases(core);
     return true;
 }
 
 bool core_end(struct core *core, bool done)
 {
+    if (done) core_keep_following(core);
     if (!done) history_restart(core->history);
     history_end(core->history);
     core_settle(core);
@@ -224,6 +226,9 @@ void core_flip(struct core *core, int which)
         [SWITCH_AUTO_KEY] = {&core->auto_key,
                              {"Auto-key off: dragging a body moves it for the whole shot.",
                               "Auto-key on: dragging a body sets knots at the playhead."}},
+        [SWITCH_KEEP] = {&core->keep,
+                         {"Keep off: what follows an edit swings on from it.",
+                          "Keep on: the next free knot becomes a pose, and nothing changes beyond it."}},
         [SWITCH_LOOP] = {&core->playback.looping, {"Playback stops at the end.", "Playback loops."}},
         [SWITCH_ONION] = {&core->overlays.onion,
                           {"Onion skin off.", "Onion skin on: the pose at the knots around the playhead (O)."}},

@@ -18,6 +18,11 @@ bool core_begin(struct core *core, const char *label, uint64_t merge);
 bool core_end(struct core *core, bool done);
 /// Call after edits: the editor follows the document, and core->error goes to the status line.
 void core_settle(struct core *core);
+/// Notes the phases that an open step keeps; call it when the step opens.
+void core_keep_phases(struct core *core);
+/// Call after edits in an open step: of each spline that winds up and whose knots have changed, the next free knot becomes a pose with the phase
+/// it had when the step began. So nothing changes beyond it. Not in a drag with Alt held, or if that is switched off.
+void core_keep_following(struct core *core);
 /// Sets a spline's parameter, which then no longer follows another spline. Edits.
 bool core_set_parameter(struct core *core, int spline, enum parameter parameter, double value);
 /// A parameter's value at a sample, clamped to its range, even if it follows another spline.
@@ -56,6 +61,7 @@ void core_turn_to(struct core *core, int spline);
 enum core_switch {
     SWITCH_SNAP,
     SWITCH_AUTO_KEY,
+    SWITCH_KEEP,
     SWITCH_LOOP,
     SWITCH_ONION,
     SWITCH_TRAIL,

@@ -91,6 +91,7 @@ void drag_apply(struct core *core, double dt)
     if (!owner->goes_on) drag_restart(core);
     core->error = (struct error){0};
     owner->apply(drag->room, core);
+    if (history_is_open(core->history)) core_keep_following(core);
     if (history_is_open(core->history)) core_settle(core);
 }
 
@@ -98,9 +99,11 @@ void drag_end(struct core *core, bool keep)
 {
     struct drag *drag = &core->drag;
     if (!drag->owner) return;
+    drag->stale = true; // Alt may have been pressed or let go since
     if (keep && !drag->owner->goes_on) drag_apply(core, 0);
     if (drag->owner->end) drag->owner->end(drag->room, core, keep);
     if (drag->moved && drag->label) {
+        if (keep) core_keep_following(core);
         if (!keep) drag_restart(core);
         if (!keep) selection_drop_from(&core->selection, core->document->next_id);
         if (!keep && core->pin.id >= core->document->next_id) pins_clear(core);

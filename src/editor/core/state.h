@@ -162,6 +162,7 @@ enum hover_kind {
     HOVER_LOOP,
     HOVER_SPEED,
     HOVER_AUTO_KEY,
+    HOVER_KEEP,
     HOVER_UI_SCALE,
     HOVER_PRESENT,
     HOVER_LIMIT,
@@ -332,6 +333,7 @@ struct core {
     struct playback playback;
     struct drag drag;
     struct originals originals;
+    struct originals pressed; ///< the free knots as the open step began, with the phases they had
     struct edited edited;
     struct hover hover;
     enum look look;
@@ -352,6 +354,7 @@ struct core {
     struct curve_options curves;
     double nudged_seconds; ///< remaining time of a nudged knot's ghost
     bool auto_key;         ///< dragging a body sets knots at the playhead instead of moving the whole shot
+    bool keep;             ///< an edit leaves what follows the next knot as it is (keep.c)
     bool record_armed;     ///< record the next drag of a body
     bool more;             ///< the inspector shows everything
     bool in_page;          ///< the app runs in a browser

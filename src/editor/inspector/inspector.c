@@ -332,6 +332,7 @@ bool inspector_begin(struct inspector *in, enum ui_change change, const char *la
 void inspector_end(struct inspector *in, enum ui_change change, bool done)
 {
     if (change == UI_DRAG) {
+        core_keep_following(in->core);
         core_settle(in->core);
     } else {
         core_end(in->core, done);

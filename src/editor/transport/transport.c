@@ -14,14 +14,17 @@ enum {
     LOOP_WIDTH = 42,
     SPEED_WIDTH = 44,
     AUTO_KEY_WIDTH = 64,
+    KEEP_WIDTH = 42,
     UI_SCALE_WIDTH = 48,
-    PRESENT_WIDTH = 28
+    PRESENT_WIDTH = 28,
+    NARROW = 420, ///< window without the least of them
 };
 
 struct rect controls_rect(const struct core *core, enum hover_kind control)
 {
-    static const float width[] = {PLAY_WIDTH, LOOP_WIDTH, SPEED_WIDTH, AUTO_KEY_WIDTH, UI_SCALE_WIDTH, PRESENT_WIDTH};
-    struct rect bar = core->layout.status, r = {bar.x + MARGIN, bar.y + 2, width[0], bar.h - 3};
+    struct rect bar = core->layout.status, r = {bar.x + MARGIN, bar.y + 2, PLAY_WIDTH, bar.h - 3};
+    const float keep = bar.w < NARROW ? 0 : KEEP_WIDTH;
+    const float width[] = {PLAY_WIDTH, LOOP_WIDTH, SPEED_WIDTH, AUTO_KEY_WIDTH, keep, UI_SCALE_WIDTH, PRESENT_WIDTH};
     for (int i = 1; i <= (int)control - HOVER_PLAY; i++) {
         r.x += r.w;
         r.w = width[i];
@@ -53,6 +56,7 @@ bool transport_event(struct core *core, const struct event *event)
     if (control == HOVER_PLAY) playback_toggle(core);
     if (control == HOVER_LOOP) core_flip(core, SWITCH_LOOP);
     if (control == HOVER_AUTO_KEY) core_flip(core, SWITCH_AUTO_KEY);
+    if (control == HOVER_KEEP) core_flip(core, SWITCH_KEEP);
     if (control == HOVER_PRESENT) presenter_toggle(core, 0);
     return true;
 }
@@ -98,8 +102,9 @@ static float controls_show(struct core *core)
     paint_play_state(&core->list, play.x + 6, play.y + play.h / 2, playback->playing, hover == HOVER_PLAY);
     paint_word(core, loop, FONT_LABEL, "Loop", playback->looping, hover == HOVER_LOOP);
     paint_word(core, speed, FONT_NUMBER, text, playback->speed != 1, hover == HOVER_SPEED);
-    const struct rect auto_key = controls_rect(core, HOVER_AUTO_KEY);
+    const struct rect auto_key = controls_rect(core, HOVER_AUTO_KEY), keep = controls_rect(core, HOVER_KEEP);
     paint_word(core, auto_key, FONT_LABEL, "Auto-key", core->auto_key, hover == HOVER_AUTO_KEY);
+    if (keep.w > 0) paint_word(core, keep, FONT_LABEL, "Keep", core->keep, hover == HOVER_KEEP);
     const struct rect scale = controls_rect(core, HOVER_UI_SCALE), present = controls_rect(core, HOVER_PRESENT);
     snprintf(text, sizeof text, "%.0f %%", 100 * core->ui_scale);
     paint_word(core, scale, FONT_NUMBER, text, core->ui_scale != 1, hover == HOVER_UI_SCALE);
@@ -161,6 +166,8 @@ static const char *const hover_hints[] = {
     [HOVER_SPEED] = "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)",
     [HOVER_AUTO_KEY] =
         "Auto-key: dragging the body sets knots at the playhead; off, it moves the whole shot (Shift+A)",
+    [HOVER_KEEP] =
+        "Keep: an edit changes nothing beyond the next knot, which becomes a pose; hold Alt to swing through (Alt+A)",
     [HOVER_UI_SCALE] =
         "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)",
     [HOVER_PRESENT] = "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves",
