@@ -70,7 +70,7 @@ BLIND_TEST(test_a_scale_without_room_is_refused, blind_open(b, NULL))
 
 BLIND_TEST(test_the_status_line_changes_it_by_mouse, blind_open(b, NULL))
 {
-    const float x = 6 + 24 + 42 + 44 + 64 + 42 + 20;
+    const float x = 6 + 24 + 42 + 44 + 64 + 48 + 20;
     struct event press = {.kind = EVENT_BUTTON, .action = ACTION_PRESS, .clicks = 1, .x = x, .y = 708};
     blind_send(b, press);
     blind_frame(b);

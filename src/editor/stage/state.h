@@ -18,15 +18,12 @@ struct what_if {
     double re, im;
 };
 
-/// A channel that a pull controls through a knot at the playhead. The solution is affine in the knot's value v: at that sample x = x₀ +
-/// v·(1 + j·turn). `turn` is measured between two steps.
+/// A channel that a pull controls through a pose at the playhead.
 struct tail_drag_axis {
-    bool active;
+    bool active, swings; ///< swings: its phase counts, too
     int spline;
-    double value; ///< of the knot, in this step
-    double turn;
-    double seen_value, seen_im; ///< in an earlier solved frame
-    double values_per_radian;   ///< of bend at the grabbed joint
+    double start[2];          ///< value and phase at the press
+    double values_per_radian; ///< of bend at the grabbed joint
 };
 
 enum { STAGE_MAX_STRANDS = 32, STAGE_MAX_BONES = 2048 };
@@ -56,6 +53,7 @@ struct tail_drag {
     float start[2];                ///< of the grabbed point, pixels
     struct tail_drag_axis axis[2]; ///< by enum axis
     bool applied;                  ///< the open step contains edits
+    char hint[128];                ///< which knot it takes along; "": none
 };
 
 /// The held body, and how pointer movement maps to the ground or upwards.

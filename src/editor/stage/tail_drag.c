@@ -1,10 +1,13 @@
-/// Pulls a tail or chain: per frame one damped Newton step on the knots' values at the playhead.
+/// Pulls a tail or chain: per frame one step of Newton's method on the poses at the playhead.
 ///
-/// The grabbed point p (pixels) depends on the values v of at most two knots, one per axis. Its derivative J comes from posing again with x
-/// changed by δ(1 + j·turn), the effect of changing the knot. Re x follows the knot exactly; Im x follows linearly, so one observed step
-/// determines `turn`. Then
+/// The grabbed point (pixels) depends on x of at most two splines, one for each axis, each with its real and imaginary part. Its derivative J comes
+/// from posing again with a changed x. The rule is that of pins (docs/mathematics.md): with the eigenvalues e of JJᵀ and Φ = φ(e/max e)·max e on its
+/// eigenvectors,
 ///
-///     (JᵀJ + λ) dv = Jᵀ (target − p),   in radians of bend, so that both axes count alike.
+///     x = x₀ + Jᵀ (JJᵀ + Φ)⁻¹ (target − p + J(x − x₀)),   x₀ at the press, in radians of bend, so that both axes count alike.
+///
+/// So the least change of x that reaches the target is taken, and a direction in which the point hardly moves gives way.
+#include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/pins.h"
@@ -12,13 +15,18 @@
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "maths/maths.h"
+#include "ui/theme.h"
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
-static const double DAMPING = 12; ///< √λ, pixels per radian; channels that move the point less are hardly used
-static const double LARGEST_STEP = 0.35, LARGEST_BEND = 7; ///< radians at the grabbed joint, per frame and in total
-static const double CLOSE = 0.2;                           ///< pixels; closer is close enough
-static const double PROBE = 0.01;                          ///< radians of bend for the derivative
-static const double RESOLUTION = 1e-4;                     ///< radians of bend
+static const double LARGEST_STEP = 0.35; ///< radians at the grabbed joint, per frame
+static const double CLOSE = 0.2;         ///< pixels; closer is close enough
+static const double PROBE = 0.01;        ///< radians of bend for the derivative
+static const double RESOLUTION = 1e-4;   ///< radians of bend
+static const double REACH = 0.04;        ///< of the largest eigenvalue: a fifth as far as the best direction
+static const double LEAST_LINE = 1.5;    ///< pixels; shorter lines to the pointer are not drawn
 static const double DEGREE = 0.017453292519943295;
 
 /// The rig's channel for an axis, preferably the active spline's; or NULL.
@@ -67,50 +75,50 @@ bool tail_drag_holds(const struct document *document, int rig, int joint)
     return held->kind == RIG_CHAIN || (held->kind == RIG_TAIL && joint <= held->tail.joints);
 }
 
-/// Reads the present value and derives `turn` from the last step.
-static void observe(struct tail_drag_axis *axis, const struct core *core, int sample)
-{
-    wiggly_value v = evaluation_at(core->evaluation, axis->spline, sample);
-    double value = v.y + v.re;
-    double change = value - axis->seen_value;
-    if (axis->seen_value != axis->value && fabs(change) > 1e-3 * axis->values_per_radian) {
-        axis->turn = fmax(-5, fmin(5, (v.im - axis->seen_im) / change));
-    }
-    axis->value = axis->seen_value = value;
-    axis->seen_im = v.im;
-}
-
-/// Derivative of the grabbed point per radian of bend about one axis.
+/// Derivative of the grabbed point per radian of bend about one axis, by its real and its imaginary part.
 static void derivative(const struct stage *stage, const struct core *core, const struct tail_drag_axis *axis,
-                       const float at[2], double response[2])
+                       const float at[2], double column[2][2])
 {
     const struct tail_drag *grab = &stage->tail_drag;
-    struct rig_pose posed;
-    float moved[2] = {at[0], at[1]};
-    double change = PROBE * axis->values_per_radian;
-    const struct what_if what_if = {axis->spline, change, change * axis->turn};
-    if (strand_pose(stage, core, grab->rig, core->playback.position, &what_if, &posed))
-        strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, moved);
-    response[0] = (moved[0] - at[0]) / PROBE;
-    response[1] = (moved[1] - at[1]) / PROBE;
+    for (int part = 0; part < (axis->swings ? 2 : 1); part++) {
+        struct rig_pose posed;
+        float moved[2] = {at[0], at[1]};
+        const double change = PROBE * axis->values_per_radian;
+        const struct what_if what_if = {axis->spline, part ? 0 : change, part ? change : 0};
+        if (strand_pose(stage, core, grab->rig, core->playback.position, &what_if, &posed))
+            strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, moved);
+        for (int k = 0; k < 2; k++) column[part][k] = (double)(moved[k] - at[k]) / PROBE;
+    }
 }
 
-/// Solves (JᵀJ + λ) step = Jᵀ miss for two unknowns; J by column. A zero column leaves its unknown at 0.
-static void damped_step(const double column[2][2], const double miss[2], double step[2])
+/// How much a direction gives way whose eigenvalue is `share` of the largest: not, if it moves at least a fifth as far as the best one.
+static double gives_way(double share)
 {
-    double lambda = DAMPING * DAMPING;
-    double a = column[0][0] * column[0][0] + column[0][1] * column[0][1] + lambda;
-    double b = column[0][0] * column[1][0] + column[0][1] * column[1][1];
-    double d = column[1][0] * column[1][0] + column[1][1] * column[1][1] + lambda;
-    double p = column[0][0] * miss[0] + column[0][1] * miss[1];
-    double q = column[1][0] * miss[0] + column[1][1] * miss[1];
-    double determinant = a * d - b * b; /* at least λ² */
-    step[0] = (d * p - b * q) / determinant;
-    step[1] = (a * q - b * p) / determinant;
-    double size = maths_hypot(step[0], step[1]);
-    double factor = size > LARGEST_STEP ? LARGEST_STEP / size : 1;
-    step[0] *= factor;
-    step[1] *= factor;
+    const double beyond = share > 0 ? fmax(0, REACH / share * (REACH / share) - 1) : INFINITY;
+    return beyond * beyond;
+}
+
+/// (JJᵀ + Φ)⁻¹ miss; J by columns. 0 if nothing moves the point.
+static void pull_back(const double (*column)[2], int columns, const double miss[2], double pull[2])
+{
+    double a = 0, b = 0, d = 0;
+    for (int c = 0; c < columns; c++) {
+        a += column[c][0] * column[c][0];
+        b += column[c][0] * column[c][1];
+        d += column[c][1] * column[c][1];
+    }
+    const double middle = (a + d) / 2, apart = maths_hypot((a - d) / 2, b), most = middle + apart;
+    double way[2] = {b, most - a}; // the best direction
+    if (maths_hypot(way[0], way[1]) < 1e-9 * most) way[0] = a >= d, way[1] = a < d;
+    const double length = maths_hypot(way[0], way[1]);
+    pull[0] = pull[1] = 0;
+    if (!(most > 0)) return;
+    for (int k = 0; k < 2; k++) way[k] /= length;
+    const double least = fmax(middle - apart, 0), share = least / most;
+    const double along = (way[0] * miss[0] + way[1] * miss[1]) / most;
+    const double across = (way[0] * miss[1] - way[1] * miss[0]) / (least + gives_way(share) * most);
+    pull[0] = along * way[0] - across * way[1];
+    pull[1] = along * way[1] + across * way[0];
 }
 
 /// A spline without knots starts from rest, a quarter period before its first knot.
@@ -128,16 +136,49 @@ static void begin_from_rest(struct core *core, int spline, int sample)
     if (still.frame >= first && still.frame != frame) core_put_knot(core, spline, &still);
 }
 
-/// Sets or inserts an axis' knot at the grabbed sample, within its spline's limits. Its phase is free during the pull.
-static void set_knot(const struct stage *stage, struct core *core, struct tail_drag_axis *axis,
+/// The knot that a pull takes along to its pose: the nearest one within a quarter of a period, and at least a frame; −1: none, or there is one.
+static int taken_knot(const struct core *core, int of, int sample)
+{
+    const struct document *document = core->document;
+    const struct spline *spline = document->splines[of];
+    const double frequency = core_parameter_at(core, spline, PARAMETER_FREQUENCY, sample);
+    const bool swings = spline_mode(spline) != WIGGLY_CUBIC && frequency > 0;
+    const double quarter = swings ? 0.25 / (frequency * document_step(document)) : 0;
+    const int period = spline_start(spline) == WIGGLY_LOOP ? document_samples(document) - 1 : INT_MAX;
+    double nearest = fmax(quarter, document->substeps);
+    int taken = -1;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const int away = abs(document_sample(document, spline->knots[k].frame) - sample);
+        const int distance = away < period - away ? away : period - away;
+        if (distance == 0) return -1;
+        if (distance > nearest) continue;
+        nearest = distance;
+        taken = k;
+    }
+    return taken;
+}
+
+/// Puts an axis' pose at the grabbed sample, within its spline's limits.
+static void set_pose(struct stage *stage, struct core *core, const struct tail_drag_axis *axis, const double to[2],
                      char why[STOPPED_SIZE])
 {
-    struct knot knot = core_knot_at(core->document, axis->spline, stage->tail_drag.sample);
-    knot.value = axis->value;
-    knot.has_phase = false;
-    core_hold(core->document->splines[axis->spline], &knot, why);
-    axis->value = knot.value;
-    begin_from_rest(core, axis->spline, stage->tail_drag.sample);
+    struct tail_drag *grab = &stage->tail_drag;
+    const struct spline *spline = core->document->splines[axis->spline];
+    const int taken = core->mods & MOD_ALT ? -1 : taken_knot(core, axis->spline, grab->sample);
+    struct knot knot = core_knot_at(core->document, axis->spline, grab->sample);
+    if (taken >= 0) {
+        const double frame = knot.frame;
+        knot = spline->knots[taken];
+        snprintf(grab->hint, sizeof grab->hint, "The knot of %.*s at frame %.6g comes along; with Alt it stays",
+                 name_fit(spline->name, 40), spline->name, knot.frame);
+        knot.frame = frame;
+        knot.still = knot.has_slope = false;
+    }
+    knot.value = to[0];
+    knot.has_phase = axis->swings;
+    knot.phase = axis->swings ? to[1] : 0;
+    core_hold(spline, &knot, why);
+    begin_from_rest(core, axis->spline, grab->sample);
     core_put_knot(core, axis->spline, &knot);
 }
 
@@ -181,40 +222,45 @@ static void apply(void *room, struct core *core)
     if (!strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && maths_hypot(miss[0], miss[1]) < CLOSE) return;
-    double column[2][2] = {{0}}, step[2];
+    double column[4][2] = {{0}}, way[4] = {0}, pull[2];
     for (int a = 0; a < 2; a++) {
-        if (!grab->axis[a].active) continue;
-        observe(&grab->axis[a], core, grab->sample);
-        derivative(stage, core, &grab->axis[a], at, column[a]);
+        const struct tail_drag_axis *axis = &grab->axis[a];
+        if (!axis->active) continue;
+        const wiggly_value now = evaluation_at(core->evaluation, axis->spline, grab->sample);
+        derivative(stage, core, axis, at, column + 2 * a);
+        way[2 * a] = (now.y + now.re - axis->start[0]) / axis->values_per_radian;
+        way[2 * a + 1] = axis->swings ? (now.im - axis->start[1]) / axis->values_per_radian : 0;
+        for (int k = 0; k < 2; k++) miss[k] += column[2 * a][k] * way[2 * a] + column[2 * a + 1][k] * way[2 * a + 1];
+    }
+    pull_back(column, 4, miss, pull);
+    double step[4], size = 0;
+    for (int c = 0; c < 4; c++) {
+        step[c] = column[c][0] * pull[0] + column[c][1] * pull[1] - way[c];
+        size = maths_hypot(size, step[c]);
     }
     char why[STOPPED_SIZE] = "";
-    damped_step(column, miss, step);
+    grab->hint[0] = '\0';
     drag_restart(core);
     for (int a = 0; a < 2; a++) {
-        struct tail_drag_axis *axis = &grab->axis[a];
-        if (!axis->active) continue;
-        double most = fmax(LARGEST_BEND * axis->values_per_radian, fabs(axis->value));
-        double value = fmax(-most, fmin(most, axis->value + step[a] * axis->values_per_radian));
-        axis->value = core_round(value, RESOLUTION * axis->values_per_radian);
-        set_knot(stage, core, axis, why);
+        const struct tail_drag_axis *axis = &grab->axis[a];
+        double to[2];
+        for (int part = 0; part < 2; part++) {
+            const int c = 2 * a + part;
+            const double by = way[c] + step[c] * fmin(1, LARGEST_STEP / fmax(size, LARGEST_STEP));
+            to[part] =
+                core_round(axis->start[part] + by * axis->values_per_radian, RESOLUTION * axis->values_per_radian);
+        }
+        if (axis->active) set_pose(stage, core, axis, to, why);
     }
+    core->drag.hint = grab->hint[0] ? grab->hint : NULL;
     drag_say_stopped(core, why);
     grab->applied = true;
     select_knot(stage, core);
 }
 
-/// Turns pulled knots into poses with the shown phase, so that nothing moves at the release.
 static void end(void *room, struct core *core, bool keep)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
-    for (int a = 0; keep && grab->applied && a < 2; a++) {
-        const struct tail_drag_axis *axis = &grab->axis[a];
-        if (!axis->active || spline_mode(core->document->splines[axis->spline]) != WIGGLY_COMPLEX) continue;
-        struct knot knot = core_knot_at(core->document, axis->spline, grab->sample);
-        knot.has_phase = true;
-        knot.phase = evaluation_at(core->evaluation, axis->spline, grab->sample).im;
-        core_put_knot(core, axis->spline, &knot);
-    }
     const bool steers = grab->axis[AXIS_SIDE].active || grab->axis[AXIS_UP].active;
     if (keep && steers && !core->drag.moved) activate(grab, core);
     stage_click(room, core, keep);
@@ -223,8 +269,13 @@ static void end(void *room, struct core *core, bool keep)
 static void show(void *room, struct core *core)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
-    float xy[2];
-    if (stage_project(room, core, grab->rig, grab->joint, grab->fraction, xy)) stage_ring(core, xy);
+    float line[2][2] = {{0}, {core->drag.x, core->drag.y}};
+    if (!stage_project(room, core, grab->rig, grab->joint, grab->fraction, line[0])) return;
+    const double across = grab->start[0] + core->drag.moved_x - (double)line[0][0];
+    const double down = grab->start[1] + core->drag.moved_y - (double)line[0][1];
+    if (grab->applied && maths_hypot(across, down) > LEAST_LINE)
+        drawlist_line(&core->list, line[0], 2, 1.25f, theme()->playhead);
+    stage_ring(core, line[0]);
 }
 
 static const struct drag_owner owner = {
@@ -245,6 +296,13 @@ void tail_drag_begin(struct stage *stage, struct core *core, const struct hover 
     }
     drag_inertia_stop(stage, core->document, grab->rig);
     grab->sample = sample_for(stage, core);
+    for (int a = 0; a < 2; a++) {
+        struct tail_drag_axis *axis = &grab->axis[a];
+        const wiggly_value now = evaluation_at(core->evaluation, axis->spline, grab->sample);
+        if (axis->active) axis->start[0] = now.y + now.re, axis->start[1] = now.im;
+        axis->swings = axis->active && core->look != LOOK_CUBIC &&
+                       spline_mode(core->document->splines[axis->spline]) == WIGGLY_COMPLEX;
+    }
     core->playback.playing = false;
     core->playback.position = grab->sample;
     grab->start[0] = hover->x;

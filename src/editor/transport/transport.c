@@ -14,7 +14,7 @@ enum {
     LOOP_WIDTH = 42,
     SPEED_WIDTH = 44,
     AUTO_KEY_WIDTH = 64,
-    KEEP_WIDTH = 42,
+    KEEP_WIDTH = 48,
     UI_SCALE_WIDTH = 48,
     PRESENT_WIDTH = 28,
     NARROW = 420, ///< window without the least of them
