@@ -67,8 +67,9 @@ def bend(rig, bone):
     """By how much a bone is turned over its own rotation, as a rotation vector in degrees."""
     seen = rig.evaluated_get(bpy.context.evaluated_depsgraph_get()).pose.bones[bone]
     local = rig.convert_space(pose_bone=seen, matrix=seen.matrix, from_space='POSE', to_space='LOCAL')
-    axis, angle = (seen.matrix_basis.inverted() @ local).to_quaternion().to_axis_angle()
-    return [math.degrees(angle) * x for x in axis]
+    turn = (seen.matrix_basis.inverted() @ local).to_quaternion()
+    length = math.hypot(*turn[1:])
+    return [math.degrees(2 * math.atan2(length, turn.w)) * x / (length or 1) for x in turn[1:]]  # to_axis_angle() is coarse where little is turned
 
 
 def poses(rig, frames):
