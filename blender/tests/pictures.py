@@ -3,7 +3,7 @@ from common import *
 import bmesh
 from mathutils import Vector
 
-FRAMES = 30, 35, 38
+FRAMES = 30, 33, 37
 COLORS = (0.02, 0.2, 0.6), (0.75, 0.25, 0.03), (0.1, 0.45, 0.1)
 KEYS = (18, 0.0), (30, 1.0), (52, -0.9), (70, 0.0)
 

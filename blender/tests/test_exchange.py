@@ -21,13 +21,18 @@ def round_trip():
     body.modifiers.new('rig', 'ARMATURE').object = rig
     body.vertex_groups.new(name='tail_1').add([0, 1, 2], 1, 'ADD')
     add(rig)
-    curve = key(rig, 'tail side', (10, 0.1), (24, -0.7), (31.5, 0.3), (50, 0))
+    curve = key(rig, 'tail side', (10, 0.1), (24, -0.7), (31.5, 0.3), (40, 0.4), (50, 0))
     curve.keyframe_points[0].handle_right_type = curve.keyframe_points[0].handle_left_type = 'FREE'
     curve.keyframe_points[0].handle_right = 12, 0.3
     curve.keyframe_points[1].type = 'EXTREME'
-    curve.keyframe_points[3].type = 'MOVING_HOLD'
+    curve.keyframe_points[3].type = 'JITTER'
+    curve.keyframe_points[4].type = 'MOVING_HOLD'
     curve.update()
     bpy.context.view_layer.update()
+    curve.keyframe_points[1].type = 'JITTER'
+    rig.wiggly.chains[0].alike = False
+    rig.wiggly.splines['tail up'].wind_up, rig.wiggly.splines['tail up'].settle = 0, True
+    key(rig, 'tail up', (30, 0.3))
     frames = range(0, 61, 3)
     moved = poses(rig, frames)
     bpy.ops.object.mode_set(mode='OBJECT')
@@ -35,8 +40,10 @@ def round_trip():
     bpy.ops.wiggly.export_scene(filepath=path)
     out = json.load(open(path))
     knots = out['splines'][0]['knots']
-    ok('knots go out', [knot['frame'] for knot in knots] == [10, 24, 31.5, 50] and knots[0] == {'frame': 10, 'value': 0.1, 'slope': 2.4} and
-       'im' in knots[1] and knots[3] == {'frame': 50, 'still': True}, knots)
+    ok('knots go out', [knot['frame'] for knot in knots] == [10, 24, 31.5, 40, 50] and knots[0] == {'frame': 10, 'value': 0.1, 'slope': 2.4} and
+       'im' in knots[1] and 'settles' in knots[1] and knots[3] == {'frame': 40, 'value': 0.4, 'settles': True} and
+       knots[4] == {'frame': 50, 'still': True}, knots)
+    ok('with the wind-up', [(each['wind_up'], each['knots'][-1].get('settles')) for each in out['splines']] == [(0.5, None), (0, True)], out['splines'])
     if os.path.exists(WIGGLY):
         said = subprocess.run([WIGGLY, 'solve', path, '-o', path + '.csv'], capture_output=True, text=True)
         ok('wiggly solves them', said.returncode == 0, said.stderr)

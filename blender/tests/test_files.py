@@ -59,6 +59,14 @@ def undo():
     bpy.ops.ed.redo()
     bpy.context.view_layer.update()
     ok('redo', poses(bpy.data.objects['Rig'], [5, 20]) == after)
+    bpy.data.objects['Rig'].wiggly.splines['tail side'].settle = True
+    bpy.ops.ed.undo_push(message='settle')
+    settled = poses(bpy.data.objects['Rig'], [5, 20])
+    bpy.ops.ed.undo_push(message='more')
+    for what, step, want in (('undo', bpy.ops.ed.undo, settled), ('undo', bpy.ops.ed.undo, after), ('redo', bpy.ops.ed.redo, settled)):
+        step()
+        bpy.context.view_layer.update()
+        ok(f'{what} of keys that settle', poses(bpy.data.objects['Rig'], [5, 20]) == want and apart(settled, after) > 0.01)
 
 
 def undo_of_an_edit_that_was_not_solved_yet():
@@ -131,6 +139,11 @@ def other_files():
     rig.animation_data.action = rig.animation_data.action.copy()
     key(rig, 'tail side', (20, 2))
     ok('and can have keys of its own', apart(poses(rig, [5, 20]), before) > 0.1)
+    own = poses(rig, [5, 20])
+    rig.wiggly.splines['tail side'].settle = True
+    bpy.context.view_layer.update()
+    said = solve.problems[solve.key_of(rig, rig.wiggly.splines['tail side'])]
+    ok('which do not settle, and say so', poses(rig, [5, 20]) == own and 'library override' in said, said)
     here = os.path.join(folder, 'shot.blend')
     now = poses(rig, [5, 20])
     bpy.ops.wm.save_as_mainfile(filepath=here)

@@ -1,5 +1,6 @@
 """Keys that hold more, loops, follow-through, and what each operator says."""
 from common import *
+from wiggly_blender import prop
 
 
 def channel(rig, name, frame):
@@ -53,9 +54,96 @@ def poses_and_still_keys():
     ok('Insert Key keeps what is seen', max(abs(a - b) for a, b in zip(bend(rig, 'tail_3'), was)) < 1e-3, bend(rig, 'tail_3'), was)
 
 
+def settling_keys():
+    def one(rig, curve):
+        curve.keyframe_points[1].type = 'JITTER'
+
+    def pose(rig, curve):
+        curve.keyframe_points[1].type = 'EXTREME'
+        curve.update()
+        bpy.context.view_layer.update()
+        curve.keyframe_points[1].type = 'JITTER'
+
+    def all_of_them(rig, curve):
+        rig.wiggly.splines['tail side'].settle = True
+
+    for what, settle, follow in (('a Jitter key', one, False), ('a chain whose keys settle', all_of_them, False), ('a pose', pose, False),
+                                 ('a chain that follows', one, True)):
+        rig = fresh(frames=(1, 240))
+        chain = add(rig, follow=follow)
+        curve = key(rig, 'tail side', (10, 1), (30, -0.5))
+        bones, held = chains.bones_of(rig, chain), channel(rig, 'tail side im', 30)
+
+        def at(frame):
+            bpy.context.scene.frame_set(frame)
+            return [bend(rig, bone.name)[2] / chain.channels[0].gain for bone in bones]
+
+        settle(rig, curve)
+        curve.update()
+        bpy.context.view_layer.update()
+        ok(f'{what} stays where it settles', max(abs(each + 0.5) for each in at(240)) < 1e-3, at(240))
+        ok('after it was hit and overshot', abs(at(30)[0] + 0.5) < 1e-5 and (settle == pose or min(at(36)) < -0.55), at(30), at(36))
+        ok('and keeps the phase that it held', settle != pose or abs(channel(rig, 'tail side im', 30) - held) < 1e-6)
+        bpy.context.scene.frame_set(200)
+        bpy.ops.wiggly.key()
+        ok('Insert Key has the value that is seen', abs(curve.keyframe_points[-1].co[1] + 0.5) < 2e-3, curve.keyframe_points[-1].co)
+        curve.keyframe_points.remove(curve.keyframe_points[-1])
+        curve.keyframe_points[1].type, rig.wiggly.splines['tail side'].settle = 'KEYFRAME', False
+        curve.update()
+        bpy.context.view_layer.update()
+        ok('or comes home again', max(map(abs, at(240))) < 1e-3, at(240))
+        bpy.ops.wiggly.remove()
+        ok('and leaves nothing', not rig.keys() and not rig.animation_data, list(rig.keys()))
+    rig = fresh(frames=(1, 240))
+    prop.add(rig, 'location', 0)
+    curve = key(rig, 'wiggle location X', (10, 0), (30, 2))
+    curve.keyframe_points[-1].type = 'JITTER'
+    curve.update()
+    bpy.context.view_layer.update()
+    bpy.context.scene.frame_set(240)
+    ok('a property settles', abs(rig.location.x - 2) < 1e-3, rig.location.x)
+
+
+def wind_up():
+    rig = fresh()
+    add(rig, follow=False)
+    spline = rig.wiggly.splines['tail side']
+    ok('new chains wind up for half a period', [each.wind_up for each in rig.wiggly.splines] == [0.5, 0.5])
+    for what, periods, same in (('nothing before the key before it', 0.5, True), ('the whole curve without wind-up', 0, False)):
+        spline.wind_up = periods
+        curve = key(rig, 'tail side', (10, 1), (30, -0.5), (50, 0.4))
+        before = poses(rig, range(1, 31))
+        key(rig, 'tail side', (50, 2))
+        ok(f'an edited key changes {what}', (apart(before, poses(rig, range(1, 31))) == 0) == same)
+    before = poses(rig, range(1, 60))
+    for each in rig.wiggly.splines:
+        each.property_unset('wind_up')
+    key(rig, 'tail side', (50, 2))
+    ok('files of before have none', spline.wind_up == 0 and poses(rig, range(1, 60)) == before)
+
+
+def has_no_effect():
+    rig = fresh()
+    add(rig, follow=False)
+    key(rig, 'tail side', (10, 1))
+    spline = rig.wiggly.splines['tail side']
+    for words, change in (('', {}), ('limits need the whole curve', {'more': '{"limits": [-2, 2]}'}),
+                          ("the paper's filter has none", {'more': '{"passive": "filter"}'}),
+                          ('below two, it is a jerk', {'frequency': 9, 'bandwidth': 0}), ('a Cubic does not swing', {'mode': 'cubic', 'settle': True})):
+        for each in ('more', 'frequency', 'bandwidth', 'mode', 'settle'):
+            spline.property_unset(each)
+        for name, value in change.items():
+            setattr(spline, name, value)
+        rig.location.x += 1
+        bpy.context.view_layer.update()
+        said = solve.problems[solve.key_of(rig, spline)]
+        ok(f'says: {words or "nothing"}', words in said if words else not said, said)
+
+
 def scene_changes():
     rig = fresh()
     add(rig, follow=False)
+    rig.wiggly.splines['tail side'].wind_up = 0  # so that the start reaches beyond the first key
     key(rig, 'tail side', (10, 1), (30, -0.5))
     scene, before = bpy.context.scene, channel(rig, 'tail side re', 20)
     scene.render.fps = 48
@@ -136,4 +224,4 @@ def says():
     ok('nothing was added', len(rig.wiggly.chains) == 1 and len(rig.wiggly.splines) == 2)
 
 
-main(slopes, poses_and_still_keys, scene_changes, loops, follow_through, says)
+main(slopes, poses_and_still_keys, settling_keys, wind_up, has_no_effect, scene_changes, loops, follow_through, says)

@@ -59,7 +59,7 @@ def panel():
     ok('a rig without a chain is told what to select', 'Select the first bone of a chain in Pose Mode' in shown(), shown())
     add(rig, follow=False)
     rows = shown()
-    ok('a chain has its settings', {'tail', 'wiggly.key', 'wiggly.preset', 'frequency', 'damping', 'lag', 'gain'} <= set(rows), rows)
+    ok('a chain has its settings', {'tail', 'wiggly.key', 'wiggly.preset', 'frequency', 'damping', 'wind_up', 'settle', 'lag', 'gain'} <= set(rows), rows)
     ok('those of both axes are one', rows.count('frequency') == 1, rows)
     rig.wiggly.chains[0].alike = False
     ok('until they are not', shown().count('frequency') == 2, shown())

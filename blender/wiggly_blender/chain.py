@@ -1,7 +1,7 @@
 """Chains: constraints that bend bones on top of their own action, and the drivers of these constraints.
 
 Bone n turns by q · C · Rz(side) · Rx(up) · Ry(twist) · C⁻¹, where q is what the action and earlier constraints say and C takes the
-chain's axes into the bone. Each angle is gain · (y + Re(e^(-j·n·lag) x)).
+chain's axes into the bone. Each angle is gain · (y + o + Re(e^(-j·n·lag) x)), where o is what keys that settle add to the equilibrium y.
 """
 import contextlib
 import json
@@ -14,7 +14,8 @@ from . import curves, settings, solve
 ENDS = ' <', '', ' >'  # of the names of three constraints: into the chain's axes, the bend, and back
 AXES = {'side': 'z', 'up': 'x', 'twist': 'y'}
 USUAL_LENGTH, USUAL_FREQUENCY, SLOWEST, FASTEST = 0.5, 1.5, 0.8, 3.5  # longer chains swing slower, like a pendulum
-SOLVED = {'frequency', 'damping', 'bandwidth', 'calm', 'start', 'first', 'last'}
+USUAL_WIND_UP = 0.5  # of new splines, periods
+SOLVED = {'frequency', 'damping', 'wind_up', 'settle', 'bandwidth', 'calm', 'start', 'first', 'last'}
 SHARED = SOLVED | {'lag', 'gain'}
 WHOLE = 110  # degrees: lag from the first bone to the tip, and the bend for a value of 1
 
@@ -169,6 +170,8 @@ def drive(owner, chain, bones=None):
                     gain, real, imaginary = weights(channel, n, len(bones))
                     spline = owner.wiggly.splines[channel.spline]
                     terms += [(spline, 're', sign * real), (spline, 'im', sign * imaginary)]
+                    if curves.has_offset(owner, spline):
+                        terms.append((spline, 'o', sign * gain))
                     if channel.of == 'total' and spline.follow != 'none':
                         terms.append((spline, 'y', sign * gain))
                     elif channel.of == 'total':
@@ -197,7 +200,7 @@ def drive_by(owner, path, index, terms, rest=0):
 
 def readers(owner, spline):
     """The drivers that a spline is part of."""
-    paths = ['{}[{}]'.format(*curves.slot_path(spline, part)) for part in curves.PARTS]
+    paths = ['{}[{}]'.format(*curves.slot_path(spline, part)) for part in (*curves.PARTS, 'o')]
     return [each for each in owner.animation_data.drivers if any(variable.targets[0].data_path in paths for variable in each.driver.variables)
             ] if owner.animation_data else []
 
@@ -324,7 +327,7 @@ def add_spline(owner, name):
     taken = {spline.slot for spline in splines} | {index // 3 for path, index in curves.all_of(owner) if path == curves.SAMPLES_PATH}
     slot = next(slot for slot in range(len(taken) + 1) if slot not in taken)  # nor in use by another ID with this action
     spline = splines.add()
-    spline.name, spline.slot = name, slot
+    spline.name, spline.slot, spline.wind_up = name, slot, USUAL_WIND_UP
     spline.first, spline.last = bpy.context.scene.frame_start, bpy.context.scene.frame_end
     owner[name] = 0.0
     curves.make_room(owner, spline)
@@ -340,7 +343,8 @@ def remove_spline(owner, name):
         del owner[name]
     owner.wiggly.splines.remove(owner.wiggly.splines.find(name))
     if not owner.wiggly.splines:
-        owner.pop(curves.SAMPLES, None)
+        for each in (curves.SAMPLES, curves.OFFSETS):
+            owner.pop(each, None)
         curves.tidy(owner)
         owner.property_unset('wiggly')
 

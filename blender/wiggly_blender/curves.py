@@ -3,8 +3,8 @@ from array import array
 import bpy
 
 LAYERED = bpy.app.version >= (4, 4, 0)
-SAMPLES, PARTS, STAMP, MADE = 'wiggle samples', ('re', 'im', 'y'), 'wiggle stamp', 'wiggle made'
-SAMPLES_PATH = f'["{SAMPLES}"]'
+SAMPLES, OFFSETS, PARTS, STAMP, MADE = 'wiggle samples', 'wiggle offsets', ('re', 'im', 'y'), 'wiggle stamp', 'wiggle made'
+SAMPLES_PATH, OFFSETS_PATH = f'["{SAMPLES}"]', f'["{OFFSETS}"]'
 HELD, POSE, STIFF = 240000, 1, 2  # in an unused number of a keyframe, `period`: HELD + 1 if `back` is the phase of a pose, + 2 if `amplitude` is a stiffness
 
 
@@ -104,6 +104,10 @@ def slope(point):
     return None
 
 
+def settles(spline, point):
+    return spline.settle or point.type == 'JITTER'
+
+
 def samples(curve):
     """First frame and values of a sampled curve."""
     points = curve.sampled_points if curve else ()
@@ -114,20 +118,21 @@ def samples(curve):
 
 
 def slot_path(spline, part):
-    """Where the samples of a spline are: one property holds those of all, because drivers look properties up one by one."""
-    return SAMPLES_PATH, 3 * spline.slot + PARTS.index(part)
+    """Where the samples of a spline are: one property holds those of all, because drivers look properties up one by one. Another holds by how
+    much keys that settle move the equilibria ('o'): files without such keys lack it."""
+    return (OFFSETS_PATH, spline.slot) if part == 'o' else (SAMPLES_PATH, 3 * spline.slot + PARTS.index(part))
 
 
 def part(owner, spline, name):
-    """The sampled curve of Re x ('re'), Im x ('im') or the equilibrium ('y')."""
+    """The sampled curve of Re x ('re'), Im x ('im'), what the spline follows ('y') or the offset that settling keys add to that ('o')."""
     return find(owner, *slot_path(spline, name))
 
 
 def drop_samples(owner, spline):
-    for name in PARTS:
+    for name in (*PARTS, 'o'):
         drop(owner, *slot_path(spline, name))
     curves = list_of(owner)
-    if curves is not None and not any(curve.data_path == SAMPLES_PATH for curve in curves):
+    if curves is not None and not any(curve.data_path in (SAMPLES_PATH, OFFSETS_PATH) for curve in curves):
         groups = groups_of(owner)
         if SAMPLES in groups:
             groups.remove(groups[SAMPLES])
@@ -151,16 +156,22 @@ def groups_of(owner):
     return action.layers[0].strips[0].channelbag(owner.animation_data.action_slot).groups if LAYERED else action.groups
 
 
-def make_room(owner, spline):
-    old = list(owner.get(SAMPLES, ()))
-    if len(old) < 3 * spline.slot + 3:
-        owner[SAMPLES] = old + [0.0] * (3 * spline.slot + 3 - len(old))
+def has_offset(owner, spline):
+    """Whether drivers add the spline's offset: those of all, once one has some."""
+    return len(owner.get(OFFSETS, ())) > spline.slot
+
+
+def make_room(owner, spline, part='re'):
+    name, length = (OFFSETS, spline.slot + 1) if part == 'o' else (SAMPLES, 3 * spline.slot + 3)
+    old = list(owner.get(name, ()))
+    if len(old) < length:
+        owner[name] = old + [0.0] * (length - len(old))
 
 
 def write(owner, spline, name, first, values):
     """Samples of a spline, one per frame and at least two."""
     path, index = slot_path(spline, name)
-    make_room(owner, spline)
+    make_room(owner, spline, name)
     curve = ensure(owner, path, index)
     old_first, old = samples(curve)
     if len(old) != len(values) or old_first != first:

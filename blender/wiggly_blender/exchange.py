@@ -9,8 +9,8 @@ import wiggly
 from mathutils import Matrix
 from . import base, chain as chains, curves, settings, solve
 
-NUMBERS = ('frequency', 'damping', 'bandwidth', 'calm')
-DEFAULTS = {'frequency': 0, 'damping': 0, 'bandwidth': 0.1, 'calm': 1, 'mode': 'complex', 'start': 'free', 'axis': 'side', 'of': 'total', 'scale': 1, 'fps': 24}
+NUMBERS = ('frequency', 'damping', 'bandwidth', 'calm', 'wind_up')
+DEFAULTS = {'frequency': 0, 'damping': 0, 'bandwidth': 0.1, 'calm': 1, 'wind_up': 0, 'mode': 'complex', 'start': 'free', 'axis': 'side', 'of': 'total', 'scale': 1, 'fps': 24}
 OTHERS = ('passive', 'limits', 'variation', 'color')  # kept, and used where the solver knows them
 
 
@@ -21,7 +21,7 @@ def short(number):
 
 # --- export
 
-def knot(point, fps):
+def knot(spline, point, fps):
     frame = short(point.co[0])
     knot = {'frame': int(frame) if frame == int(frame) else frame}
     if point.type == 'MOVING_HOLD':
@@ -34,6 +34,8 @@ def knot(point, fps):
         knot['stiffness'] = short(point.amplitude)
     if curves.held(point, curves.POSE):
         knot['im'] = short(point.back)
+    if curves.settles(spline, point):
+        knot['settles'] = True
     return knot
 
 
@@ -49,7 +51,7 @@ def spline_out(owner, spline, model, fps):
             out['equilibrium']['chain'] = spline.chain
     out['start'] = spline.start
     out.update(json.loads(spline.more or '{}'))
-    out['knots'] = [knot(point, fps) for point in curve.keyframe_points] if curve else []
+    out['knots'] = [knot(spline, point, fps) for point in curve.keyframe_points] if curve else []
     return out
 
 
@@ -208,6 +210,8 @@ def knots_in(owner, spline, knots, fps):
         if 'im' in each:
             point.type = 'EXTREME'
             curves.hold(point, curves.POSE, each['im'])
+        if each.get('settles'):
+            point.type = 'JITTER'
         if 'slope' in each:
             point.handle_left_type = point.handle_right_type = 'FREE'
             rise = each['slope'] / fps

@@ -28,6 +28,10 @@ class Spline(bpy.types.PropertyGroup):
     bandwidth: FloatProperty(name='Bandwidth', description='How far the frequency may shift to meet keys, as a fraction of it', default=0.1,
                              min=0, max=1, override=SAME, update=changed('bandwidth'))
     calm: FloatProperty(name='Calm', description='How much a swing at the start costs. Less is livelier', default=1, min=0, max=1, override=SAME, update=changed('calm'))
+    wind_up: FloatProperty(name='Wind-up', description='How long before a key the motion is pushed, in periods; after it, it swings freely. 0: the whole '
+                           'curve is shaped at once', min=0, max=100, soft_max=2, override=SAME, update=changed('wind_up'))
+    settle: BoolProperty(name='Keys Settle', description='After each key the motion swings about its value and stays there. To let a single key settle, '
+                         'make it a Jitter: press R in the Dope Sheet', override=SAME, update=changed('settle'))
     mode: EnumProperty(name='Kind', default='complex', override=SAME, items=(
         ('complex', 'Wiggly', 'Swings at a frequency that may shift'), ('real', 'Spring', 'Swings as a damped spring'),
         ('cubic', 'Cubic', 'Does not swing')))

@@ -8,7 +8,7 @@ from bpy.app.handlers import persistent
 from . import curves, settings as stored
 
 solved = {}  # (ID, its name, spline) → the inputs solved last
-SETTINGS = 'frequency', 'damping', 'bandwidth', 'calm', 'start', 'mode', 'more', 'equilibrium', 'follow'
+SETTINGS = 'frequency', 'damping', 'wind_up', 'settle', 'bandwidth', 'calm', 'start', 'mode', 'more', 'equilibrium', 'follow'
 LONGEST, LONGEST_HELD = 1_000_000, 20_000  # frames of a spline, and of one with limits
 problems = {}  # the same → what is wrong with the answer
 edits = [0]  # how many there were
@@ -69,7 +69,7 @@ def knots_of(curve, spline, first, last, fps, im):
         sample = math.floor(point.co[0] - first + 0.5)
         if spline.start == 'loop':
             sample %= last - first
-        is_pose = point.type == 'EXTREME'
+        is_pose = point.type == 'EXTREME' or point.type == 'JITTER' and curves.held(point, curves.POSE)  # one that settles stays one
         if is_pose and not curves.held(point, curves.POSE):  # it has just become one: the phase that is seen now
             curves.hold(point, curves.POSE, im.evaluate(point.co[0]) if im else 0)
         elif not is_pose and curves.held(point, curves.POSE):
@@ -79,7 +79,8 @@ def knots_of(curve, spline, first, last, fps, im):
         else:
             slope = curves.slope(point)
             knot = wiggly.Knot(sample / fps, point.co[1], slope=None if slope is None else slope * fps, phase=point.back if is_pose else None,
-                               stiffness=point.amplitude if curves.held(point, curves.STIFF) else None)
+                               stiffness=point.amplitude if curves.held(point, curves.STIFF) else None,
+                               settles=curves.settles(spline, point))
         if found.setdefault(sample, (knot, point))[0] != knot:
             said = f'Keys at {found[sample][1].co[0]:g} and {point.co[0]:g} are at one frame: the later one counts'
         found[sample] = knot, point
@@ -106,6 +107,20 @@ def note(owner, spline, curve, other):
     return f'Its frames and their rate are those of the scene "{other.name}"' if other else ''
 
 
+def direction(spline, settings, knots, fps):
+    """What keeps the wind-up and keys that settle from having an effect."""
+    if spline.mode == 'cubic' and any(knot.settles for knot in knots):
+        return 'Its keys do not settle: a Cubic does not swing'
+    if spline.mode != 'complex' or not spline.wind_up:
+        return ''
+    if settings['passive'] == 'filter':
+        return "The wind-up has no effect: the paper's filter has none"
+    if any(limit is not None for limit in settings['limits'] or ()):
+        return 'The wind-up has no effect: limits need the whole curve'
+    frames = spline.wind_up * fps / spline.frequency if spline.frequency else math.inf
+    return f'The wind-up is {frames:.2g} frames long: below two, it is a jerk' if frames < 2 else ''
+
+
 def solve(owner, spline, scene, known, other=None):
     """Solves a spline if its inputs differ from those solved last."""
     action = curves.action_of(owner)
@@ -128,9 +143,13 @@ def solve(owner, spline, scene, known, other=None):
             return
         knots, shared = knots_of(curve, spline, first, last, fps, im)
         now = curves.read(curve), given  # a pose may hold its phase now
+        settles, has_offset = any(knot.settles for knot in knots), curves.has_offset(owner, spline)
+        if settles and owner.override_library and not has_offset and not spline.path:  # its drivers cannot change
+            knots, settles = [knot._replace(settles=False) for knot in knots], False
+            said = said or 'Keys of a library override settle only if one does in the file that it comes from'
         middle = [y[min(max(frame - y_first, 0), len(y) - 1)] for frame in range(first, last + 1)] if y else spline.equilibrium
         described = wiggly.Spline(knots, frequency=spline.frequency, damping=spline.damping, bandwidth=spline.bandwidth, calm=spline.calm,
-                                  equilibrium=middle, start=spline.start, mode=spline.mode, **settings)
+                                  wind_up=spline.wind_up, equilibrium=middle, start=spline.start, mode=spline.mode, **settings)
         with warnings.catch_warnings():
             warnings.simplefilter('ignore')
             answer = described.solve(last - first + 1, fps)
@@ -139,21 +158,31 @@ def solve(owner, spline, scene, known, other=None):
         return
     finally:
         solved[key] = now
-    problems[key] = said or shared or (answer.status.sentence if answer.status else '')
-    for part, values in (('re', answer.re), ('im', answer.im)):
+    problems[key] = said or shared or (answer.status.sentence if answer.status else direction(spline, settings, knots, fps))
+    offset, parts = answer.y - middle, {'re': answer.re, 'im': answer.im}
+    if spline.path:  # nothing lags
+        parts['re'] = answer.re + offset
+    elif settles or has_offset:
+        parts['o'] = offset
+    for part, values in parts.items():
         start, values = first, list(values)
         if spline.start == 'loop':  # through the scene's frames, and one more on either side for motion blur
             start = min(first, scene.frame_start) - 1
             values = [values[(frame - first) % (last - first)] for frame in range(start, max(last, scene.frame_end) + 2)]
         curves.write(owner, spline, part, start, values)
+    if 'o' in parts and not has_offset:
+        from . import chain as chains
+        for chain in owner.wiggly.chains:
+            chains.drive(owner, chain)
 
 
 def insert(owner, spline, frame, kind):
     """A key at the value that the curve has there."""
     total = spline.equilibrium if spline.follow == 'none' else 0
-    for part in ('re', 'y'):
-        curve, index = curves.part(owner, spline, part), curves.slot_path(spline, part)[1]
-        total += curve.evaluate(frame) if curve else (owner.get(curves.SAMPLES) or [0] * (index + 1))[index]  # a strip may move it
+    for part in ('re', 'y', 'o'):
+        curve, (path, index) = curves.part(owner, spline, part), curves.slot_path(spline, part)
+        moved = owner.get(path[2:-2], ())  # a strip may move it
+        total += curve.evaluate(frame) if curve else moved[index] if len(moved) > index else 0
     if spline.name not in owner:
         owner[spline.name] = 0.0
     curve = curves.ensure(owner, curves.path_of(spline.name))
@@ -166,10 +195,12 @@ def insert(owner, spline, frame, kind):
 
 def rest(owner):
     """Ends the bends of an action that was taken away: its last samples would stay. A strip may move them."""
-    samples, tracks = owner.get(curves.SAMPLES, ()), owner.animation_data.nla_tracks if owner.animation_data else ()
-    if any(samples) and not any(not strip.mute for track in tracks if not track.mute for strip in track.strips):
-        owner[curves.SAMPLES] = [0.0] * len(samples)
-        owner.update_tag()
+    tracks = owner.animation_data.nla_tracks if owner.animation_data else ()
+    for name in (curves.SAMPLES, curves.OFFSETS):
+        samples = owner.get(name, ())
+        if any(samples) and not any(not strip.mute for track in tracks if not track.mute for strip in track.strips):
+            owner[name] = [0.0] * len(samples)
+            owner.update_tag()
 
 
 def home_of(owner, scene):

@@ -83,7 +83,8 @@ class WIGGLY_OT_key(Operator):
     bl_idname, bl_label = 'wiggly.key', 'Insert Key'
     kind: EnumProperty(name='Kind', items=(
         ('KEYFRAME', 'Value', 'The first bone is where the key says'), ('EXTREME', 'Pose', 'All bones are where they are now'),
-        ('MOVING_HOLD', 'Still', 'Comes to rest, and starts from rest')))
+        ('MOVING_HOLD', 'Still', 'Comes to rest, and starts from rest'),
+        ('JITTER', 'Settle', 'Overshoots, swings about the value and stays there')))
 
     def run(self, context, owner):
         frame = round(context.scene.frame_current_final)  # that of the action, if time is stretched
@@ -211,7 +212,7 @@ def draw_spline(layout, owner, spline, title):
     column = layout.column(align=True)
     if title:
         column.label(text=title)
-    for name in ('frequency', 'damping', 'bandwidth', 'calm', 'start', 'first', 'last'):
+    for name in ('frequency', 'damping', 'wind_up', 'settle', 'bandwidth', 'calm', 'start', 'first', 'last'):
         column.prop(spline, name)
 
 
