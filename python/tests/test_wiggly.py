@@ -373,14 +373,16 @@ class Splines(unittest.TestCase):
 class Crowds(unittest.TestCase):
     def test_many_have_the_bits_of_one_by_one(self):
         random = np.random.default_rng(3)
-        spline = Spline(frequency=1.5, damping=0.1, equilibrium=0.2)
+        spline = Spline(frequency=1.5, damping=0.1, wind_up=0.5, equilibrium=0.2)
         times = np.sort(random.choice(96, (40, 4)) + np.arange(4) * 100, axis=1) / 24
         times[7, 2:] = np.nan
         values, slopes = random.normal(size=(4, 40)).T, np.where(random.random((40, 4)) < 0.3, 1.0, np.nan)
-        many = solve_many(spline, times, values, 401, slopes=slopes, parts=("total", "y", "re", "im"), threads=3)
+        settles = random.random((40, 4)) < 0.3
+        many = solve_many(spline, times, values, 401, slopes=slopes, settles=settles, parts=("total", "y", "re", "im"), threads=3)
         for i in range(40):
-            knots = [Knot(t, v, None if np.isnan(s) else s) for t, v, s in zip(times[i], values[i], slopes[i]) if not np.isnan(t)]
-            one = Spline(knots, frequency=1.5, damping=0.1, equilibrium=0.2).solve(401)
+            rows = zip(times[i], values[i], slopes[i], settles[i])
+            knots = [Knot(t, v, None if np.isnan(s) else s, settles=o) for t, v, s, o in rows if not np.isnan(t)]
+            one = Spline(knots, **spline.parameters).solve(401)
             for part in ("total", "y", "re", "im"):
                 np.testing.assert_array_equal(getattr(many, part)[i], getattr(one, part))
 
