@@ -202,7 +202,7 @@ SESSION_TEST(test_normalised_curves_keep_their_picture, session_open(s, FIVE))
     assert_near(s->editor->curves->cache.re[count / 2][1], before, 1.5); // nothing jumps
 }
 
-/// A knot where the curve is, and with the slope that it has there, leaves every sample where it was.
+/// A knot where the curve is, and with Shift a pose, leaves every sample where it was.
 SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
 {
     for (unsigned mods = 0; mods <= MOD_SHIFT; mods += MOD_SHIFT) {
@@ -217,46 +217,67 @@ SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
         assert_int_equal(spline(s, 0)->knot_count, count + 1);
         int k = selection_single(&s->editor->core.selection, spline(s, 0));
         assert_near(spline(s, 0)->knots[k].frame, frame, 0);
-        assert_int_equal(spline(s, 0)->knots[k].has_slope, mods != 0);
+        assert_int_equal(spline(s, 0)->knots[k].has_phase, mods != 0);
         for (int i = 0; i < 97; i++) assert_near(s->table.evaluation.curves[0].total[i], before[i], 1e-6);
     }
+    char other[64];
+    snprintf(other, sizeof other, "curve(up,35,%.9g)", s->table.evaluation.curves[1].total[35]);
+    s->mods = MOD_CTRL; // off frames, which leaves the active spline as it is until the second click
+    session_click(s, other);
+    session_click_here(s, 2);
+    assert_int_equal(s->editor->core.active, 1);
+    assert_int_equal(spline(s, 1)->knot_count, 3);
 }
 
-/// The same in every mode, with a start of every kind, and on an equilibrium that moves. Behind the last knot an oscillation dies away
-/// and a cubic is held, until a knot is there.
-TEST(test_a_sloped_knot_on_the_curve_keeps_it)
+/// Inserts a knot or pose on the first spline at a frame; returns the curve's largest change.
+static double change_by_a_knot(const char *settings, int frame, bool pose)
+{
+    char scene[1024];
+    double before[97], most = 0;
+    struct session s;
+    snprintf(scene, sizeof scene,
+             "{\"frames\": [0, 96], \"splines\": [{\"name\": \"x\", %s, \"knots\": [{\"frame\": 0, \"value\": 0},"
+             "{\"frame\": 20, \"value\": 1}, {\"frame\": 50, \"value\": -0.4}]}, {\"name\": \"y\", \"mode\": "
+             "\"cubic\", \"start\": \"loop\", \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 60, "
+             "\"value\": 1}]}]}",
+             settings);
+    session_open(&s, scene);
+    for (int f = 0; f < frame; f++) session_key(&s, KEY_RIGHT, 0);
+    memcpy(before, s.table.evaluation.curves[0].total, sizeof before);
+    session_key(&s, 'I', pose ? MOD_SHIFT : 0);
+    const int at = spline_find_knot(s.document, spline(&s, 0), frame);
+    const bool swings = spline_mode(spline(&s, 0)) == WIGGLY_COMPLEX;
+    assert_true((at >= 0) == (swings || !pose)); // the others have no phase that a pose could hold
+    assert_true(at < 0 || spline(&s, 0)->knots[at].has_phase == pose);
+    assert_true((strstr(s.editor->core.message.text, "Only a wiggly spline") != NULL) == (at < 0));
+    for (int i = 0; i < 97; i++) most = fmax(most, fabs(s.table.evaluation.curves[0].total[i] - before[i]));
+    session_close(&s);
+    return most;
+}
+
+/// I and Shift+I in every mode, with a start of every kind, and on an equilibrium that moves. Behind the last knot an oscillation dies away
+/// and a cubic is held, until a knot is there. With wind-up the curve swings freely until half a period before a knot.
+TEST(test_a_knot_on_the_curve_keeps_it)
 {
     static const struct kind {
         const char *settings;
         int last; ///< frame of a knot
+        double change;
     } kinds[] = {
-        {"\"mode\": \"real\", \"frequency\": 1", 95},
-        {"\"mode\": \"real\", \"spring\": 30, \"friction\": 14, \"equilibrium\": {\"spline\": \"y\"}", 95},
-        {"\"mode\": \"cubic\", \"equilibrium\": {\"spline\": \"y\"}", 49},
-        {"\"frequency\": 1.3, \"damping\": 0.1, \"start\": \"rest\"", 49},
-        {"\"frequency\": 1.3, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"y\"}", 49},
-        {"\"frequency\": 1.3, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"y\"}, \"start\": \"loop\"", 95},
-        {"\"frequency\": 1.3, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"y\"}, \"passive\": \"filter\"", 95},
+        {"\"mode\": \"real\", \"frequency\": 1", 95, 1e-6},
+        {"\"mode\": \"real\", \"spring\": 30, \"friction\": 14, \"equilibrium\": {\"spline\": \"y\"}", 95, 1e-6},
+        {"\"mode\": \"cubic\", \"equilibrium\": {\"spline\": \"y\"}", 49, 1e-6},
+        {"\"frequency\": 1.3, \"damping\": 0.1, \"start\": \"rest\"", 49, 1e-6},
+        {"\"frequency\": 1.3, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"y\"}", 49, 1e-6},
+        {"\"frequency\": 1.3, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"y\"}, \"start\": \"loop\"", 95, 1e-6},
+        {"\"frequency\": 1.3, \"damping\": 0.1, \"equilibrium\": {\"spline\": \"y\"}, \"passive\": \"filter\"", 95,
+         1e-6},
+        {"\"frequency\": 1.3, \"damping\": 0.1, \"wind_up\": 0.5", 35, 5e-3},
     };
     for (const struct kind *kind = kinds; kind < kinds + sizeof kinds / sizeof *kinds; kind++) {
         for (int frame = 5; frame <= kind->last; frame += 30) {
-            char scene[1024];
-            double before[97];
-            struct session s;
-            snprintf(
-                scene, sizeof scene,
-                "{\"frames\": [0, 96], \"splines\": [{\"name\": \"x\", %s, \"knots\": [{\"frame\": 0, \"value\": 0},"
-                "{\"frame\": 20, \"value\": 1}, {\"frame\": 50, \"value\": -0.4}]}, {\"name\": \"y\", \"mode\": "
-                "\"cubic\", \"start\": \"loop\", \"knots\": [{\"frame\": 10, \"value\": 0}, {\"frame\": 60, "
-                "\"value\": 1}]}]}",
-                kind->settings);
-            session_open(&s, scene);
-            for (int f = 0; f < frame; f++) session_key(&s, KEY_RIGHT, 0);
-            memcpy(before, s.table.evaluation.curves[0].total, sizeof before);
-            session_key(&s, 'I', MOD_SHIFT);
-            assert_int_equal(spline(&s, 0)->knot_count, 4);
-            for (int i = 0; i < 97; i++) assert_near(s.table.evaluation.curves[0].total[i], before[i], 1e-6);
-            session_close(&s);
+            for (int pose = 0; pose < 2; pose++)
+                assert_near(change_by_a_knot(kind->settings, frame, pose), 0, kind->change);
         }
     }
 }

@@ -47,6 +47,9 @@ SESSION_TEST(test_insert_at_playhead_keeps_the_curve, session_open(s, SWAY))
     assert_int_equal(sway(s)->knot_count, 5);
     assert_near(sway(s)->knots[3].frame, 30, 0);
     for (int i = 0; i < 49; i++) assert_near(s->table.evaluation.curves[0].total[i], before[i], 1e-7);
+    assert_false(sway(s)->knots[3].has_phase);
+    session_key(s, 'P', 0);
+    assert_true(sway(s)->knots[3].has_phase);
 }
 
 SESSION_TEST(test_a_drag_is_one_step_and_snaps, session_open(s, SWAY))

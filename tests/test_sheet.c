@@ -87,6 +87,14 @@ SESSION_TEST(test_rows_choose_and_insert, open_sheet(s, TWO))
     assert_int_equal(s->document->splines[1]->knot_count, 3);
     assert_near(knot(s, 1, 2)->frame, 50, 0);
     assert_near(knot(s, 1, 2)->value, there.y + there.re, 1e-6);
+    session_point(s, "mark(sway,2)");
+    session_move(s, s->x + frames(s, 10), s->y);
+    s->mods = MOD_SHIFT;
+    session_click_here(s, 1);
+    session_click_here(s, 2);
+    assert_int_equal(s->editor->core.active, 0); // a pose, in the row below the pointer
+    assert_int_equal(s->document->splines[0]->knot_count, 4);
+    assert_true(knot(s, 0, 3)->has_phase);
 }
 
 /// Ten rows are more than it shows: the wheel scrolls, and the active spline's row comes into sight by itself.

@@ -152,7 +152,7 @@ TEST(test_poses_on_a_curve_force_nothing)
     session_click(&s, "warning(0)");
     for (int frame = 6; frame < 120; frame += 24) {
         s.editor->core.playback.position = frame;
-        session_key(&s, 'I', 0);
+        session_key(&s, 'I', MOD_SHIFT);
     }
     assert_int_equal(s.document->splines[0]->knot_count, 8);
     for (int i = 0; i < s.editor->curves->warnings.count; i++)

@@ -62,7 +62,7 @@ key(700, "V")
 # Pause, scrub, insert at the playhead, grab the tail by its tip.
 key(704, "Space")
 drag(710, 30, "ruler(40)", lambda u: f"ruler({40 + 26 * u:.3f})")
-key(744, "I")
+key(744, "I", "shift")
 drag(750, 70, "tail(tail,0.95)", lambda u: f"stage({0.46 - 0.1 * math.sin(2 * math.pi * u):.4f},{0.36 - 0.12 * u:.4f})")
 key(830, "Space")
 # The other spline: drag while it plays, mode, delete.

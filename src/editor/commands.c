@@ -235,7 +235,7 @@ enum {
 const struct command commands[] = {
     GESTURE("Double-click", "Insert a knot at the pointer", KNOTS, ON_CURVES),
     COMMAND("Insert a knot at the playhead", KNOTS, ON_CURVES, SPLINE, 0, .run = run_insert, 0, {'I', 0}),
-    COMMAND("Insert a knot with its slope", KNOTS, 0, SPLINE, 0, .run = run_insert, true, {'I', SHIFT}),
+    COMMAND("Insert a pose at the playhead", KNOTS, 0, SPLINE, 0, .run = run_insert, true, {'I', SHIFT}),
     GESTURE("Drag a knot", "Move it", KNOTS, ON_KNOT),
     GESTURE("Click, Shift+click", "Select a knot, or add it", KNOTS, ON_KNOT),
     GESTURE("Drag on empty", "Select the knots in a box", KNOTS, ON_CURVES),

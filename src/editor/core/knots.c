@@ -31,7 +31,7 @@ static void insert_at(struct core *core, const struct knot *knot)
     int sample = document_sample(document, knot->frame);
     int at = spline_find_knot(document, core_active_spline(core), sample);
     if (at < 0) {
-        if (!core_begin(core, "Insert knot", 0)) return;
+        if (!core_begin(core, knot->has_phase ? "Insert pose" : "Insert knot", 0)) return;
         if (!core_end(core, core_put_knot(core, core->active, knot))) return;
         at = spline_find_knot(document, core_active_spline(core), sample);
     }
@@ -57,18 +57,22 @@ void core_insert_knot(struct core *core, double frame, double value, bool snap)
     insert_at(core, &knot);
 }
 
-void core_insert_on_curve(struct core *core, double frame, bool snap, bool slope)
+static const char no_phase[] = "Only a wiggly spline has a phase. Press M to change the kind.";
+
+void core_insert_on_curve(struct core *core, double frame, bool snap, bool pose)
 {
-    const struct document *document = core->document;
-    if (!core_active_spline(core) || !isfinite(frame)) return;
+    const struct spline *spline = core_active_spline(core);
+    if (!spline || !isfinite(frame)) return;
+    if (pose && spline_mode(spline) != WIGGLY_COMPLEX) {
+        core_message(core, false, no_phase);
+        return;
+    }
     struct knot knot = {
-        .frame = knot_frame(core, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_slope = slope};
-    int sample = document_sample(document, knot.frame);
-    wiggly_value here = evaluation_at(core->evaluation, core->active, sample);
+        .frame = knot_frame(core, frame, snap), .stiffness = KNOT_DEFAULT_STIFFNESS, .has_phase = pose};
+    const wiggly_value here =
+        evaluation_at(core->evaluation, core->active, document_sample(core->document, knot.frame));
     knot.value = here.y + here.re;
-    knot.has_phase = spline_mode(core_active_spline(core)) == WIGGLY_COMPLEX;
-    knot.phase = knot.has_phase ? here.im : 0;
-    if (slope) knot.slope = evaluation_slope(core->evaluation, document, core->active, sample);
+    if (pose) knot.phase = here.im;
     insert_at(core, &knot);
 }
 
@@ -95,7 +99,7 @@ void core_set_hold(struct core *core, int holds)
     }
     if (selected_count(core) == 0) return;
     if (holds == HOLDS_POSE && !all && !swings) {
-        core_message(core, false, "Only a wiggly spline has a phase. Press M to change the kind.");
+        core_message(core, false, no_phase);
         return;
     }
     if (all) holds = HOLDS_VALUE;

@@ -8,8 +8,8 @@
 uint64_t core_merge_key(const struct core *core, uint64_t kind);
 /// Inserts and selects a knot at a frame (whole if `snap`), or selects the one there.
 void core_insert_knot(struct core *core, double frame, double value, bool snap);
-/// Inserts a pose that leaves the curve unchanged, with its slope (eq. 9) if `slope`.
-void core_insert_on_curve(struct core *core, double frame, bool snap, bool slope);
+/// Inserts a knot where the curve is, or a pose. Without wind-up, between knots, the curve stays as it is.
+void core_insert_on_curve(struct core *core, double frame, bool snap, bool pose);
 /// Deletes the selected knots in a step `label`.
 void core_remove_knots(struct core *core, const char *label);
 /// Deletes the selected pin, else the selected knots.

@@ -180,6 +180,7 @@ static void press_empty(struct curves *curves, struct core *core, const struct h
                         const struct event *event)
 {
     if (event->clicks == 2 && hover->kind == HOVER_CURVE) {
+        core_activate(core, hover->spline);
         core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
                              event->mods & MOD_SHIFT);
         return;

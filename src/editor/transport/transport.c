@@ -190,7 +190,7 @@ static const char *hover_hint(const struct core *core)
     const struct hover *hover = &core->hover;
     if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
     if (hover->kind == HOVER_CURVE && hover->spline == core->active)
-        return "Double-click to insert a knot without changing the curve; drag to select with a box";
+        return "Double-click to insert a knot on the curve, with Shift a pose; drag to select with a box";
     if (hover->kind == HOVER_JOINT && core->document->rigs[hover->rig]->kind == RIG_CHAIN)
         return "Drag the chain: it is held where you let go. Ctrl+drag or H pins a joint, a click selects the bone";
     if (hover->kind == HOVER_PIN && core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_CURVES)
