@@ -65,6 +65,9 @@ SESSION_TEST(test_a_still_knot_under_a_dragged_body_gets_a_value, session_open(s
 
 SESSION_TEST(test_a_still_knot_goes_along_with_the_whole_shot, session_open(s, still))
 {
+    session_click(s, "knot(walk,1)");
+    session_key(s, 'D', MOD_CTRL);
+    session_key(s, 'P', MOD_SHIFT); // with a value that it keeps
     session_key(s, 'A', MOD_SHIFT);
     hold_and_drag(s, -150, 0, 12);
     session_release(s, BUTTON_LEFT);
@@ -72,6 +75,8 @@ SESSION_TEST(test_a_still_knot_goes_along_with_the_whole_shot, session_open(s, s
     const double by = walk->knots[1].value - 0.1;
     assert_true(walk->knots[0].still && by > 0.1);
     assert_near(s->table.evaluation.curves[1].total[0], 0.05 + by, 1e-6);
+    assert_true(walk->knots[2].still);
+    assert_near(walk->knots[2].value, 0.1 + by, 1e-9);
 }
 
 /// Lagged joints come later: each extremum of the bend is at the base first and at the tip last.

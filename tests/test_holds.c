@@ -2,6 +2,7 @@
 /// still, and free ones free.
 #include "panel_session.h"
 #include "scene/edit.h"
+#include "shown.h"
 
 #include <stdlib.h>
 
@@ -73,8 +74,7 @@ static void assert_held(const char *name, const struct spline *spline, const dou
         const struct knot *knot = &spline->knots[k];
         stills += knot->still;
         settling += knot->settles;
-        if (knot->still && (knot->value != 0 || knot->has_slope || knot->has_phase))
-            fail_msg("%s: a still knot holds more", name);
+        if (knot->still && (knot->has_slope || knot->has_phase)) fail_msg("%s: a still knot holds more", name);
         if (!knot->has_phase) continue;
         if (poses == 2 * copies || fabs(knot->phase - phases[poses]) > 1e-9)
             fail_msg("%s: the phase of pose %d is %g", name, poses, knot->phase);
@@ -102,6 +102,96 @@ TEST(test_edits_keep_what_knots_hold)
         assert_held(edits[e].name, s.document->splines[0], edits[e].phases, edits[e].copies);
         session_close(&s);
     }
+}
+
+/// A knot made still keeps its value, unseen: edits of what is drawn leave it as it is, copies have it too, text does not.
+TEST(test_a_still_knot_keeps_its_value)
+{
+    for (size_t e = 0; e < sizeof edits / sizeof *edits; e++) {
+        struct session s;
+        int kept = 0;
+        session_open(&s, HOLDING);
+        session_click(&s, "knot(sway,1)");
+        session_key(&s, 'P', MOD_SHIFT);
+        session_key(&s, 'A', MOD_CTRL);
+        edits[e].run(&s);
+        const struct spline *spline = s.document->splines[0];
+        for (int k = 0; k < spline->knot_count; k++) kept += spline->knots[k].still && spline->knots[k].value == 0.5;
+        if (kept != (edits[e].run == paste_cut ? 0 : edits[e].copies)) fail_msg("%s: %d", edits[e].name, kept);
+        session_close(&s);
+    }
+}
+
+/// Shift+P again, or the button. A knot that was loaded still has no value, so it stays where it is seen.
+TEST(test_a_value_comes_back)
+{
+    static const struct row {
+        const char *knot;
+        double high; ///< set meanwhile
+        double value;
+        const char *said;
+    } rows[] = {
+        {"{\"frame\": 48, \"value\": 2.5}", INFINITY, 2.5, ""},
+        {"{\"frame\": 48, \"value\": 2.5, \"im\": 0.3, \"slope\": 1}", INFINITY, 2.5, ""},
+        {"{\"frame\": 48, \"value\": 2.5}", 2.25, 2.25, "Held by the limit 2.25"},
+        {"{\"frame\": 48, \"still\": true}", INFINITY, 2, ""},
+    };
+    for (size_t i = 0; i < 2 * sizeof rows / sizeof *rows; i++) {
+        const struct row *row = &rows[i / 2];
+        const bool loaded = strstr(row->knot, "still");
+        char scene[512];
+        struct session s;
+        snprintf(scene, sizeof scene,
+                 "{\"wiggly\": 2, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, "
+                 "\"equilibrium\": 2, \"knots\": [{\"frame\": 24, \"value\": 2.125}, %s]}]}",
+                 row->knot);
+        session_open(&s, scene);
+        session_click(&s, "knot(sway,1)");
+        if (!loaded) session_key(&s, 'P', MOD_SHIFT);
+        if (!loaded) assert_non_null(strstr(s.editor->core.message.text, "comes to rest at the equilibrium"));
+        assert_non_null(shown_text(s.editor, "Comes to rest at the equilibrium"));
+        const struct knot *knot = &s.document->splines[0]->knots[1];
+        assert_true(knot->still);
+        assert_loads_again(s.document);
+        assert_near(s.table.evaluation.curves[0].total[48], 2, 1e-9);
+        if (row->high < INFINITY) {
+            const struct param high = param_number(row->high);
+            assert_done(edit_parameter(s.document, 0, PARAMETER_HIGH, &high, &error));
+            session_frame(&s);
+        }
+        if (i % 2) panel_click(&s, "holds.value");
+        if (i % 2 == 0) session_key(&s, 'P', MOD_SHIFT);
+        knot = &s.document->splines[0]->knots[1];
+        assert_false(knot->still || knot->has_phase || knot->has_slope);
+        assert_near(knot->value, row->value, 1e-9);
+        assert_non_null(strstr(s.editor->core.message.text, row->said));
+        session_close(&s);
+    }
+}
+
+/// Shift+F finds the same with the value that a still knot keeps as without one.
+TEST(test_a_kept_value_explains_nothing)
+{
+    static const char *const knots[] = {"\"value\": 9", "\"still\": true"};
+    double found[2];
+    for (int i = 0; i < 2; i++) {
+        char scene[512];
+        struct session s;
+        snprintf(scene, sizeof scene,
+                 "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"equilibrium\": 2, "
+                 "\"knots\": [{\"frame\": 0, \"value\": 3}, {\"frame\": 9, \"value\": 1.1}, {\"frame\": 18, "
+                 "\"value\": 2.8}, {\"frame\": 27, \"value\": 1.3}, {\"frame\": 60, %s}]}]}",
+                 knots[i]);
+        session_open(&s, scene);
+        session_click(&s, "knot(sway,4)");
+        if (i == 0) session_key(&s, 'P', MOD_SHIFT);
+        session_key(&s, 'F', MOD_SHIFT);
+        assert_non_null(strstr(s.editor->core.message.text, "Best"));
+        found[i] = s.document->splines[0]->parameter[PARAMETER_FREQUENCY].value;
+        session_close(&s);
+    }
+    assert_near(found[0], found[1], 0);
+    assert_near(found[0], 24.0 / 18, 0.02);
 }
 
 /// Alt+P and the button, for all selected knots but still ones, in one step each.
@@ -161,5 +251,7 @@ TEST(test_a_still_knot_is_where_it_is_seen)
         "0.1, \"equilibrium\": 2, \"knots\": [{\"frame\": 24, \"value\": 2.5}, {\"frame\": 48, \"still\": true}]}]}");
     session_hover(&s, "knot(sway,1)");
     assert_int_equal(s.editor->core.hover.kind, HOVER_KNOT);
+    assert_non_null(shown_text(
+        s.editor, "Comes to rest at the equilibrium; Shift+P gives it a value. Drag it in time (Ctrl: off frames)"));
     session_close(&s);
 }

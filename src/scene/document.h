@@ -30,13 +30,13 @@ struct json_t;
 
 struct knot {
     double frame;     ///< as written; may be fractional
-    double value;     ///< 0 if it is still
+    double value;     ///< of a still one, what it had before, or NaN; not saved then
     double slope;     ///< value per second
     double stiffness; ///< 1/s
     double phase;     ///< Im x of a pose
     bool has_slope;
     bool has_phase; ///< it is a pose
-    bool still;     ///< it has neither value, slope nor phase, and does not settle
+    bool still;     ///< it has neither slope nor phase, does not settle, and its value has no effect
     bool settles;   ///< the equilibrium comes to its value and stays
     unsigned
         id; ///< unique in the document, as those of splines, rigs and pins, kept through edits and undo; not saved

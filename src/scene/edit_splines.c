@@ -320,12 +320,14 @@ bool edit_parameter(struct document *document, int spline, enum parameter parame
     return edit_end(document, before, change(document, spline, parameter, param, error), error);
 }
 
-/// Whether a knot is allowed; `id` is its own. Turns −0 into 0, as saving does, and clears slope and phase of a still knot.
+/// Whether a knot is allowed; `id` is its own. Turns −0 into 0, as saving does, and clears slope and phase of a still
+/// knot.
 static bool check_knot(const struct document *document, const struct spline *spline, struct knot *knot, unsigned id,
                        struct error *error)
 {
     char frame[NUMBER_TEXT_SIZE];
     struct error why;
+    const double kept = knot->value;
     if (knot->still)
         *knot = (struct knot){.frame = knot->frame,
                               .stiffness = KNOT_DEFAULT_STIFFNESS,
@@ -334,6 +336,7 @@ static bool check_knot(const struct document *document, const struct spline *spl
                               .extra = knot->extra};
     if (!fields_check(document, JOINTS_UNKNOWN, knot_fields, knot, &why))
         return fail(error, ERROR_INPUT, "%s: a knot: %s", spline->name, why.text);
+    if (knot->still) knot->value = kept;
     const double low = spline->parameter[PARAMETER_LOW].value, high = spline->parameter[PARAMETER_HIGH].value;
     if (!knot->still && (knot->value < low || knot->value > high)) {
         return fail(error, ERROR_INPUT, "%s: a knot at %.6g would be %s limit, %.6g", spline->name, knot->value,

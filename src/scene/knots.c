@@ -177,6 +177,7 @@ static bool read_knot(struct csv *csv)
     bool given;
     const int at = csv->at[COLUMN_VALUE];
     knot.still = at < csv->line.count && strcasecmp(csv->line.field[at], "still") == 0;
+    if (knot.still) knot.value = NAN;
     if (knot.still) return read_field(csv, COLUMN_FRAME, &given, &knot.frame) && add_knot(csv, &knot);
     return read_field(csv, COLUMN_FRAME, &given, &knot.frame) && read_field(csv, COLUMN_VALUE, &given, &knot.value) &&
            read_field(csv, COLUMN_STIFFNESS, &given, &knot.stiffness) &&

@@ -94,6 +94,7 @@ static void load_still(struct reader *reader, const struct value *object, void *
     static const char *const held[] = {"settles", "value", "im", "slope", "stiffness"};
     struct knot *knot = at;
     reader_flag(reader, reader_member(object, "still"), &knot->still);
+    if (knot->still) knot->value = NAN;
     for (int i = 0; knot->still && i < 5; i++) {
         const struct value value = reader_member(object, held[i]);
         if (value.json) reader_fail(reader, &value.at, "expected none beside \"still\"");

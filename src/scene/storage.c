@@ -44,7 +44,7 @@ void storage_add_knots(wiggly_desc *desc, const struct document *document, int s
         const struct knot *knot = &of->knots[i];
         knots[i] = (wiggly_knot){.sample = document_sample(document, knot->frame),
                                  .has_slope = knot->has_slope,
-                                 .value = knot->value,
+                                 .value = knot->still ? 0 : knot->value,
                                  .slope = knot->slope,
                                  .stiffness = knot->stiffness,
                                  .phase = knot->phase,

@@ -165,7 +165,8 @@ void core_message(struct core *core, bool is_error, const char *format, ...)
 
 void core_hold(const struct spline *spline, struct knot *knot, char why[STOPPED_SIZE])
 {
-    const double within = knot->still ? knot->value : spline_within(spline, knot->value);
+    if (knot->still) return;
+    const double within = spline_within(spline, knot->value);
     if (within != knot->value)
         snprintf(why, STOPPED_SIZE, "held by the limit %.4g of %.*s at frame %.6g", within,
                  name_fit(spline->name, 24), spline->name, knot->frame);

@@ -76,13 +76,13 @@ void core_insert_on_curve(struct core *core, double frame, bool snap, bool pose)
     insert_at(core, &knot);
 }
 
-/// A knot after changing what it holds, at its place on the curve.
+/// A knot after changing what it holds. A pose is as seen now; a still knot becomes a value again by the one it had, if it had one.
 static struct knot held(const struct core *core, int spline, const struct knot *knot, enum holds holds)
 {
     const wiggly_value here = evaluation_at(core->evaluation, spline, document_sample(core->document, knot->frame));
     struct knot to = *knot;
-    to.value = core_knot_value(core, spline, knot);
     to.still = holds == HOLDS_STILL;
+    if (!to.still && (holds == HOLDS_POSE || isnan(to.value))) to.value = core_knot_value(core, spline, knot);
     to.has_phase = holds == HOLDS_POSE;
     to.phase = to.has_phase ? here.im : 0;
     return to;
@@ -91,7 +91,8 @@ static struct knot held(const struct core *core, int spline, const struct knot *
 void core_set_hold(struct core *core, int holds)
 {
     static const char *const labels[] = {
-        [HOLDS_VALUE] = "Free the phase", [HOLDS_POSE] = "Make poses", [HOLDS_STILL] = "Make still"};
+        [HOLDS_VALUE] = "Make values", [HOLDS_POSE] = "Make poses", [HOLDS_STILL] = "Make still"};
+    char why[STOPPED_SIZE] = "";
     bool all = true, swings = false;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         all = all && knot_holds(knot_at(core->document, at)) == (enum holds)holds;
@@ -111,10 +112,14 @@ void core_set_hold(struct core *core, int holds)
         if (holds == HOLDS_POSE && spline_mode(core->document->splines[original->spline]) != WIGGLY_COMPLEX) continue;
         if (holds == HOLDS_POSE && original->knot.has_phase) continue; // already a pose
         if (holds == HOLDS_STILL) knot.has_slope = false;
+        core_hold(core->document->splines[original->spline], &knot, why);
         core_put_knot(core, original->spline, &knot);
     }
     core_end(core, true);
     core_edited(core, -1);
+    if (holds == HOLDS_STILL)
+        core_message(core, false, "The motion comes to rest at the equilibrium. Shift+P brings the value back.");
+    if (*why) core_stopped(core, why);
 }
 
 void core_toggle_settles(struct core *core, int unused)

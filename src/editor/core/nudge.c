@@ -146,7 +146,8 @@ static int explain(const struct core *core, const struct spline *spline, wiggly_
     wiggly_knot *knots = need((size_t)spline->knot_count, sizeof *knots);
     for (int k = 0; k < spline->knot_count; k++) {
         const int sample = document_sample(core->document, spline->knots[k].frame);
-        knots[k] = (wiggly_knot){.sample = sample, .value = spline->knots[k].value};
+        const struct knot *knot = &spline->knots[k];
+        knots[k] = (wiggly_knot){.sample = sample, .value = knot->value, .still = knot->still};
     }
     desc.samples = document_samples(core->document);
     desc.step = document_step(core->document);

@@ -123,7 +123,7 @@ void core_collect(struct core *core, bool later)
             begun |= selected;
             if (!selected && !(later && begun)) continue;
             originals_add(originals, s, &spline->knots[k]);
-            originals->list[originals->count - 1].knot.value = core_knot_value(core, s, &spline->knots[k]);
+            originals->list[originals->count - 1].value = core_knot_value(core, s, &spline->knots[k]);
         }
     }
 }

@@ -135,6 +135,7 @@ struct drag {
 struct original {
     int spline;
     struct knot knot;
+    double value;       ///< as drawn
     double equilibrium; ///< at the knot, while scaling
 };
 

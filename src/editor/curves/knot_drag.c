@@ -90,7 +90,7 @@ static struct knot moved(const void *how, const struct original *original)
     const double scale = normal_map(moving->curves, moving->core, original->spline).scale;
     struct knot knot = original->knot;
     knot.frame += moving->frames;
-    if (moving->up != 0 && selection_has(&moving->core->selection, knot.id))
+    if (moving->up != 0 && !knot.still && selection_has(&moving->core->selection, knot.id))
         knot.value = core_round(knot.value + moving->up / scale, moving->resolution / scale);
     return knot;
 }

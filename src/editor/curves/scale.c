@@ -26,7 +26,7 @@ static void measure(const struct curves *curves, const struct core *core, double
     for (int i = 0; i < core->originals.count; i++) {
         const struct original *original = &core->originals.list[i];
         const struct value_map map = normal_map(curves, core, original->spline);
-        const double value = map.scale * original->knot.value + map.offset;
+        const double value = map.scale * original->value + map.offset;
         frames[0] = fmin(frames[0], original->knot.frame);
         frames[1] = fmax(frames[1], original->knot.frame);
         values[0] = fmin(values[0], value);
@@ -59,7 +59,7 @@ static double edge_equilibrium(const struct curves *curves, const struct core *c
     for (int i = 0; i < core->originals.count; i++) {
         const struct original *original = &core->originals.list[i];
         const struct value_map map = normal_map(curves, core, original->spline);
-        if (map.scale * original->knot.value + map.offset == curves->scaling.edge[1])
+        if (map.scale * original->value + map.offset == curves->scaling.edge[1])
             return map.scale * original->equilibrium + map.offset;
     }
     return curves->scaling.balance[1];
@@ -191,7 +191,7 @@ static double scaled_value(const struct curves *curves, const struct core *core,
     const double drawn = (scaling->value - map.offset) / map.scale;
     const double pivot = scaling->pivot == PIVOT_EQUILIBRIUM ? original->equilibrium : drawn;
     const double resolution = 0.01 / curves_pixels_per_value(curves, core) / map.scale;
-    return core_round(pivot + factor * (original->knot.value - pivot), resolution);
+    return core_round(pivot + factor * (original->value - pivot), resolution);
 }
 
 struct scale {
@@ -208,7 +208,7 @@ static struct knot scaled(const void *how, const struct original *original)
     const double frame = pivot + by.time * (original->knot.frame - pivot);
     struct knot to = original->knot;
     if (by.time != 1) to.frame = core->drag.snap ? round(frame) : frame;
-    if (by.value != 1) to.value = scaled_value(curves, core, original, by.value);
+    if (by.value != 1 && !to.still) to.value = scaled_value(curves, core, original, by.value);
     to.phase *= by.time < 0 ? -by.value : by.value; // time runs backwards, so the swing does
     if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, SLOPE_RESOLUTION * core->visible);
     return to;
@@ -218,7 +218,8 @@ static bool changes_values(const struct core *core, const struct scale *scale)
 {
     bool changes = false;
     for (int i = 0; i < core->originals.count && !changes; i++)
-        changes = scaled(scale, &core->originals.list[i]).value != core->originals.list[i].knot.value;
+        changes = !core->originals.list[i].knot.still &&
+                  scaled(scale, &core->originals.list[i]).value != core->originals.list[i].value;
     return changes;
 }
 

@@ -158,7 +158,8 @@ static void build_holds(struct inspector *in)
         (const struct knot_button[]){
             {"holds.value", "Value", "Hold the value and leave the phase free", lit == HOLDS_VALUE},
             {"holds.pose", "Pose", "Hold every part that lags as it is seen now (P)", lit == HOLDS_POSE},
-            {"holds.still", "Still", "Come to rest here, and begin from rest (Shift+P)", lit == HOLDS_STILL},
+            {"holds.still", "Still", "The motion comes to rest at the equilibrium, and begins from rest (Shift+P)",
+             lit == HOLDS_STILL},
             {"settles", "Settle", "Let the motion stay here: it overshoots the value and swings about it (Alt+P)",
              settles}});
     if (pressed == 3) {
@@ -178,17 +179,27 @@ static void build_or_idle(struct inspector *in, int field, bool there)
     }
 }
 
+/// In the place of a still knot's value.
+static void build_at_rest(struct inspector *in)
+{
+    ui_label(&in->ui, ui_row(&in->ui, UI_ROW), "Comes to rest at the equilibrium", theme()->text_dim);
+}
+
 static void build_several(struct inspector *in)
 {
     const bool sloped = all_sloped(in);
     bool any_still;
-    const bool posed = all_hold(in, &any_still) == HOLDS_POSE;
+    const int holds = all_hold(in, &any_still);
     for (int i = 0; i < FIELDS; i++) {
         if (i == FIELD_PHASE) build_holds(in);
         if (i >= FIELD_SLOPE && !sloped) {
             inspector_idle(in, rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
-        } else if ((i == FIELD_PHASE && !posed) || (i == FIELD_VALUE && any_still)) {
-            inspector_idle(in, rows[i].label, i == FIELD_PHASE ? "not all hold one" : "–");
+        } else if (i == FIELD_PHASE && holds != HOLDS_POSE) {
+            inspector_idle(in, rows[i].label, "not all hold one");
+        } else if (i == FIELD_VALUE && holds == HOLDS_STILL) {
+            build_at_rest(in);
+        } else if (i == FIELD_VALUE && any_still) {
+            inspector_idle(in, rows[i].label, "not all have one");
         } else {
             build_field(in, i, ui_row(&in->ui, UI_ROW));
         }
@@ -287,7 +298,11 @@ void inspector_knot(struct inspector *in)
         bool still;
         build_field(in, FIELD_FRAME, ui_row(ui, UI_ROW));
         const bool posed = all_hold(in, &still) == HOLDS_POSE;
-        build_or_idle(in, FIELD_VALUE, !still);
+        if (still) {
+            build_at_rest(in);
+        } else {
+            build_field(in, FIELD_VALUE, ui_row(ui, UI_ROW));
+        }
         build_holds(in);
         build_or_idle(in, FIELD_PHASE, posed);
         if (still) {

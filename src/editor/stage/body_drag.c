@@ -132,7 +132,7 @@ static double room_for(const struct spline *spline, double by, const struct knot
     *stops = NULL;
     for (int i = 0; i < spline->knot_count; i++) {
         const double value = spline->knots[i].value, within = spline_within(spline, value + by);
-        if (within == value + by || fabs(within - value) >= fabs(room)) continue;
+        if (spline->knots[i].still || within == value + by || fabs(within - value) >= fabs(room)) continue;
         room = within - value;
         *stops = &spline->knots[i];
     }
@@ -185,7 +185,8 @@ static double shift_spline(struct core *core, int spline, double way, char why[S
     if (by == 0) return 0;
     for (int i = 0; i < count; i++) {
         struct knot knot = core->document->splines[spline]->knots[i];
-        knot.value = spline_within(core->document->splines[spline], core_round(knot.value + by, RESOLUTION));
+        knot.value = core_round(knot.value + by, RESOLUTION);
+        if (!knot.still) knot.value = spline_within(core->document->splines[spline], knot.value);
         core_put_knot(core, spline, &knot);
     }
     shift_still(core, spline, by);

@@ -128,7 +128,7 @@ static void begin_from_rest(struct core *core, int spline, int sample)
     const struct spline *of = document->splines[spline];
     const double frame = document_frame(document, sample), first = document->first_frame;
     const double frequency = core_parameter_at(core, of, PARAMETER_FREQUENCY, sample);
-    struct knot still = {.stiffness = KNOT_DEFAULT_STIFFNESS, .still = true};
+    struct knot still = {.value = NAN, .stiffness = KNOT_DEFAULT_STIFFNESS, .still = true};
     if (of->knot_count > 0 || !(frequency > 0)) return;
     still.frame = frame - fmax(1, round(document->fps / (4 * frequency)));
     if (still.frame < first)

@@ -189,6 +189,12 @@ static const char *hover_hint(const struct core *core)
     };
     const struct hover *hover = &core->hover;
     if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
+    if (hover->kind == HOVER_KNOT) {
+        const struct spline *spline = core->document->splines[hover->spline];
+        const int k = spline_find_id(spline, hover->knot);
+        if (k >= 0 && spline->knots[k].still)
+            return "Comes to rest at the equilibrium; Shift+P gives it a value. Drag it in time (Ctrl: off frames)";
+    }
     if (hover->kind == HOVER_CURVE && hover->spline == core->active)
         return "Double-click to insert a knot on the curve, with Shift a pose; drag to select with a box";
     if (hover->kind == HOVER_JOINT && core->document->rigs[hover->rig]->kind == RIG_CHAIN)
