@@ -79,3 +79,20 @@ SESSION_TEST(test_playing_is_scrubbing, open_scene(s))
     session_key(s, KEY_RIGHT, MOD_SHIFT);
     assert_memory_equal(pose_of(s)->matrix, first.matrix, (JOINTS + 1) * sizeof first.matrix[0]);
 }
+
+static const char SETTLES[] =
+    "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"walk\", \"mode\": \"cubic\", \"knots\": ["
+    "{\"frame\": 0, \"value\": 0}, {\"frame\": 20, \"value\": 0.4}]}, {\"name\": \"swing\", \"frequency\": 1.5, "
+    "\"damping\": 0.3, \"wind_up\": 0.5, \"equilibrium\": {\"spline\": \"walk\"}, \"knots\": ["
+    "{\"frame\": 0, \"value\": 0}, {\"frame\": 40, \"value\": 5.4, \"settles\": true}]}], \"rigs\": [{\"type\": "
+    "\"tail\", \"name\": \"tail\", \"joints\": 24, \"position\": [{\"spline\": \"walk\"}, 0.26, 0], \"channels\": "
+    "[{\"spline\": \"swing\", \"axis\": \"side\", \"of\": \"displacement\", \"gain\": 2}]}]}";
+
+/// A tail that follows its body, and comes to bend by five times its gain, stays so; that the body stands aside does not bend it.
+SESSION_TEST(test_a_tail_that_follows_settles_bent, session_open(s, SETTLES))
+{
+    session_click(s, "ruler(20)");
+    assert_true(fabs(side_bend(pose_of(s), 3)) < 0.03);
+    session_click(s, "ruler(96)");
+    assert_near(fabs(side_bend(pose_of(s), 3)), 10 * 3.14159265358979 / 180, 0.01);
+}

@@ -236,7 +236,7 @@ double range_seconds(const struct export_range *range, double key)
 }
 
 /// In samples. A key that is meant to fall on a sample must not miss it by rounding: the last of a loop is the first.
-static double position_of(const struct export_range *range, double key)
+double range_position(const struct export_range *range, double key)
 {
     const struct document *document = range->posing->document;
     const double position = (range_frame(range, key) - document->first_frame) * document->substeps;
@@ -246,7 +246,7 @@ static double position_of(const struct export_range *range, double key)
 bool range_pose(const struct export_range *range, int rig, double key, struct rig_pose *pose, struct error *error)
 {
     const int body = rig_body(range->posing->document, rig);
-    if (rig_pose_body(range->posing, body, position_of(range, key), NULL, pose)) return true;
+    if (rig_pose_body(range->posing, body, range_position(range, key), NULL, pose)) return true;
     return fail(error, ERROR_INPUT, "rigs[%d]: its model could not be read", rig);
 }
 
@@ -256,14 +256,9 @@ const float *range_root(const struct export_range *range, int rig, const struct 
     return is_placed && range->posing->document->rigs[rig]->kind == RIG_MODEL ? pose->model.root : NULL;
 }
 
-wiggly_value range_value(const struct export_range *range, int spline, double key)
-{
-    return evaluation_at(range->posing->evaluation, spline, position_of(range, key));
-}
-
 bool range_is_inside(const struct export_range *range, double key)
 {
-    const double position = position_of(range, key);
+    const double position = range_position(range, key);
     return position >= 0 && position <= document_samples(range->posing->document) - 1;
 }
 

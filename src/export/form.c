@@ -71,7 +71,7 @@ void form_channels(const struct export_range *range, int rig, const struct rig_p
     if (!strand_find(range->posing, rig_body(document, rig), rig, &strand)) return;
     for (int c = 0; c < strand.channel_count; c++) {
         const struct channel *channel = &strand.channels[c];
-        const wiggly_value value = range_value(range, channel->spline, key);
+        const wiggly_value value = channel_value(range->posing, channel, range_position(range, key));
         if (!axis_bends(channel->axis))
             column(user, channel_moves(channel, value, 1, range->posing->look), "%s.%s.%s", name,
                    axis_word(channel->axis), document->splines[channel->spline]->name);

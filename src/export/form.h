@@ -94,8 +94,8 @@ bool range_pose(const struct export_range *range, int rig, double key, struct ri
 /// has it. Of all other rigs NULL: their forms are in the stage's space.
 const float *range_root(const struct export_range *range, int rig, const struct rig_pose *pose);
 
-/// A spline's value at a key.
-wiggly_value range_value(const struct export_range *range, int spline, double key);
+/// A key's position in the document, samples.
+double range_position(const struct export_range *range, double key);
 
 /// Whether a key's time is within the document.
 bool range_is_inside(const struct export_range *range, double key);

@@ -40,7 +40,7 @@ static bool write_row(struct export_range *range, double key, struct row *row, s
     row->columns = 0;
     write_column(row, range_frame(range, key), "frame");
     for (int i = 0; i < document->spline_count; i++) {
-        const wiggly_value value = range_value(range, i, key);
+        const wiggly_value value = evaluation_at(range->posing->evaluation, i, range_position(range, key));
         write_column(row, value.y + value.re, "%s", document->splines[i]->name);
     }
     for (int r = 0; r < range->rig_count; r++) {

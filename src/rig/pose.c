@@ -9,14 +9,12 @@ _Static_assert((int)TAIL_MAX_JOINTS <= (int)POSE_MAX_JOINTS, "a pose holds every
 double channel_bend(const struct channel *channel, wiggly_value value, int n, int joints, enum look look)
 {
     const double lag = look == LOOK_STIFF ? 0.0 : radians(angles_lag(&channel->lag, n, joints));
-    if (channel->of == PART_DISPLACEMENT) value.y = 0.0;
     return radians(angles_at(&channel->gain, n, joints)) * wiggly_lagged(value, lag);
 }
 
 double channel_moves(const struct channel *channel, wiggly_value value, int n, enum look look)
 {
     const double lag = look == LOOK_STIFF ? 0.0 : n * radians(angles_at(&channel->lag, 0, 1));
-    if (channel->of == PART_DISPLACEMENT) value.y = 0.0;
     return angles_at(&channel->gain, 0, 1) * wiggly_lagged(value, lag);
 }
 

@@ -69,8 +69,11 @@ int rig_body(const struct document *document, int rig);
 /// The box around a posed rig that is a body, metres.
 void rig_bounds(const struct rig_pose *pose, float lo[3], float hi[3]);
 
-/// The angle, radians, by which a channel bends joint n of `joints` (eq. 27): gain·(y + Re(e^{−j·lag} x)), without y for
-/// PART_DISPLACEMENT. LOOK_STIFF takes every lag as 0.
+/// A channel's value at a position. Of PART_DISPLACEMENT y is how far settling knots have moved the equilibrium, without what that follows.
+wiggly_value channel_value(const struct posing *posing, const struct channel *channel, double position);
+
+/// The angle, radians, by which a channel bends joint n of `joints` (eq. 27): gain·(y + Re(e^{−j·lag} x)) of a channel_value(). LOOK_STIFF takes
+/// every lag as 0.
 double channel_bend(const struct channel *channel, wiggly_value value, int n, int joints, enum look look);
 
 /// How far a channel moves the n-th joint, from 1 on, of a body part, degrees or percent: gain·(y + Re(e^{−j·n·lag} x)).

@@ -57,6 +57,10 @@ const double *evaluation_motion(const struct evaluation *evaluation, int spline)
 /// A spline's value at a position in samples, possibly between two. Zeros if there is no such spline or `evaluation` is NULL.
 wiggly_value evaluation_at(const struct evaluation *evaluation, int spline, double position);
 
+/// How far settling knots have moved a spline's equilibrium at a position; 0 if it is not solved.
+double evaluation_offset(const struct evaluation *evaluation, const struct document *document, int spline,
+                         double position);
+
 /// Where a pin's point was in the last update.
 struct pin_left {
     bool is_found; ///< false: no such point, for example because the model is missing

@@ -18,6 +18,23 @@ const double *evaluation_motion(const struct evaluation *evaluation, int spline)
     return baked->key != 0 ? baked->samples : NULL;
 }
 
+double evaluation_offset(const struct evaluation *evaluation, const struct document *document, int spline,
+                         double position)
+{
+    bool settles = false;
+    if (!evaluation || spline >= evaluation->count || evaluation->samples == 0) return 0;
+    const struct spline *of = document->splines[spline];
+    for (int k = 0; k < of->knot_count; k++) settles |= of->knots[k].settles;
+    if (!settles) return 0;
+    const double *own = track_of(evaluation, document, spline, PARAMETER_EQUILIBRIUM);
+    const double at = fmin(fmax(position, 0), evaluation->samples - 1),
+                 number = of->parameter[PARAMETER_EQUILIBRIUM].value;
+    const int i = (int)at, next = i + 1 < evaluation->samples ? i + 1 : i;
+    const double *y = evaluation->curves[spline].y;
+    const double here = y[i] - (own ? own[i] : number), there = y[next] - (own ? own[next] : number);
+    return here + (at - i) * (there - here);
+}
+
 wiggly_desc storage_describe(const struct evaluation *evaluation, const struct document *document, int spline,
                              bool cubic)
 {
