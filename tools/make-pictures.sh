@@ -93,7 +93,7 @@ picture bones.png 60 --replay "$scratch/bones.replay" assets/models/dog.glb
 picture dog.png 130 assets/scenes/dog.json
 picture swing.png 100 --replay "$scratch/swing.replay"
 row flick.png idle 255x230+115+15 29 33 35 44 60
-row held.png held 345x250+75+15 0 46 52 58 66 140
+row held.png held 345x250+75+15 0 46 56 62 68 144
 picture figure7.png 60 assets/scenes/figure7.json
 
 # docs/blender.md, with a Python that has bpy.
