@@ -226,12 +226,12 @@ static inline void session_open(struct session *session, const char *scene)
     session_frame(session);
 }
 
-/// Opens the app's built-in scene.
-static inline void session_open_start(struct session *session)
+/// The same with a scene's file.
+static inline void session_open_file(struct session *session, const char *path)
 {
     char *text;
     size_t size;
-    assert_done(file_read("assets/scenes/tail.json", 1 << 20, &text, &size, &error));
+    assert_done(file_read(path, 1 << 20, &text, &size, &error));
     session_open(session, text);
     free(text);
 }

@@ -43,8 +43,10 @@ static void drag_far(struct session *s)
     s->mods = 0;
 }
 
-TEST_OF(struct session, s, session_open_start(s), session_close(s),
-        test_a_drag_on_the_stage_says_that_the_curve_swings_far)
+/// The start scene as it was before wind-up.
+static const char whole[] = "tests/replays/session.json";
+
+SESSION_TEST(test_a_drag_on_the_stage_says_that_the_curve_swings_far, session_open_file(s, whole))
 {
     double knot;
     assert_int_equal(s->editor->curves->warnings.count, 0);
@@ -59,8 +61,18 @@ TEST_OF(struct session, s, session_open_start(s), session_close(s),
     }
 }
 
+/// With wind-up the same drag stays within twice what it sets.
+SESSION_TEST(test_the_start_scene_bears_the_same_drag, session_open_file(s, "assets/scenes/tail.json"))
+{
+    double knot;
+    drag_far(s);
+    assert_non_null(s->editor->core.drag.owner);
+    for (int i = 0; i < 2; i++) assert_true(farthest(s, i, &knot) < 2 * knot);
+    assert_int_equal(s->editor->curves->warnings.count, 0);
+}
+
 /// One click leaves what swings least, as one step.
-TEST_OF(struct session, s, session_open_start(s), session_close(s), test_one_click_holds_what_swings_far)
+SESSION_TEST(test_one_click_holds_what_swings_far, session_open_file(s, whole))
 {
     double knot;
     drag_far(s);

@@ -1,20 +1,12 @@
 /// The inspector at the first start: what an animator needs first, each further section when it is wanted, and More for the rest.
 #include "panel_session.h"
 
-#include "base/file.h"
-
-static void open_file(struct session *s, const char *path)
+static void open_first(struct session *s)
 {
-    char *text;
-    size_t size;
-    assert_done(file_read(path, 1 << 20, &text, &size, &error));
-    session_open(s, text);
-    free(text);
+    session_open_file(s, "assets/scenes/tail.json");
     s->editor->core.more = false;
     session_frame(s);
 }
-
-static void open_first(struct session *s) { open_file(s, "assets/scenes/tail.json"); }
 
 /// Controls that Tab reaches, without the headers of sections; the comparison counts once.
 static int count_controls(const struct session *s)

@@ -100,7 +100,7 @@ static void pull_at(struct session *session, double frame, const char *target, f
     assert_near(hypotf(after[0] - before[0], after[1] - before[1]), 0, 0.01); // letting go moves nothing
 }
 
-SESSION_TEST(a_tail_that_is_let_go_is_held, session_open_start(s))
+SESSION_TEST(a_tail_that_is_let_go_is_held, session_open_file(s, "assets/scenes/tail.json"))
 {
     const char *before = session_saved(s);
     pull_at(s, 60, "tail(tail,0.9)", 60, -40);

@@ -36,17 +36,17 @@ replay() { # <name> [scene], events on standard input
 
 # Drags a knot up, shakes it and brings it back, in a window of 960×600 that plays the scene in a loop.
 drag_events() {
-    echo "20 pointer @knot(sway,2)"
-    echo "36 press left @knot(sway,2)"
+    echo "20 pointer @knot(sway,3)"
+    echo "36 press left @knot(sway,3)"
     awk 'function ease(t) { return t < 0 ? 0 : t > 1 ? 1 : t * t * (3 - 2 * t) }
         BEGIN {
             for (f = 37; f <= 262; f++) {
                 up = ease((f - 40) / 60) - ease((f - 190) / 60)
                 shake = sin(0.07 * (f - 100)) * ease((f - 100) / 20) * (1 - ease((f - 180) / 15))
-                printf "%d pointer @curve(sway,%.2f,%.4f)\n", f, 56 + 2 * shake, 0.4 + 0.75 * up + 0.35 * shake
+                printf "%d pointer @curve(sway,%.2f,%.4f)\n", f, 66 + 2 * shake, -1.1 + 0.9 * up + 0.35 * shake
             }
         }'
-    echo "264 release left @curve(sway,56,0.4)"
+    echo "264 release left @curve(sway,66,-1.1)"
     echo "268 pointer @stage(0.02,0.95)"
 }
 
