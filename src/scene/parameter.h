@@ -95,7 +95,7 @@ enum { PARAMETER_MAX_WORDS = 3 };
 struct parameter_row {
     const char *name; ///< on screen, and in the file
     const char *key;  ///< in the file, where that is another
-    const char *unit; ///< or NULL
+    const char *unit; ///< on screen, or NULL; a wind-up's numbers are periods
     const char *hint, *undo;
     const char *letter; ///< key held while arrows change it, or NULL
     enum parameter_kind kind;
@@ -108,7 +108,7 @@ struct parameter_row {
     double standard; ///< if a file does not contain it
     enum parameter_print print;
     double fresh; ///< of a new spline
-    double step;  ///< of arrow keys
+    double step;  ///< of arrow keys, in `unit`
     int decimals;
     const char *words[PARAMETER_MAX_WORDS + 1]; ///< of a choice, in the file
     const char *labels[PARAMETER_MAX_WORDS];    ///< on screen

@@ -203,15 +203,14 @@ static void build_wind_up(struct inspector *in)
     }
     const struct number_row number = {.name = row->name,
                                       .label = row->name,
-                                      .unit = "frames",
+                                      .unit = row->unit,
                                       .hint = row->hint,
                                       .undo = row->undo,
                                       .maximum = longest_wind_up(in),
                                       .lowest = 1,
                                       .highest = INFINITY,
                                       .fallback = row->fresh * period_frames(in),
-                                      .step = 1,
-                                      .decimals = 0};
+                                      .step = row->step};
     struct rect r = ui_row(&in->ui, UI_ROW);
     if (in->core->more) r.w -= UI_ROW + 2; // lines up, too
     inspector_number(in, &number, &home, 0, r);
