@@ -26,10 +26,7 @@ bool pins_hold_any(const struct document *document)
 bool pins_move_spline(const struct document *document, int spline)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = document->rigs[r];
-        for (int i = 0; is_held(rig) && i < rig_input_count(rig); i++) {
-            if (rig_point_input(rig, i) == spline) return true;
-        }
+        if (is_held(document->rigs[r]) && rig_is_moved(document->rigs[r], spline)) return true;
     }
     return false;
 }
@@ -165,10 +162,7 @@ bool pins_check(const struct document *document, struct pin_trouble *trouble)
 static int pinned_rig_of(const struct document *document, int spline)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = document->rigs[r];
-        for (int i = 0; is_held(rig) && i < rig_input_count(rig); i++) {
-            if (rig_point_input(rig, i) == spline) return r;
-        }
+        if (is_held(document->rigs[r]) && rig_is_moved(document->rigs[r], spline)) return r;
     }
     return 0;
 }

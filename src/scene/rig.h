@@ -226,6 +226,9 @@ int rig_input(const struct rig *rig, int input);
 int rig_point_input(const struct rig *rig, int input);
 int rig_point_spline(const struct rig *rig);
 
+/// Whether a spline is such an input.
+bool rig_is_moved(const struct rig *rig, int spline);
+
 /// Its channels and how many; NULL and 0 if its kind has none.
 struct channel *rig_channels(const struct rig *rig, int *count);
 

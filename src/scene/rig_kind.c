@@ -49,6 +49,14 @@ int rig_point_spline(const struct rig *rig)
     return -1;
 }
 
+bool rig_is_moved(const struct rig *rig, int spline)
+{
+    const int count = rig_input_count(rig);
+    int i = 0;
+    while (i < count && rig_point_input(rig, i) != spline) i++;
+    return i < count;
+}
+
 struct channel *rig_channels(const struct rig *rig, int *count)
 {
     const bool is_bent = kinds[rig->kind]->is_bent;
