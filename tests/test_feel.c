@@ -1,4 +1,5 @@
-/// What an animator feels first: presets, time to settle, wind-up, what stays in its place, and a sentence on every control near the pointer.
+/// What an animator feels first: presets, time to settle, wind-up, what is the limb's, what stays in its place, and a sentence on every control
+/// near the pointer.
 #include "panel_session.h"
 
 static const char tail_scene[] =
@@ -19,7 +20,8 @@ SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
     assert_near(of(s, PARAMETER_FREQUENCY)->value, 1.8, 0);
     assert_near(of(s, PARAMETER_DAMPING)->value, 0.12, 0);
     assert_near(document_tail(s->document, 0)->channels[0].lag.value[0], 130, 0); // 260° over two joints
-    assert_near(document_tail(s->document, 0)->channels[1].lag.value[0], 5, 0);
+    assert_near(document_tail(s->document, 0)->channels[1].lag.value[0], 130, 0);
+    assert_near(of(s, PARAMETER_WIND_UP)->value, 0.35, 0);
     assert_one_step(s, before);
     session_key(s, 'Z', MOD_CTRL);
     panel_click(s, "spline.pace"); // a cubic begins to swing; it bends nothing
@@ -27,6 +29,144 @@ SESSION_TEST(test_a_preset_is_one_step, panel_open(s, tail_scene, 1280, 720))
     assert_int_equal(spline_mode(s->document->splines[1]), WIGGLY_COMPLEX);
     assert_near(of(s, PARAMETER_FREQUENCY)->value, 5, 0);
     assert_near(document_tail(s->document, 0)->channels[0].lag.value[0], 6.5, 0);
+}
+
+static const char limb_scene[] =
+    "{\"frames\": [0, 96], \"splines\": ["
+    "{\"name\": \"bend\", \"frequency\": 1.1, \"damping\": 0.1, \"knots\": [{\"frame\": 0, \"value\": 1}]},"
+    "{\"name\": \"lift\", \"frequency\": 1.4, \"damping\": 0.1, \"wind_up\": 0.5, \"knots\": []},"
+    "{\"name\": \"led\", \"frequency\": {\"spline\": \"pace\"}, \"damping\": 0.2, \"knots\": []},"
+    "{\"name\": \"still\", \"mode\": \"real\", \"frequency\": 0, \"damping\": 1.2, \"knots\": []},"
+    "{\"name\": \"breath\", \"frequency\": 0.5, \"damping\": 0.1, \"knots\": []},"
+    "{\"name\": \"pace\", \"mode\": \"cubic\", \"knots\": [{\"frame\": 0, \"value\": 2}]}],"
+    "\"rigs\": [{\"type\": \"tail\", \"name\": \"brush\", \"joints\": 3, \"channels\": ["
+    "{\"spline\": \"bend\", \"axis\": \"side\", \"lag\": 6}, {\"spline\": \"lift\", \"axis\": \"up\", \"lag\": [1, "
+    "-4, 2]},"
+    "{\"spline\": \"led\", \"axis\": \"up\", \"lag\": 0}, {\"spline\": \"still\", \"axis\": \"side\", \"lag\": 3},"
+    "{\"spline\": \"breath\", \"axis\": \"breath\", \"lag\": 2}]}]}";
+
+static void preset(struct session *s) { panel_click(s, "preset.heavy"); }
+static void type_frequency(struct session *s) { panel_enter(s, "frequency", "2.2"); }
+static void drag_damping(struct session *s)
+{
+    panel_drag(s, "damping", 0.2);
+    panel_release(s);
+}
+static void type_wind_up(struct session *s) { panel_enter(s, "wind-up", "11"); }
+static void type_settle(struct session *s)
+{
+    s->editor->core.more = true;
+    session_frame(s);
+    panel_enter(s, "settle", "1.2");
+}
+static void press_f_up(struct session *s)
+{
+    session_hold(s, 'F', ACTION_PRESS);
+    session_key(s, KEY_UP, 0);
+    session_hold(s, 'F', ACTION_RELEASE);
+}
+static void with_alt(struct session *s)
+{
+    s->mods = MOD_ALT;
+    type_frequency(s);
+    s->mods = 0;
+}
+static void after_the_curve(struct session *s)
+{
+    const wiggly_value here = evaluation_at(s->editor->core.evaluation, 0, 20);
+    char curve[64];
+    snprintf(curve, sizeof curve, "curve(bend,20,%g)", here.y + here.re);
+    session_click(s, curve);
+    type_frequency(s);
+}
+static void after_the_row(struct session *s)
+{
+    panel_click(s, "spline.bend");
+    type_frequency(s);
+}
+static void after_the_tail(struct session *s)
+{
+    panel_click(s, "spline.bend");
+    session_click(s, "tail(brush,0.8)");
+    type_frequency(s);
+}
+
+/// Of bend, lift, led, still and breath. Ratios stay, 0 and what follows a spline too; a preset keeps the ratios of frequencies alone.
+SESSION_TEST(test_a_weight_is_the_limbs, panel_open(s, limb_scene, 1280, 900))
+{
+    static const struct {
+        void (*change)(struct session *s);
+        enum parameter parameter;
+        double values[5];
+    } cases[] = {
+        {type_frequency, PARAMETER_FREQUENCY, {2.2, 2.8, 0, 0, 0.5}},
+        {press_f_up, PARAMETER_FREQUENCY, {1.15, 1.463636, 0, 0, 0.5}},
+        {preset, PARAMETER_FREQUENCY, {0.5, 0.636364, 0, 0, 0.5}},
+        {preset, PARAMETER_DAMPING, {0.35, 0.35, 0.35, 0.35, 0.1}},
+        {preset, PARAMETER_WIND_UP, {0.7, 0.7, 0.7, 0, 0}},
+        {drag_damping, PARAMETER_DAMPING, {0.2, 0.2, 0.4, 2.4, 0.1}},
+        {type_wind_up, PARAMETER_WIND_UP, {0.5042, 0.5, 0.5042, 0, 0}},
+        {type_settle, PARAMETER_DAMPING, {0.3612, 0.3612, 0.7224, 4.3344, 0.1}},
+        {with_alt, PARAMETER_FREQUENCY, {2.2, 1.4, 0, 0, 0.5}},
+        {after_the_curve, PARAMETER_FREQUENCY, {2.2, 1.4, 0, 0, 0.5}},
+        {after_the_row, PARAMETER_FREQUENCY, {2.2, 1.4, 0, 0, 0.5}},
+        {after_the_tail, PARAMETER_FREQUENCY, {2.2, 2.8, 0, 0, 0.5}},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        session_close(s);
+        panel_open(s, limb_scene, 1280, 900);
+        s->editor->core.more = false;
+        const char *before = session_saved(s);
+        cases[i].change(s);
+        for (int k = 0; k < 5; k++) {
+            const struct param *param = &s->document->splines[k]->parameter[cases[i].parameter];
+            if (fabs(param->value - cases[i].values[k]) > 1e-4)
+                fail_msg("case %zu: %g of %s", i, param->value, s->document->splines[k]->name);
+            assert_int_equal(param->track, cases[i].parameter == PARAMETER_FREQUENCY && k == 2 ? 5 : -1);
+        }
+        assert_one_step(s, before);
+    }
+}
+
+static void assert_lags(const struct session *s, double bend, double lift, double led, double still)
+{
+    const struct channel *c = document_tail(s->document, 0)->channels;
+    const double lags[] = {bend, lift, led, still, 2};
+    for (int k = 0; k < 5; k++) assert_near(angles_largest(&c[k].lag), lags[k], 1e-5);
+    assert_near(c[1].lag.value[0], -lift / 4, 1e-5);
+}
+
+SESSION_TEST(test_a_lag_is_the_limbs, panel_open(s, limb_scene, 1280, 900))
+{
+    panel_enter(s, "lag", "12");
+    assert_lags(s, 12, -8, 0, 6);
+    s->mods = MOD_ALT;
+    panel_enter(s, "lag", "6");
+    s->mods = 0;
+    assert_lags(s, 6, -8, 0, 6);
+    session_hold(s, 'L', ACTION_PRESS);
+    for (int i = 0; i < 6; i++) session_key(s, KEY_UP, 0);
+    session_hold(s, 'L', ACTION_RELEASE);
+    assert_lags(s, 9, -12, 0, 9);
+    panel_click(s, "spline.led");
+    panel_enter(s, "lag", "4");
+    assert_lags(s, 9, -12, 4, 9);
+}
+
+/// The heading says what the rows are of, also while Alt is held.
+SESSION_TEST(test_the_heading_names_the_limb, panel_open(s, limb_scene, 1280, 900))
+{
+    assert_true(session_shows(s, "Feel · brush (4 splines)"));
+    session_send(s, (struct event){.kind = EVENT_KEY, .key = 0, .action = ACTION_PRESS, .mods = MOD_ALT});
+    session_frame(s);
+    assert_true(session_shows(s, "Feel · bend"));
+    session_send(s, (struct event){.kind = EVENT_KEY, .key = 0, .action = ACTION_RELEASE});
+    session_frame(s);
+    assert_true(session_shows(s, "Feel · brush (4 splines)"));
+    for (int i = 0; i < 4; i++) session_key(s, KEY_PAGE_DOWN, 0);
+    assert_true(session_shows(s, "Feel · breath"));
+    session_click(s, "tail(brush,0.8)");
+    assert_true(session_shows(s, "Feel · brush (4 splines)"));
 }
 
 /// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ).

@@ -49,6 +49,29 @@ TEST(a_character_behind_a_tail_is_edited)
     session_close(&s);
 }
 
+/// Both coordinates are one limb, until one spline is chosen.
+TEST(a_lag_is_the_characters)
+{
+    struct session s;
+    char scene[600];
+    snprintf(
+        scene, sizeof scene,
+        "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}, {\"name\": \"t\", \"knots\": []}], "
+        "\"rigs\": [{\"type\": \"character\", \"model\": \"%s\", \"coordinates\": [{\"name\": \"a\", \"spline\": "
+        "\"s\", \"lag\": 20}, {\"name\": \"b\", \"spline\": \"t\", \"lag\": 30}]}]}",
+        model());
+    panel_open_models(&s, scene);
+    session_frame(&s);
+    panel_enter(&s, "drive.lag", "40");
+    assert_near(document_character(s.document, 0)->drives[0].lag, 40, 0);
+    assert_near(document_character(s.document, 0)->drives[1].lag, 60, 0);
+    panel_click(&s, "spline.t");
+    panel_enter(&s, "drive.lag", "15");
+    assert_near(document_character(s.document, 0)->drives[0].lag, 40, 0);
+    assert_near(document_character(s.document, 0)->drives[1].lag, 15, 0);
+    session_close(&s);
+}
+
 static const struct stage_character *on_stage(const struct session *s, int index)
 {
     const struct stage_view *view = editor_stage(s->editor);

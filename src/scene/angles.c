@@ -57,6 +57,28 @@ void angles_set_number(struct angles *angles, int index, double degrees)
     }
 }
 
+/// Index of the angle farthest from 0.
+static int peak(const struct angles *angles)
+{
+    int found = 0;
+    for (int i = 1; i < angles_count(angles); i++) {
+        if (fabs(angles_number(angles, i)) > fabs(angles_number(angles, found))) found = i;
+    }
+    return found;
+}
+
+double angles_largest(const struct angles *angles) { return angles_number(angles, peak(angles)); }
+
+void angles_scale(struct angles *angles, double degrees)
+{
+    const int largest = peak(angles);
+    const double before = angles_number(angles, largest);
+    for (int i = 0; i < angles_count(angles); i++) {
+        const double scaled = before == 0 ? degrees : angles_number(angles, i) * (degrees / before);
+        angles_set_number(angles, i, i == largest ? degrees : scaled);
+    }
+}
+
 /// An array with one number per joint.
 static void load_each(struct reader *reader, struct value value, struct angles *angles)
 {

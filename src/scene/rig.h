@@ -45,6 +45,9 @@ double angles_lag(const struct angles *lag, int joint, int joints);
 int angles_count(const struct angles *angles);
 double angles_number(const struct angles *angles, int index);
 void angles_set_number(struct angles *angles, int index, double degrees);
+/// The angle farthest from 0, and scaling all so that it becomes `degrees` (from 0 on, all become that).
+double angles_largest(const struct angles *angles);
+void angles_scale(struct angles *angles, double degrees);
 
 bool angles_equal(const struct angles *a, const struct angles *b);
 

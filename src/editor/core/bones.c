@@ -88,6 +88,7 @@ void bones_make_chain(struct core *core, int follow)
     core_begin(core, follow ? "Make chain that follows" : "Make chain", 0);
     if (!core_end(core, chain_make(core->document, core->models, &wish, &rig, &core->error))) return;
     core_activate(core, rig_input(core->document->rigs[rig], 0));
+    core->limb = core->document->rigs[rig]->id;
     core->refit_curves = !has_splines;
     tell(core, core->document->rigs[rig], model, follow);
 }

@@ -215,6 +215,12 @@ void core_activate(struct core *core, int spline)
     core_turn_to(core, spline);
 }
 
+void core_choose(struct core *core, int spline)
+{
+    core->limb = 0;
+    core_activate(core, spline);
+}
+
 void core_flip(struct core *core, int which)
 {
     const struct {

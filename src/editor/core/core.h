@@ -55,6 +55,8 @@ void core_stopped(struct core *core, const char *why);
 struct spline *core_active_spline(const struct core *core);
 /// Activates a spline and clears the selection.
 void core_activate(struct core *core, int spline);
+/// The same for a spline chosen by itself: Feel then acts on no other.
+void core_choose(struct core *core, int spline);
 /// Activates a spline and keeps the selection.
 void core_turn_to(struct core *core, int spline);
 /// The switches of core_flip().

@@ -237,5 +237,5 @@ const struct knot *core_extend_selection(struct core *core, int direction)
 void core_activate_neighbour(struct core *core, int direction)
 {
     int count = core->document->spline_count;
-    if (count > 0) core_activate(core, ((core->active + direction) % count + count) % count);
+    if (count > 0) core_choose(core, ((core->active + direction) % count + count) % count);
 }

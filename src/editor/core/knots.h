@@ -49,7 +49,19 @@ void slopes_set(struct core *core, int how);
 /// Sets the frequency and damping that explain the knots best, or second best if those are set already.
 void core_find_frequency(struct core *core, int unused);
 
-/// The channel the active spline moves, else the first channel of all; NULL if there are none.
+/// The rig that Feel acts on as a whole: the one chosen last, while the active spline bends or drives it; -1: the active spline alone.
+int core_limb(const struct core *core);
+/// Sets a parameter of the active spline. Frequency, damping and wind-up also change for the limb's (-1: none) other splines that use
+/// them: to the same value if `alike`, else by core_in_step(). What follows a spline still does. Edits.
+bool core_set_felt(struct core *core, int limb, enum parameter parameter, double value, bool alike,
+                   struct error *error);
+/// Sets a channel's lag, and scales those of the limb's other channels that bend. Edits.
+bool core_set_lag(struct core *core, int limb, struct channel_place at, const struct angles *lag,
+                  struct error *error);
+/// A number changed by the factor that took another from `before` to `now`. From 0 there is none: a 0 becomes `now`, others stay.
+double core_in_step(double other, double before, double now);
+
+/// The channel the active spline moves, of the limb if possible, else the first channel of all; NULL if there are none.
 const struct channel *core_active_channel(const struct core *core, int *rig, int *channel);
 /// End of a parameter's slider; 0: none.
 double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);

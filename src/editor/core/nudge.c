@@ -12,12 +12,14 @@ enum { NUDGE_PARAMETER = 100 }; ///< kind for core_merge_key()
 const struct channel *core_active_channel(const struct core *core, int *rig, int *channel)
 {
     const struct channel *first = NULL;
+    const int limb = core_limb(core);
     for (int r = core->document->rig_count - 1; r >= 0; r--) {
         int count;
         const struct channel *channels = rig_channels(core->document->rigs[r], &count);
         for (int c = count - 1; c >= 0; c--) {
             const struct channel *candidate = &channels[c];
-            if (first && first->spline == core->active && candidate->spline != core->active) continue;
+            const bool suits = first && first->spline == core->active;
+            if (suits && (candidate->spline != core->active || (*rig == limb && r != limb))) continue;
             first = candidate;
             *rig = r;
             *channel = c;
@@ -43,7 +45,7 @@ static void nudge_lag(struct core *core, double degrees)
     const struct channel_place at = {rig, channel};
     const uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(rig * 4096 + channel);
     if (!core_begin(core, "Change lag", core_merge_key(core, kind))) return;
-    core_end(core, edit_angles(core->document, at, ANGLE_LAG, &lag, &core->error));
+    core_end(core, core_set_lag(core, core_limb(core), at, &lag, &core->error));
 }
 
 /// Of the largest value.
@@ -102,7 +104,7 @@ static void nudge_one(struct core *core, const struct spline *spline, enum param
     param.value = fmin(fmax(param.value, parameter_rows[parameter].minimum), most);
     if (param.value == before->value) return;
     if (!core_begin(core, "Change parameter", core_merge_key(core, NUDGE_PARAMETER + parameter))) return;
-    core_end(core, edit_parameter(core->document, core->active, parameter, &param, &core->error));
+    core_end(core, core_set_felt(core, core_limb(core), parameter, param.value, false, &core->error));
 }
 
 void core_nudge_parameter(struct core *core, int direction)

@@ -7,12 +7,16 @@
 #include <math.h>
 #include <string.h>
 
-/// The first active spline: the first that moves something, else the first; -1 if none.
-static int first_spline(const struct document *document)
+/// The first active spline: the first that moves something, with its rig as the limb, else the first; -1 if none.
+static int first_spline(struct core *core)
 {
+    const struct document *document = core->document;
+    core->limb = 0;
     for (int kind = 0; kind < RIG_KINDS; kind++) {
         for (int r = -1; (r = document_next_rig(document, (enum rig_kind)kind, r)) >= 0;) {
-            if (rig_input_count(document->rigs[r]) > 0) return rig_input(document->rigs[r], 0);
+            if (rig_input_count(document->rigs[r]) == 0) continue;
+            core->limb = document->rigs[r]->id;
+            return rig_input(document->rigs[r], 0);
         }
     }
     return document->spline_count > 0 ? 0 : -1;
@@ -52,7 +56,7 @@ void core_open(struct core *core)
     pins_clear(core);
     core->pick = (struct bone_pick){0};
     memset(core->recent, 0, sizeof core->recent);
-    core->active = first_spline(document);
+    core->active = first_spline(core);
     core->active_id = core->active >= 0 ? document->splines[core->active]->id : 0;
     core->held_key = 0;
     core->space_down = false;

@@ -324,6 +324,7 @@ struct core {
     struct presenter presenter;
     int active;                       ///< spline, or -1
     unsigned active_id;               ///< its id, to find it when the list changes
+    unsigned limb;                    ///< id of the rig chosen last, see core_limb(); 0: a spline was
     unsigned recent[CORE_MAX_RECENT]; ///< ids of previously active splines, the latest first
     struct selection selection;
     struct selection hidden, solo; ///< sets of spline ids

@@ -158,6 +158,7 @@ static void press_knot(struct curves *curves, struct core *core, const struct ho
     unsigned id = hover->knot;
     bool selected = selection_has(&core->selection, id);
     core_turn_to(core, hover->spline);
+    core->limb = 0;
     if (event->clicks == 2) {
         const struct spline *spline = core->document->splines[hover->spline];
         playback_seek(core, spline->knots[spline_find_id(spline, id)].frame);
@@ -191,7 +192,7 @@ static void press_empty(struct curves *curves, struct core *core, const struct h
         return;
     }
     const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
-    if (hover->kind == HOVER_CURVE && !keeps) core_activate(core, hover->spline);
+    if (hover->kind == HOVER_CURVE && !keeps) core_choose(core, hover->spline);
     box_begin(curves, core, event);
 }
 

@@ -94,7 +94,7 @@ void sheet_press_row(struct curves *curves, struct core *core, int spline, const
 {
     const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
     const bool inside = rect_contains(core->layout.sheet, event->x, event->y);
-    if (!keeps || event->clicks == 2) core_activate(core, spline);
+    if (!keeps || event->clicks == 2) core_choose(core, spline);
     if (!inside) return;
     if (event->clicks == 2) {
         core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),

@@ -3,6 +3,7 @@
 #include "base/error.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
+#include "editor/core/knots.h"
 #include "editor/inspector/parts.h"
 #include "maths/maths.h"
 #include <math.h>
@@ -20,27 +21,6 @@ static const struct number_row rows[] = {
                     -36000, 36000, 5, 0.5, 1},
 };
 
-/// The largest angle, which the slider shows and sets.
-static int peak(const struct angles *angles)
-{
-    int found = 0;
-    for (int i = 1; i < angles_count(angles); i++) {
-        if (fabs(angles_number(angles, i)) > fabs(angles_number(angles, found))) found = i;
-    }
-    return found;
-}
-
-/// Scales all angles so that the largest becomes `value`.
-static void scale_angles(struct angles *angles, double value)
-{
-    const int largest = peak(angles);
-    const double before = angles_number(angles, largest);
-    for (int i = 0; i < angles_count(angles); i++) {
-        const double scaled = before == 0 ? value : angles_number(angles, i) * (value / before);
-        angles_set_number(angles, i, i == largest ? value : scaled);
-    }
-}
-
 static bool set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles, struct error *error)
 {
     const int channel = kind == ANGLE_REST ? -1 : in->channel;
@@ -52,7 +32,7 @@ bool inspector_set_angles(struct inspector *in, enum angle_kind kind, const stru
     return set_angles(in, kind, angles, &in->core->error);
 }
 
-/// scale_angles() as an undo step.
+/// As an undo step.
 static void change_angles(struct inspector *in, enum angle_kind kind, enum ui_change change, const char *label,
                           const char *what, const struct angles *angles)
 {
@@ -77,17 +57,14 @@ static const struct angles *angles_of(const struct inspector *in, int kind)
     return kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
 
-static double get_largest(const struct inspector *in, int kind)
-{
-    const struct angles *angles = angles_of(in, kind);
-    return angles_number(angles, peak(angles));
-}
+static double get_largest(const struct inspector *in, int kind) { return angles_largest(angles_of(in, kind)); }
 
 static bool set_largest(struct inspector *in, int kind, double number, struct error *error)
 {
     struct angles next = *angles_of(in, kind);
-    scale_angles(&next, number);
-    return set_angles(in, (enum angle_kind)kind, &next, error);
+    angles_scale(&next, number);
+    if (kind != ANGLE_LAG) return set_angles(in, (enum angle_kind)kind, &next, error);
+    return core_set_lag(in->core, inspector_limb(in), (struct channel_place){in->rig, in->channel}, &next, error);
 }
 
 /// Gains of channels that move the body may be in percent.

@@ -3,6 +3,7 @@
 #include "base/need.h"
 #include "editor/core/characters.h"
 #include "editor/core/core.h"
+#include "editor/core/knots.h"
 #include "editor/inspector/parts.h"
 #include "rig/models.h"
 #include <stdio.h>
@@ -16,7 +17,7 @@ static void choose(struct inspector *in, int drive)
 {
     const struct character_view *view = &in->core->characters;
     const struct character_rig *rig = document_character(in->core->document, view->character);
-    core_activate(in->core, rig->drives[drive].spline);
+    core_choose(in->core, rig->drives[drive].spline);
     in->core->characters.drive = drive; // two channels may share a spline
 }
 
@@ -67,11 +68,22 @@ static bool set_drive(struct inspector *in, const struct drive *drive, struct er
     return edit_drive(in->core->document, characters_rig(in->core), in->core->characters.drive, drive, error);
 }
 
+/// The lags of a limb's other drives go with it.
 static bool set_drive_number(struct inspector *in, int which, double number, struct error *error)
 {
-    struct drive drive = *(const struct drive *)felt_drive(in);
+    const int owner = characters_rig(in->core), chosen = in->core->characters.drive;
+    const struct drive *before = felt_drive(in);
+    const double lag = before->lag;
+    struct drive drive = *before;
     number_put(&drive_rows[which], &drive, number);
-    return set_drive(in, &drive, error);
+    const int all = drive.lag != lag && inspector_limb(in) == owner ? characters_selected(in->core)->drive_count : 0;
+    bool done = set_drive(in, &drive, error);
+    for (int k = 0; k < all && done; k++) {
+        struct drive other = characters_selected(in->core)->drives[k];
+        other.lag = core_in_step(other.lag, lag, drive.lag);
+        done = k == chosen || edit_drive(in->core->document, owner, k, &other, error);
+    }
+    return done;
 }
 
 bool inspector_felt_drive(struct inspector *in)

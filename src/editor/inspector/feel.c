@@ -1,4 +1,5 @@
-/// The feel of the active spline: frequency, settling time, wind-up, lag and gain.
+/// The feel of a limb, or of the active spline alone: frequency, settling time, wind-up, lag and gain.
+#include "base/names.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -11,45 +12,72 @@
 static const struct preset {
     const char *name, *label, *hint;
     double frequency, damping;
-    double lag; ///< degrees between the first and last joint
+    double wind_up; ///< periods
+    double lag;     ///< degrees between the first and last joint
 } presets[] = {
-    {"preset.cat", "Cat", "A cat's tail: slow, soon at rest, the tip far behind", 0.8, 0.22, 170},
-    {"preset.whip", "Whip", "A whip: quick, a wave that runs to the tip", 1.8, 0.12, 260},
-    {"preset.heavy", "Heavy", "Something heavy: slow and soon at rest", 0.5, 0.35, 90},
-    {"preset.jelly", "Jelly", "Jelly: quick, wobbles for long", 3, 0.06, 60},
-    {"preset.antenna", "Antenna", "An antenna: very quick, stiff, rings for long", 5, 0.03, 20},
+    {"preset.cat", "Cat", "A cat's tail: slow, soon at rest, the tip far behind", 0.8, 0.22, 0.5, 170},
+    {"preset.whip", "Whip", "A whip: quick, a wave that runs to the tip", 1.8, 0.12, 0.35, 260},
+    {"preset.heavy", "Heavy", "Something heavy: slow, long in coming, soon at rest", 0.5, 0.35, 0.7, 90},
+    {"preset.jelly", "Jelly", "Jelly: quick, wobbles for long", 3, 0.06, 0.5, 60},
+    {"preset.antenna", "Antenna", "An antenna: very quick, stiff, rings for long", 5, 0.03, 0.5, 20},
 };
 
 enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARGINS = 8, TEXT = 32 /* two lines */ };
 
-static bool set_parameter(struct inspector *in, enum parameter parameter, double value)
+int inspector_limb(const struct inspector *in) { return in->alone ? -1 : core_limb(in->core); }
+
+const char *inspector_feel_title(struct inspector *in)
 {
-    return core_set_parameter(in->core, in->core->active, parameter, value);
+    const struct document *document = in->core->document;
+    const bool alone = in->ui.held || in->ui.typing ? in->alone : in->core->mods & MOD_ALT;
+    const int limb = alone ? -1 : core_limb(in->core), size = sizeof in->feel_title;
+    const char *name = limb >= 0 ? rig_title(document->rigs[limb]) : core_active_spline(in->core)->name;
+    int splines = 0;
+    for (int s = 0; limb >= 0 && s < document->spline_count; s++) splines += rig_is_moved(document->rigs[limb], s);
+    const int length = snprintf(in->feel_title, (size_t)size, "Feel · %.*s", name_fit(name, 64), name);
+    if (splines > 1) snprintf(in->feel_title + length, (size_t)(size - length), " (%d splines)", splines);
+    return in->feel_title;
 }
 
-/// Sets the same lag for each joint in the channel the spline bends.
+/// Sets the same lag for each joint in the channel the spline bends, and in the limb's others.
 static bool set_lag(struct inspector *in, double whole)
 {
-    const struct channel *channel = inspector_felt_channel(in);
-    if (!channel) return true;
-    const int joints = bones_joints(in->core, in->rig);
-    const double lag = joints > 1 ? core_round(whole / (joints - 1), 0.1) : 0;
-    const struct angles angles = {.value = {lag}};
-    return inspector_set_angles(in, ANGLE_LAG, &angles);
+    if (!inspector_felt_channel(in)) return true;
+    const int limb = inspector_limb(in), joints = bones_joints(in->core, in->rig);
+    const struct angles angles = {.value = {joints > 1 ? core_round(whole / (joints - 1), 0.1) : 0}};
+    bool done = true;
+    for (int c = 0; c < rig_input_count(in->core->document->rigs[in->rig]) && done; c++) {
+        const bool others = limb == in->rig && rig_point_input(in->core->document->rigs[limb], c) >= 0;
+        const struct channel_place at = {in->rig, c};
+        if (c == in->channel || others)
+            done = edit_angles(in->core->document, at, ANGLE_LAG, &angles, &in->core->error);
+    }
+    return done;
+}
+
+static bool set_felt(struct inspector *in, enum parameter parameter, double value, bool alike)
+{
+    return core_set_felt(in->core, inspector_limb(in), parameter, value, alike, &in->core->error);
 }
 
 static void apply(struct inspector *in, const struct preset *preset)
 {
     const struct spline *spline = core_active_spline(in->core);
     if (!core_begin(in->core, "Choose a feel", 0)) return;
-    bool good = spline_mode(spline) != WIGGLY_CUBIC || set_parameter(in, PARAMETER_MODE, WIGGLY_COMPLEX);
-    good = good && set_parameter(in, PARAMETER_FREQUENCY, preset->frequency) &&
-           set_parameter(in, PARAMETER_DAMPING, preset->damping);
+    const bool good = (spline_mode(spline) != WIGGLY_CUBIC ||
+                       core_set_parameter(in->core, in->core->active, PARAMETER_MODE, WIGGLY_COMPLEX)) &&
+                      set_felt(in, PARAMETER_FREQUENCY, preset->frequency, false) &&
+                      set_felt(in, PARAMETER_DAMPING, preset->damping, true) &&
+                      set_felt(in, PARAMETER_WIND_UP, preset->wind_up, true);
     core_end(in->core, good && set_lag(in, preset->lag));
     core_edited(in->core, in->core->active);
 }
 
-void inspector_preset(struct inspector *in, int preset) { apply(in, &presets[preset]); }
+void inspector_preset(struct inspector *in, int preset)
+{
+    in->alone = false;
+    apply(in, &presets[preset]);
+}
 
 static float presets_width(int first, int end)
 {
@@ -118,9 +146,9 @@ static bool set_settle(struct inspector *in, int which, double seconds, struct e
 {
     const struct spline *spline = core_active_spline(in->core);
     const double damping = damping_for(spline, seconds, document_step(in->core->document));
-    const struct param param = param_number(round(damping * 1e4) / 1e4);
+    const double rounded = round(damping * 1e4) / 1e4;
     (void)which;
-    return edit_parameter(in->core->document, in->core->active, PARAMETER_DAMPING, &param, error);
+    return core_set_felt(in->core, inspector_limb(in), PARAMETER_DAMPING, rounded, false, error);
 }
 
 static bool is_never(enum settle_kind kind) { return kind == SETTLE_NEVER || kind == SETTLE_LATE; }
@@ -180,9 +208,9 @@ static double get_wind_up(const struct inspector *in, int which)
 static bool set_wind_up(struct inspector *in, int which, double frames, struct error *error)
 {
     const bool whole = frames >= longest_wind_up(in);
-    const struct param param = param_number(whole ? 0 : round(frames / period_frames(in) * 1e4) / 1e4);
+    const double periods = whole ? 0 : round(frames / period_frames(in) * 1e4) / 1e4;
     (void)which;
-    return edit_parameter(in->core->document, in->core->active, PARAMETER_WIND_UP, &param, error);
+    return core_set_felt(in->core, inspector_limb(in), PARAMETER_WIND_UP, periods, false, error);
 }
 
 static const char *show_wind_up(const struct inspector *in, int which, char text[64])

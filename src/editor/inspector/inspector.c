@@ -61,7 +61,7 @@ static const struct section {
     bool (*shown)(const struct core *core); ///< shown without More; NULL: only on request
     bool closed;                            ///< initially
 } sections[] = {
-    {"section.feel", "Feel", NULL, inspector_feel, SPLINE, always, false},
+    {"section.feel", NULL, inspector_feel_title, inspector_feel, SPLINE, always, false},
     {"section.knot", NULL, inspector_knot_title, inspector_knot, SPLINE, always, false},
     {"section.splines", "Splines", NULL, inspector_splines, 0, always, false},
     {"section.spline", "Spline", NULL, inspector_spline, SPLINE, NULL, false},
@@ -239,6 +239,8 @@ bool inspector_event(struct inspector *in, const struct event *event)
         event_elsewhere(ui, event);
         return false;
     }
+    const bool press = event->action == ACTION_PRESS && (event->kind == EVENT_BUTTON || event->kind == EVENT_KEY);
+    if (press && !ui->typing) in->alone = event->mods & MOD_ALT;
     bool was_dragging = ui->held && ui->moved;
     ui_begin_event(ui, area, event);
     build(in, area);

@@ -29,6 +29,11 @@ void inspector_history(struct inspector *in);
 /// The title says how many knots are selected.
 const char *inspector_knot_title(struct inspector *in);
 
+/// core_limb(), or -1 if Alt was held at the press.
+int inspector_limb(const struct inspector *in);
+/// The title says what Feel acts on.
+const char *inspector_feel_title(struct inspector *in);
+
 /// A row for a parameter of the active spline, if its mode uses it.
 void inspector_parameter(struct inspector *in, enum parameter parameter);
 

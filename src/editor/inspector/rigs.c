@@ -4,6 +4,7 @@
 #include "base/names.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
+#include "editor/core/knots.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/parts.h"
 #include <stdio.h>
@@ -24,6 +25,8 @@ const struct rig *inspector_shown(const struct inspector *in)
 
 void inspector_find_rig(struct inspector *in)
 {
+    const int limb = core_limb(in->core);
+    if (limb >= 0 && limb != in->selected) inspector_show_spline(in, in->core->active); // dragged, not clicked
     if (!inspector_shown(in)) {
         const int tail = document_find_rig(in->core->document, RIG_TAIL, 0),
                   chain = document_find_rig(in->core->document, RIG_CHAIN, 0);
@@ -71,7 +74,8 @@ static int input_of(const struct rig *rig, int spline)
 void inspector_show_spline(struct inspector *in, int spline)
 {
     const struct document *document = in->core->document;
-    int found = in->selected < document->rig_count ? in->selected : -1;
+    const int limb = core_limb(in->core);
+    int found = limb >= 0 ? limb : in->selected < document->rig_count ? in->selected : -1;
     if (found >= 0 && input_of(document->rigs[found], spline) < 0) found = -1;
     for (int r = 0; r < document->rig_count && found < 0; r++) {
         if (input_of(document->rigs[r], spline) >= 0) found = r;
@@ -92,6 +96,7 @@ void inspector_show_rig(struct inspector *in, int rig)
     const struct rig *chosen = in->core->document->rigs[rig];
     if (chosen->kind == RIG_MODEL) bones_clear(in->core);
     show_rig(in, rig);
+    in->core->limb = chosen->id;
     inspector_unfold(in, sections[chosen->kind]);
     if (rig_input_count(chosen) == 0) return;
     if (input_of(chosen, in->core->active) < 0) core_activate(in->core, rig_input(chosen, 0));

@@ -16,8 +16,7 @@ static double get(const struct inspector *in, int parameter)
 
 static bool set(struct inspector *in, int parameter, double number, struct error *error)
 {
-    const struct param param = param_number(number);
-    return edit_parameter(in->core->document, in->core->active, (enum parameter)parameter, &param, error);
+    return core_set_felt(in->core, inspector_limb(in), (enum parameter)parameter, number, false, error);
 }
 
 /// In its own undo step.

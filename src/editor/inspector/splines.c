@@ -146,9 +146,9 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     } else {
         ui_hint(ui, label, "Click to edit (PgUp, PgDn), M for another kind, F2 to rename, drag to reorder");
         enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
-        if (event == UI_ROW_PRESSED) core_activate(in->core, s);
+        if (event == UI_ROW_PRESSED) core_choose(in->core, s);
         if (event == UI_ROW_TWICE) {
-            core_activate(in->core, s);
+            core_choose(in->core, s);
             inspector_rename(in, 0);
         }
         dropped = event == UI_ROW_DROPPED;

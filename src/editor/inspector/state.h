@@ -58,6 +58,8 @@ struct inspector {
     double dragged;                       ///< the dragged value; of several knots, the last possible one
     struct knot_numbers knots;            ///< of the last field built
     char knot_title[32];                  ///< title of the knot section
+    char feel_title[96];                  ///< of that on the feel
+    bool alone;                           ///< Alt was held at the last press: Feel is of the active spline alone
     struct poles_view poles;
     struct history_view history;
     const struct dropdown *list; ///< open in this pass, or NULL

@@ -121,7 +121,7 @@ static const struct channel *chosen_channel(const struct inspector *in)
 static void choose(struct inspector *in, int channel)
 {
     in->channel = channel;
-    core_activate(in->core, chosen_channel(in)->spline);
+    core_choose(in->core, chosen_channel(in)->spline);
     in->channel = channel; // two channels may share a spline
 }
 

@@ -69,13 +69,16 @@ bool stage_body_point(struct stage *stage, const struct core *core, int tail, fl
     return false;
 }
 
+static bool is_on_rig(enum hover_kind kind)
+{
+    return kind == HOVER_JOINT || kind == HOVER_BODY || kind == HOVER_POINT;
+}
+
 void stage_click(void *room, struct core *core, bool keep)
 {
     const struct stage *stage = room;
-    const enum hover_kind kind = stage->pressed.kind;
-    const bool on_rig = kind == HOVER_JOINT || kind == HOVER_BODY || kind == HOVER_POINT;
     if (core->drag.moved || core->drag.button != BUTTON_LEFT || !keep) return;
-    if (on_rig && core->pick.use == BONE_SELECTED) core->clicked = stage->pressed.rig + 1;
+    if (is_on_rig(stage->pressed.kind) && core->pick.use == BONE_SELECTED) core->clicked = stage->pressed.rig + 1;
     bone_click(stage, core);
 }
 
@@ -149,6 +152,7 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
     if (holds && hover.kind == HOVER_NONE) hover = moment_ago(stage, core, event->x, event->y);
     stage->pressed = hover;
+    if (holds && is_on_rig(hover.kind)) core->limb = core->document->rigs[hover.rig]->id;
     if (event->button == BUTTON_LEFT && hover.kind != HOVER_PIN) pins_clear(core);
     if (holds && (hover.kind == HOVER_POINT || hover.kind == HOVER_PIN)) {
         pins_begin(stage, core, &hover, event);
