@@ -169,6 +169,40 @@ SESSION_TEST(test_the_heading_names_the_limb, panel_open(s, limb_scene, 1280, 90
     assert_true(session_shows(s, "Feel · brush (4 splines)"));
 }
 
+/// All knots but still ones settle, or none does, in one step.
+SESSION_TEST(test_pose_to_pose_settles_at_every_knot, panel_open(s, tail_scene, 1280, 1700))
+{
+    struct spline **const *splines = &s->document->splines;
+    session_click(s, "knot(sway,0)");
+    session_key(s, 'P', MOD_SHIFT);
+    const char *before = session_saved(s);
+    panel_click(s, "settles.all.on");
+    assert_true(!(*splines)[0]->knots[0].settles && (*splines)[0]->knots[1].settles &&
+                (*splines)[0]->knots[2].settles);
+    assert_false((*splines)[2]->knots[0].settles);
+    assert_one_step(s, before);
+    panel_click(s, "settles.all.off");
+    assert_true(!(*splines)[0]->knots[1].settles && !(*splines)[0]->knots[2].settles);
+    panel_click(s, "spline.pace"); // a cubic does not settle
+    assert_false(panel_shows(s, "settles.all.on"));
+}
+
+/// Calm is of the whole curve, or of a loop.
+SESSION_TEST(test_calm_shows_where_it_acts, panel_open(s, tail_scene, 1280, 1700))
+{
+    panel_click(s, "section.advanced");
+    assert_true(panel_shows(s, "calm"));
+    panel_enter(s, "wind-up", "12");
+    assert_false(panel_shows(s, "calm"));
+    session_hold(s, 'C', ACTION_PRESS);
+    session_key(s, KEY_DOWN, 0);
+    session_hold(s, 'C', ACTION_RELEASE);
+    assert_near(of(s, PARAMETER_CALM)->value, 1, 0);
+    assert_non_null(strstr(s->editor->core.message.text, "whole curves"));
+    panel_click(s, "start.loop");
+    assert_true(panel_shows(s, "calm"));
+}
+
 /// An exponential's envelope falls to 5 % after ln 20 / (2π f ζ).
 SESSION_TEST(test_the_time_to_settle_is_set, panel_open(s, tail_scene, 1280, 900))
 {

@@ -103,7 +103,7 @@ SESSION_TEST(test_arrows_belong_to_the_focus, panel_open(s, scene, 1280, 720))
     assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1, 0);
 }
 
-SESSION_TEST(test_only_what_counts_is_shown, panel_open(s, scene, 1280, 1600))
+SESSION_TEST(test_only_what_counts_is_shown, panel_open(s, scene, 1280, 1700))
 {
     assert_false(panel_shows(s, "bandwidth"));
     panel_click(s, "section.advanced");

@@ -436,6 +436,7 @@ const struct command commands[] = {
     PALETTE("Feel heavy", SPLINE, .inspector = inspector_preset, 2),
     PALETTE("Feel like jelly", SPLINE, .inspector = inspector_preset, 3),
     PALETTE("Feel like an antenna", SPLINE, .inspector = inspector_preset, 4),
+    PALETTE("Pose to pose: settle at every knot, or not", SWING, .core = core_toggle_pose_to_pose, 0),
     PALETTE("Roll a variation of the motion", SWING, .inspector = inspector_roll, 0),
     PALETTE("Play at normal speed", NOTHING, .core = playback_change_speed, 0),
     PALETTE("Add a spline", NOTHING, .core = change_list, LIST_ADD),

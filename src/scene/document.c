@@ -463,6 +463,16 @@ void spline_values(const struct spline *spline, int first, int end, double range
     }
 }
 
+bool spline_settles(const struct spline *spline)
+{
+    int valued = 0, settling = 0;
+    for (int k = 0; k < spline->knot_count; k++) {
+        valued += !spline->knots[k].still;
+        settling += spline->knots[k].settles;
+    }
+    return valued > 0 && settling == valued;
+}
+
 int spline_find_id(const struct spline *spline, unsigned id)
 {
     // Loaded knots have consecutive ids: search outwards from where the knot would then be.

@@ -211,6 +211,9 @@ bool spline_is_limited(const struct spline *spline);
 /// The lowest and highest value of the knots, at least one, from `first` to before `end`.
 void spline_values(const struct spline *spline, int first, int end, double range[2]);
 
+/// Whether the motion settles at all knots that are not still, at least one.
+bool spline_settles(const struct spline *spline);
+
 /// Index of the knot with that id, or -1.
 int spline_find_id(const struct spline *spline, unsigned id);
 /// The value, clamped to the spline's limits.

@@ -423,3 +423,14 @@ bool edit_knot_set(struct document *document, int spline, const struct knot *kno
     knots[to] = changed;
     return true;
 }
+
+bool edit_spline_settles(struct document *document, int spline, bool settles, struct error *error)
+{
+    bool done = true;
+    for (int k = 0; k < document->splines[spline]->knot_count && done; k++) {
+        struct knot knot = document->splines[spline]->knots[k];
+        knot.settles = settles && !knot.still;
+        done = edit_knot_set(document, spline, &knot, error);
+    }
+    return done;
+}

@@ -78,6 +78,11 @@ bool spline_winds_up(const struct document *document, int of)
     return document->splines[of]->parameter[PARAMETER_WIND_UP].value > 0 && !spline_idle_wind_up(document, of);
 }
 
+bool spline_uses_calm(const struct document *document, int of)
+{
+    return !spline_winds_up(document, of) || spline_start(document->splines[of]) == WIGGLY_LOOP;
+}
+
 /// A spline that winds up takes a slope as a phase.
 static const char *idle_phase(const struct spline *spline, const struct knot *knot)
 {

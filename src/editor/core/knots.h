@@ -72,6 +72,9 @@ void core_nudge_parameter(struct core *core, int direction);
 /// Goes to the next choice of a parameter, cyclically.
 void core_cycle_choice(struct core *core, int parameter);
 
+/// Lets the active spline's motion settle at all of its knots, or if it does, at none.
+void core_toggle_pose_to_pose(struct core *core, int unused);
+
 /// Copies the selected knots as text; `cut` also deletes them. false if none is selected.
 bool core_copy_knots(struct core *core, bool cut);
 /// Pastes knots, the first at the playhead with the others at their distances, and selects them. If one does not fit, none is pasted.

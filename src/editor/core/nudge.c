@@ -4,6 +4,7 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "scene/warnings.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -76,6 +77,10 @@ double core_fresh_limit(const struct spline *spline, enum parameter parameter)
 static bool say_idle(struct core *core, const struct spline *spline, enum parameter parameter)
 {
     const struct parameter_row *row = &parameter_rows[parameter];
+    if (parameter == PARAMETER_CALM && !spline_uses_calm(core->document, core->active)) {
+        core_message(core, false, "Calm is for whole curves: drag the wind-up to its right end first.");
+        return true;
+    }
     if (parameter == PARAMETER_CALM || row->modes >> spline_mode(spline) & 1) return false;
     if (spline_mode(spline) == WIGGLY_CUBIC) {
         core_message(core, false, "A cubic does not swing. Press M to change the kind.");
@@ -127,6 +132,17 @@ void core_cycle_choice(struct core *core, int parameter)
     if (!core_begin(core, row->undo, 0)) return;
     core_end(core,
              core_set_parameter(core, core->active, (enum parameter)parameter, next <= row->maximum ? next : 0));
+}
+
+void core_toggle_pose_to_pose(struct core *core, int unused)
+{
+    (void)unused;
+    const struct spline *spline = core_active_spline(core);
+    if (!spline) return;
+    const bool settles = !spline_settles(spline);
+    if (!core_begin(core, settles ? "Pose to pose" : "Settle off", 0)) return;
+    core_end(core, edit_spline_settles(core->document, core->active, settles, &core->error));
+    core_edited(core, core->active);
 }
 
 /// Why it cannot be done, or NULL.

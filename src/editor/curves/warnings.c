@@ -167,14 +167,8 @@ static bool lengthen_wind_up(struct document *document, const struct warning *wa
 static bool unsettle_all(struct document *document, const struct warning *warning, char text[FIX_TEXT],
                          struct error *error)
 {
-    bool good = true;
-    for (int k = 0; k < document->splines[warning->spline]->knot_count && good; k++) {
-        struct knot knot = document->splines[warning->spline]->knots[k];
-        knot.settles = false;
-        good = edit_knot_set(document, warning->spline, &knot, error);
-    }
     snprintf(text, FIX_TEXT, "let its knots be plain ones");
-    return good;
+    return edit_spline_settles(document, warning->spline, false, error);
 }
 
 /// Remedies for each kind of warning, the gentlest first. A later one must beat those before it, and doing nothing, by a factor.

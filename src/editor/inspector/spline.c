@@ -6,6 +6,7 @@
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/parts.h"
 #include "scene/order.h"
+#include "scene/warnings.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -277,12 +278,24 @@ void inspector_spline(struct inspector *in)
 {
     static const enum parameter shown[] = {PARAMETER_MODE, PARAMETER_EQUILIBRIUM, PARAMETER_START};
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
+    static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
+    const struct spline *spline = core_active_spline(in->core);
+    int settles = spline_settles(spline);
+    const char *label = "pose to pose", *hint = "Let the motion settle at every knot: it overshoots each, and stays";
+    if (spline_mode(spline) == WIGGLY_CUBIC) {
+        inspector_idle(in, label, "–");
+    } else if (inspector_choice(in, label, hint, "settles.all", choices, 2, &settles)) {
+        core_toggle_pose_to_pose(in->core, 0);
+    }
 }
 
 void inspector_advanced(struct inspector *in)
 {
     static const enum parameter shown[] = {PARAMETER_BANDWIDTH, PARAMETER_CALM, PARAMETER_PASSIVE};
-    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) inspector_parameter(in, shown[i]);
+    const bool calm = spline_uses_calm(in->core->document, in->core->active);
+    for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) {
+        if (shown[i] != PARAMETER_CALM || calm) inspector_parameter(in, shown[i]);
+    }
 }
 
 /// A limit's number and switch; off, only the name.
