@@ -99,7 +99,7 @@ static const float *value_of(const struct studio *s, int coordinate, int vertex)
 
 STUDIO_TEST(a_stroke_changes_phase_where_it_is_and_nowhere_else)
 {
-    session_key(&s->session, 'K', 0);
+    session_key(&s->session, 'B', MOD_SHIFT);
     s->session.editor->core.brush.radius = 0.2; // 0.19 m: through the air it would reach the other finger
     hold(s, left_finger, 0, 30);
     assert_non_null(rig_of(s)->painted);
@@ -120,7 +120,7 @@ STUDIO_TEST(a_stroke_changes_phase_where_it_is_and_nowhere_else)
 
 STUDIO_TEST(undo_and_redo_are_exact)
 {
-    session_key(&s->session, 'K', 0);
+    session_key(&s->session, 'B', MOD_SHIFT);
     hold(s, left_finger, 0, 10);
     const size_t size = 2 * (size_t)s->plain->character.vertex_count * sizeof(float[2]);
     float *once = malloc(size), *twice = malloc(size);
@@ -160,7 +160,7 @@ STUDIO_TEST(undo_and_redo_are_exact)
 /// Only the press, which makes room for the stroke, may allocate.
 STUDIO_TEST(a_stroke_allocates_nothing_as_it_goes_on)
 {
-    session_key(&s->session, 'K', 0);
+    session_key(&s->session, 'B', MOD_SHIFT);
     hold(s, right_finger, 0, 3);
     session_key(&s->session, KEY_SPACE, 0); // playing, as one paints
     session_point(&s->session, left_finger);
@@ -216,7 +216,7 @@ STUDIO_TEST(modes_and_modifiers_do_what_they_say)
 /// Soft at the rim: half way out a moment of the brush does about half of what it does in the middle, near the rim hardly anything.
 STUDIO_TEST(a_dab_fades_towards_its_rim)
 {
-    session_key(&s->session, 'K', 0);
+    session_key(&s->session, 'B', MOD_SHIFT);
     s->session.editor->core.brush.radius = 0.2;
     hold(s, left_finger, 0, 3);
     const struct reach *reach = &s->session.editor->stage->painting.work.reach;
@@ -244,7 +244,7 @@ STUDIO_TEST(a_dab_fades_towards_its_rim)
 /// stroke goes on from there.
 STUDIO_TEST(a_long_stroke_saturates)
 {
-    session_key(&s->session, 'K', 0);
+    session_key(&s->session, 'B', MOD_SHIFT);
     for (int stroke = 1; stroke <= 2; stroke++) {
         hold(s, left_finger, 0, 600);
         float most = 0;
@@ -309,7 +309,7 @@ STUDIO_TEST(smoothing_reduces_variation)
     frame(s);
     double rough[2], even[2], calm[2];
     variation(s, rough);
-    session_key(&s->session, 'K', 0);
+    session_key(&s->session, 'B', MOD_SHIFT);
     s->session.editor->core.brush.radius = 0.25;
     hold(s, left_finger, MOD_SHIFT, 30); // advance, with Shift
     assert_string_equal(history_undo_label(s->session.history), "Smooth phase");
@@ -327,7 +327,7 @@ STUDIO_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns)
 {
     const struct editor *editor = s->session.editor;
     assert_int_equal(editor->stage->view.characters[0].map_coordinate, -1);
-    session_key(&s->session, 'K', 0);
+    session_key(&s->session, 'B', MOD_SHIFT);
     frame(s);
     assert_int_equal(editor->stage->view.characters[0].map_coordinate, 0);
     assert_int_equal(editor->stage->view.characters[0].map_axis, 0); // it moves along x most
@@ -359,7 +359,7 @@ STUDIO_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns)
 /// A press that is released before a frame came paints all the same; paint for another model is left alone.
 STUDIO_TEST(a_click_paints_and_foreign_paint_is_left_alone)
 {
-    session_key(&s->session, 'K', 0);
+    session_key(&s->session, 'B', MOD_SHIFT);
     session_point(&s->session, left_finger);
     session_click_here(&s->session, 1);
     assert_true(mean_lead(s) > 0);

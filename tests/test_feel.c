@@ -383,7 +383,7 @@ SESSION_TEST(
         "{\"type\": \"character\", \"model\": \"assets/models/creature.glb\", \"coordinates\": "
         "[{\"name\": \"up\", \"spline\": \"s\"}], \"pins\": [{\"frame\": 4, \"vertex\": 9, \"to\": [0, 1, 0]}]}]}"))
 {
-    session_key(s, 'K', 0);
+    session_key(s, 'B', MOD_SHIFT);
     assert_all_explained(s);
     session_close(s);
     open_file(s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"frequency\": 1, \"knots\": [{\"frame\": 0, "

@@ -325,7 +325,7 @@ SESSION_TEST(test_what_can_be_done_now, session_open(s, scene))
     assert_string_equal(missing(s, 'Z', MOD_CTRL), "There is nothing to undo.");
     assert_string_equal(missing(s, 'T', 0), "Select a knot first.");
     assert_string_equal(missing(s, 'J', 0), "Click a bone of an imported character first.");
-    assert_string_equal(missing(s, 'K', 0), "Select a soft character first.");
+    assert_string_equal(missing(s, 'B', MOD_SHIFT), "Select a soft character first.");
     assert_string_equal(missing(s, KEY_PAGE_UP, MOD_ALT), "Select a pin first.");
     assert_null(missing(s, 'A', MOD_CTRL));
     assert_null(missing(s, 'S', MOD_CTRL));

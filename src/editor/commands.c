@@ -343,7 +343,7 @@ const struct command commands[] = {
     GESTURE("Hold Alt", "Control and leaf bones", STAGE, 0),
     COMMAND("Make the bone a chain", STAGE, 0, BONE, 0, .core = bones_make_chain, 0, {'J', 0}),
     COMMAND("Make a chain over the clip", STAGE, ON_STAGE, BONE, 0, .core = bones_make_chain, true, {'J', SHIFT}),
-    COMMAND("Paint phase and amplitude", STAGE, 0, PAINT, 0, .run = run_brush, 0, {'K', 0}),
+    COMMAND("Paint phase and amplitude", STAGE, 0, PAINT, 0, .run = run_brush, 0, {'B', SHIFT}),
     GESTURE("Right drag", "Orbit", STAGE, ON_STAGE),
     GESTURE("Ctrl+Shift+arrows", "Orbit", STAGE, 0),
     GESTURE("Wheel", "Zoom to the pointer (sideways: orbit)", STAGE, ON_STAGE),

@@ -253,7 +253,7 @@ static void build_brush(struct inspector *in)
     static const struct number_home home = {.get = get_share, .set = set_share};
     struct brush *brush = &in->core->brush;
     int on = brush->on;
-    if (inspector_choice(in, "paint", "Paint phase and amplitude onto the character (K)", "paint", switches, 2, &on))
+    if (inspector_choice(in, "paint", "Paint phase and amplitude onto the character (Shift+B)", "paint", switches, 2, &on))
         characters_set_brush(in->core, on);
     const struct character_rig *rig = characters_selected(in->core);
     if (brush->on) {
