@@ -150,9 +150,9 @@ static inline void edit_key(struct monkey *m)
 {
     static const int keys[] = {'I', 'I', 'I', 'T', 'M',        'V', 'S', 'X', 'Y',
                                'R', 'P', 'D', 'E', KEY_DELETE, 'N', 'U', 'K', 'J'};
-    static const int held[] = {'F', 'Z', 'B', 'C', 'L'};
+    static const int held[] = {'F', 'Z', 'B', 'C', 'L', 'K'};
     if (one_in(m, 4)) {
-        const int letter = held[below(m, 5)];
+        const int letter = held[below(m, 6)];
         monkey_send(m, (struct event){.kind = EVENT_KEY, .key = letter, .action = ACTION_PRESS});
         for (int i = below(m, 6); i > 0; i--) monkey_key(m, one_in(m, 2) ? KEY_UP : KEY_DOWN, 0);
         monkey_send(m, (struct event){.kind = EVENT_KEY, .key = letter, .action = ACTION_RELEASE});

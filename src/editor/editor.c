@@ -2,6 +2,7 @@
 #include "editor/editor.h"
 #include "base/need.h"
 #include "editor/commands.h"
+#include "editor/core/core.h"
 #include "editor/curves/curves.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
@@ -38,6 +39,7 @@ void editor_destroy(struct editor *editor)
     inspector_destroy(editor->inspector);
     dialogs_destroy(editor->dialogs);
     drawlist_destroy(&editor->core.list);
+    take_keep(&editor->core, false);
     free(editor->core.selection.bits);
     free(editor->core.hidden.bits);
     free(editor->core.solo.bits);

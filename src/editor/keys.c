@@ -1,5 +1,6 @@
 /// The keyboard: the command of a key or character, and keys that act while they are held.
 #include "editor/commands.h"
+#include "editor/core/core.h"
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "scene/parameter.h"
@@ -36,7 +37,10 @@ static void space_event(struct editor *editor, const struct event *event)
     }
 }
 
-static bool is_held_letter(int key) { return key == 'L' || parameter_of_letter(key) != PARAMETER_COUNT; }
+static bool is_held_letter(int key)
+{
+    return key == 'L' || key == 'K' || parameter_of_letter(key) != PARAMETER_COUNT;
+}
 
 /// Text of a key used elsewhere (to close the help, say) runs no command.
 static bool text_event(struct editor *editor, const struct event *event)
@@ -75,6 +79,7 @@ bool keys_event(struct editor *editor, const struct event *event)
     if (holds && event->action == ACTION_PRESS) {
         core->held_key = event->key;
         core->held_used = false;
+        if (event->key == 'K') take_explain(core);
     }
     const bool bound = !holds && run(editor, event->key, mods, event->action == ACTION_REPEAT);
     editor->press.opened = inspector_ui(editor->inspector)->popup.id != 0;

@@ -59,6 +59,16 @@ void core_activate(struct core *core, int spline);
 void core_choose(struct core *core, int spline);
 /// Activates a spline and keeps the selection.
 void core_turn_to(struct core *core, int spline);
+/// Keeps the scene as "before", solved once; or forgets it (0).
+void take_keep(struct core *core, int keep);
+/// Whether it is shown: K is held, and no edit is open. And whether on the stage, too: its rigs and samples are those of now.
+bool take_is_shown(const struct core *core);
+bool take_is_posed(const struct core *core);
+/// What a spline or rig was before: the spline's index there, or -1; the rig, or NULL.
+int take_spline(const struct core *core, int spline);
+const struct rig *take_rig(const struct core *core, int rig);
+/// Says why K does not show it.
+void take_explain(struct core *core);
 /// The switches of core_flip().
 enum core_switch {
     SWITCH_SNAP,

@@ -44,6 +44,7 @@ static void open_playback(struct core *core)
 void core_open(struct core *core)
 {
     const struct document *document = core->document;
+    take_keep(core, false);
     selection_clear(&core->selection);
     selection_clear(&core->hidden);
     selection_clear(&core->solo);

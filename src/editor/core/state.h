@@ -307,6 +307,13 @@ struct curve_options {
     bool phase;     ///< the imaginary part of the active curve
 };
 
+/// The scene as it was kept, for this session.
+struct take {
+    struct document *document; ///< NULL: none
+    struct evaluation evaluation;
+    enum look look;
+};
+
 /// A knot's indices.
 struct knot_place {
     int spline, knot;
@@ -338,11 +345,12 @@ struct core {
     struct originals pressed; ///< the free knots as the open step began, with the phases they had
     struct edited edited;
     struct hover hover;
+    struct take take;
     enum look look;
     float pointer_x, pointer_y;
     bool finger; ///< is the pointer
     unsigned mods;
-    int held_key;   ///< F Z B C L while held, else 0
+    int held_key;   ///< F Z B C L K while held, else 0
     bool held_used; ///< with an arrow
     bool space_down, space_used;
 

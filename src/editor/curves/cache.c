@@ -202,6 +202,26 @@ static void draw_others(struct curves *curves, const struct core *core)
     }
 }
 
+int take_line(const struct curves *curves, const struct core *core, int spline, float *xy)
+{
+    const struct curve_cache *cache = &curves->cache;
+    const struct take *take = &core->take;
+    const int before = take_spline(core, spline);
+    const struct value_map map = normal_map(curves, core, spline);
+    const double by = cache->by * take->document->substeps / core->document->substeps;
+    int count = 0;
+    for (int c = 0; c < cache->count && before >= 0; c++) {
+        const double frame = frame_of(core->document, cache->first + cache->by * c);
+        const double middle = core_position(take->document, frame);
+        if (middle < 0 || middle > take->evaluation.samples - 1) continue;
+        const wiggly_value v =
+            evaluation_at(&take->evaluation, before, outermost(&take->evaluation, before, middle, by, c % 2));
+        xy[2 * count] = curves_x(curves, core, frame);
+        xy[2 * count++ + 1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
+    }
+    return count;
+}
+
 int curves_other(const struct curves *curves, const struct document *document, int other)
 {
     const int spline = curves->cache.other_spline[other];

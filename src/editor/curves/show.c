@@ -52,6 +52,20 @@ static void show_ghost(struct curves *curves, struct core *core)
     show_line(core, xy, ghost->count, ghost->band, 1, theme_fade(theme()->playhead, 0.25f));
 }
 
+/// The shown curves as they were before, the active one last.
+static void show_take(struct curves *curves, struct core *core)
+{
+    if (!take_is_shown(core)) return;
+    for (int i = curves->cache.other_count - 1; i >= -1; i--) {
+        const int spline = i < 0 ? core->active : curves->cache.other_spline[i];
+        const uint32_t color = i < 0 ? theme()->playhead : spline_list_color(core->document, spline);
+        if (!spline_list_shows(core, spline)) continue;
+        const int count = take_line(curves, core, spline, curves->scratch);
+        if (count > 1)
+            drawlist_line(&core->list, curves->scratch, count, 1.25f, theme_fade(color, i < 0 ? 0.8f : 0.4f));
+    }
+}
+
 static bool shows_imaginary(const struct core *core, const struct spline *spline)
 {
     return core->curves.phase && spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
@@ -379,15 +393,15 @@ static void show_empty(struct core *core)
     drawlist_text(&core->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
 }
 
-/// Notes above the curves' names: phase curve (V), normalised (N), no snapping (G).
+/// Notes above the curves' names: before (K), phase curve (V), normalised (N), no snapping (G).
 static void show_state(struct core *core)
 {
     static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
     const struct rect *ruler = &core->layout.ruler;
     const char *normal = core->curves.normalise ? "fit" : "", *snap = core->no_snap ? "free" : "";
-    const char *const words[] = {looks[core->look], normal, snap};
-    char text[32] = "";
-    for (int i = 0; i < 3; i++) {
+    const char *const words[] = {take_is_shown(core) ? "Before" : "", looks[core->look], normal, snap};
+    char text[40] = "";
+    for (int i = 0; i < 4; i++) {
         if (*text && *words[i]) strcat(text, ", ");
         strcat(text, words[i]);
     }
@@ -403,6 +417,7 @@ void curves_show(struct curves *curves, struct core *core)
     struct rect panel = drawlist_push_clip(&core->list, core->layout.plot);
     limits_show(curves, core);
     show_lines(curves, core);
+    show_take(curves, core);
     for (int i = 0; i < curves->cache.other_count; i++) {
         knots_show(curves, core, curves->cache.other_spline[i], NAN);
     }

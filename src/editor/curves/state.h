@@ -161,6 +161,8 @@ void normal_update(struct curves *curves, const struct core *core);
 
 /// Rebuilds the vertices if document, view or layout changed. Allocates nothing.
 void curves_update(struct curves *curves, struct core *core);
+/// Writes the points of a spline as the take has it; returns how many. Allocates nothing.
+int take_line(const struct curves *curves, const struct core *core, int spline, float *xy);
 /// The spline of another curve's vertices, or -1 if an edit has moved it in the list since.
 int curves_other(const struct curves *curves, const struct document *document, int other);
 /// Copies the active curve before a drag's first edit, to show it behind.

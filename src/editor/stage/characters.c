@@ -33,14 +33,14 @@ static void add_soles(struct stage_view *view, const struct stage_character *sho
 }
 
 /// A figure on the stage, `aside` metres beside its rig's place.
-static void add_character(struct stage *stage, const struct core *core, int rig, int n, enum look look, float aside)
+static void add_character(struct stage *stage, const struct core *core, int rig, int n, float aside)
 {
     struct stage_view *view = &stage->view;
     const struct character_view *how = &core->characters;
     const struct character_rig *character = &core->document->rigs[rig]->character;
-    const struct posing posing = {
-        .document = core->document, .evaluation = core->evaluation, .models = core->models, .look = look};
+    struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose posed;
+    if (aside > 0) posing.look = LOOK_STIFF;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
     if (!rig_pose(&posing, rig, core->playback.position, NULL, &posed)) return;
     struct stage_character *shown = &view->characters[view->character_count++];
@@ -65,10 +65,10 @@ static void pose(struct stage *stage, const struct core *core, int rig, int n)
     const struct figure *figure = models_figure(core->models, n);
     if (!figure) return;
     if (!core->characters.compare) {
-        add_character(stage, core, rig, n, core->look, 0.0f);
+        add_character(stage, core, rig, n, 0.0f);
     } else {
-        add_character(stage, core, rig, n, core->look, -pair_offset(figure));
-        add_character(stage, core, rig, n, LOOK_STIFF, pair_offset(figure));
+        add_character(stage, core, rig, n, -pair_offset(figure));
+        add_character(stage, core, rig, n, pair_offset(figure));
     }
 }
 

@@ -1,5 +1,6 @@
 /// Tails and chains on the stage: posing, and projecting their joints.
 #include "editor/core/bones.h"
+#include "editor/core/core.h"
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "maths/maths.h"
@@ -22,7 +23,13 @@ static void move_by_hand(const void *context, int rig, struct by_hand *hand)
 
 struct posing stage_posing_by_hand(const struct stage *stage)
 {
+    const struct take *take = &stage->core->take;
     struct posing posing = stage_posing(stage->core);
+    if (take_is_posed(stage->core)) {
+        posing.document = take->document;
+        posing.evaluation = &take->evaluation;
+        posing.look = take->look;
+    }
     posing.move = move_by_hand;
     posing.context = stage;
     return posing;
