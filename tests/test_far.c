@@ -31,10 +31,9 @@ static double farthest(const struct session *s, int spline, double *knot)
     return most;
 }
 
-/// The tail dragged far up just behind a knot that stays, on whole curves: the sway is sent to three times its other knots.
+/// The tail dragged far up just behind a knot that stays: a whole curve of the sway is sent to three times its other knots.
 static void drag_far(struct session *s)
 {
-    for (int i = 0; i < 2; i++) document_own_spline(s->document, i)->parameter[PARAMETER_WIND_UP].value = 0;
     s->mods = MOD_ALT;
     s->editor->core.playback.position = 84;
     session_frame(s);

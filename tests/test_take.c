@@ -1,4 +1,4 @@
-/// A take: the scene that Shift+K kept, shown while K is held.
+/// A take: the scene that Shift+K kept, shown while K is held; and what the rows of Feel were.
 #include "panel_session.h"
 
 #include "base/need.h"
@@ -96,6 +96,38 @@ SESSION_TEST(k_shows_the_curves_as_they_were, open_dog(s))
     hold_k(s, false);
     assert_int_equal(count_lines(s, active), before[0]);
     assert_false(session_shows(s, "Before"));
+}
+
+static int count_marks(const struct session *s)
+{
+    const struct drawlist *list = &s->editor->core.list;
+    const float left = s->editor->core.layout.inspector.x;
+    int count = 0;
+    for (int i = 0; i < list->count; i++) {
+        const struct draw_command *c = &list->commands[i];
+        count += c->kind == DRAW_RECT && c->color == theme_fade(theme()->playhead, 0.6f) && c->bounds.x > left;
+    }
+    return count;
+}
+
+/// Rows that have changed have a mark where they were, and while K is held the numbers are those of before.
+SESSION_TEST(rows_show_what_they_were, open_dog(s))
+{
+    static const char *const was[] = {"1.30 Hz", "0.16", "whole curve", "16.0°"};
+    static const char *const now[] = {"1.80 Hz", "0.12", "5 frames", "37.1°"};
+    session_key(s, 'K', MOD_SHIFT);
+    assert_int_equal(count_marks(s), 0);
+    panel_click(s, "preset.whip");
+    session_move(s, 2, 2);
+    session_frame(s);
+    for (int held = 0; held < 2; held++) {
+        assert_int_equal(count_marks(s), held ? 0 : 4);
+        for (int i = 0; i < 4; i++) {
+            assert_true(session_shows(s, (held ? was : now)[i]));
+            assert_false(session_shows(s, (held ? now : was)[i]));
+        }
+        hold_k(s, true);
+    }
 }
 
 /// With other rigs the stage stays as it is, and says so; with another document nothing is kept.

@@ -12,6 +12,7 @@ const char *spline_idle_wind_up(const struct document *document, int of);
 /// Whether it is pushed only shortly before its knots.
 bool spline_winds_up(const struct document *document, int of);
 
+/// Whether calm has an effect: not on a spline that winds up, unless it loops.
 bool spline_uses_calm(const struct document *document, int of);
 
 /// Index of the first pose of a spline that is not Wiggly and so has no phases; else -1.

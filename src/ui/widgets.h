@@ -156,6 +156,7 @@ struct ui_number {
     const char *hint;
     const char *shown;       ///< replaces the number, or NULL
     double minimum, maximum; ///< of the bar
+    const double *was;       ///< an earlier value to mark on the bar, or NULL
     double lowest, highest;  ///< of typed numbers
     double fallback;         ///< for right-click and Delete; NAN: none
     double step;             ///< of arrow keys and drags

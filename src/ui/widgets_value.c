@@ -264,6 +264,13 @@ static void paint_bar(struct ui *ui, struct rect field, const struct ui_number *
     drawlist_rect(ui->list, handle, held || hot ? theme()->accent : theme()->text);
 }
 
+/// A faint line across the bar.
+static void paint_was(struct ui *ui, struct rect field, const struct ui_number *number)
+{
+    const float x = handle_x(field, field.w * part_of(number, *number->was));
+    drawlist_rect(ui->list, (struct rect){x, field.y + 2, 1.5f, field.h - 4}, theme_fade(theme()->playhead, 0.6f));
+}
+
 static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, const struct ui_number *number,
                   double value)
 {
@@ -285,6 +292,7 @@ static void paint(struct ui *ui, struct rect r, struct rect field, uint32_t id, 
     format_number(number, value, formatted, sizeof formatted);
     const char *text = number->shown ? number->shown : formatted;
     if (has_bar(number)) paint_bar(ui, field, number, value, hot, held);
+    if (has_bar(number) && number->was && *number->was != value) paint_was(ui, field, number);
     if (held) {
         drawlist_rounded_line(ui->list, field, UI_RADIUS, 1, theme()->accent);
     } else {

@@ -57,7 +57,24 @@ static const struct angles *angles_of(const struct inspector *in, int kind)
     return kind == ANGLE_LAG ? &channel->lag : &channel->gain;
 }
 
+/// The same as they were before, or NULL.
+static const struct angles *kept_angles(const struct inspector *in, int kind)
+{
+    int count = 0;
+    const struct rig *rig = take_rig(in->core, in->rig);
+    const struct channel *channels = rig ? rig_channels(rig, &count) : NULL;
+    if (rig && kind == ANGLE_REST) return &rig->tail.rest;
+    if (in->channel >= count || channels[in->channel].spline != take_spline(in->core, in->core->active)) return NULL;
+    return kind == ANGLE_LAG ? &channels[in->channel].lag : &channels[in->channel].gain;
+}
+
 static double get_largest(const struct inspector *in, int kind) { return angles_largest(angles_of(in, kind)); }
+
+static double was_largest(const struct inspector *in, int kind)
+{
+    const struct angles *kept = kept_angles(in, kind);
+    return kept ? angles_largest(kept) : NAN;
+}
 
 static bool set_largest(struct inspector *in, int kind, double number, struct error *error)
 {
@@ -76,7 +93,8 @@ static const char *unit_of(const struct inspector *in, int kind)
 /// The first and last of several angles.
 static const char *show_ends(const struct inspector *in, int kind, char text[64])
 {
-    const struct angles *angles = angles_of(in, kind);
+    const struct angles *kept = take_is_shown(in->core) ? kept_angles(in, kind) : NULL;
+    const struct angles *angles = kept ? kept : angles_of(in, kind);
     if (angles->form == ANGLES_ONE) return NULL;
     snprintf(text, 64, "%.1f → %.1f%s", printable_number(angles_number(angles, 0), 0.1),
              printable_number(angles_number(angles, angles->count - 1), 0.1), unit_of(in, kind));
@@ -85,7 +103,8 @@ static const char *show_ends(const struct inspector *in, int kind, char text[64]
 
 static void build_slider(struct inspector *in, enum angle_kind kind, struct rect r)
 {
-    static const struct number_home home = {.get = get_largest, .set = set_largest, .shown = show_ends};
+    static const struct number_home home = {
+        .get = get_largest, .set = set_largest, .shown = show_ends, .was = was_largest};
     const bool several = angles_of(in, (int)kind)->form != ANGLES_ONE;
     const bool lags = kind == ANGLE_LAG && several; // each joint's own lag may be a few turns
     const double reach = lags ? 1 : reach_of(in, kind, get_largest(in, (int)kind));

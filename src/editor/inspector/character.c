@@ -6,6 +6,7 @@
 #include "editor/core/knots.h"
 #include "editor/inspector/parts.h"
 #include "rig/models.h"
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -62,6 +63,14 @@ static const struct number_row drive_rows[] = {
      0.05, 2},
 };
 
+static double was_drive(const struct inspector *in, int which)
+{
+    const struct rig *kept = take_rig(in->core, characters_rig(in->core));
+    const int drive = in->core->characters.drive;
+    return kept && drive < kept->character.drive_count ? number_at(&drive_rows[which], &kept->character.drives[drive])
+                                                       : NAN;
+}
+
 /// Edits the selected coordinate's drive.
 static bool set_drive(struct inspector *in, const struct drive *drive, struct error *error)
 {
@@ -88,7 +97,7 @@ static bool set_drive_number(struct inspector *in, int which, double number, str
 
 bool inspector_felt_drive(struct inspector *in)
 {
-    static const struct number_home home = {.of = felt_drive, .set = set_drive_number};
+    static const struct number_home home = {.of = felt_drive, .set = set_drive_number, .was = was_drive};
     if (!felt_drive(in)) return false;
     inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
     return true;
@@ -253,7 +262,8 @@ static void build_brush(struct inspector *in)
     static const struct number_home home = {.get = get_share, .set = set_share};
     struct brush *brush = &in->core->brush;
     int on = brush->on;
-    if (inspector_choice(in, "paint", "Paint phase and amplitude onto the character (Shift+B)", "paint", switches, 2, &on))
+    if (inspector_choice(in, "paint", "Paint phase and amplitude onto the character (Shift+B)", "paint", switches, 2,
+                         &on))
         characters_set_brush(in->core, on);
     const struct character_rig *rig = characters_selected(in->core);
     if (brush->on) {

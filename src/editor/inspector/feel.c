@@ -110,6 +110,8 @@ static void build_presets(struct inspector *in)
     if (!fit) build_preset_row(in, ui_row(&in->ui, UI_ROW), in_first, PRESETS);
 }
 
+static bool is_never(enum settle_kind kind) { return kind == SETTLE_NEVER || kind == SETTLE_LATE; }
+
 /// Settling time with another damping; INFINITY: never, or too late.
 static double settles(const struct spline *spline, double damping, double step)
 {
@@ -134,12 +136,36 @@ static double damping_for(const struct spline *spline, double seconds, double st
     return high;
 }
 
-/// The settling time as a number; setting it sets the damping.
+const struct spline *inspector_kept_spline(const struct inspector *in)
+{
+    const int kept = take_spline(in->core, in->core->active);
+    return kept >= 0 ? in->core->take.document->splines[kept] : NULL;
+}
+
+const struct spline *inspector_seen_spline(const struct inspector *in)
+{
+    const struct spline *kept = take_is_shown(in->core) ? inspector_kept_spline(in) : NULL;
+    return kept ? kept : core_active_spline(in->core);
+}
+
+/// A spline's settling time as a number; setting it sets the damping.
+static double seconds_of(const struct inspector *in, const struct spline *spline)
+{
+    const struct settling alone = settle_alone(spline, document_step(in->core->document));
+    return alone.kind == SETTLE_ALONE ? alone.seconds : is_never(alone.kind) ? SETTLE_LIMIT : NAN;
+}
+
 static double get_settle(const struct inspector *in, int which)
 {
-    const struct settling alone = settle_alone(core_active_spline(in->core), document_step(in->core->document));
     (void)which;
-    return alone.kind == SETTLE_ALONE ? alone.seconds : SETTLE_LIMIT;
+    return seconds_of(in, core_active_spline(in->core));
+}
+
+static double was_settle(const struct inspector *in, int which)
+{
+    const struct spline *kept = inspector_kept_spline(in);
+    (void)which;
+    return kept ? seconds_of(in, kept) : NAN;
 }
 
 static bool set_settle(struct inspector *in, int which, double seconds, struct error *error)
@@ -151,18 +177,17 @@ static bool set_settle(struct inspector *in, int which, double seconds, struct e
     return core_set_felt(in->core, inspector_limb(in), PARAMETER_DAMPING, rounded, false, error);
 }
 
-static bool is_never(enum settle_kind kind) { return kind == SETTLE_NEVER || kind == SETTLE_LATE; }
-
 static const char *show_settle(const struct inspector *in, int which, char text[64])
 {
-    const struct spline *spline = core_active_spline(in->core);
+    const struct spline *spline = inspector_seen_spline(in);
     (void)which, (void)text;
     return is_never(settle_alone(spline, document_step(in->core->document)).kind) ? "never" : NULL;
 }
 
 static void build_settle(struct inspector *in)
 {
-    static const struct number_home home = {.get = get_settle, .set = set_settle, .shown = show_settle};
+    static const struct number_home home = {
+        .get = get_settle, .set = set_settle, .shown = show_settle, .was = was_settle};
     const struct spline *spline = core_active_spline(in->core);
     const double step = document_step(in->core->document);
     const enum settle_kind kind = settle_alone(spline, step).kind;
@@ -187,10 +212,12 @@ static void build_settle(struct inspector *in)
 }
 
 /// Frames of a period at the spline's own frequency.
-static double period_frames(const struct inspector *in)
+static double period_of(const struct inspector *in, const struct spline *spline)
 {
-    return in->core->document->fps / core_active_spline(in->core)->parameter[PARAMETER_FREQUENCY].value;
+    return in->core->document->fps / spline->parameter[PARAMETER_FREQUENCY].value;
 }
+
+static double period_frames(const struct inspector *in) { return period_of(in, core_active_spline(in->core)); }
 
 static double longest_wind_up(const struct inspector *in)
 {
@@ -205,6 +232,15 @@ static double get_wind_up(const struct inspector *in, int which)
     return periods > 0 ? periods * period_frames(in) : longest_wind_up(in);
 }
 
+static double was_wind_up(const struct inspector *in, int which)
+{
+    const struct spline *kept = inspector_kept_spline(in);
+    (void)which;
+    if (!kept || !spline_uses(kept, PARAMETER_WIND_UP, false)) return NAN;
+    const double periods = kept->parameter[PARAMETER_WIND_UP].value;
+    return periods > 0 ? periods * period_of(in, kept) : longest_wind_up(in);
+}
+
 static bool set_wind_up(struct inspector *in, int which, double frames, struct error *error)
 {
     const bool whole = frames >= longest_wind_up(in);
@@ -216,12 +252,13 @@ static bool set_wind_up(struct inspector *in, int which, double frames, struct e
 static const char *show_wind_up(const struct inspector *in, int which, char text[64])
 {
     (void)which, (void)text;
-    return core_active_spline(in->core)->parameter[PARAMETER_WIND_UP].value > 0 ? NULL : "whole curve";
+    return inspector_seen_spline(in)->parameter[PARAMETER_WIND_UP].value > 0 ? NULL : "whole curve";
 }
 
 static void build_wind_up(struct inspector *in)
 {
-    static const struct number_home home = {.get = get_wind_up, .set = set_wind_up, .shown = show_wind_up};
+    static const struct number_home home = {
+        .get = get_wind_up, .set = set_wind_up, .shown = show_wind_up, .was = was_wind_up};
     const struct spline *spline = core_active_spline(in->core);
     const struct parameter_row *row = &parameter_rows[PARAMETER_WIND_UP];
     const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
@@ -247,16 +284,18 @@ static void build_wind_up(struct inspector *in)
 /// The settling in one sentence.
 static void build_sentence(struct inspector *in)
 {
-    const struct spline *spline = core_active_spline(in->core);
-    const struct evaluation *evaluation = in->core->evaluation;
-    const int active = in->core->active;
+    const struct spline *spline = inspector_seen_spline(in);
+    const bool kept = spline != core_active_spline(in->core);
+    const struct document *document = kept ? in->core->take.document : in->core->document;
+    const struct evaluation *evaluation = kept ? &in->core->take.evaluation : in->core->evaluation;
+    const int active = kept ? take_spline(in->core, in->core->active) : in->core->active;
     char text[128];
-    struct settling settling = settle_alone(spline, document_step(in->core->document));
+    struct settling settling = settle_alone(spline, document_step(document));
     if (evaluation && active < evaluation->count && spline->knot_count > 0) {
-        const int last = document_sample(in->core->document, spline->knots[spline->knot_count - 1].frame);
+        const int last = document_sample(document, spline->knots[spline->knot_count - 1].frame);
         settling = settle_measure(spline, &evaluation->curves[active], last);
     }
-    const double frames = settling.seconds * in->core->document->fps;
+    const double frames = settling.seconds * document->fps;
     switch (settling.kind) {
     case SETTLE_UNKNOWN:
         return;

@@ -412,6 +412,8 @@ enum ui_change inspector_number(struct inspector *in, const struct number_row *r
     const bool waits = home->settles && ui_is_dragged(&in->ui, row->name);
     char shown[64];
     double value = waits ? in->dragged : get_number(in, row, home, which);
+    const double was = home->was && in->core->take.document ? home->was(in, which) : NAN;
+    if (isfinite(was) && in->ui.pass == UI_PASS_DRAW && take_is_shown(in->core)) value = was;
     struct ui_number number = {.name = row->name,
                                .label = row->label,
                                .unit = row->unit,
@@ -421,6 +423,7 @@ enum ui_change inspector_number(struct inspector *in, const struct number_row *r
                                                       : NULL,
                                .minimum = row->minimum,
                                .maximum = row->maximum,
+                               .was = isfinite(was) ? &was : NULL,
                                .lowest = row->lowest,
                                .highest = row->highest,
                                .fallback = row->fallback,

@@ -34,6 +34,10 @@ int inspector_limb(const struct inspector *in);
 /// The title says what Feel acts on.
 const char *inspector_feel_title(struct inspector *in);
 
+/// The active spline as it was before, or NULL; and as its numbers show it: as before while K is held.
+const struct spline *inspector_kept_spline(const struct inspector *in);
+const struct spline *inspector_seen_spline(const struct inspector *in);
+
 /// A row for a parameter of the active spline, if its mode uses it.
 void inspector_parameter(struct inspector *in, enum parameter parameter);
 
@@ -76,6 +80,8 @@ struct number_home {
     bool settles; ///< set only when a drag ends, because setting may ask a question
     /// Text in place of a number: returns `text`, or NULL to show the number. May be NULL itself.
     const char *(*shown)(const struct inspector *in, int which, char text[64]);
+    /// The number before (take_keep()): a mark on the bar, and shown in its place while K is held. NAN: none. May be NULL itself.
+    double (*was)(const struct inspector *in, int which);
 };
 
 struct number_row {

@@ -15,6 +15,13 @@ static double get(const struct inspector *in, int parameter)
     return core_active_spline(in->core)->parameter[parameter].value;
 }
 
+static double was(const struct inspector *in, int parameter)
+{
+    const struct spline *kept = inspector_kept_spline(in);
+    const bool has = kept && spline_uses(kept, (enum parameter)parameter, false);
+    return has && !param_follows(&kept->parameter[parameter]) ? kept->parameter[parameter].value : NAN;
+}
+
 static bool set(struct inspector *in, int parameter, double number, struct error *error)
 {
     return core_set_felt(in->core, inspector_limb(in), (enum parameter)parameter, number, false, error);
@@ -42,7 +49,7 @@ static void build_slider(struct inspector *in, enum parameter parameter, struct 
                                       .fallback = row->fresh,
                                       .step = row->step,
                                       .decimals = row->decimals};
-    static const struct number_home home = {.get = get, .set = set};
+    static const struct number_home home = {.get = get, .set = set, .was = was};
     inspector_number(in, &number, &home, (int)parameter, r);
 }
 
