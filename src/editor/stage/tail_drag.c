@@ -6,7 +6,8 @@
 ///
 ///     x = x₀ + Jᵀ (JJᵀ + Φ)⁻¹ (target − p + J(x − x₀)),   x₀ at the press, in radians of bend, so that both axes count alike.
 ///
-/// So the least change of x that reaches the target is taken, and a direction in which the point hardly moves gives way.
+/// So the least change of x that reaches the target is taken, and a direction in which the point hardly moves gives way. Where the way there
+/// bends, the change still stays within twice what the best direction needs.
 #include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
@@ -26,6 +27,7 @@ static const double CLOSE = 0.2;         ///< pixels; closer is close enough
 static const double PROBE = 0.01;        ///< radians of bend for the derivative
 static const double RESOLUTION = 1e-4;   ///< radians of bend
 static const double REACH = 0.04;        ///< of the largest eigenvalue: a fifth as far as the best direction
+static const double DEAREST = 2;         ///< times the change that the best direction needs, at most
 static const double LEAST_LINE = 1.5;    ///< pixels; shorter lines to the pointer are not drawn
 static const double DEGREE = 0.017453292519943295;
 
@@ -98,8 +100,8 @@ static double gives_way(double share)
     return beyond * beyond;
 }
 
-/// (JJᵀ + Φ)⁻¹ miss; J by columns. 0 if nothing moves the point.
-static void pull_back(const double (*column)[2], int columns, const double miss[2], double pull[2])
+/// (JJᵀ + Φ)⁻¹ miss; J by columns. Returns JJᵀ's largest eigenvalue, and with it 0 if nothing moves the point.
+static double pull_back(const double (*column)[2], int columns, const double miss[2], double pull[2])
 {
     double a = 0, b = 0, d = 0;
     for (int c = 0; c < columns; c++) {
@@ -112,13 +114,14 @@ static void pull_back(const double (*column)[2], int columns, const double miss[
     if (maths_hypot(way[0], way[1]) < 1e-9 * most) way[0] = a >= d, way[1] = a < d;
     const double length = maths_hypot(way[0], way[1]);
     pull[0] = pull[1] = 0;
-    if (!(most > 0)) return;
+    if (!(most > 0)) return 0;
     for (int k = 0; k < 2; k++) way[k] /= length;
     const double least = fmax(middle - apart, 0), share = least / most;
     const double along = (way[0] * miss[0] + way[1] * miss[1]) / most;
     const double across = (way[0] * miss[1] - way[1] * miss[0]) / (least + gives_way(share) * most);
     pull[0] = along * way[0] - across * way[1];
     pull[1] = along * way[1] + across * way[0];
+    return most;
 }
 
 /// A spline without knots starts from rest, a quarter period before its first knot.
@@ -232,10 +235,15 @@ static void apply(void *room, struct core *core)
         way[2 * a + 1] = axis->swings ? (now.im - axis->start[1]) / axis->values_per_radian : 0;
         for (int k = 0; k < 2; k++) miss[k] += column[2 * a][k] * way[2 * a] + column[2 * a + 1][k] * way[2 * a + 1];
     }
-    pull_back(column, 4, miss, pull);
-    double step[4], size = 0;
+    const double best = sqrt(pull_back(column, 4, miss, pull));
+    double step[4], whole = 0, size = 0;
     for (int c = 0; c < 4; c++) {
-        step[c] = column[c][0] * pull[0] + column[c][1] * pull[1] - way[c];
+        step[c] = column[c][0] * pull[0] + column[c][1] * pull[1];
+        whole = maths_hypot(whole, step[c]);
+    }
+    const double most = best > 0 ? DEAREST * maths_hypot(drag->moved_x, drag->moved_y) / best : 0;
+    for (int c = 0; c < 4; c++) {
+        step[c] = step[c] * fmin(1, most / fmax(whole, most)) - way[c];
         size = maths_hypot(size, step[c]);
     }
     char why[STOPPED_SIZE] = "";
