@@ -59,6 +59,13 @@ holds "beyond its new place" awk -F, '$1 == 62 { there = $2 } $1 == 68 { exit !(
 holds "swings less each time" below "$(off held tail.up. 116 144 held 144)" 0.9
 holds "and stays down" above "$(off held tail.up. 144 144)" 1.3
 
+# --- a tail, pulled where it hardly moves
+
+scene=assets/scenes/tail.json
+expect 0 "a tail is pulled to where it cannot go" play pull pull
+holds "both ways that it bends have a pose there" [ "$(grep -c '"frame": 80, .*"im"' "$scratch/pull.json")" = 2 ]
+holds "which is not far" not grep -qE '"frame": 80, ("value": -?[1-9][^}]*"im"|.*"im": -?[1-9])' "$scratch/pull.json"
+
 # --- a walk, and the other clips of its file
 
 scene=assets/models/dog.glb

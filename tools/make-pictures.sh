@@ -61,6 +61,19 @@ row() { # <name> <job> <part of a picture of 480x320> <frame>...
     keep "$name" "$scratch/$job"-*.png -crop "$part" +repage +append
 }
 
+# The start scene's tail while it is pulled, side by side.
+pulled() { # <name> <way>...
+    name=$1 n=0
+    shift
+    for way; do
+        n=$((n + 1))
+        sed "s/@pointer(-.*/@pointer($way)/" tests/replays/pull.replay >"$scratch/pull.replay"
+        "$wiggly" live --headless --frames 50 --replay "$scratch/pull.replay" --screenshot "$scratch/pull-$n.png" \
+            assets/scenes/tail.json >"$scratch/log"
+    done
+    keep "$name" "$scratch"/pull-*.png -crop 520x360+240+0 +repage +append
+}
+
 animation() { # <name>: every fourth of 300 frames, 15 a second
     "$wiggly" live --headless --frames 1 --size 960x600 --record "$scratch/loop.replay" >/dev/null 2>&1
     sed -i 's/^frames .*/frames 300/' "$scratch/loop.replay"
@@ -92,6 +105,7 @@ END
 picture bones.png 60 --replay "$scratch/bones.replay" assets/models/dog.glb
 picture dog.png 130 assets/scenes/dog.json
 picture swing.png 100 --replay "$scratch/swing.replay"
+pulled pull.png 0,0 0.175,0 0,0.175 -0.175,0
 row flick.png idle 255x230+115+15 29 33 35 44 60
 row held.png held 345x250+75+15 0 46 56 62 68 144
 picture figure7.png 60 assets/scenes/figure7.json
