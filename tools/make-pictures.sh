@@ -50,15 +50,21 @@ drag_events() {
     echo "268 pointer @stage(0.02,0.95)"
 }
 
-# The result of a job of tests/replays at some frames, side by side.
-row() { # <name> <job> <part of a picture of 480x320> <frame>...
-    name=$1 job=$2 part=$3
+# A scene at some frames, side by side.
+row() { # <name> <scene> <part of a picture of 480x320> <frame>...
+    name=$1 from=$2 part=$3 n=10
     shift 3
-    "$wiggly" live --no-draw --replay "tests/replays/$job.replay" --result "$scratch/$job.json" "tests/replays/$job.json" >"$scratch/log"
     for frame; do
-        "$wiggly" export "$scratch/$job.json" -o "$scratch/$job-$(printf %04d "$frame").png" --frames "$frame:$frame" --size 480x320 --quiet
+        n=$((n + 1))
+        "$wiggly" export "$from" -o "$scratch/$name-$n.png" --frames "$frame:$frame" --size 480x320 --quiet
     done
-    keep "$name" "$scratch/$job"-*.png -crop "$part" +repage +append
+    keep "$name" "$scratch/$name"-*.png -crop "$part" +repage +append
+}
+
+# The result of a job of tests/replays.
+job() { # <job>
+    "$wiggly" live --no-draw --replay "tests/replays/$1.replay" --result "$scratch/$1.json" "tests/replays/$1.json" >"$scratch/log"
+    echo "$scratch/$1.json"
 }
 
 # The start scene's tail while it is pulled, side by side.
@@ -106,8 +112,11 @@ picture bones.png 60 --replay "$scratch/bones.replay" assets/models/dog.glb
 picture dog.png 130 assets/scenes/dog.json
 picture swing.png 100 --replay "$scratch/swing.replay"
 pulled pull.png 0,0 0.175,0 0,0.175 -0.175,0
-row flick.png idle 255x230+115+15 29 33 35 44 60
-row held.png held 345x250+75+15 0 46 56 62 68 144
+row flick.png "$(job idle)" 255x230+115+15 29 33 35 44 60
+row held.png "$(job held)" 345x250+75+15 0 46 56 62 68 144
+sed 's/"wind_up": 0.5/"wind_up": 0/' assets/scenes/tail.json >"$scratch/whole.json"
+row accent.png assets/scenes/tail.json 300x225+85+15 98 104 110 116 2 8 14 20
+row accent-whole.png "$scratch/whole.json" 300x225+85+15 98 104 110 116 2 8 14 20
 picture figure7.png 60 assets/scenes/figure7.json
 
 # docs/blender.md, with a Python that has bpy.
