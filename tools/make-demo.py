@@ -63,21 +63,21 @@ def fox(t):
     t += 9 * SECOND
     say(t, "Pull the tail: it is held where you let go")
     key(t + 20, "Space")
-    hold(t + 40, 90, "tail(tail,0.95)", pull(0.2, -0.3))
-    hold(t + 190, 90, "tail(tail,0.95)", pull(-0.35, 0.25))
+    hold(t + 40, 90, "tail(tail,0.95)", pull(-0.1, 0.35))
+    hold(t + 190, 90, "tail(tail,0.95)", pull(0.3, -0.2))
     key(t + 330, "Space")
     return t + 8 * SECOND
 
 
 def curves(t):
     say(t, "Drag a knot: the curve still hits every knot")
-    to(t + 30, 150, "knot(sway,2)", lambda u: f"curve(sway,{40 + 22 * math.sin(1.5 * math.pi * u):.3f},{0.9 * math.sin(2 * math.pi * u):.4f})")
+    to(t + 30, 150, "knot(sway,2)", round_and_round)
     t += 5 * SECOND
     say(t, "Double-click: a new knot, and the curve goes through it")
-    at(t + 30, "pointer @ruler(70)")
-    at(t + 60, "pointer @curve(sway,70,0.8)")
-    at(t + 90, "double left @curve(sway,70,0.8)")
-    at(t + 92, "release left @curve(sway,70,0.8)")
+    at(t + 30, "pointer @ruler(100)")
+    at(t + 60, "pointer @curve(sway,100,0.9)")
+    at(t + 90, "double left @curve(sway,100,0.9)")
+    at(t + 92, "release left @curve(sway,100,0.9)")
     t += 4 * SECOND
     say(t, "Feel: how fast it swings, and how soon it settles")
     to(t + 30, 100, "slider(frequency)", lambda u: f"slider(frequency,{1 + 1.4 * u:.4f})")
@@ -87,6 +87,12 @@ def curves(t):
     for n in range(3):
         key(t + 40 + 100 * n, "V")
     return t + 7 * SECOND
+
+
+def round_and_round(u):
+    """One and a half times round, from the fox's third knot to where the tail swings back."""
+    turn = 3 * math.pi * u
+    return f"curve(sway,{50 + 6 * math.cos(turn):.3f},{0.85 * math.cos(turn) + 0.7 * math.sin(turn):.4f})"
 
 
 def record(t):
