@@ -72,7 +72,7 @@ TEST(lag_is_the_active_splines)
     for (int active = 0; active < 2; active++) {
         struct session s;
         session_open(&s, tail);
-        core_activate(&s.editor->core, active);
+        core_choose(&s.editor->core, active);
         const double before[2] = {lag_of(&s, 0), lag_of(&s, 1)};
         session_hold(&s, 'L', ACTION_PRESS);
         session_key(&s, KEY_UP, 0);

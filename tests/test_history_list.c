@@ -11,7 +11,7 @@ static int knots(const struct session *session) { return session->document->spli
 /// Opens the section, with `steps` knots inserted one after the other.
 static void open_list(struct session *session, int steps)
 {
-    panel_open(session, scene, 1280, 1160);
+    panel_open(session, scene, 1280, 1184);
     panel_click(session, "section.history");
     session_key(session, KEY_LEFT, MOD_SHIFT);
     for (int i = 0; i < steps; i++) {
@@ -93,7 +93,7 @@ SESSION_TEST(test_wheel, open_list(s, 40))
 }
 
 /// The list says what it does not have any more.
-SESSION_TEST(test_dropped, panel_open(s, scene, 1280, 960))
+SESSION_TEST(test_dropped, panel_open(s, scene, 1280, 984))
 {
     panel_click(s, "section.history");
     history_set_limit(s->history, 2000);

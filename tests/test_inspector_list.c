@@ -204,7 +204,7 @@ SESSION_TEST(test_frames_per_second_ask, panel_open(s, scene, 1280, 1600))
     session_key(s, KEY_ESCAPE, 0);
 }
 
-SESSION_TEST(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 1600))
+SESSION_TEST(test_a_range_asks_for_its_knots, panel_open(s, scene, 1280, 1640))
 {
     panel_click(s, "section.scene");
     session_click(s, "ruler(80)");

@@ -113,7 +113,7 @@ static int count_marks(const struct session *s)
 /// Rows that have changed have a mark where they were, and while K is held the numbers are those of before.
 SESSION_TEST(rows_show_what_they_were, open_dog(s))
 {
-    static const char *const was[] = {"1.30 Hz", "0.16", "whole curve", "16.0°"};
+    static const char *const was[] = {"1.30 Hz", "0.16", "9 frames", "16.0°"};
     static const char *const now[] = {"1.80 Hz", "0.12", "5 frames", "37.1°"};
     session_key(s, 'K', MOD_SHIFT);
     assert_int_equal(count_marks(s), 0);

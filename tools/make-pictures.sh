@@ -112,7 +112,7 @@ picture bones.png 60 --replay "$scratch/bones.replay" assets/models/dog.glb
 picture dog.png 130 assets/scenes/dog.json
 picture swing.png 100 --replay "$scratch/swing.replay"
 pulled pull.png 0,0 0.175,0 0,0.175 -0.175,0
-row flick.png "$(job idle)" 255x230+115+15 29 33 35 44 60
+row flick.png "$(job idle)" 330x255+75+10 29 33 35 44 60
 row held.png "$(job held)" 345x250+75+15 0 46 56 62 68 144
 sed 's/"wind_up": 0.5/"wind_up": 0/' assets/scenes/tail.json >"$scratch/whole.json"
 row accent.png assets/scenes/tail.json 300x225+85+15 98 104 110 116 2 8 14 20
