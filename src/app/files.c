@@ -19,7 +19,7 @@
 /// The scene "New" opens: a spline without knots, and a tail that follows it.
 static const char new_scene[] =
     "{\"wiggly\": 1, \"frames\": [0, 120], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.1,"
-    " \"knots\": [{\"frame\": 0, \"value\": 0}]}],"
+    " \"wind_up\": 0.5, \"knots\": [{\"frame\": 0, \"value\": 0}]}],"
     " \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"position\": [0, 0.26, 0], \"rest\": 2,"
     " \"spline\": \"sway\"}]}";
 
