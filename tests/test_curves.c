@@ -455,3 +455,48 @@ SESSION_TEST(
         assert_true(cache->re[c][1] > plot->y + 4 && cache->re[c][1] < plot->y + plot->h - 4);
     }
 }
+
+/// Where bands in the active spline's colour begin and end, in frames; returns how many there are.
+static int find_bands(const struct session *s, double ends[4][2])
+{
+    const struct core *core = &s->editor->core;
+    const float left = curves_x(s->editor->curves, core, 0);
+    const float frame = curves_x(s->editor->curves, core, 1) - left;
+    const uint32_t rgb = spline_list_color(core->document, core->active) >> 8;
+    int count = 0;
+    for (int i = 0; i < core->list.count && count < 4; i++) {
+        const struct draw_command *c = &core->list.commands[i];
+        if (c->kind != DRAW_RECT || c->color >> 8 != rgb || c->bounds.h < core->layout.plot.h - 1) continue;
+        ends[count][0] = (double)((c->bounds.x - left) / frame);
+        ends[count++][1] = (double)((c->bounds.x + c->bounds.w - left) / frame);
+    }
+    return count;
+}
+
+/// The wind-up before a selected knot is a band: half a period, no longer than to the knot before, in a loop also round the seam.
+SESSION_TEST(test_the_wind_up_of_a_selected_knot_is_a_band,
+             session_open(s,
+                          "{\"wiggly\": 1, \"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1,"
+                          "\"wind_up\": 0.5, \"start\": \"loop\", \"knots\": [{\"frame\": 4, \"value\": 0},"
+                          "{\"frame\": 40, \"value\": 1}, {\"frame\": 47, \"value\": -1}]}]}"))
+{
+    static const double expected[][2][2] = {{{0, 4}, {88, 96}}, {{28, 40}}, {{40, 47}}};
+    double ends[4][2];
+    session_click(s, "curve(sway,70,0.9)");
+    assert_int_equal(find_bands(s, ends), 0);
+    for (int k = 0; k < 3; k++) {
+        char target[32];
+        snprintf(target, sizeof target, "knot(sway,%d)", k);
+        session_click(s, target);
+        const int count = find_bands(s, ends);
+        assert_int_equal(count, k == 0 ? 2 : 1);
+        for (int b = 0; b < count; b++) {
+            const int of = count == 2 && ends[b][0] > 50 ? 1 : 0;
+            for (int e = 0; e < 2; e++) assert_near(ends[b][e], expected[k][of][e], 0.3);
+        }
+    }
+    session_key(s, 'Z', MOD_CTRL);
+    document_own_spline(s->document, 0)->parameter[PARAMETER_WIND_UP].value = 0;
+    session_frame(s);
+    assert_int_equal(find_bands(s, ends), 0);
+}

@@ -5,6 +5,7 @@
 #include "editor/curves/state.h"
 #include "maths/maths.h"
 #include "scene/pins.h"
+#include "scene/warnings.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>
@@ -69,6 +70,35 @@ static void show_take(struct curves *curves, struct core *core)
 static bool shows_imaginary(const struct core *core, const struct spline *spline)
 {
     return core->curves.phase && spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
+}
+
+/// The frames in which the active curve is pushed to a selected knot, as a faint band; in a loop also round the seam.
+static void show_wind_up(const struct curves *curves, struct core *core)
+{
+    const struct document *document = core->document;
+    const struct spline *spline = spline_list_seen(core);
+    const struct rect plot = core->layout.plot;
+    if (!spline || core->look == LOOK_CUBIC || !spline_winds_up(document, core->active)) return;
+    const uint32_t color = theme_fade(spline_list_color(document, core->active), 0.07f);
+    const double period = document->last_frame - document->first_frame;
+    const bool loops = spline_start(spline) == WIGGLY_LOOP, rests = spline_start(spline) == WIGGLY_REST;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k], *last = &spline->knots[spline->knot_count - 1];
+        if (!selection_has(&core->selection, knot->id) || (k == 0 && !loops && !rests)) continue;
+        const double frequency =
+            core_parameter_at(core, spline, PARAMETER_FREQUENCY, document_sample(document, knot->frame));
+        const double before = k > 0   ? spline->knots[k - 1].frame
+                              : loops ? last->frame - period
+                                      : document->first_frame;
+        const double long_ago = spline->parameter[PARAMETER_WIND_UP].value * document->fps / frequency;
+        const double from = fmax(before, knot->frame - fmax(long_ago, 1.0 / document->substeps));
+        for (int round = 0; round < (from < document->first_frame ? 2 : 1); round++) {
+            const double first = fmax(from + round * period, document->first_frame);
+            const double end = fmin(knot->frame + round * period, document->last_frame);
+            const float x = curves_x(curves, core, first);
+            drawlist_rect(&core->list, (struct rect){x, plot.y, curves_x(curves, core, end) - x, plot.h}, color);
+        }
+    }
 }
 
 /// In painter's order, the active line last.
@@ -416,6 +446,7 @@ void curves_show(struct curves *curves, struct core *core)
     grid_show(curves, core);
     struct rect panel = drawlist_push_clip(&core->list, core->layout.plot);
     limits_show(curves, core);
+    show_wind_up(curves, core);
     show_lines(curves, core);
     show_take(curves, core);
     for (int i = 0; i < curves->cache.other_count; i++) {
