@@ -136,7 +136,7 @@ library: $(LIBRARIES)
 wheel:
 	$(Q)python/wheels.sh $(B) $(PLATFORMS)
 
-npm: | packages
+npm:
 	$(Q)npm/build.sh $(B)
 
 # The app itself finds out whether it has a display; however it ran, it leaves its log and its last picture.
@@ -245,7 +245,7 @@ clean:
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
 
 SETS := $(if $(filter-out check clean help library web npm wheel blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
-SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS)) $(if $(filter web npm,$(MAKECMDGOALS)),web)
+SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS)) $(filter web,$(MAKECMDGOALS))
 packages:
 	$(Q)tools/install-missing.sh $(SETS)
 	$(if $(filter build,$(SETS)),$(Q)tools/check-system.sh "$(CC)" $(PACKAGES))

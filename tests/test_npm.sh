@@ -1,25 +1,16 @@
-# The npm package: its size, its promises under Node, the library's vectors by the same compiler, and its types.
+# The npm package: its size, its promises under Node, the library's vectors of its kind, the springs of others, and its types.
 . tests/check.sh
-[ -z "${SANITIZE:-}" ] || { echo "skip - wasm is not built with sanitizers"; exit 0; }
-for tool in node emcc python3; do
+[ -z "${SANITIZE:-}" ] || { echo "skip - the npm package has no C"; exit 0; }
+for tool in node python3; do
     command -v $tool >/dev/null || { echo "skip - $tool is not installed"; exit 0; }
 done
 place=$(mkdir -p "$B/npm" && realpath "$B/npm")
-export WIGGLY_NPM=$place/wiggly VECTORS_WASM=$place/vectors.wasm NO_COLOR=1
+export WIGGLY_NPM=$place/wiggly NO_COLOR=1
 
-newest() { # <file>: whether it is newer than what it is made of
-    [ -e "$1" ] && [ -z "$(find npm src/maths src/spline include/wiggly -type f -newer "$1" | head -n 1)" ]
-}
-newest "$WIGGLY_NPM/wasm.js" || expect 0 "the package is built" npm/build.sh "$B"
-newest "$VECTORS_WASM" || expect 0 "and the whole solver" npm/tests/build-vectors.sh "$VECTORS_WASM"
-
-packed=$(cat "$WIGGLY_NPM"/* | gzip -9 | wc -c)
-echo "  all that is shipped: $packed bytes gzipped"
-holds "at most 45 KB are shipped" [ "$packed" -le 45000 ]
+expect 0 "the package is built" npm/build.sh "$B"
 version=$(sed -n 's/.*define WIGGLY_VERSION "\(.*\)"/\1/p' include/wiggly/wiggly.h)
 holds "with the library's version" grep -qF "\"version\": \"$version\"" "$WIGGLY_NPM/package.json"
-expect 0 "it does what it promises" node --test npm/tests/spring.test.js
-expect 0 "the vectors are met under Node" node --test npm/tests/vectors.test.js
+expect 0 "it does what it promises, and meets the vectors" node --test npm/tests/spring.test.js npm/tests/vectors.test.js
 { # a comment that begins with numbers says what its line returns
     echo 'const check = (...pair) => { const [a, b] = pair.map((x) => JSON.stringify([x].flat().map((y) => +y.toFixed(2)))); if (a !== b) throw Error(`${a}, not ${b}`) }'
     sed -n '/^```js$/,/^```$/{/^```/!p;}' npm/README.md | sed -E 's#^([a-z]+\..*[^ ]) +// (\[[^]]*\]|[0-9.]+)(:.*)?$#check(\1, \2)#'
@@ -27,6 +18,7 @@ expect 0 "the vectors are met under Node" node --test npm/tests/vectors.test.js
 holds "its page has numbers" [ "$(grep -c '^check' "$scratch/page.mjs")" -ge 4 ]
 mkdir -p "$scratch/node_modules" && ln -s "$WIGGLY_NPM" "$scratch/node_modules/wiggly"
 expect 0 "the programs of its page run" node "$scratch/page.mjs"
+expect 0 "require() finds it" node -e "process.chdir('$scratch'); require('module').createRequire('$scratch/')('wiggly').spring({ from: 0, to: 1 }).at(1)"
 
 # --- with what npm fetches
 
@@ -35,22 +27,32 @@ npm_has "$place/types" types || exit $cases_failed
 cp npm/fetch.sh "$scratch" && sed 's/sha512-\(.\)\(.\)/sha512-\2\1/' npm/fetched.txt >"$scratch/fetched.txt"
 expect 3 "another package than the list names is refused" "$scratch/fetch.sh" "$scratch/other" types
 says "with both hashes" "expected sha512-lj" "$err"
-cp npm/tests/types.ts "$scratch"
-expect 0 "the types are right" node "$place/types/node_modules/typescript/bin/tsc" --strict --noEmit --target es2022 --module nodenext --moduleResolution nodenext --skipLibCheck false "$scratch/types.ts"
+for how in "mts node16 node16" "cts node16 node16" "ts esnext bundler"; do
+    read -r ending module resolution <<<"$how"
+    cp npm/tests/types.ts "$scratch/types.$ending"
+    expect 0 "the types are right: .$ending, $resolution" node "$place/types/node_modules/typescript/bin/tsc" --strict --noEmit --target es2022 --module "$module" \
+        --moduleResolution "$resolution" --skipLibCheck false "$scratch/types.$ending"
+done
 
-PYTHONPATH=tests/web python3 -c 'import sys, chromium; sys.exit(not chromium.find())' || { echo "skip - chromium is not installed"; exit $cases_failed; }
 examples=$place/examples
 mkdir -p "$examples" && cp npm/examples/* "$examples"
 sed -i 's|https://esm.sh/wiggly|../wiggly/index.js|' "$examples/waapi.html"
 npm_has "$examples" examples || exit $cases_failed
 ln -sfn ../../wiggly "$examples/node_modules/wiggly"
-bundle=$(node -p 'require("./npm/examples/package.json").scripts.start.replace(/--servedir=./, "--log-level=warning")')
-expect 0 "the examples are bundled" bash -c "cd '$examples' && node node_modules/esbuild/bin/$bundle"
+bundle() { (cd "$examples" && node node_modules/esbuild/bin/esbuild "$@" --bundle --log-level=warning); }
+packed=$(bundle "$WIGGLY_NPM/index.js" --minify --format=esm | gzip -9 | wc -c)
+echo "  what a page loads: $packed bytes gzipped"
+holds "at most 6 kB are loaded" [ "$packed" -le 6000 ]
+holds "nothing where nothing is used" [ "$(bundle --format=esm <<<"import { spring } from 'wiggly'" | grep -c function)" -eq 0 ]
+cp npm/compare.mjs npm/tests/peers.test.js "$examples"
+expect 0 "from one value to another it is Motion's spring and react-spring's" node --test "$examples/peers.test.js"
+expect 0 "springs of two keys are compared" bash -c "cd '$examples' && node compare.mjs"
+holds "and the page says how they do" [ -n "$out" -a -z "$(grep -vxFf npm/README.md <<<"$out")" ]
+expect 0 "the examples are bundled" bash -c "cd '$examples' && node node_modules/esbuild/bin/$(node -p 'require("./npm/examples/package.json").scripts.start.replace(/--servedir=./, "--log-level=warning")')"
 holds "of the versions that npm/fetched.txt names" node -e '
     const named = require("fs").readFileSync("npm/fetched.txt", "utf8"), { dependencies } = require("./npm/examples/package.json")
     process.exit(+!Object.entries(dependencies).every(([name, version]) => name === "wiggly" || named.includes(`${name} ${version} `)))'
-cp npm/compare.mjs "$examples"
-expect 0 "springs of two keys are compared" bash -c "cd '$examples' && node compare.mjs"
-holds "and the page says how they do" [ -n "$out" -a -z "$(grep -vxFf npm/README.md <<<"$out")" ]
+
+PYTHONPATH=tests/web python3 -c 'import sys, chromium; sys.exit(not chromium.find())' || { echo "skip - chromium is not installed"; exit $cases_failed; }
 timeout 800 python3 npm/tests/pages.py "$examples"
 ok "the pages were looked at in Chromium" $?

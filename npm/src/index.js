@@ -1,36 +1,6 @@
-import { solve, swing } from './solver.js'
-
-/** Refuses with one sentence. */
-const fail = (Kind, sentence) => { throw new Kind(`spring: ${sentence}`) }
-
-function number(name, value, low, high = Infinity) {
-  if (typeof value !== 'number') fail(TypeError, `${name}: expected a number, got ${typeof value}`)
-  if (!(value >= low && value <= high && Math.abs(value) < Infinity)) {
-    fail(RangeError, `${name}: expected ${high < Infinity ? `${low} to ${high}` : low > -Infinity ? `${low} or more` : 'a finite number'}, got ${value}`)
-  }
-  return value
-}
-
-/** A value of `size` numbers, as a list. */
-function numbers(name, value, size) {
-  const list = typeof value === 'number' ? [value] : ArrayBuffer.isView(value) ? Array.from(value) : value
-  if (!Array.isArray(list)) fail(TypeError, `${name}: expected a number or an array of numbers, got ${value === null ? 'null' : typeof value}`)
-  if (size !== undefined && list.length !== size) fail(RangeError, `${name}: expected ${size} number${size > 1 ? 's' : ''}, got ${list.length}`)
-  if (!list.length) fail(RangeError, `${name}: expected at least one number, got none`)
-  list.forEach((one, i) => number(list.length > 1 ? `${name}[${i}]` : name, one, -Infinity))
-  return list
-}
-
-function read(keys) {
-  if (!Array.isArray(keys) || !keys.length) fail(TypeError, 'keys: expected [[time, value], …], at least one key')
-  keys.forEach((key, i) => {
-    if (!Array.isArray(key) || key.length !== 2) fail(TypeError, `keys[${i}]: expected [time, value]`)
-    number(`keys[${i}][0]`, key[0], -Infinity)
-    if (i && !(key[0] > keys[i - 1][0])) fail(RangeError, `keys[${i}]: expected a time after ${keys[i - 1][0]}, got ${key[0]}`)
-  })
-  const first = numbers('keys[0][1]', keys[0][1])
-  return keys.map(([, value], i) => numbers(`keys[${i}][1]`, value, first.length))
-}
+import { easing } from './linear.js'
+import { changeable, checkNames, fail, kindOf, number, numbers, readKeys, readLaw, readSettles } from './options.js'
+import { members, setWeights, solveGap, weight } from './solver.js'
 
 /** Of a free swing, q″ + 2d q′ + k q = 0, a bound of |q| that only falls. */
 function envelope(q, v, d, k, t) {
@@ -40,122 +10,128 @@ function envelope(q, v, d, k, t) {
   return slow * (Math.abs(q) + push * (r2 > 0 ? Math.min(t, 0.5 / r) : t))
 }
 
-class Spring {
-  #options; #many; #begin; #rate; #d; #k; #tracks; #end
-
-  constructor(options) {
-    const { keys, frequency = 2, damping = 0.3, velocity = 0, rest = 0.001 } = options
-    const columns = read(keys), size = columns[0].length
-    number('frequency', frequency, 1e-3, 1e4)
-    number('damping', damping, 0, 100)
-    number('rest', rest, 1e-12, 1)
-    const speeds = velocity === 0 ? new Array(size).fill(0) : numbers('velocity', velocity, size)
-    this.#options = options
-    this.#many = typeof keys[0][1] !== 'number'
-    this.#begin = keys[0][0]
-    const times = keys.map(([time]) => time - this.#begin), natural = 2 * Math.PI * frequency
-    let gap = Infinity
-    for (let i = 1; i < times.length; i++) gap = Math.min(gap, times[i] - times[i - 1])
-    this.#rate = options.rate ?? Math.max(120, 48 * frequency * Math.max(1, damping), 4 / gap)
-    number('rate', this.#rate, 4 / gap)
-    if (times.at(-1) * this.#rate > 1e6) fail(RangeError, `keys: ${Math.round(times.at(-1) * this.#rate)} samples up to the last one are more than 1000000`)
-    this.#d = damping * natural
-    this.#k = natural * natural
-    const properties = columns[0].map((_, i) => columns.map((values) => values[i]))
-    const curves = times.length > 1 ? solve(times, properties, speeds, this.#rate, frequency, damping) : properties.map(([value], i) => Float64Array.of(value, speeds[i] / this.#rate))
-    this.#tracks = curves.map((curve, i) => ({ curve, first: properties[i][0], goal: properties[i].at(-1), values: properties[i] }))
-    this.#end = curves[0].length / 2 - 1
-    this.duration = Math.max(keys.at(-1)[0], ...this.#tracks.map((track) => this.#begin + this.#settled(track, rest)))
-  }
-
-  /** Seconds from the first key on after which the swing stays below `rest` of the keys' range. */
-  #settled({ curve, goal, values }, rest) {
-    const last = this.#end, q = curve[2 * last] - goal, v = curve[2 * last + 1] * this.#rate, begin = last / this.#rate
-    const bound = (t) => envelope(q, v, this.#d, this.#k, t)
-    const least = rest * (Math.max(...values) - Math.min(...values) || Math.hypot(q, v / Math.sqrt(this.#k)))
-    if (bound(0) <= least && v === 0) return begin
-    if (this.#d === 0) return Infinity
-    let low = 0, high = 1
-    while (bound(high) > least) low = high, high *= 2
-    while (high - low > 1e-6 * high) bound((low + high) / 2) > least ? (low = (low + high) / 2) : (high = (low + high) / 2)
-    return begin + high
-  }
-
-  #read({ curve, first, goal }, time, moving) {
-    const t = time - this.#begin, x = t * this.#rate, last = this.#end
-    if (!(x >= 0)) return x < 0 ? (moving ? 0 : first) : NaN
-    if (x === Infinity) return moving ? 0 : goal
-    if (x >= last) return swing(curve[2 * last] - goal, curve[2 * last + 1] * this.#rate, this.#d, this.#k, t - last / this.#rate, moving) + (moving ? 0 : goal)
-    const i = Math.floor(x), u = x - i, a = curve[2 * i], slope = curve[2 * i + 1], step = curve[2 * i + 2] - a
-    const square = 3 * step - 2 * slope - curve[2 * i + 3], cube = slope + curve[2 * i + 3] - 2 * step
-    return moving ? (slope + u * (2 * square + u * 3 * cube)) * this.#rate : a + u * (slope + u * (square + u * cube))
-  }
-
-  #all(time, moving, out) {
-    if (!this.#many) return this.#read(this.#tracks[0], time, moving)
-    const values = out ?? new Array(this.#tracks.length)
-    for (let i = 0; i < this.#tracks.length; i++) values[i] = this.#read(this.#tracks[i], time, moving)
-    return values
-  }
-
-  at(time, out) { return this.#all(time, 0, out) }
-
-  velocity(time, out) { return this.#all(time, 1, out) }
-
-  retarget(time, keys, options) {
-    const [first] = Array.isArray(keys) && Array.isArray(keys[0]) ? keys : [[]]
-    if (!(first[0] > 0)) fail(RangeError, `retarget: expected keys after 0, the moment of the change, got ${first[0]}`)
-    return new Spring({ ...this.#options, ...options, keys: [[0, this.at(time)], ...keys], velocity: this.velocity(time) })
-  }
-
-  linear(error = 0.005, range) {
-    number('linear: error', error, 1e-6, 1)
-    if (!(this.duration < Infinity)) fail(RangeError, 'linear: without damping there is no end')
-    const texts = this.#tracks.map((track) => {
-      const [from, to] = range ?? [track.first, track.goal]
-      if (from === to) fail(RangeError, 'linear: the first and the last key are equal; give a range, as in linear(0.01, [0, 1])')
-      return stops((time) => ((time < this.duration ? this.#read(track, time, 0) : track.goal) - from) / (to - from), this.#begin, this.duration, error)
-    })
-    return this.#many ? texts : texts[0]
-  }
-}
-
-/** From (i, y), the farthest place on the grid to which one line stays within the error, and the slopes that do. */
-function reach(values, error, i, y) {
-  let low = -Infinity, high = Infinity, j = i + 1
-  for (; j < values.length; j++) {
-    const room = j === values.length - 1 ? 0 : error
-    const least = Math.max(low, (values[j] - room - y) / (j - i)), most = Math.min(high, (values[j] + room - y) / (j - i))
-    if (least > most) break
-    low = least
-    high = most
-  }
-  return { to: j - 1, slopes: [low, high, (low + high) / 2] }
-}
-
-/** CSS linear(): lines from the start, each as long as the error allows, ending where the next one then comes farthest. */
-function stops(progress, begin, duration, error) {
-  const digits = Math.ceil(-Math.log10(error)) + 1, round = (value) => Number(value.toFixed(digits))
-  let values, bend = Infinity
-  for (let grid = 1000; bend > 0.1 * error && grid <= 10000; grid *= 10) { // places of one decimal, else of two
-    values = Array.from({ length: grid + 1 }, (_, i) => progress(begin + ((duration - begin) * i) / grid))
-    bend = 0
-    for (let i = 1; i < grid; i++) bend = Math.max(bend, Math.abs(values[i - 1] - 2 * values[i] + values[i + 1]) / 8)
-  }
-  const last = values.length - 1, within = error - Math.min(bend, 0.2 * error) - 0.5 * 10 ** -digits, list = [[0, round(values[0])]]
-  for (let [i, y] = list[0]; i < last;) {
-    const { to, slopes } = reach(values, within, i, y)
-    const ends = slopes.map((slope) => round(y + slope * (to - i))), far = ends.map((end) => (to < last ? reach(values, within, to, end).to : to))
-    ;[i, y] = [to, ends[far.indexOf(Math.max(...far))]]
-    list.push([i, y])
-  }
-  return `linear(${list.map(([i, y]) => `${y}${i % last ? ` ${(100 * i) / last}%` : ''}`).join(', ')})`
-}
-
 /**
- * A spring that passes through keys and settles at the last one.
+ * A spring from a state at its first time on.
+ * @param {number[][]} values of each time, and `settles`: those of the times after the first
  */
+function run(settings, law, many, times, values, settles, start) {
+  const last = times.length - 1, size = values[0].length, states = [start], alone = [0]
+  const { d, k, decay, turn } = law
+  let gap = 0, duration
+
+  const span = (g) => (g < last ? times[g + 1] - times[g] : Infinity)
+
+  /** The state of the key before a time, with what follows from it. */
+  function stateAt(time) {
+    if (!(times[gap] <= time && !(time >= times[gap + 1]))) {
+      let above = last + 1
+      for (gap = 0; above - gap > 1;) {
+        const middle = (gap + above) >> 1
+        if (times[middle] <= time) gap = middle
+        else above = middle
+      }
+    }
+    for (let g = states.length - 1; g < Math.min(last, gap + 1); g++) states.push(solveGap(law, states[g], span(g), values[g + 1], settles[g]))
+    return states[gap]
+  }
+
+  /** Value or speed of property i. */
+  function sum(state, i, weights) {
+    let total = 0
+    for (let m = 0, at = i * members; m < members; m++) total += weights[m] * state[at + m]
+    return total
+  }
+
+  function read(time, moving, out) {
+    const state = stateAt(time), t = time - times[gap], weights = moving ? weight.speed : weight.value
+    if (t < Infinity && (moving ? t >= 0 : t > 0)) {
+      setWeights(law, t, span(gap))
+      for (let i = 0; i < size; i++) out[i] = sum(state, i, weights)
+    } else for (let i = 0; i < size; i++) out[i] = t !== t ? NaN : moving ? 0 : t === Infinity ? state[i * members] : values[gap][i]
+    return out
+  }
+
+  const show = (time, moving, out) => (many ? read(time, moving, out ?? new Array(size)) : read(time, moving, alone)[0])
+
+  /** Seconds until the swing stays below law.rest of the keys' range. */
+  function settled() {
+    const state = stateAt(times[last])
+    let latest = times[last]
+    for (let i = 0; i < size; i++) {
+      const [o, , u, speed, re, im] = state.slice(i * members), q = u + re, v = speed - decay * re - turn * im
+      let low = o, high = o
+      for (const one of values) low = Math.min(low, one[i]), high = Math.max(high, one[i])
+      const least = law.rest * (high - low || Math.hypot(q, v / Math.sqrt(k)))
+      if (envelope(q, v, d, k, 0) <= least && v === 0) continue
+      if (d === 0) return Infinity
+      let before = 0, after = 1 / decay
+      while (envelope(q, v, d, k, after) > least) before = after, after *= 2
+      while (after - before > 1e-6 * after) {
+        const middle = (before + after) / 2
+        if (envelope(q, v, d, k, middle) > least) before = middle
+        else after = middle
+      }
+      latest = Math.max(latest, times[last] + after)
+    }
+    return latest
+  }
+
+  /** Both of property i, and where it rests. */
+  function valueAndSpeed(time, i) {
+    const state = stateAt(time)
+    setWeights(law, time - times[gap], span(gap))
+    return [sum(state, i, weight.value), sum(state, i, weight.speed), state[i * members]]
+  }
+
+  const spring = {
+    get duration() { return (duration ??= settled()) },
+    at: (time, out) => show(time, 0, out),
+    velocity: (time, out) => show(time, 1, out),
+
+    retarget(time, goal, changes = {}) {
+      if (typeof time !== 'number' || time !== time) fail(TypeError, `retarget: time: expected a number, got ${time === time ? kindOf(time) : time}`)
+      checkNames(changes, changeable)
+      const options = { ...settings, settles: Array.isArray(settings.settles) ? true : settings.settles, ...changes }, after = Object.keys(changes).length ? readLaw(options) : law
+      const here = read(time, 0, []), speeds = read(time, 1, []), at = stateAt(time), t = Math.max(0, time - times[gap]), state = []
+      const onwards = Array.isArray(goal) && Array.isArray(goal[0])
+      const keys = onwards ? readKeys(goal, 0, size) : [], to = onwards ? null : numbers('retarget: to', goal, size)
+      const goes = onwards && t < Infinity
+      if (goes) setWeights(law, t, span(gap))
+      for (let i = 0; i < size; i++) {
+        const [o, move, , , re, im, pushed] = at.slice(i * members), { value } = weight
+        const x = goes ? value[4] * re + value[5] * im + value[6] * pushed : 0, y = goes ? value[4] * im - value[5] * re + weight.pushed * pushed : 0
+        const rests = to ? to[i] : goes ? o + weight.moved * move : o
+        state.push(rests, 0, here[i] - rests - x, speeds[i] + after.decay * x + after.turn * y, x, y, 0)
+      }
+      return run(options, after, many, [0, ...keys.map(([when]) => when)], [here, ...keys.map(([, there]) => there)], readSettles(options.settles, keys.length), state)
+    },
+
+    linear(error = 0.005, range) {
+      number('linear: error', error, 1e-6, 1)
+      if (range !== undefined && (numbers('linear: range', range, 2), range[0] === range[1])) fail(RangeError, `linear: range: expected two different numbers, got ${range[0]} twice`)
+      if (!(spring.duration < Infinity)) fail(RangeError, 'linear: without damping there is no end')
+      const end = spring.duration, goals = read(Infinity, 0, [])
+      const texts = goals.map((goal, i) => easing({ law, times, values: values.map((one) => one[i]), at: (time) => valueAndSpeed(time, i) }, end, goal, error, range ?? [values[0][i], goal]))
+      return many ? texts : texts[0]
+    },
+  }
+  return spring
+}
+
+/** A spring through keys, or from one value to another. */
 export function spring(options) {
-  if (options === null || typeof options !== 'object') fail(TypeError, `expected an object such as { keys: [[0, 0], [0.4, 1]] }, got ${options === null ? 'null' : typeof options}`)
-  return new Spring(options)
+  checkNames(options, ['keys', 'from', 'to', 'velocity', ...changeable])
+  const { keys, from, to, velocity, ...settings } = options, law = readLaw(options)
+  if (to !== undefined && from === undefined) fail(TypeError, 'to: also give from')
+  if (from !== undefined && to === undefined && keys === undefined) fail(TypeError, 'from: also give to, or keys')
+  const first = from === undefined ? null : numbers('from', from)
+  const all = keys === undefined && first ? [] : readKeys(keys, first ? 0 : -Infinity, first?.length), flags = readSettles(settings.settles, all.length)
+  const many = typeof (first ? from : keys[0][1]) !== 'number', size = (first ?? all[0][1]).length, goal = to === undefined ? first : numbers('to', to, size)
+  if (first) all.unshift([0, first])
+  const speeds = velocity === undefined ? null : velocity === 0 ? new Array(size).fill(0) : numbers('velocity', velocity, size), state = []
+  all[0][1].forEach((value, i) => {
+    const o = first ? goal[i] : flags[0] ? value : 0, w = first ? 0 : value - o
+    state.push(o, 0, value - o - w, speeds ? speeds[i] + law.decay * w : 0, w, 0, 0)
+  })
+  return run(settings, law, many, all.map(([time]) => time), all.map(([, value]) => value), first ? flags : flags.slice(1), state)
 }

@@ -1,42 +1,193 @@
-// The solver, in WebAssembly that is part of the package: nothing needs to be fetched and nothing has to be awaited.
-import { wasm as text } from './wasm.js'
+// One oscillator that is pushed only shortly before its keys (docs/mathematics.md, Wind-up).
+//
+// The curve is o + q + Re w. o is where the oscillator rests: it moves to a key that settles, over the wind-up before that key. q swings
+// freely, q″ + 2d q′ + k q = 0, and answers the moves of o. w is what the keys ask for: from a key on it swings by one pole, w′ = p w,
+// and in the wind-up two poles, p ± jν, are pushed to the next key with the least sum of squares.
+//
+// With w_i = e^{p(i−n)h} z_i, n the key's sample, both poles have the same real filter, z_{i+1} = 2 cos(νh) z_i − z_{i−1} + ε_i. So z is
+// C times what free motion would bring to the key, plus R times what is then missing there; C and R are real and depend on no value.
 
-const beyond = 'spring: these keys are beyond what can be solved'
-const absent = () => { throw new RangeError(beyond) }
-
-function load() {
-  const digit = (i) => { const code = text.charCodeAt(i); return code < 58 ? code - 48 : code - 87 }
-  const bytes = new Uint8Array(text.length / 2).map((_, i) => 16 * digit(2 * i) + digit(2 * i + 1))
-  const module = new WebAssembly.Module(bytes)
-  const env = {}
-  for (const { name } of WebAssembly.Module.imports(module)) env[name] = name === 'variation_is_set' ? () => 0 : absent
-  return new WebAssembly.Instance(module, { env }).exports
-}
-
-let wasm
+/** Numbers of a state, one property after the other: o, its next move, q, q′, Re w, Im w, and what the pushes add at the next key. */
+export const members = 7
 
 /**
- * The curve through keys: a value and a slope per sample, for every sample up to the last key.
- * @param {number[]} times from 0 on
- * @param {number[][]} columns the values of each property
- * @param {number[]} speeds at time 0
+ * What a spring is made of.
+ * @param {number} windUp seconds before a key
+ * @param {number} count samples of a wind-up; need not be whole
+ * @param {number} least samples of a gap that is shorter than that
+ * @param {boolean} isRefined whether to come closer to endlessly many samples; needs a whole count
  */
-export function solve(times, columns, speeds, rate, frequency, damping) {
-  wasm ??= load()
-  const keys = times.length, last = Math.floor(times[keys - 1] * rate + 0.5)
-  const room = wasm.spring_room(keys, last + 2)
-  if (!room) throw new RangeError(`spring: ${last} samples are more than memory holds`)
-  const memory = new Float64Array(wasm.memory.buffer, room, 2 * keys + 2 * (last + 1))
-  memory.set(times)
-  return columns.map((values, column) => {
-    memory.set(values, keys)
-    if (wasm.spring_solve(rate, frequency, damping, speeds[column])) throw new RangeError(beyond)
-    return memory.slice(2 * keys)
-  })
+export function springLaw(frequency, damping, bandwidth, windUp, count, least, isRefined) {
+  const natural = 2 * Math.PI * frequency, root = Math.sqrt(Math.abs(damping * damping - 1)), swings = damping <= 1
+  return {
+    d: damping * natural, k: natural * natural, root: root * natural, windUp, count, least, isRefined, apart: bandwidth * natural,
+    decay: swings ? damping * natural : natural / (damping + root), // of the pole; beyond critical damping the slower one
+    turn: swings ? root * natural : 0,
+    tables: [],
+  }
 }
 
-/** A free swing from a value and a speed, t seconds later: its value or, if `moving`, its speed. */
-export function swing(value, speed, d, k, t, moving) {
-  wasm ??= load()
-  return wasm.spring_swing(value, speed, d, k, t, moving)
+/** A free swing after t seconds: what is left of q and of q′, the speeds of both, and the factor e^{pt} of w. */
+function swing({ d, k, decay, turn, root }, t, out) {
+  const fall = Math.exp(-decay * t)
+  let x = fall, y = 0, cosine = fall, sine = fall * t // the last two: of rt with the decay, the sine over r
+  if (turn > 0) {
+    cosine = x = fall * Math.cos(turn * t)
+    y = fall * Math.sin(turn * t)
+    sine = y / turn
+  } else if (root > 0) {
+    const apart = Math.expm1(-2 * root * t)
+    cosine = fall * (1 + apart / 2)
+    sine = (fall * -apart) / (2 * root)
+  }
+  out[0] = cosine + d * sine
+  out[1] = sine
+  out[2] = -k * sine
+  out[3] = cosine - d * sine
+  out[4] = x
+  out[5] = y
+  return out
+}
+
+const free = new Float64Array(6)
+
+/** How o moves. */
+const smooth = (t) => (t > 0 ? t * t * t * (10 + t * (6 * t - 15)) : 0)
+
+/** The wind-up of n samples, h seconds each: C, R and what o and q do for a move by 1, a value and a slope per sample. */
+function makeTable(law, n, h) {
+  const last = Math.ceil(n - 1e-9), first = last + Math.floor(0.5 - n + 1e-9), off = first - last + n // the first sample is `off` after the start
+  const nu = law.apart * h, twice = 2 * Math.cos(nu), fall = Math.exp(-2 * law.decay * h)
+  const C = new Float64Array(2 * last + 2), R = new Float64Array(2 * last + 2), moved = new Float64Array(2 * last + 2)
+
+  // How far each push moves z at the key, ψ, and the row that ends the sum, τ; with their covariance.
+  const push = new Float64Array(2 * last)
+  let psi = 1, before = 0, variance = 1, knot = 0, both = 0, row = 0.5 / fall
+  for (let i = last - 1; i >= first; i--) {
+    const tau = (twice / 2) * psi - before, q = variance * (i === first ? Math.min(1, off + 0.5) : 1)
+    knot += q * psi * psi
+    both += q * psi * tau
+    row += q * tau * tau
+    push[2 * i] = q * psi
+    push[2 * i + 1] = q * tau
+    variance *= fall
+    ;[psi, before] = [twice * psi - before, psi]
+  }
+
+  // Without pushes; where the window begins between two samples, between those two ways.
+  const m = 2 * Math.max(0, off), begin = Math.cos(nu * off)
+  const next = (1 - m) * Math.cos(nu * (off + 1)) + m * (twice * begin - Math.cos(nu * (off - 1)))
+  let z = begin, ahead = next
+  for (let i = first + 1; i < last; i++) [z, ahead] = [ahead, twice * ahead - z]
+  const missed = ((twice / 2) * ahead - z) / row, share = both / row, own = knot - both * share
+
+  for (const [values, start, following, ofPsi, ofTau] of [[C, begin, next, 0, -missed], [R, 0, 0, 1 / own, -share / own]]) {
+    let here = start, there = following
+    for (let i = first; i < last; i++) {
+      const pushed = (i > first ? twice * there - here : there) + ofPsi * push[2 * i] + ofTau * push[2 * i + 1]
+      if (i > first) here = there
+      values[2 * (i + 1)] = there = pushed
+    }
+    if (first > 0) values[2] = start
+    values[0] = values === C ? 1 : 0
+    for (let i = 1; i < last; i++) values[2 * i + 1] = (values[2 * i + 2] - values[2 * i - 2]) / (2 * h)
+  }
+
+  // o is linear between samples; q′ jumps against its bends.
+  const step = swing(law, h, free)
+  let q = 0, speed = 0, slope = 0, place = 0
+  for (let i = 0; i <= last; i++) {
+    moved[2 * i] = place + q
+    moved[2 * i + 1] = speed + slope
+    if (i === last) break
+    const to = smooth((i + 1 - last + n) / n), rise = (to - place) / h
+    speed -= rise - slope
+    ;[q, speed] = [step[0] * q + step[1] * speed, step[2] * q + step[3] * speed]
+    ;[place, slope] = [to, rise]
+  }
+  return { C, R, moved }
+}
+
+/** The wind-up table of a gap. A few are kept; those of long gaps are all the same. */
+function tableOf(law, span) {
+  const { tables } = law, key = Math.min(span, law.windUp)
+  for (const table of tables) if (table.key === key) return table
+  if (tables.length === 16) tables.shift()
+  let n = law.count, h = law.windUp / n
+  if (!(span - law.windUp > 1e-9 * law.windUp)) {
+    n = Math.max(law.least, Math.ceil(span / h - 1e-9))
+    h = span / n
+  }
+  const table = { key, h, last: Math.ceil(n - 1e-9), ...makeTable(law, n, h) }
+  if (law.isRefined) { // the error is of second order: that of half the step is a quarter
+    const half = makeTable(law, 2 * n, h / 2)
+    for (const name of ['C', 'R', 'moved']) table[name].forEach((value, i, all) => { all[i] = (4 * half[name][2 * i - (i % 2)] - value) / 3 })
+  }
+  tables.push(table)
+  return table
+}
+
+/** Where the numbers of a state count: for the value, for the speed; then what Im w takes of the pushes, and how much of its move o has made. */
+export const weight = { value: new Float64Array(members), speed: new Float64Array(members), pushed: 0, moved: 0 }
+
+/** A cubic between two samples: value and speed to the weights of a number. */
+function setBetween(values, i, u, h, m) {
+  const a = values[2 * i], slope = h * values[2 * i + 1], end = h * values[2 * i + 3], step = values[2 * i + 2] - a
+  const square = 3 * step - 2 * slope - end, cube = slope + end - 2 * step
+  weight.value[m] = a + u * (slope + u * (square + u * cube))
+  weight.speed[m] = (slope + u * (2 * square + u * 3 * cube)) / h
+}
+
+/** Sets the weights for t seconds after a key; `span` seconds lie between that and the next one (Infinity: there is none). */
+export function setWeights(law, t, span) {
+  const { decay, turn } = law, { value, speed } = weight, table = t > span - law.windUp * (1 + 1 / law.count) ? tableOf(law, span) : null
+  const at = table ? (t - span) / table.h + table.last : -1
+  swing(law, t, free)
+  const x = free[4], y = free[5]
+  value[0] = 1
+  value[2] = free[0]
+  value[3] = free[1]
+  speed[2] = free[2]
+  speed[3] = free[3]
+  value[4] = x
+  value[5] = -y
+  speed[4] = -decay * x - turn * y
+  speed[5] = decay * y - turn * x
+  value[1] = speed[1] = value[6] = speed[6] = weight.pushed = weight.moved = 0
+  if (!(at >= 0)) return
+  const { h, last } = table, i = Math.min(last - 1, Math.floor(at)), u = at - i
+  setBetween(table.C, i, u, h, 6)
+  const C = value[6], slope = speed[6]
+  for (let m = 4; m < 6; m++) {
+    speed[m] = speed[m] * C + value[m] * slope
+    value[m] *= C
+  }
+  setBetween(table.moved, i, u, h, 1)
+  setBetween(table.R, i, u, h, 6)
+  const rest = Math.exp(decay * (span - t)), cosine = rest * Math.cos(turn * (t - span)), sine = rest * Math.sin(turn * (t - span)), R = value[6]
+  value[6] = cosine * R
+  speed[6] = cosine * speed[6] - (decay * cosine + turn * sine) * R
+  weight.pushed = sine * R
+  weight.moved = smooth(1 + (t - span) / Math.min(span, law.windUp))
+}
+
+/**
+ * Solves the gap from a key to the next, `span` seconds later: completes the key's state with the move of o and the pushes, and returns
+ * the state at the next one.
+ * @param {number[]} state is written to
+ * @param {number[]} values at the next key
+ * @param {boolean} settles whether o moves there
+ */
+export function solveGap(law, state, span, values, settles) {
+  const { C, moved, last } = tableOf(law, span), reach = C[2 * last], next = []
+  const [fromQ, fromV, speedQ, speedV, x, y] = swing(law, span, free)
+  for (let i = 0, at = 0; i < values.length; i++, at += members) {
+    const o = state[at], q = state[at + 2], v = state[at + 3], re = state[at + 4], im = state[at + 5]
+    const rests = settles ? values[i] : o, move = rests - o, to = fromQ * q + fromV * v + move * (moved[2 * last] - 1)
+    const arrives = reach * (x * re - y * im), wanted = values[i] - rests - to
+    state[at + 1] = move
+    state[at + 6] = wanted - arrives
+    next.push(rests, 0, to, speedQ * q + speedV * v + move * moved[2 * last + 1], wanted, reach * (y * re + x * im), 0)
+  }
+  return next
 }

@@ -22,8 +22,8 @@ requestAnimationFrame(function look(now) {
   requestAnimationFrame(look)
 })
 """
-PEAK, LAST = 254.94, 60  # of the spring of every page, px
-BEND = 195 * (2 * math.pi * 2) ** 2  # how fast it turns back at the peak, px/s²
+PEAK, LAST = 293.25, 60  # of the spring of every page, px
+BEND = 14700  # how fast it turns back at the peak, px/s²
 # How far the browser's easing is from the spring, px.
 EASING = """(async () => {
   const { spring } = await import(new URL('../wiggly/index.js', location))
