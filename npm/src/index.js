@@ -2,21 +2,14 @@ import { easing } from './linear.js'
 import { changeable, checkNames, fail, kindOf, number, numbers, readKeys, readLaw, readSettles } from './options.js'
 import { members, setWeights, solveGap, weight } from './solver.js'
 
-/** Of a free swing, q″ + 2d q′ + k q = 0, a bound of |q| that only falls. */
-function envelope(q, v, d, k, t) {
-  const r2 = d * d - k, r = Math.sqrt(Math.abs(r2)), push = Math.abs(v + d * q)
-  if (r2 < 0 && r * t > 1) return Math.exp(-d * t) * Math.hypot(q, push / r)
-  const slow = Math.exp((r2 > 0 ? r - d : -d) * t)
-  return slow * (Math.abs(q) + push * (r2 > 0 ? Math.min(t, 0.5 / r) : t))
-}
-
 /**
- * A spring from a state at its first time on.
- * @param {number[][]} values of each time, and `settles`: those of the times after the first
+ * A spring from a state at its first key on.
+ * @param {boolean[]} settles of the keys after that
  */
-function run(settings, law, many, times, values, settles, start) {
+function run(settings, law, many, keys, settles, start) {
+  const times = keys.map(([time]) => time), values = keys.map(([, value]) => value)
   const last = times.length - 1, size = values[0].length, states = [start], alone = [0]
-  const { d, k, decay, turn } = law
+  const { d, k, decay, turn, root } = law
   let gap = 0, duration
 
   const span = (g) => (g < last ? times[g + 1] - times[g] : Infinity)
@@ -53,22 +46,25 @@ function run(settings, law, many, times, values, settles, start) {
 
   const show = (time, moving, out) => (many ? read(time, moving, out ?? new Array(size)) : read(time, moving, alone)[0])
 
-  /** Seconds until the swing stays below law.rest of the keys' range. */
+  /** Seconds until the swing stays below law.rest of the keys' range, by a bound of it that falls. */
   function settled() {
     const state = stateAt(times[last])
     let latest = times[last]
     for (let i = 0; i < size; i++) {
-      const [o, , u, speed, re, im] = state.slice(i * members), q = u + re, v = speed - decay * re - turn * im
-      let low = o, high = o
-      for (const one of values) low = Math.min(low, one[i]), high = Math.max(high, one[i])
-      const least = law.rest * (high - low || Math.hypot(q, v / Math.sqrt(k)))
-      if (envelope(q, v, d, k, 0) <= least && v === 0) continue
+      const [o, , u, speed, re, im] = state.slice(i * members), q = u + re, v = speed - decay * re - turn * im, push = Math.abs(v + d * q)
+      const range = values.reduce((far, one) => Math.max(far, one[i]), o) - values.reduce((far, one) => Math.min(far, one[i]), o)
+      const least = law.rest * (range || Math.hypot(q, v / Math.sqrt(k)))
+      if (v === 0 && Math.abs(q) <= least) continue
       if (d === 0) return Infinity
+      const most = turn > 0 ? Math.hypot(q, push / turn) : Infinity, limit = (turn > 0 ? 1 : 0.5) / root
+      const peak = Math.max(0, Math.min(limit, 1 / decay - Math.abs(q) / push))
+      const slow = (t) => Math.exp(-decay * t) * (Math.abs(q) + push * Math.min(t, limit))
+      const swings = (t) => Math.min(Math.exp(-decay * t) * most, slow(Math.max(t, peak))) > least
       let before = 0, after = 1 / decay
-      while (envelope(q, v, d, k, after) > least) before = after, after *= 2
+      while (swings(after)) before = after, after *= 2
       while (after - before > 1e-6 * after) {
         const middle = (before + after) / 2
-        if (envelope(q, v, d, k, middle) > least) before = middle
+        if (swings(middle)) before = middle
         else after = middle
       }
       latest = Math.max(latest, times[last] + after)
@@ -91,27 +87,30 @@ function run(settings, law, many, times, values, settles, start) {
     retarget(time, goal, changes = {}) {
       if (typeof time !== 'number' || time !== time) fail(TypeError, `retarget: time: expected a number, got ${time === time ? kindOf(time) : time}`)
       checkNames(changes, changeable)
-      const options = { ...settings, settles: Array.isArray(settings.settles) ? true : settings.settles, ...changes }, after = Object.keys(changes).length ? readLaw(options) : law
-      const here = read(time, 0, []), speeds = read(time, 1, []), at = stateAt(time), t = Math.max(0, time - times[gap]), state = []
-      const onwards = Array.isArray(goal) && Array.isArray(goal[0])
+      const options = { ...settings, settles: Array.isArray(settings.settles) ? true : settings.settles, ...changes }
+      const after = Object.keys(changes).length ? readLaw(options) : law, onwards = Array.isArray(goal) && Array.isArray(goal[0])
       const keys = onwards ? readKeys(goal, 0, size) : [], to = onwards ? null : numbers('retarget: to', goal, size)
-      const goes = onwards && t < Infinity
+      const here = read(time, 0, []), speeds = read(time, 1, []), at = stateAt(time), t = Math.max(0, time - times[gap]), state = []
+      const goes = onwards && t < Infinity // w goes on; else all is q
       if (goes) setWeights(law, t, span(gap))
       for (let i = 0; i < size; i++) {
         const [o, move, , , re, im, pushed] = at.slice(i * members), { value } = weight
-        const x = goes ? value[4] * re + value[5] * im + value[6] * pushed : 0, y = goes ? value[4] * im - value[5] * re + weight.pushed * pushed : 0
+        const x = goes ? value[4] * re + value[5] * im + value[6] * pushed : 0
+        const y = goes ? value[4] * im - value[5] * re + weight.pushed * pushed : 0
         const rests = to ? to[i] : goes ? o + weight.moved * move : o
         state.push(rests, 0, here[i] - rests - x, speeds[i] + after.decay * x + after.turn * y, x, y, 0)
       }
-      return run(options, after, many, [0, ...keys.map(([when]) => when)], [here, ...keys.map(([, there]) => there)], readSettles(options.settles, keys.length), state)
+      return run(options, after, many, [[0, here], ...keys], readSettles(options.settles, keys.length), state)
     },
 
     linear(error = 0.005, range) {
       number('linear: error', error, 1e-6, 1)
-      if (range !== undefined && (numbers('linear: range', range, 2), range[0] === range[1])) fail(RangeError, `linear: range: expected two different numbers, got ${range[0]} twice`)
+      const [from, to] = range === undefined ? [0, 1] : numbers('linear: range', range, 2)
+      if (from === to) fail(RangeError, `linear: range: expected two different numbers, got ${from} twice`)
       if (!(spring.duration < Infinity)) fail(RangeError, 'linear: without damping there is no end')
       const end = spring.duration, goals = read(Infinity, 0, [])
-      const texts = goals.map((goal, i) => easing({ law, times, values: values.map((one) => one[i]), at: (time) => valueAndSpeed(time, i) }, end, goal, error, range ?? [values[0][i], goal]))
+      const curve = (i) => ({ law, times, values: values.map((one) => one[i]), at: (time) => valueAndSpeed(time, i) })
+      const texts = goals.map((goal, i) => easing(curve(i), end, goal, error, range ?? [values[0][i], goal]))
       return many ? texts : texts[0]
     },
   }
@@ -126,12 +125,12 @@ export function spring(options) {
   if (from !== undefined && to === undefined && keys === undefined) fail(TypeError, 'from: also give to, or keys')
   const first = from === undefined ? null : numbers('from', from)
   const all = keys === undefined && first ? [] : readKeys(keys, first ? 0 : -Infinity, first?.length), flags = readSettles(settings.settles, all.length)
-  const many = typeof (first ? from : keys[0][1]) !== 'number', size = (first ?? all[0][1]).length, goal = to === undefined ? first : numbers('to', to, size)
+  const many = typeof (from ?? keys[0][1]) !== 'number', size = (first ?? all[0][1]).length, goal = to === undefined ? first : numbers('to', to, size)
   if (first) all.unshift([0, first])
-  const speeds = velocity === undefined ? null : velocity === 0 ? new Array(size).fill(0) : numbers('velocity', velocity, size), state = []
+  const speeds = velocity ? numbers('velocity', velocity, size) : velocity === 0 ? new Array(size).fill(0) : null, state = []
   all[0][1].forEach((value, i) => {
     const o = first ? goal[i] : flags[0] ? value : 0, w = first ? 0 : value - o
     state.push(o, 0, value - o - w, speeds ? speeds[i] + law.decay * w : 0, w, 0, 0)
   })
-  return run(settings, law, many, all.map(([time]) => time), all.map(([, value]) => value), first ? flags : flags.slice(1), state)
+  return run(settings, law, many, all, first ? flags : flags.slice(1), state)
 }

@@ -74,24 +74,22 @@ function makeTable(law, n, h) {
     ;[psi, before] = [twice * psi - before, psi]
   }
 
-  // Without pushes; where the window begins between two samples, between those two ways.
+  // Free motion, also where the window begins between two samples.
   const m = 2 * Math.max(0, off), begin = Math.cos(nu * off)
   const next = (1 - m) * Math.cos(nu * (off + 1)) + m * (twice * begin - Math.cos(nu * (off - 1)))
-  let z = begin, ahead = next
-  for (let i = first + 1; i < last; i++) [z, ahead] = [ahead, twice * ahead - z]
-  const missed = ((twice / 2) * ahead - z) / row, share = both / row, own = knot - both * share
-
-  for (const [values, start, following, ofPsi, ofTau] of [[C, begin, next, 0, -missed], [R, 0, 0, 1 / own, -share / own]]) {
-    let here = start, there = following
+  const fill = (values, start, following, ofPsi, ofTau) => {
+    values[2 * first] = start
     for (let i = first; i < last; i++) {
-      const pushed = (i > first ? twice * there - here : there) + ofPsi * push[2 * i] + ofTau * push[2 * i + 1]
-      if (i > first) here = there
-      values[2 * (i + 1)] = there = pushed
+      const drifts = i > first ? twice * values[2 * i] - values[2 * i - 2] : following
+      values[2 * i + 2] = drifts + ofPsi * push[2 * i] + ofTau * push[2 * i + 1]
     }
-    if (first > 0) values[2] = start
-    values[0] = values === C ? 1 : 0
-    for (let i = 1; i < last; i++) values[2 * i + 1] = (values[2 * i + 2] - values[2 * i - 2]) / (2 * h)
   }
+  fill(C, begin, next, 0, 0)
+  const missed = ((twice / 2) * C[2 * last] - C[2 * last - 2]) / row, share = both / row, own = knot - both * share
+  fill(C, begin, next, 0, -missed)
+  fill(R, 0, 0, 1 / own, -share / own)
+  C[0] = 1
+  for (const values of [C, R]) for (let i = 1; i < last; i++) values[2 * i + 1] = (values[2 * i + 2] - values[2 * i - 2]) / (2 * h)
 
   // o is linear between samples; q′ jumps against its bends.
   const step = swing(law, h, free)

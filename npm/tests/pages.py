@@ -1,6 +1,5 @@
 """Opens the example pages in Chromium and compares how far each box goes with the spring: pages.py FOLDER, with the package beside it"""
 
-import math
 import sys
 from pathlib import Path
 
@@ -58,8 +57,8 @@ with Server(Path(sys.argv[1]).parent) as server, chromium.Chromium() as browser:
     page.call("Page.addScriptToEvaluateOnNewDocument", source=PROBE)
 
     def opened(name):
-        page.open(f"{server.url}{Path(sys.argv[1]).name}/{name}.html")
-        page.until(f"the box of {name}.html", "globalThis.seen?.length")
+        page.open(f"{server.url}{Path(sys.argv[1]).name}/{name}")
+        page.until(f"the box of {name}", "globalThis.seen?.length")
 
     def three_times(name, attempt):  # on a busy machine the motion may be over before anything is asked
         for _ in range(3):
@@ -69,7 +68,7 @@ with Server(Path(sys.argv[1]).parent) as server, chromium.Chromium() as browser:
         check(name, good, seen)
 
     def eased():
-        opened("waapi")
+        opened("waapi.html")
         off = page.evaluate(EASING)
         return off < 0.3, f"off by {off} px"
 
@@ -84,7 +83,7 @@ with Server(Path(sys.argv[1]).parent) as server, chromium.Chromium() as browser:
     page.drag((450, 200), (450, 200))
     check("and the box goes where one clicks", settled(page, 400))
     for name in ("motion", "react-spring", "remotion", "three"):
-        three_times(f"{name}.html passes the peak and settles at the last key", lambda name=name: passes(name))
+        three_times(f"{name}'s page passes the peak and settles at the last key", lambda name=name: passes(f"page.html?{name}"))
     problems = [problem for problem in page.problems() if "favicon.ico" not in problem]
     check("nothing complains", not problems, problems)
 sys.exit(wrong)
