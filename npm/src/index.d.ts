@@ -20,8 +20,6 @@ export type Changes = Feel & {
   windUp?: number
   /** Whether keys move the place where the spring rests, all of them or one each; true by default. Else the motion only passes through. */
   settles?: boolean | readonly boolean[]
-  /** How far the frequency may give way before a key, as a part of itself; 0.1 by default. */
-  bandwidth?: number
   /** The spring has settled when its swing stays below this part of the keys' range; 0.001 by default. */
   rest?: number
   /** Samples per second of the motion before keys; enough by default. */

@@ -91,14 +91,17 @@ function run(settings, law, many, keys, settles, start) {
       const after = Object.keys(changes).length ? readLaw(options) : law, onwards = Array.isArray(goal) && Array.isArray(goal[0])
       const keys = onwards ? readKeys(goal, 0, size) : [], to = onwards ? null : numbers('retarget: to', goal, size)
       const here = read(time, 0, []), speeds = read(time, 1, []), at = stateAt(time), t = Math.max(0, time - times[gap]), state = []
-      const goes = onwards && t < Infinity // w goes on; else all is q
+      const goes = onwards && t < Infinity, [next] = keys // w goes on, or else all is q
+      // So do its pushes, unless the next key is less than a quarter of a period away: again and again, they would then add up.
+      const windsOn = goes && next[0] <= after.windUp * (1 + 1e-9) && next[0] * Math.sqrt(after.k) > Math.PI / 2
       if (goes) setWeights(law, t, span(gap))
+      const { value, speed, pushed, pushedSpeed, moved } = weight
       for (let i = 0; i < size; i++) {
-        const [o, move, , , re, im, pushed] = at.slice(i * members), { value } = weight
-        const x = goes ? value[4] * re + value[5] * im + value[6] * pushed : 0
-        const y = goes ? value[4] * im - value[5] * re + weight.pushed * pushed : 0
-        const rests = to ? to[i] : goes ? o + weight.moved * move : o
-        state.push(rests, 0, here[i] - rests - x, speeds[i] + after.decay * x + after.turn * y, x, y, 0)
+        const [o, move, , , re, im, added, more, moreIm] = at.slice(i * members), rests = to ? to[i] : goes ? o + moved * move : o
+        const parts = ([, , , , a, b, r, c, d], own) => [a * re + b * im + c * more + d * moreIm + r * added, a * im - b * re + c * moreIm - d * more + own * added]
+        const [x, y] = goes ? parts(value, pushed) : [0, 0], byPole = -after.decay * x - after.turn * y
+        const [dx, dy] = windsOn ? parts(speed, pushedSpeed) : [byPole, after.turn * x - after.decay * y]
+        state.push(rests, 0, here[i] - rests - x, speeds[i] - dx, x, y, 0, dx - byPole, dy - (after.turn * x - after.decay * y))
       }
       return run(options, after, many, [[0, here], ...keys], readSettles(options.settles, keys.length), state)
     },
@@ -127,10 +130,10 @@ export function spring(options) {
   const all = keys === undefined && first ? [] : readKeys(keys, first ? 0 : -Infinity, first?.length), flags = readSettles(settings.settles, all.length)
   const many = typeof (from ?? keys[0][1]) !== 'number', size = (first ?? all[0][1]).length, goal = to === undefined ? first : numbers('to', to, size)
   if (first) all.unshift([0, first])
-  const speeds = velocity ? numbers('velocity', velocity, size) : velocity === 0 ? new Array(size).fill(0) : null, state = []
+  const speeds = velocity === undefined ? null : velocity === 0 ? new Array(size).fill(0) : numbers('velocity', velocity, size), state = []
   all[0][1].forEach((value, i) => {
     const o = first ? goal[i] : flags[0] ? value : 0, w = first ? 0 : value - o
-    state.push(o, 0, value - o - w, speeds ? speeds[i] + law.decay * w : 0, w, 0, 0)
+    state.push(o, 0, value - o - w, speeds ? speeds[i] + law.decay * w : 0, w, 0, 0, 0, 0)
   })
   return run(settings, law, many, all, first ? flags : flags.slice(1), state)
 }

@@ -50,7 +50,7 @@ const feels = [['frequency', 'damping'], ['stiffness', 'damping', 'mass'], ['bou
 const feelNames = [...new Set(feels.flat())]
 
 /** Options that retarget() may change. */
-export const changeable = [...feelNames, 'windUp', 'settles', 'bandwidth', 'rest', 'rate']
+export const changeable = [...feelNames, 'windUp', 'settles', 'rest', 'rate']
 
 export function checkNames(options, known) {
   if (options === null || typeof options !== 'object') fail(TypeError, `expected an object such as { keys: [[0, 0], [0.4, 1]] }, got ${kindOf(options)}`)
@@ -95,8 +95,7 @@ export function readLaw(options) {
     least = Math.ceil((enough * rate * seconds) / count)
     count = Math.ceil(rate * seconds)
   }
-  const bandwidth = number('bandwidth', options.bandwidth ?? 0.1, 0, 1)
-  const law = springLaw(frequency, damping, bandwidth, seconds, count, least, true)
+  const law = springLaw(frequency, damping, 0.1, seconds, count, least, true)
   law.rest = number('rest', options.rest ?? 0.001, 1e-12, 1)
   return law
 }

@@ -5,10 +5,14 @@
 // and in the wind-up two poles, p ± jν, are pushed to the next key with the least sum of squares.
 //
 // With w_i = e^{p(i−n)h} z_i, n the key's sample, both poles have the same real filter, z_{i+1} = 2 cos(νh) z_i − z_{i−1} + ε_i. So z is
-// C times what free motion would bring to the key, plus R times what is then missing there; C and R are real and depend on no value.
+// C times what free motion would bring to the key, plus R times what is then missing there; C and R are real and depend on no value. Of a
+// wind-up that begins in mid-motion, D is for the rest of its speed.
 
-/** Numbers of a state, one property after the other: o, its next move, q, q′, Re w, Im w, and what the pushes add at the next key. */
-export const members = 7
+/**
+ * Numbers of a state, one property after the other: o, its next move, q, q′, Re w, Im w, what the pushes add at the next key, and the real
+ * and imaginary part of w′ − p w, which is not 0 where a wind-up goes on in mid-motion.
+ */
+export const members = 9
 
 /**
  * What a spring is made of.
@@ -54,11 +58,11 @@ const free = new Float64Array(6)
 /** How o moves. */
 const smooth = (t) => (t > 0 ? t * t * t * (10 + t * (6 * t - 15)) : 0)
 
-/** The wind-up of n samples, h seconds each: C, R and what o and q do for a move by 1, a value and a slope per sample. */
+/** The wind-up of n samples, h seconds each: C, D, R and what o and q do for a move by 1, a value and a slope per sample. */
 function makeTable(law, n, h) {
   const last = Math.ceil(n - 1e-9), first = last + Math.floor(0.5 - n + 1e-9), off = first - last + n // the first sample is `off` after the start
   const nu = law.apart * h, twice = 2 * Math.cos(nu), fall = Math.exp(-2 * law.decay * h)
-  const C = new Float64Array(2 * last + 2), R = new Float64Array(2 * last + 2), moved = new Float64Array(2 * last + 2)
+  const [C, D, R, moved] = [0, 0, 0, 0].map(() => new Float64Array(2 * last + 2))
 
   // How far each push moves z at the key, ψ, and the row that ends the sum, τ; with their covariance.
   const push = new Float64Array(2 * last)
@@ -84,12 +88,14 @@ function makeTable(law, n, h) {
       values[2 * i + 2] = drifts + ofPsi * push[2 * i] + ofTau * push[2 * i + 1]
     }
   }
-  fill(C, begin, next, 0, 0)
-  const missed = ((twice / 2) * C[2 * last] - C[2 * last - 2]) / row, share = both / row, own = knot - both * share
-  fill(C, begin, next, 0, -missed)
+  for (const [values, start, following] of [[C, begin, next], [D, 0, nu > 0 ? Math.sin(nu) / law.apart : h]]) {
+    fill(values, start, following, 0, 0)
+    fill(values, start, following, 0, (values[2 * last - 2] - (twice / 2) * values[2 * last]) / row)
+  }
+  const share = both / row, own = knot - both * share
   fill(R, 0, 0, 1 / own, -share / own)
-  C[0] = 1
-  for (const values of [C, R]) for (let i = 1; i < last; i++) values[2 * i + 1] = (values[2 * i + 2] - values[2 * i - 2]) / (2 * h)
+  C[0] = D[1] = 1
+  for (const values of [C, D, R]) for (let i = 1; i < last; i++) values[2 * i + 1] = (values[2 * i + 2] - values[2 * i - 2]) / (2 * h)
 
   // o is linear between samples; q′ jumps against its bends.
   const step = swing(law, h, free)
@@ -103,7 +109,7 @@ function makeTable(law, n, h) {
     ;[q, speed] = [step[0] * q + step[1] * speed, step[2] * q + step[3] * speed]
     ;[place, slope] = [to, rise]
   }
-  return { C, R, moved }
+  return { C, D, R, moved }
 }
 
 /** The wind-up table of a gap. A few are kept; those of long gaps are all the same. */
@@ -119,14 +125,14 @@ function tableOf(law, span) {
   const table = { key, h, last: Math.ceil(n - 1e-9), ...makeTable(law, n, h) }
   if (law.isRefined) { // the error is of second order: that of half the step is a quarter
     const half = makeTable(law, 2 * n, h / 2)
-    for (const name of ['C', 'R', 'moved']) table[name].forEach((value, i, all) => { all[i] = (4 * half[name][2 * i - (i % 2)] - value) / 3 })
+    for (const name of ['C', 'D', 'R', 'moved']) table[name].forEach((value, i, all) => { all[i] = (4 * half[name][2 * i - (i % 2)] - value) / 3 })
   }
   tables.push(table)
   return table
 }
 
-/** Where the numbers of a state count: for the value, for the speed; then what Im w takes of the pushes, and how much of its move o has made. */
-export const weight = { value: new Float64Array(members), speed: new Float64Array(members), pushed: 0, moved: 0 }
+/** Where the numbers of a state count: for the value, for the speed; then those of the pushes for Im w and its speed, and how much of its move o has made. */
+export const weight = { value: new Float64Array(members), speed: new Float64Array(members), pushed: 0, pushedSpeed: 0, moved: 0 }
 
 /** A cubic between two samples: value and speed to the weights of a number. */
 function setBetween(values, i, u, h, m) {
@@ -134,6 +140,17 @@ function setBetween(values, i, u, h, m) {
   const square = 3 * step - 2 * slope - end, cube = slope + end - 2 * step
   weight.value[m] = a + u * (slope + u * (square + u * cube))
   weight.speed[m] = (slope + u * (2 * square + u * 3 * cube)) / h
+}
+
+/** Such a cubic times what is left of w, for both of its parts. */
+function setTurning(values, i, u, h, first) {
+  const { value, speed } = weight
+  setBetween(values, i, u, h, 6)
+  const z = value[6], slope = speed[6]
+  for (let m = 0; m < 2; m++) {
+    speed[first + m] = speed[4 + m] * z + value[4 + m] * slope
+    value[first + m] = value[4 + m] * z
+  }
 }
 
 /** Sets the weights for t seconds after a key; `span` seconds lie between that and the next one (Infinity: there is none). */
@@ -151,21 +168,19 @@ export function setWeights(law, t, span) {
   value[5] = -y
   speed[4] = -decay * x - turn * y
   speed[5] = decay * y - turn * x
-  value[1] = speed[1] = value[6] = speed[6] = weight.pushed = weight.moved = 0
+  value[1] = speed[1] = weight.pushed = weight.pushedSpeed = weight.moved = 0
+  for (let m = 6; m < members; m++) value[m] = speed[m] = 0
   if (!(at >= 0)) return
   const { h, last } = table, i = Math.min(last - 1, Math.floor(at)), u = at - i
-  setBetween(table.C, i, u, h, 6)
-  const C = value[6], slope = speed[6]
-  for (let m = 4; m < 6; m++) {
-    speed[m] = speed[m] * C + value[m] * slope
-    value[m] *= C
-  }
+  setTurning(table.D, i, u, h, 7)
+  setTurning(table.C, i, u, h, 4)
   setBetween(table.moved, i, u, h, 1)
   setBetween(table.R, i, u, h, 6)
-  const rest = Math.exp(decay * (span - t)), cosine = rest * Math.cos(turn * (t - span)), sine = rest * Math.sin(turn * (t - span)), R = value[6]
+  const rest = Math.exp(decay * (span - t)), cosine = rest * Math.cos(turn * (t - span)), sine = rest * Math.sin(turn * (t - span)), R = value[6], slope = speed[6]
   value[6] = cosine * R
-  speed[6] = cosine * speed[6] - (decay * cosine + turn * sine) * R
+  speed[6] = cosine * slope - (decay * cosine + turn * sine) * R
   weight.pushed = sine * R
+  weight.pushedSpeed = sine * slope - (decay * sine - turn * cosine) * R
   weight.moved = smooth(1 + (t - span) / Math.min(span, law.windUp))
 }
 
@@ -177,15 +192,15 @@ export function setWeights(law, t, span) {
  * @param {boolean} settles whether o moves there
  */
 export function solveGap(law, state, span, values, settles) {
-  const { C, moved, last } = tableOf(law, span), reach = C[2 * last], next = []
+  const { C, D, moved, last } = tableOf(law, span), reach = C[2 * last], more = D[2 * last], next = []
   const [fromQ, fromV, speedQ, speedV, x, y] = swing(law, span, free)
   for (let i = 0, at = 0; i < values.length; i++, at += members) {
     const o = state[at], q = state[at + 2], v = state[at + 3], re = state[at + 4], im = state[at + 5]
     const rests = settles ? values[i] : o, move = rests - o, to = fromQ * q + fromV * v + move * (moved[2 * last] - 1)
-    const arrives = reach * (x * re - y * im), wanted = values[i] - rests - to
+    const comes = reach * re + more * state[at + 7], turned = reach * im + more * state[at + 8], arrives = x * comes - y * turned, wanted = values[i] - rests - to
     state[at + 1] = move
     state[at + 6] = wanted - arrives
-    next.push(rests, 0, to, speedQ * q + speedV * v + move * moved[2 * last + 1], wanted, reach * (y * re + x * im), 0)
+    next.push(rests, 0, to, speedQ * q + speedV * v + move * moved[2 * last + 1], wanted, y * comes + x * turned, 0, 0, 0)
   }
   return next
 }
