@@ -25,6 +25,11 @@ libm='(a?(sin|cos|tan)h?|sincos|atan2|exp(2|10|m1)?|log(2|10|1p|b)?|pow|hypot|cb
 find "$B"/obj/src/{maths,spline,scene,rig,editor,model,export} -name '*.o' -exec nm -u {} + | grep -wE "U $libm" >"$scratch/inexact"
 holds "curves and documents need no function of libm that differs between machines" [ ! -s "$scratch/inexact" ]
 
+for flags in -ffast-math "-fassociative-math -fno-signed-zeros -fno-trapping-math"; do
+    expect 1 "sums in another order ($flags) are refused" $CC $flags -Iinclude -Isrc -c src/maths/maths.c -o "$scratch/fast.o"
+    says "with the reason" "compile its sources without it" "$err"
+done
+
 # --- other compilers and machines. The library is built as SANITIZE=1 asks already: then this would be the same once more.
 
 if [ -n "${SANITIZE:-}" ] || ! thorough; then exit 0; fi

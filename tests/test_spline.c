@@ -227,6 +227,8 @@ TEST(wrong_descriptions_are_named_and_leave_the_curve_alone)
         const double *track;
         double step, calm, low, high;
         size_t size; ///< less than its own
+        wiggly_mode mode;
+        wiggly_passive passive;
     } cases[] = {
         {WIGGLY_ERROR_KNOT_TWICE, 2, .knots = twice, .count = 3},
         {WIGGLY_ERROR_KNOT_OUTSIDE, 0, .knots = &outside, .count = 1},
@@ -250,6 +252,10 @@ TEST(wrong_descriptions_are_named_and_leave_the_curve_alone)
         {WIGGLY_ERROR_NUMBER, -1, .step = -1},
         {WIGGLY_ERROR_NUMBER, -1, .calm = 1.5},
         {WIGGLY_ERROR_NUMBER, -1, .track = broken_track},
+        {WIGGLY_ERROR_NUMBER, -1, .mode = (wiggly_mode)(WIGGLY_CUBIC + 1)},
+        {WIGGLY_ERROR_NUMBER, -1, .mode = (wiggly_mode)-1},
+        {WIGGLY_ERROR_NUMBER, -1, .start = (wiggly_start)(WIGGLY_LOOP + 1)},
+        {WIGGLY_ERROR_NUMBER, -1, .passive = (wiggly_passive)(WIGGLY_FILTER + 1)},
         {WIGGLY_ERROR_SIZE, -1, .size = sizeof(wiggly_desc)},
         {WIGGLY_ERROR_SIZE, -1, .size = 1},
     };
@@ -258,6 +264,7 @@ TEST(wrong_descriptions_are_named_and_leave_the_curve_alone)
             describe(50 + cases[c].samples, WIGGLY_COMPLEX, cases[c].start, cases[c].knots, cases[c].count);
         desc.size -= cases[c].size;
         desc.damping.track = cases[c].track;
+        desc.mode = cases[c].mode, desc.passive = cases[c].passive;
         if (cases[c].step != 0) desc.step = cases[c].step;
         if (cases[c].calm != 0) desc.calm = cases[c].calm;
         desc.low = cases[c].low, desc.high = cases[c].high;

@@ -46,7 +46,7 @@ typedef enum wiggly_status {
     WIGGLY_ERROR_SIZE,          ///< a `size` is not set or too small, or asks for members that this version lacks
     WIGGLY_ERROR_MEMORY,        ///< out of memory
     WIGGLY_ERROR_CAPACITY,      ///< more samples or knots than the solver has room for
-    WIGGLY_ERROR_NUMBER,        ///< a number of the description is NaN, infinite or out of its range
+    WIGGLY_ERROR_NUMBER,        ///< a number is NaN, infinite or out of its range, or a mode is unknown
     WIGGLY_ERROR_LOOP,          ///< a loop of one sample
     WIGGLY_ERROR_LIMITS,        ///< a limit is not finite, or the low one is not below the high one
     WIGGLY_ERROR_KNOT_NUMBER,   ///< a knot's number is NaN, infinite or beyond 1e300, or its stiffness is below 0

@@ -12,7 +12,8 @@ static const char *const status_text[WIGGLY_STATUS_COUNT] = {
         "the size of a structure is not set, or it asks for more than this version of libwiggly has",
     [WIGGLY_ERROR_MEMORY] = "out of memory",
     [WIGGLY_ERROR_CAPACITY] = "more samples or knots than the solver has room for",
-    [WIGGLY_ERROR_NUMBER] = "a number is not finite or out of range: step above 0, calm 0 to 1, variation from 0",
+    [WIGGLY_ERROR_NUMBER] =
+        "a number is not finite or out of range: step above 0, calm 0 to 1, variation from 0, a mode that there is",
     [WIGGLY_ERROR_LOOP] = "a loop needs more than one sample",
     [WIGGLY_ERROR_LIMITS] = "a limit is not finite, or the low limit is not below the high one",
     [WIGGLY_ERROR_KNOT_NUMBER] = "a knot's number is not finite or beyond 1e300, or its stiffness below 0",

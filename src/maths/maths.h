@@ -3,6 +3,10 @@
 #ifndef MATHS_MATHS_H
 #define MATHS_MATHS_H
 
+#if defined __FAST_MATH__ || defined __ASSOCIATIVE_MATH__ || defined __RECIPROCAL_MATH__ || defined _M_FP_FAST
+#error "wiggly's curves are wrong under -ffast-math: compile its sources without it"
+#endif
+
 #include <math.h>
 
 double maths_exp(double x);

@@ -1,5 +1,6 @@
 /// Solves many splines on several threads. Each thread has its own solver and takes the next few splines until none is left. Results do
 /// not depend on the thread, because a solver's caches change no bit of them.
+#include "spline/host.h"
 #include "spline/solver.h"
 #include "spline/thread.h"
 #include <limits.h>
@@ -138,16 +139,18 @@ static void work(worker *w)
 {
     wiggly_batch *batch = w->batch;
     const job *now = &batch->job;
+    const host_state host = host_leave();
     w->worst = WIGGLY_OK;
     for (;;) {
         int from = atomic_fetch_add(&batch->next, AT_A_TIME), to = from + AT_A_TIME;
-        if (from >= now->count) return;
+        if (from >= now->count) break;
         for (int i = from; i < to && i < now->count; i++) {
             wiggly_status status = solve_one(now, w->solver, i);
             if (now->status) now->status[i] = status;
             if (status > w->worst) w->worst = status;
         }
     }
+    host_return(&host);
 }
 
 static thread_result THREAD_CALL run(void *argument)

@@ -1,5 +1,6 @@
 /// The frequency and damping that explain knots best (docs/mathematics.md, Frequency).
 #include "maths/maths.h"
+#include "spline/host.h"
 #include "spline/problem.h"
 #include "spline/symmetric.h"
 #include <math.h>
@@ -111,7 +112,7 @@ static wiggly_explanation refine(const sight *s, wiggly_explanation at, double r
     return at;
 }
 
-int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2])
+static int explain(const wiggly_desc *desc, wiggly_explanation best[2])
 {
     wiggly_desc own;
     int wrong;
@@ -138,4 +139,12 @@ int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2])
         count++;
     }
     return count < 2 ? count : 2;
+}
+
+int wiggly_explain(const wiggly_desc *desc, wiggly_explanation best[2])
+{
+    const host_state host = host_leave();
+    const int found = explain(desc, best);
+    host_return(&host);
+    return found;
 }

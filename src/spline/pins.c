@@ -6,6 +6,7 @@
 //     S = Σ_s R_sᵀ Z_s R_s / w_s,     (S + diag(φ S_max)) λ = want − Σ_s R_s x_s⁰,
 //
 // and every spline is solved once more under the pulls R_sᵀ λ / w_s.
+#include "spline/host.h"
 #include "spline/pin_group.h"
 #include "spline/symmetric.h"
 #include "spline/wide.h"
@@ -596,15 +597,8 @@ static void scale_all(wiggly_group *g, int spline_count, const wiggly_pin *pins,
     for (int s = 0; s < spline_count; s++) scale_values(g->pulled[s].solver, g->unit, &g->pulled[s].desc);
 }
 
-wiggly_status wiggly_group_solve(wiggly_group *g, const wiggly_desc *descs, const double *weights,
-                                 wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count)
-{
-    return wiggly_group_solve_bounded(g, descs, weights, curves, spline_count, pins, pin_count, NULL, 0);
-}
-
-wiggly_status wiggly_group_solve_bounded(wiggly_group *g, const wiggly_desc *descs, const double *weights,
-                                         wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count,
-                                         wiggly_bound *bounds, int bound_count)
+static wiggly_status solve(wiggly_group *g, const wiggly_desc *descs, const double *weights, wiggly_curve *curves,
+                           int spline_count, wiggly_pin *pins, int pin_count, wiggly_bound *bounds, int bound_count)
 {
     wiggly_status status = check(g, descs, weights, curves, spline_count, pins, pin_count);
     if (status != WIGGLY_OK) return status;
@@ -630,4 +624,20 @@ wiggly_status wiggly_group_solve_bounded(wiggly_group *g, const wiggly_desc *des
     for (int s = 0; s < spline_count; s++)
         solver_scale_back(g->pulled[s].solver, desc_at(descs, s), g->pulled[s].curve);
     return all ? status : WIGGLY_SINGULAR;
+}
+
+wiggly_status wiggly_group_solve(wiggly_group *g, const wiggly_desc *descs, const double *weights,
+                                 wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count)
+{
+    return wiggly_group_solve_bounded(g, descs, weights, curves, spline_count, pins, pin_count, NULL, 0);
+}
+
+wiggly_status wiggly_group_solve_bounded(wiggly_group *g, const wiggly_desc *descs, const double *weights,
+                                         wiggly_curve *curves, int spline_count, wiggly_pin *pins, int pin_count,
+                                         wiggly_bound *bounds, int bound_count)
+{
+    const host_state host = host_leave();
+    const wiggly_status status = solve(g, descs, weights, curves, spline_count, pins, pin_count, bounds, bound_count);
+    host_return(&host);
+    return status;
 }

@@ -3,6 +3,7 @@
 #include "maths/maths.h"
 #include "spline/dd.h"
 #include "spline/desc.h"
+#include "spline/host.h"
 #include "spline/wide.h"
 #include <float.h>
 #include <math.h>
@@ -255,6 +256,7 @@ wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)
     wiggly_desc own;
     wiggly_poles out = {{{0}}, {{0}}};
     if (desc_read(desc, &own) != WIGGLY_OK || sample < 0 || sample >= own.samples) return out;
+    const host_state host = host_leave();
     const poles at = poles_at(&own, sample, 0);
     for (int k = 0; k < 2; k++) {
         const cplx z = cplx_exp(cplx_scale(own.step, at.s[k]));
@@ -263,6 +265,7 @@ wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)
         out.z[k][0] = z.re;
         out.z[k][1] = z.im;
     }
+    host_return(&host);
     return out;
 }
 

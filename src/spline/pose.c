@@ -35,6 +35,9 @@ static wiggly_status check_settings(const wiggly_desc *desc, bool *y_is_safe)
     if (!(desc->step > 0 && desc->step < INFINITY) || !is_part(desc->calm)) return WIGGLY_ERROR_NUMBER;
     if (!(desc->variation >= 0 && desc->variation < INFINITY)) return WIGGLY_ERROR_NUMBER;
     if (!(desc->wind_up >= 0 && desc->wind_up <= longest_wind_up)) return WIGGLY_ERROR_NUMBER;
+    if ((unsigned)desc->mode > WIGGLY_CUBIC || (unsigned)desc->start > WIGGLY_LOOP ||
+        (unsigned)desc->passive > WIGGLY_FILTER)
+        return WIGGLY_ERROR_NUMBER;
     for (const desc_member *m = desc_members; m->name; m++) {
         if (m->kind != DESC_PARAM) continue;
         const wiggly_param *param = desc_param(desc, m);

@@ -1,5 +1,6 @@
 /// Solves one spline by the chain or by the band; if the problem is singular, solves the nearest one that is not (docs/mathematics.md, last
 /// rule of Constraints).
+#include "spline/host.h"
 #include "spline/limits.h"
 #include "spline/problem.h"
 #include <float.h>
@@ -264,8 +265,11 @@ wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
     if (!curve_fits(curve)) return WIGGLY_ERROR_SIZE;
     wiggly_desc own;
     curve->knot = -1;
+    const host_state host = host_leave();
     wiggly_status status = desc_read(desc, &own);
-    return status == WIGGLY_OK ? solver_solve(solver, &own, curve) : status;
+    if (status == WIGGLY_OK) status = solver_solve(solver, &own, curve);
+    host_return(&host);
+    return status;
 }
 
 wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
