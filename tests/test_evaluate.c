@@ -37,6 +37,10 @@ static void compare(const wiggly_curve *curve, double from, double by, int count
         if (i < count) {
             wiggly_value value = wiggly_evaluate(curve, from + by * i);
             double total = value.y + value.re;
+            if (isnan(total)) {
+                assert_true(isnan(out[STRIDE * i]));
+                continue;
+            }
             assert_near(out[STRIDE * i], total, 2e-7 * fmax(1, fmax(fabs(total), hypot(value.re, value.im))));
         } else {
             assert_true(out[STRIDE * i] == -77);
@@ -182,9 +186,10 @@ TEST(values_and_changes_are_those_of_the_motion)
             const wiggly_value at = motion_at(&motions[m], i / 24.0, &rate);
             curve.y[i] = at.y, curve.re[i] = at.re, curve.im[i] = at.im, curve.omega[i] = motions[m].omega;
         }
-        for (double t = 1.0 / 24; t < (SAMPLES - 2) / 24.0; t += 0.0137) {
-            const wiggly_value expected = motion_at(&motions[m], t, &rate);
-            assert_value(wiggly_evaluate_at(&curve, t, &own), expected, 20 * motions[m].near, motions[m].what, t);
+        for (double t = 0; t < (SAMPLES - 1) / 24.0; t += 0.0137) {
+            wiggly_value expected = motion_at(&motions[m], t, &rate), value = wiggly_evaluate_at(&curve, t, &own);
+            if (t < 1.0 / 24 || t > (SAMPLES - 2) / 24.0) expected.y = value.y, rate.y = own.y; // y ends straight
+            assert_value(value, expected, 20 * motions[m].near, motions[m].what, t);
             assert_value(own, rate, 2000 * motions[m].near, motions[m].what, t);
         }
         curve_destroy(&curve);
@@ -256,4 +261,107 @@ TEST(a_curve_without_what_it_takes_is_no_number)
     assert_true(isnan(wiggly_evaluate_at(&lacking, 1, &rate).re) && isnan(rate.re));
     assert_true(wiggly_evaluate_at(&none, 1, &rate).re == 0 && rate.re == 0);
     curve_destroy(&curve);
+}
+
+TEST(nowhere_is_no_number)
+{
+    for (int n = 0; n < 9; n++) {
+        wiggly_curve curve = solved((wiggly_mode)(n % 3), (wiggly_start)(n / 3), NULL, SAMPLES);
+        const double times[] = {NAN, INFINITY, -INFINITY};
+        for (int t = 0; t < 3; t++) {
+            wiggly_value rate, value = wiggly_evaluate_at(&curve, times[t], &rate);
+            const bool is_nowhere = t == 0 || curve.start == WIGGLY_LOOP;
+            assert_true(isnan(value.y) == is_nowhere && isnan(value.re) == is_nowhere &&
+                        isnan(value.im) == is_nowhere);
+            assert_true(is_nowhere ? isnan(rate.re) : rate.re == 0);
+            assert_true(is_nowhere || value.re == curve.re[t == 1 ? SAMPLES - 1 : 0]);
+        }
+        curve_destroy(&curve);
+    }
+}
+
+/// Whatever the rate, from both sides, at ends and between; without stiffness as the curve runs.
+TEST(the_change_at_a_knot_with_a_slope_is_that_slope)
+{
+    static const double slopes[] = {2, -3, 1};
+    static const int rates[] = {24, 30, 100}, at[] = {0, 20, 50};
+    double wave[SAMPLES], slope[SAMPLES];
+    for (int i = 0; i < SAMPLES; i++) wave[i] = 0.3 * sin(0.05 * i);
+    for (int n = 0; n < 3 * 3 * 2 * 3 * 2; n++) {
+        const int rate = rates[n / 18 % 3], late = n % 9 / 3 == WIGGLY_FREE ? 5 : 0, samples = late + 2 * rate + 1;
+        wiggly_knot knots[3];
+        for (int k = 0; k < 3; k++)
+            knots[k] = (wiggly_knot){.sample = late + at[k] * rate / 25 - (k == 2 && n % 9 / 3 == WIGGLY_LOOP),
+                                     .has_slope = true,
+                                     .value = 0.5 * k,
+                                     .slope = slopes[k],
+                                     .stiffness = 1e9};
+        wiggly_desc desc = {.size = sizeof desc, .knots = knots, .knot_count = 3, .samples = samples};
+        desc.step = 1.0 / rate, desc.mode = (wiggly_mode)(n % 3), desc.start = (wiggly_start)(n % 9 / 3);
+        desc.passive = (wiggly_passive)(n / 9 % 2);
+        desc.frequency.value = 1.5, desc.damping.value = 0.1, desc.bandwidth.value = 0.1;
+        if (n / 54) desc.equilibrium.track = wave;
+        wiggly_curve curve = curve_create(samples);
+        curve.slope = slope;
+        curve_solve(&curve, &desc);
+        for (int k = 0; k < 3; k++) {
+            wiggly_value value;
+            for (int side = -1; side <= 1; side++) {
+                if ((side < 0 && knots[k].sample == curve.first) || (side > 0 && knots[k].sample == samples - 1))
+                    continue;
+                wiggly_evaluate_at(&curve, (knots[k].sample + 1e-8 * side) / rate, &value);
+                assert_near(value.y + value.re, slopes[k], 1e-4);
+            }
+        }
+        for (int i = 0; i < samples - (desc.start == WIGGLY_LOOP); i++)
+            assert_true(isnan(slope[i]) == (i != knots[0].sample && i != knots[1].sample && i != knots[2].sample));
+        for (int k = 0; k < 3; k++) knots[k].stiffness = 1e-9;
+        curve_solve(&curve, &desc);
+        wiggly_value own, plain;
+        wiggly_evaluate_at(&curve, (double)knots[1].sample / rate, &own);
+        curve.slope = NULL;
+        wiggly_evaluate_at(&curve, (double)knots[1].sample / rate, &plain);
+        assert_near(own.re, plain.re, 1e-6);
+        curve_destroy(&curve);
+    }
+}
+
+/// A cubic's speed at an end is the one that its slope there was solved for, without `slope`, too.
+TEST(a_cubic_ends_with_its_slope)
+{
+    const wiggly_knot knots[] = {{.sample = 0, .has_slope = true, .slope = 2, .stiffness = 1e12},
+                                 {.sample = 24, .value = 1},
+                                 {.sample = 48, .has_slope = true, .slope = 1, .stiffness = 1e12}};
+    const wiggly_desc desc = {
+        .size = sizeof desc, .knots = knots, .knot_count = 3, .samples = 49, .mode = WIGGLY_CUBIC};
+    wiggly_curve curve = curve_create(49);
+    curve_solve(&curve, &desc);
+    for (int side = 0; side < 2; side++) {
+        wiggly_value rate;
+        wiggly_evaluate_at(&curve, 2 * side, &rate);
+        assert_near(rate.re, 2 - side, 1e-6);
+    }
+    curve_destroy(&curve);
+}
+
+TEST(many_times_are_as_one_by_one)
+{
+    double frequencies[SAMPLES], seconds[300];
+    for (int i = 0; i < SAMPLES; i++) frequencies[i] = i < 100 ? 1.5 : 2 + sin(0.05 * i);
+    for (int n = 0; n < 9; n++) {
+        wiggly_curve curve = solved((wiggly_mode)(n % 3), (wiggly_start)(n / 3), frequencies, SAMPLES);
+        wiggly_value values[300], rates[300], own[2][300];
+        for (int i = 0; i < 300; i++) seconds[i] = i == 7 ? NAN : (i * 89 % 300 - 20) / (i % 3 ? 24.0 : 25.3);
+        wiggly_evaluate_many(&curve, seconds, 300, values, rates);
+        wiggly_evaluate_many(&curve, seconds, 300, own[0], NULL);
+        wiggly_evaluate_many(&curve, seconds, 300, NULL, own[1]);
+        assert_memory_equal(own[0], values, sizeof values);
+        assert_memory_equal(own[1], rates, sizeof rates);
+        for (int i = 0; i < 300; i++) {
+            wiggly_value rate, value = wiggly_evaluate_at(&curve, seconds[i], &rate);
+            assert_memory_equal(&value, &values[i], sizeof value);
+            assert_memory_equal(&rate, &rates[i], sizeof rate);
+        }
+        curve_destroy(&curve);
+    }
 }

@@ -43,9 +43,10 @@ static void solve_all(results *to)
         if (n / 9 % 3 == 2) desc.has_high = true, desc.high = 1;
         wiggly_curve curve = curve_in(to->rows[n], SAMPLES);
         wiggly_value rate;
-        const double time = 1.3;
+        const double times[] = {1.3, NAN, INFINITY, -1};
+        wiggly_evaluate_at(&(wiggly_curve){.size = sizeof curve}, 1.3, &rate);
         assert_true(wiggly_solve(solver, &desc, &curve) < WIGGLY_ERROR_ARGUMENT);
-        wiggly_evaluate_at(&curve, time, &rate);
+        for (int t = 0; t < 4; t++) wiggly_evaluate_at(&curve, times[t], &rate);
         if (n % 8 == 0) assert_true(wiggly_batch_solve(batch, &desc, &curve, NULL, 1) < WIGGLY_ERROR_ARGUMENT);
         if (n == 54) {
             const wiggly_pull pull = {.c = {{1}}};

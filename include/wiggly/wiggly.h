@@ -63,6 +63,10 @@ const char *wiggly_status_text(wiggly_status status);
 
 // --- what to solve ---------------------------------------------------------------------------------------------------
 
+/// The cubic's ends: at the first knot it is natural (no second derivative), or has the knot's slope; from rest it
+/// begins flat at sample 0, and as a loop it is periodic. At the last knot it is flat, or has the knot's slope and goes
+/// straight on; with WIGGLY_FILTER it is natural and goes straight on. Before the first knot and after a flat end it
+/// stands still.
 typedef enum wiggly_mode {
     WIGGLY_COMPLEX = 0, ///< swings at a frequency that may shift within a band (section 5 of the paper)
     WIGGLY_REAL,        ///< a damped spring (section 3)
@@ -138,6 +142,7 @@ typedef struct wiggly_curve {
     double *re;    ///< Re x
     double *im;    ///< Im x; 0 but in complex mode
     double *omega; ///< the band's centre, rad/s
+    double *slope; ///< the total's change per second at knots with a slope, elsewhere NaN; needs y, re, im, omega
     float *floats; ///< the total once more, for graphics; beyond 3.4e38 infinite
     size_t stride; ///< floats from one to the next; 0: 1
 
@@ -184,8 +189,13 @@ typedef struct wiggly_value {
 /// The curve at a time in seconds; sample i is at i × step. `per_second` receives its change there, or is NULL.
 /// Before the first sample and after the last the curve stands still; a loop goes round. At samples it is what was
 /// solved; in between, x turns by the band's centre. The curve must have y, re and im, in complex mode omega, too:
-/// without one of them all is NaN. Of a curve that was never solved all is 0.
+/// without one of them all is NaN, as at a time that is NaN. If it has `slope`, too, its change at a knot with a firm
+/// slope is that slope. Of a curve that was never solved all is 0.
 wiggly_value wiggly_evaluate_at(const wiggly_curve *curve, double seconds, wiggly_value *per_second);
+
+/// The same at `count` times, in less time for each. `values` or `per_second` may be NULL.
+void wiggly_evaluate_many(const wiggly_curve *curve, const double *seconds, size_t count, wiggly_value *values,
+                          wiggly_value *per_second);
 
 /// y + cos(lag) re + sin(lag) im: the total of a part that lags by `lag` radians. With 0 it is the curve's own; of a
 /// value per second it is the part's change.

@@ -75,7 +75,7 @@ class Headers(unittest.TestCase):
 
     def test_structures_have_the_members_of_the_headers(self):
         for name, own in (
-            ("desc", _library.CDesc), ("param", _library.CParam), ("curve", _library.CCurve), ("value", _library.CValue),
+            ("desc", _library.CDesc), ("param", _library.CParam), ("curve", _library.CCurve),
             ("numbers", _library.CRows), ("rows", _library.CRows), ("many", _library.CMany), ("pull", _library.CPull),
             ("pin", _library.CPin), ("bound", _library.CBound), ("explanation", _library.CExplanation), ("poles", _library.CPoles),
             ("knot", None),
@@ -257,6 +257,13 @@ class Splines(unittest.TestCase):
         self.assertIsInstance(curve(0.51), float)
         self.assertTrue(np.isnan(curve(np.nan)) and curve([]).shape == (0,))
         np.testing.assert_allclose(curve(curve.times), curve.total, atol=1e-15)
+
+    def test_the_derivative_at_a_knot_with_a_slope_is_the_slope(self):
+        knots = [Knot(0, 0, slope=2, stiffness=1e9), Knot(1, 1, slope=-3, stiffness=1e9), Knot(2, 0.5, slope=1, stiffness=1e9)]
+        for mode in ("complex", "real", "cubic"):
+            curve = Spline(knots, frequency=1.5, damping=0.1, mode=mode).solve(49)
+            for read in (curve, pickle.loads(pickle.dumps(curve))):
+                np.testing.assert_allclose(read.derivative([0, 1 - 1e-9, 1, 2]), [2, -3, -3, 1], atol=1e-6)
 
     def test_a_prepared_solver_has_the_same_bits(self):
         solver = Spline(KNOTS, frequency=1, damping=0.1, limits=(-2, 2)).prepare(97)

@@ -146,8 +146,11 @@ wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggl
 /// The same of one that was checked last (problem_check()), and whose values' squares a double can hold.
 wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
 
-/// Divides such a curve by the power of two that scale_values() multiplied `desc` by.
+/// Divides such a curve by the power of two that scale_values() multiplied `desc` by, and fills its slopes.
 void solver_scale_back(const wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
+
+/// Fills `slope` of a curve that is solved otherwise (evaluate.c).
+void evaluate_slopes(const wiggly_desc *desc, wiggly_curve *curve);
 
 /// Adds an error of x to that of the curve just solved. Returns the status, WIGGLY_INEXACT for WIGGLY_OK if that is too much.
 wiggly_status solver_add_error(const wiggly_solver *solver, wiggly_curve *curve, double error, wiggly_status status);

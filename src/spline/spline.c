@@ -308,10 +308,12 @@ wiggly_status solver_add_error(const wiggly_solver *solver, wiggly_curve *curve,
 
 void solver_scale_back(const wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
 {
-    if (solver->scale == 1) return;
-    wiggly_curve all = with_arrays(solver, curve);
-    scale_back(desc, solver->scale, &all);
-    keep_asked(curve, all);
+    if (solver->scale != 1) {
+        wiggly_curve all = with_arrays(solver, curve);
+        scale_back(desc, solver->scale, &all);
+        keep_asked(curve, all);
+    }
+    if (curve->slope) evaluate_slopes(desc, curve);
 }
 
 wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from ctypes import addressof, byref, sizeof
+from ctypes import addressof, sizeof
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._library import CCurve, CValue, Status, lib
+from ._library import CCurve, Status, lib
 
 
 class Curve:
@@ -46,14 +46,14 @@ class Curve:
     omega: NDArray[np.float64]
 
     def __init__(self, n: int, step: float) -> None:
-        self._hold(np.zeros((5, n)), CCurve(sizeof(CCurve), samples=n, step=step, knot=-1))
+        self._hold(np.zeros((6, n)), CCurve(sizeof(CCurve), samples=n, step=step, knot=-1))
         self.status = Status.OK
 
     def _hold(self, block: NDArray[np.float64], struct: CCurve) -> None:
         self._block, self._struct = block, struct
-        at, row = block.ctypes.data, 8 * block.shape[1]
-        self.total, self.y, self.re, self.im, self.omega = block
-        struct.total, struct.y, struct.re, struct.im, struct.omega = at, at + row, at + 2 * row, at + 3 * row, at + 4 * row
+        self.total, self.y, self.re, self.im, self.omega, _ = block
+        at = (block.ctypes.data + 8 * block.shape[1] * row for row in range(6))
+        struct.total, struct.y, struct.re, struct.im, struct.omega, struct.slope = at
         self._at = addressof(struct)
 
     def __getstate__(self) -> tuple[NDArray[np.float64], bytes, Status]:
@@ -132,12 +132,9 @@ class Curve:
         return self._read(t, lag, True)
 
     def _read(self, t: ArrayLike, lag: ArrayLike, moving: bool) -> Any:
-        evaluate, at, rate = lib.wiggly_evaluate_at, self._at, CValue()
-        seconds = np.asarray(t, dtype=float)
-        values = (CValue * seconds.size)()
-        for i, second in enumerate(seconds.ravel().tolist()):
-            value = evaluate(at, second, byref(rate) if moving else None)
-            values[i] = rate if moving else value
-        y, re, im = np.moveaxis(np.ndarray((*seconds.shape, 3), buffer=memoryview(values)), -1, 0)
-        out = np.where(np.isnan(seconds), np.nan, y + np.cos(lag) * re + np.sin(lag) * im)
-        return out if out.ndim else float(out)
+        seconds = np.asarray(t, dtype=float, order="C")
+        values = np.empty((*seconds.shape, 3))
+        lib.wiggly_evaluate_many(self._at, seconds.ctypes.data, seconds.size, *(None, values.ctypes.data)[:: 1 if moving else -1])
+        y, re, im = np.moveaxis(values, -1, 0)
+        out = y + re if np.ndim(lag) == 0 and not lag else y + np.cos(lag) * re + np.sin(lag) * im
+        return out if np.ndim(out) else float(out)

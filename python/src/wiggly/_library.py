@@ -119,14 +119,10 @@ class CDesc(Structure):
 class CCurve(Structure):
     _fields_ = [
         ("size", c_size_t),
-        ("total", c_void_p), ("y", c_void_p), ("re", c_void_p), ("im", c_void_p), ("omega", c_void_p), ("floats", c_void_p),
+        ("total", c_void_p), ("y", c_void_p), ("re", c_void_p), ("im", c_void_p), ("omega", c_void_p), ("slope", c_void_p), ("floats", c_void_p),
         ("stride", c_size_t), ("samples", c_int), ("first", c_int), ("step", c_double), ("before", c_double * 2),
         ("mode", c_int), ("start", c_int), ("error", c_double), ("refinements", c_int), ("knot", c_int),
     ]  # fmt: skip
-
-
-class CValue(Structure):
-    _fields_ = [("y", c_double), ("re", c_double), ("im", c_double)]
 
 
 class CRows(Structure):
@@ -193,7 +189,7 @@ _declare("wiggly_create", c_int, c_int, c_int, c_void_p)
 _declare("wiggly_destroy", None, c_void_p)
 _declare("wiggly_solve", c_int, c_void_p, c_void_p, c_void_p)
 _declare("wiggly_set_method", None, c_void_p, c_int)
-_declare("wiggly_evaluate_at", CValue, c_void_p, c_double, c_void_p)
+_declare("wiggly_evaluate_many", None, c_void_p, c_void_p, c_size_t, c_void_p, c_void_p)
 _declare("wiggly_batch_create", c_int, c_int, c_int, c_int, c_void_p)
 _declare("wiggly_batch_destroy", None, c_void_p)
 _declare("wiggly_batch_solve_many", c_int, c_void_p, c_void_p, c_void_p)

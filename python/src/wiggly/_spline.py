@@ -99,7 +99,8 @@ class Spline:
     equilibrium : float or array_like of shape (n,)
         What the curve swings about, a value.
     mode : {"complex", "real", "cubic"}
-        Swings with a free phase; as a damped spring; or not at all, the classical cubic spline.
+        Swings with a free phase; as a damped spring; or not at all, the classical cubic spline. That is natural at its first knot and
+        flat at its last one (with "filter" natural, too), or has the knot's slope there; after a flat end it stands still.
     start : {"free", "rest", "loop"}
         Mid-swing; at rest on the first sample; or round, where the last sample is the first one again.
     passive : {"oscillator", "filter"}
