@@ -7,10 +7,12 @@ import json
 import os
 import pickle
 import re
+import signal
 import subprocess
 import sys
 import tempfile
 import threading
+import time
 import unittest
 import unittest.mock
 import warnings
@@ -19,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 import wiggly
-from wiggly import Bound, Group, Knot, Pin, Scene, Spline, Status, _library, solve_many
+from wiggly import Bound, Group, Knot, Pin, Scene, Spline, Status, _library, _many, solve_many
 
 TREE = Path(__file__).resolve().parents[2]
 PROGRAM = os.environ.get("WIGGLY", str(TREE / "build" / "wiggly"))
@@ -28,6 +30,12 @@ KNOTS = [(0, 0), (1, 1), (2.5, -0.4), (3, 0.2)]
 
 class Tail(Spline):
     pass
+
+
+class Named(Spline):
+    def __init__(self, name):
+        super().__init__(KNOTS, frequency=1.5)
+        self.name = name
 
 
 def load_tests(loader, tests, pattern):
@@ -213,6 +221,8 @@ class Splines(unittest.TestCase):
             (lambda: Spline(seed=2**31), "seed"),
             (lambda: Spline(frequency=np.ones(5)).poles(sample=5), "sample"),
             (lambda: solve_many(Spline(), [0], [1], 5, parts="total"), "parts: .* got 'total'"),
+            (lambda: solve_many(Spline(), [0], [1], 5, threads=-1), "threads: expected 1 to 256, got -1"),
+            (lambda: solve_many(Spline(), [0], [1], 5, threads=0), "threads: expected 1 to 256, got 0"),
             (lambda: Group([Spline()]).solve(5, pins=[Pin(0, {0: [1, 0]}, [0, 0, 0])]), r"three numbers, .* got \(2,\)"),
             (lambda: Group([Spline(), Spline()], [1]), r"weights: expected one a spline, 2, got an array of shape \(1,\)"),
             (lambda: Group([Spline()], 1), r"weights: .* got an array of shape \(\)"),
@@ -289,7 +299,7 @@ class Splines(unittest.TestCase):
                 solver.knots = wrong
         with self.assertRaises(ValueError):
             solver.knots.resize(2, refcheck=False)
-        with self.assertRaises(AttributeError):
+        with self.assertRaisesRegex(AttributeError, "curve: a solver fills the same curve each time; copy it"):
             solver.curve = Spline().solve(5)
         total = solver.solve().total
         self.assertEqual(total[24], 0.3)
@@ -331,19 +341,44 @@ class Splines(unittest.TestCase):
         np.testing.assert_array_equal(solver.solve().total, expected)
 
     def test_tracks_change_in_place(self):
-        frequency, equilibrium = np.full(97, 1.5), np.zeros(97)
-        solver = Spline(KNOTS, frequency=frequency, equilibrium=equilibrium).prepare(97)
-        solver.solve()
-        frequency[40:] = 2
-        equilibrium[20:] = 0.3
-        expected = Spline(KNOTS, frequency=frequency.copy(), equilibrium=equilibrium.copy()).solve(97)
-        np.testing.assert_array_equal(solver.solve()._block, expected._block)
+        arrays = (
+            np.zeros(97), np.zeros(97, "f4"), np.zeros(97, ">f8"), np.zeros(97, int), np.zeros(194)[::2], np.zeros(97)[::-1],
+            np.ma.zeros(97), np.zeros((97, 2))[:, 1],
+        )  # fmt: skip
+        for frequency in arrays:
+            for equilibrium in arrays:
+                frequency[:], equilibrium[:] = 2, 0
+                spline = Spline(KNOTS, frequency=frequency, equilibrium=equilibrium)
+                solver = spline.prepare(97)
+                solver.solve()
+                frequency[40:], equilibrium[20:] = 3, 1
+                expected = Spline(KNOTS, frequency=frequency.tolist(), equilibrium=equilibrium.tolist()).solve(97)
+                np.testing.assert_array_equal(solver.solve()._block, expected._block)
+                np.testing.assert_array_equal(spline.solve(97)._block, expected._block)
+
+    def test_a_masked_knot_is_no_knot(self):
+        mask = [[0, 0], [1, 1], [0, 1], [0, 0]]
+        masked = np.ma.array(KNOTS, mask=mask)
+        expected = Spline([KNOTS[0], KNOTS[3]], frequency=1).solve(97)
+        np.testing.assert_array_equal(Spline(masked, frequency=1).solve(97)._block, expected._block)
+        times = np.ma.array([t for t, _ in KNOTS], mask=[0, 1, 1, 0])
+        many = solve_many(Spline(frequency=1), times, [v for _, v in KNOTS], 97)
+        np.testing.assert_array_equal(many.total[0], expected.total)
+        plain = Knot(1, 1, slope=np.ma.masked, phase=np.ma.masked)
+        np.testing.assert_array_equal(Spline([plain, (0, 0)]).solve(97)._block, Spline([(1, 1), (0, 0)]).solve(97)._block)
+        with self.assertRaises(wiggly.Error):
+            Spline(KNOTS, frequency=np.ma.array(np.ones(97), mask=[1] + 96 * [0])).solve(97)
+        self.assertEqual(np.isnan(expected(np.ma.array([0.1, 0.2], mask=[0, 1]))).tolist(), [False, True])
 
     def test_splines_can_be_pickled(self):
         spline = Tail(iter(KNOTS), frequency=np.full(97, 1.5), limits=(-1, None), variation=0.2, seed=4)
         other = pickle.loads(pickle.dumps(spline))
         self.assertIs(type(other), Tail)
         np.testing.assert_array_equal(other.solve(97)._block, spline.solve(97)._block)
+        named = Named("tail")
+        for other in (copy.copy(named), copy.deepcopy(named), pickle.loads(pickle.dumps(named))):
+            self.assertEqual((type(other), other.name), (Named, "tail"))
+            np.testing.assert_array_equal(other.solve(97)._block, named.solve(97)._block)
 
     def test_curves_can_be_copied_and_pickled(self):
         curve = Spline(KNOTS, frequency=1).solve(97)
@@ -392,6 +427,31 @@ class Crowds(unittest.TestCase):
             one = Spline(knots, **spline.parameters).solve(401)
             for part in ("total", "y", "re", "im"):
                 np.testing.assert_array_equal(getattr(many, part)[i], getattr(one, part))
+
+    def test_portions_join(self):
+        values = np.random.default_rng(5).normal(size=(5000, 2))
+        values[[7, 4000]] = np.inf
+        many = solve_many(Spline(frequency=1), [[0, 1]], values, 97, check=False)
+        self.assertEqual(np.flatnonzero(many.status).tolist(), [7, 4000])
+        for i in (0, 1029, 1030, 1031, 3091, 4999):
+            one = Spline([(0, values[i, 0]), (1, values[i, 1])], frequency=1).solve(97)
+            np.testing.assert_array_equal(many.total[i], one.total)
+        with self.assertRaises(wiggly.Error) as caught:
+            solve_many(Spline(frequency=1), [0, 1], values[8:], 97)
+        self.assertEqual((caught.exception.spline, caught.exception.knot), (3992, 0))
+
+    def test_threads_are_as_many_as_this_process_may_use(self):
+        with unittest.mock.patch.object(os, "sched_getaffinity", lambda _: {3, 5, 7}, create=True):
+            self.assertEqual(_many._threads(None), 3)
+
+    @unittest.skipIf(os.name == "nt", "Windows has no such signal")
+    def test_ctrl_c_stops_a_batch(self):
+        values = np.broadcast_to([0.0, 1.0], (10**7, 2))
+        timer, began = threading.Timer(0.3, os.kill, (os.getpid(), signal.SIGINT)), time.monotonic()
+        timer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            solve_many(Spline(frequency=np.full(97, 1.5)), [0, 1], values, 97, parts=())
+        self.assertLess(time.monotonic() - began, 30)
 
     def test_the_first_wrong_spline_is_named(self):
         times = np.array([[0, 1], [0, 0], [0, 9]])

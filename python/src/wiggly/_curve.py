@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ._library import CCurve, Status, lib
+from ._library import CCurve, Status, lib, numbers
 
 
 class Curve:
@@ -102,7 +102,7 @@ class Curve:
         ndarray of float64, shape (k, n)
             One row a part; of a single angle (n,).
         """
-        angle = np.asarray(angles, dtype=float)[..., None]
+        angle = numbers(angles)[..., None]
         return np.asarray(self.y + np.cos(angle) * self.re + np.sin(angle) * self.im)
 
     def __call__(self, t: ArrayLike, lag: ArrayLike = 0) -> Any:
@@ -132,9 +132,9 @@ class Curve:
         return self._read(t, lag, True)
 
     def _read(self, t: ArrayLike, lag: ArrayLike, moving: bool) -> Any:
-        seconds = np.asarray(t, dtype=float, order="C")
+        seconds, lag = numbers(t, "C"), numbers(lag)
         values = np.empty((*seconds.shape, 3))
         lib.wiggly_evaluate_many(self._at, seconds.ctypes.data, seconds.size, *(None, values.ctypes.data)[:: 1 if moving else -1])
         y, re, im = np.moveaxis(values, -1, 0)
-        out = y + re if np.ndim(lag) == 0 and not lag else y + np.cos(lag) * re + np.sin(lag) * im
+        out = y + re if lag.ndim == 0 and not lag else y + np.cos(lag) * re + np.sin(lag) * im
         return out if np.ndim(out) else float(out)

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ._curve import Curve
-from ._library import SOLVERS, CBound, CCurve, CDesc, CPin, CPull, Handle, Status, lib, report
+from ._library import SOLVERS, CBound, CCurve, CDesc, CPin, CPull, Handle, Status, lib, numbers, report
 from ._spline import Spline, nearest_samples, word
 
 
@@ -71,7 +71,7 @@ class Group:
         self._checked_weights(len(self.splines))
 
     def _checked_weights(self, count: int) -> NDArray[np.float64]:
-        weights: NDArray[np.float64] = np.asarray(self.weights, dtype=float, order="C")
+        weights = numbers(self.weights, "C")
         if weights.shape != (count,):
             raise ValueError(f"weights: expected one a spline, {count}, got an array of shape {weights.shape}")
         return weights

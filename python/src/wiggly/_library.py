@@ -11,9 +11,10 @@ from ctypes import POINTER, Structure, byref, c_bool, c_double, c_int, c_size_t,
 from ctypes.util import find_library
 from enum import IntEnum
 from pathlib import Path
-from typing import Callable, NoReturn
+from typing import Callable, Literal, NoReturn
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 
 class Status(IntEnum):
@@ -66,7 +67,7 @@ class Error(ValueError):
         self.status, self.knot, self.spline = status, knot, spline
 
     def __reduce__(self) -> tuple[object, ...]:
-        return Error, (self.args[0], self.status, self.knot, self.spline)
+        return type(self), (self.args[0], self.status, self.knot, self.spline)
 
 
 def report(code: int, knot: int = -1, spline: int | None = None) -> None:
@@ -89,6 +90,12 @@ def warn(text: str) -> None:
     while frame.f_back and frame.f_globals.get("__package__") == __package__:
         level, frame = level + 1, frame.f_back
     warnings.warn(text, WigglyWarning, stacklevel=level)
+
+
+def numbers(array: ArrayLike, order: Literal["C"] | None = None) -> NDArray[np.float64]:
+    """As float64, not copied if they are; NaN where they are masked."""
+    given = np.asanyarray(array, dtype=float, order=order)
+    return given.filled(np.nan) if isinstance(given, np.ma.MaskedArray) else np.asarray(given)
 
 
 # --- structures of wiggly.h and more.h -----------------------------------------------------------------------------------
@@ -166,7 +173,7 @@ class CPoles(Structure):
 def _open() -> ctypes.CDLL:
     """From $WIGGLY_LIBRARY, else this package's folder (a wheel), else the build folder above it, else the system's."""
     here = Path(__file__).resolve().parent
-    tree = here.parents[2] / "build"
+    tree = here.parent.parent.parent / "build"
     newest = sorted(tree.glob("libwiggly.so.*"), key=os.path.getmtime)[-1:]
     beside = [*here.glob("libwiggly.*"), *here.glob("wiggly.dll"), *newest]
     path = os.environ.get("WIGGLY_LIBRARY") or next(map(str, beside), None) or find_library("wiggly")

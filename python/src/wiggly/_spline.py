@@ -6,7 +6,7 @@ import copy
 import weakref
 from collections.abc import Iterable
 from ctypes import addressof, byref, c_double, sizeof
-from typing import Any, NamedTuple, Optional
+from typing import Any, NamedTuple, NoReturn, Optional
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -24,6 +24,7 @@ from ._library import (
     Handle,
     Status,
     lib,
+    numbers,
     report,  # fmt: skip
     shared_solver,
 )
@@ -55,12 +56,15 @@ def read_knots(knots: Iterable[Any] | NDArray[np.float64]) -> tuple[NDArray[np.f
     if isinstance(knots, np.ndarray) and knots.dtype != object:
         if knots.ndim != 2 or knots.shape[1] != 2:
             raise ValueError(f"knots: expected an array of shape (n, 2), got {knots.shape}")
+        if isinstance(knots, np.ma.MaskedArray):
+            knots = knots.data[~np.ma.getmaskarray(knots).any(axis=1)]
         native = np.zeros(len(knots), KNOT)
         native["value"] = knots[:, 1]
         return knots[:, 0].astype(float), native
     times, rows = [], []
     for knot in knots:
-        time, value, slope, stiffness, phase, still, settles = knot if type(knot) is Knot else Knot(*knot)
+        parts: list[Any] = [None if part is np.ma.masked else part for part in knot]
+        time, value, slope, stiffness, phase, still, settles = Knot(*parts)
         times.append(time)
         rows.append(
             (0, slope is not None, phase is not None, still, settles, value, slope or 0, stiffness or 0, phase or 0))
@@ -86,8 +90,9 @@ class Spline:
     ----------
     knots : iterable of Knot or (time, value), or array_like of shape (k, 2)
         Times in seconds. A knot sits on the sample nearest to its time, floor(time * fps + 1/2); two on one sample are an error.
+        A masked row of an array is no knot.
     frequency : float or array_like of shape (n,)
-        Hz, undamped; 0: no swing. An array is a track, one number a sample. It is not copied, so you may change its numbers later.
+        Hz, undamped; 0: no swing. An array is a track, one number a sample. You may change the numbers of a NumPy array later.
     damping : float or array_like of shape (n,)
         Ratio: 0 swings on, 1 is critical, more (in real mode only) creeps.
     bandwidth : float or array_like of shape (n,)
@@ -158,6 +163,7 @@ class Spline:
         self.times, self._knots = read_knots(self.knots)
         self._tracks: list[NDArray[np.float64]] = []
         self._fixed: list[weakref.ref[NDArray[np.float64]]] = []
+        self._followed: list[tuple[NDArray[np.float64], NDArray[Any]]] = []
         self._desc = desc = CDesc(sizeof(CDesc), calm=calm, wind_up=wind_up, has_calm=True)
         desc.mode, desc.start, desc.passive = word("mode", mode, MODES), word("start", start, STARTS), word("passive", passive, PASSIVES)
         if not 0 <= seed < 2**31:
@@ -170,8 +176,14 @@ class Spline:
         desc.frequency, desc.damping = self._param(frequency), self._param(damping)
         desc.bandwidth, desc.equilibrium = self._param(bandwidth), self._param(equilibrium)
 
-    def __reduce__(self) -> tuple[Any, ...]:
-        return _remade, (type(self), self.knots, self.parameters)
+    def __getstate__(self) -> tuple[Any, ...]:
+        own = vars(Spline())
+        return self.knots, self.parameters, {name: value for name, value in vars(self).items() if name not in own}
+
+    def __setstate__(self, state: tuple[Any, ...]) -> None:
+        knots, parameters, others = state
+        Spline.__init__(self, knots, **parameters)
+        vars(self).update(others)
 
     def __repr__(self) -> str:
         return f"<wiggly.Spline through {len(self.times)} knots>"
@@ -179,9 +191,11 @@ class Spline:
     def _param(self, number: ArrayLike) -> CParam:
         if isinstance(number, (int, float)):
             return CParam(number)
-        track = np.asarray(number, dtype=float, order="C")
+        track = numbers(number, "C")
         if track.ndim == 0:
             return CParam(float(track))
+        if isinstance(number, np.ndarray) and not np.may_share_memory(track, number):
+            self._followed.append((track, number))
         self._tracks.append(track[:])  # a view: your array may get another shape or type, and the library still reads what is there
         self._fixed.append(weakref.ref(track))  # NumPy resizes no array that is referred to
         return CParam(0, track.ctypes.data)
@@ -193,6 +207,7 @@ class Spline:
                 raise ValueError(f"a track: expected an array of shape ({n},), one number a sample, got {track.shape}")
         if not fps > 0:
             raise ValueError(f"fps: expected a number above 0, got {fps!r}")
+        follow(self._followed)
         knots = self._knots.copy()
         if samples is None:
             samples = nearest_samples(self.times, fps)
@@ -257,8 +272,12 @@ class Spline:
         return Poles(*(np.array(pair, dtype=float).view(complex)[:, 0] for pair in (poles.s, poles.z)))
 
 
-def _remade(kind: type[Spline], knots: Any, parameters: dict[str, Any]) -> Spline:
-    return kind(knots, **parameters)
+def follow(tracks: list[tuple[NDArray[np.float64], NDArray[Any]]]) -> None:
+    """Copies arrays that the library cannot read itself, for they are of another type or have gaps."""
+    for track, array in tracks:
+        if array.shape != track.shape:
+            raise ValueError(f"a track: expected an array of shape {track.shape} as before, got {array.shape}")
+        track[:] = numbers(array)
 
 
 def solve_into(solver: int | None, desc: CDesc, curve: Curve, method: str = "chain") -> None:
@@ -298,6 +317,7 @@ class Solver:
     def _prepare(self, spline: Spline, n: int, fps: float, curve: Curve) -> None:
         self._made_of, self._curve = (spline, n, fps), curve
         self._desc, self._memory = spline._describe(n, fps)
+        self._followed = spline._followed
         self._held = *spline._tracks, curve._struct, curve._block  # what the library reads and writes, whatever becomes of spline and curve
         self._knots = self._memory[:]  # a view cannot be resized
         self._handle = Handle(lib.wiggly_create, lib.wiggly_destroy, max(n, 1), spline._room(n))
@@ -327,8 +347,13 @@ class Solver:
     def curve(self) -> Curve:
         return self._curve
 
+    @curve.setter
+    def curve(self, curve: Curve) -> NoReturn:
+        raise AttributeError("curve: a solver fills the same curve each time; copy it, or the solver, to keep one")
+
     def solve(self) -> Curve:
         """Solves the knots as they are now into `curve`, and returns it."""
+        follow(self._followed)
         code = self._call(*self._arguments)
         curve = self._curve
         if code or curve.status:
