@@ -1,4 +1,4 @@
-"""Compiles the C library into the wheel, with CC (cc).
+"""Compiles the C library into the wheel, with CC (cc), CPPFLAGS, CFLAGS and LDFLAGS.
 
 WIGGLY_PLATFORM names the platform of the wheel where CC compiles for another machine, as `make wheel` does.
 """
@@ -13,8 +13,8 @@ from pathlib import Path
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-# as in the Makefile: no fused multiply-add, so that every machine has the same bits
-FLAGS = "-O3 -std=c11 -fPIC -ffp-contract=off -fno-math-errno -fno-trapping-math -fvisibility=hidden -D_GNU_SOURCE"
+# As in the Makefile, after the user's: no fused multiply-add, so that every machine has the same bits.
+FLAGS = "-std=c11 -fPIC -fno-fast-math -ffp-contract=off -fno-math-errno -fno-trapping-math -fvisibility=hidden -D_GNU_SOURCE"
 
 
 class LibraryHook(BuildHookInterface):
@@ -28,12 +28,13 @@ class LibraryHook(BuildHookInterface):
         self.folder = tempfile.TemporaryDirectory()
         library = Path(self.folder.name) / name
         sources = [*sorted((tree / "src" / "spline").glob("*.c")), tree / "src" / "maths" / "maths.c", tree / "src" / "base" / "status.c"]
-        compiler = shlex.split(os.environ.get("CC") or "cc")
+        compiler, preprocess, compile_, link = (shlex.split(os.environ.get(name, "")) for name in ("CC", "CPPFLAGS", "CFLAGS", "LDFLAGS"))
+        compiler = compiler or ["cc"]
         if not shutil.which(compiler[0]):
             raise SystemExit(f"wiggly is written in C, and the compiler {compiler[0]!r} was not found: install one, or set CC to yours")
         done = subprocess.run(
-            [*compiler, *FLAGS.split(), "-include", here / "exports.h", "-I", tree / "include", "-I", tree / "src",
-             "-shared", "-s", *sources, "-o", library, "-lm", *([] if platform.startswith("win") else ["-lpthread"])])  # fmt: skip
+            [*compiler, "-O3", *preprocess, *compile_, *FLAGS.split(), "-include", here / "exports.h", "-I", tree / "include", "-I", tree / "src",
+             "-shared", "-s", *link, *sources, "-o", library, "-lm", *([] if platform.startswith("win") else ["-lpthread"])])  # fmt: skip
         if done.returncode:
             raise SystemExit(f"{compiler[0]} could not compile wiggly; its messages are above")
         build_data["force_include"] = {str(library): f"wiggly/{name}", str(tree / "LICENSE"): "wiggly/LICENSE"}

@@ -63,6 +63,8 @@ sed -n '/^```python$/,/^```$/{/^```/!p;}' docs/python.md >"$scratch/page.py"
 expect 0 "and those of a strict user" env MYPYPATH=python/src "$place/bin/python" -m mypy --cache-dir "$scratch/mypy" --strict "$scratch/page.py"
 expect 1 "without a C compiler nothing is built" bash -c "cd python && CC=/nowhere/cc '$place/bin/python' -m hatchling build -t wheel -d '$scratch'"
 says "which says why" "the compiler '/nowhere/cc' was not found" "$err"
+expect 1 "CFLAGS are heard" bash -c "cd python && CFLAGS='-include /nowhere.h' '$place/bin/python' -m hatchling build -t wheel -d '$scratch'"
+says "by the compiler" "/nowhere.h" "$err"
 expect 0 "wheels are built" python/wheels.sh "$B" "${platforms[@]}"
 exports() { # <library>: the names that leave it, but for the runtimes'
     case $1 in
@@ -95,6 +97,22 @@ python/fetch.sh "$scratch/venv" numpy wheel
 pip=("$scratch/venv/bin/python" -m pip install --quiet --force-reinstall --no-deps --no-build-isolation)
 expect 0 "it installs" "${pip[@]}" "$B/wheels/"*-"$own".whl
 expect 0 "and does the same" "$scratch/venv/bin/python" -m unittest discover -s python/tests
+if python/fetch.sh "$scratch/venv" freeze >"$scratch/fetch" 2>&1; then
+    echo 'from wiggly import Spline; print(Spline([(0, 0), (1, 0.25)]).solve(49).total[24])' >"$scratch/app.py"
+    freeze=("$scratch/venv/bin/pyinstaller" --log-level ERROR --distpath "$scratch" --workpath "$scratch/work" --specpath "$scratch")
+    expect 0 "PyInstaller takes it along" "${freeze[@]}" --onefile "$scratch/app.py"
+    expect 0 "and the program runs alone" "$scratch/app"
+    says "as it should" 0.25 "$out"
+else
+    echo "skip - PyInstaller could not be fetched: $(tail -n 1 "$scratch/fetch")"
+fi
+for free in python3.13t python3.14t; do # without the GIL
+    command -v $free >/dev/null || { echo "skip - $free is not installed"; continue; }
+    $free -m venv "$scratch/$free" && python/fetch.sh "$scratch/$free" numpy wheel
+    expect 0 "it installs in $free" "$scratch/$free/bin/python" -m pip install --quiet --no-deps "$B/wheels/"*-"$own".whl
+    expect 0 "and does the same" "$scratch/$free/bin/python" -m unittest discover -s python/tests
+    expect 0 "without the GIL" "$scratch/$free/bin/python" -c 'import sys, wiggly; sys.exit(sys._is_gil_enabled())'
+done
 expect 0 "a source distribution is made" bash -c "cd python && '$place/bin/python' -m hatchling build -t sdist -d '$scratch'"
 expect 0 "and installs with a C compiler" "${pip[@]}" "$scratch"/wiggly-*.tar.gz
 expect 0 "and does the same, too" "$scratch/venv/bin/python" -m unittest discover -s python/tests
