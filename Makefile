@@ -21,6 +21,7 @@
 #   make regress BASE=path/to/other/wiggly    frame times of two builds on the committed session
 #   make compile_commands.json    for clangd and other tools that read C
 #   make install  PREFIX=/usr/local DESTDIR=
+#   make install-library  the library alone, with nothing but a C compiler; PREFIX and DESTDIR as above
 #   make clean
 #   make help     this
 #
@@ -45,7 +46,7 @@ override B := $(shell tools/link-build.sh "$(B)")
 endif
 # Root that installs from somebody else's clone (sudo make install) leaves nothing there: what is built already is installed
 # as it stands, anything else is built elsewhere. BORROWED=yes installs what is built, whoever runs it.
-ifneq ($(filter install,$(MAKECMDGOALS)),)
+ifneq ($(filter install install-library,$(MAKECMDGOALS)),)
 INSTALL_FROM := $(shell tools/install-from.sh "$(B)")
 BORROWED := $(filter borrowed,$(INSTALL_FROM))
 override B := $(or $(filter-out borrowed,$(INSTALL_FROM)),$(B))
@@ -126,7 +127,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test test-all bench feel adversary web npm wheel blender blender-proof proof models check figures regress fuzz fuzzers install clean help packages \
+.PHONY: all library run test test-all bench feel adversary web npm wheel blender blender-proof proof models check figures regress fuzz fuzzers install install-library clean help packages \
     compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
@@ -214,28 +215,36 @@ help:
 	@sed -n '1,/^$$/s/^# \{0,1\}//p' Makefile
 
 ROOT = $(DESTDIR)$(PREFIX)
-install: $(if $(BORROWED),,$(B)/wiggly $(LIBRARIES))
-	install -d "$(ROOT)/bin" "$(ROOT)/lib/pkgconfig" "$(ROOT)/lib/cmake/wiggly" "$(ROOT)/include/wiggly" \
-	    "$(ROOT)/share/wiggly/scenes" "$(ROOT)/share/wiggly/models" "$(ROOT)/share/doc/wiggly" "$(ROOT)/share/man/man1" "$(ROOT)/share/applications" \
-	    "$(ROOT)/share/icons/hicolor/scalable/apps"
-	install -m 755 $(B)/wiggly "$(ROOT)/bin/wiggly"
+define PLACE_LIBRARY
+	install -d "$(ROOT)/lib/pkgconfig" "$(ROOT)/lib/cmake/wiggly" "$(ROOT)/include/wiggly"
 	install -m 644 $(B)/libwiggly.a "$(ROOT)/lib/libwiggly.a"
-	install -m 755 $(SHARED_LIBRARY) "$(ROOT)/lib"
-	ln -sf libwiggly.so.$(VERSION) "$(ROOT)/lib/libwiggly.so.$(MAJOR)"
-	ln -sf libwiggly.so.$(MAJOR) "$(ROOT)/lib/libwiggly.so"
+	$(if $(filter $(SHARED_LIBRARY),$(LIBRARIES)),install -m 755 $(SHARED_LIBRARY) "$(ROOT)/lib" && \
+	    ln -sf libwiggly.so.$(VERSION) "$(ROOT)/lib/libwiggly.so.$(MAJOR)" && ln -sf libwiggly.so.$(MAJOR) "$(ROOT)/lib/libwiggly.so")
 	install -m 644 include/wiggly/wiggly.h include/wiggly/more.h "$(ROOT)/include/wiggly"
+	sed -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in > "$(ROOT)/lib/pkgconfig/wiggly.pc"
+	$(Q)for file in assets/cmake/*.in; do \
+	    name=$${file##*/}; sed -e 's|@VERSION@|$(VERSION)|; s|@MAJOR@|$(MAJOR)|' $$file > "$(ROOT)/lib/cmake/wiggly/$${name%.in}"; \
+	done
+	chmod 644 "$(ROOT)/lib/pkgconfig/wiggly.pc" "$(ROOT)"/lib/cmake/wiggly/*
+	$(Q)[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig
+endef
+
+install-library: $(if $(BORROWED),,$(LIBRARIES))
+	$(PLACE_LIBRARY)
+	$(Q)tools/install-from.sh --done $(B)
+
+install: $(if $(BORROWED),,$(B)/wiggly $(LIBRARIES))
+	$(PLACE_LIBRARY)
+	install -d "$(ROOT)/bin" "$(ROOT)/share/wiggly/scenes" "$(ROOT)/share/wiggly/models" "$(ROOT)/share/doc/wiggly" \
+	    "$(ROOT)/share/man/man1" "$(ROOT)/share/applications" "$(ROOT)/share/icons/hicolor/scalable/apps"
+	install -m 755 $(B)/wiggly "$(ROOT)/bin/wiggly"
 	install -m 644 $(wildcard assets/scenes/*.json) "$(ROOT)/share/wiggly/scenes"
 	install -m 644 $(wildcard assets/models/*.glb) "$(ROOT)/share/wiggly/models"
 	$(B)/wiggly --licenses > "$(ROOT)/share/doc/wiggly/copyright"
 	install -m 644 assets/desktop/wiggly.desktop "$(ROOT)/share/applications"
 	install -m 644 assets/desktop/wiggly.svg "$(ROOT)/share/icons/hicolor/scalable/apps"
 	tools/man-page.sh $(B)/wiggly > "$(ROOT)/share/man/man1/wiggly.1"
-	sed -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in > "$(ROOT)/lib/pkgconfig/wiggly.pc"
-	$(Q)for file in assets/cmake/*.in; do \
-	    name=$${file##*/}; sed -e 's|@VERSION@|$(VERSION)|; s|@MAJOR@|$(MAJOR)|' $$file > "$(ROOT)/lib/cmake/wiggly/$${name%.in}"; \
-	done
-	chmod 644 "$(ROOT)/share/doc/wiggly/copyright" "$(ROOT)/share/man/man1/wiggly.1" "$(ROOT)/lib/pkgconfig/wiggly.pc" "$(ROOT)"/lib/cmake/wiggly/*
-	$(Q)[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig
+	chmod 644 "$(ROOT)/share/doc/wiggly/copyright" "$(ROOT)/share/man/man1/wiggly.1"
 	$(Q)tools/install-from.sh --done $(B)
 
 clean:
@@ -244,7 +253,7 @@ clean:
 # --- what must be installed first --------------------------------------------------------------------------------------
 # Everything that is compiled waits for `packages` (order-only); it asks for no more than the goals at hand need.
 
-SETS := $(if $(filter-out check clean help library web npm wheel blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
+SETS := $(if $(filter-out check clean help library install-library web npm wheel blender %/libwiggly.a,$(or $(MAKECMDGOALS),all)),build)
 SETS += $(if $(filter test test-all $(B)/tests/%,$(MAKECMDGOALS)),test) $(filter bench check,$(MAKECMDGOALS)) $(filter web,$(MAKECMDGOALS))
 packages:
 	$(Q)tools/install-missing.sh $(SETS)

@@ -21,6 +21,11 @@ for file in bin/wiggly lib/libwiggly.a lib/libwiggly.so lib/cmake/wiggly/wigglyC
     holds "$file is installed" [ -s "$root/$file" ]
 done
 
+expect 0 "make install-library" make BORROWED=yes B="${B:-build}" SANITIZE="${SANITIZE:-}" DESTDIR="$scratch/library" PREFIX= install-library
+(cd "$scratch/library" && find . ! -type d | sort) >"$scratch/alone"
+(cd "$root" && find ./include ./lib ! -type d | sort) >"$scratch/within"
+holds "is the library's part of it, and no more" diff "$scratch/within" "$scratch/alone"
+
 page=$root/share/man/man1/wiggly.1
 if command -v man >/dev/null; then
     expect 0 "the page is one for man" man --warnings=all -l "$page"
@@ -110,10 +115,10 @@ target_link_libraries(shared wiggly::wiggly)
 add_executable(static ../version.c)
 target_link_libraries(static wiggly::static)
 CMAKE
-    configure() { # <version>
+    configure() { # <version> <cmake's arguments>...
         rm -rf "$scratch/made"
         cmake -S "$scratch/project" -B "$scratch/made" -DCMAKE_PREFIX_PATH="$root" -DWANTED="$1" -DCMAKE_C_COMPILER="${CC%% *}" \
-            -DCMAKE_C_FLAGS="$sanitizers"
+            -DCMAKE_C_FLAGS="$sanitizers" "${@:2}"
     }
     next=$((${version%%.*} + 1))
     expect 1 "CMake is refused another major version" configure "$next.0"
@@ -124,6 +129,15 @@ CMAKE
     for kind in shared static; do
         holds "and runs with the $kind library" [ "$("$scratch/made/$kind")" = "$version" ]
     done
+    sed -i "s|^find_package.*|add_subdirectory($PWD wiggly)|; s/wiggly::static/wiggly::wiggly/; s|../version.c|$PWD/examples/curve.c|" "$scratch/project/CMakeLists.txt"
+    expect 0 "a project takes the sources as its subdirectory" configure 0 -DBUILD_SHARED_LIBS=ON -DCMAKE_BUILD_TYPE=Debug
+    expect 0 "and builds" env -u MAKEFLAGS cmake --build "$scratch/made"
+    holds "the same bits" [ "$("$scratch/made/shared")" = "$(LD_LIBRARY_PATH=$root/lib "$scratch/curve")" ]
+    if command -v x86_64-w64-mingw32-gcc >/dev/null; then
+        sanitizers="" CC=x86_64-w64-mingw32-gcc
+        expect 0 "for Windows, too" configure 0 -DCMAKE_SYSTEM_NAME=Windows -DCMAKE_BUILD_TYPE=Debug
+        expect 0 "which builds" env -u MAKEFLAGS cmake --build "$scratch/made"
+    fi
 else
     echo "skip - CMake projects, because cmake is not installed"
 fi
