@@ -3,7 +3,7 @@
 #ifndef SPLINE_HOST_H
 #define SPLINE_HOST_H
 
-#ifdef __SSE2__
+#if defined __SSE2__ && !defined __wasm__ // there they are imitated, without a register for the state
 #include <xmmintrin.h>
 
 typedef unsigned host_state;
