@@ -206,7 +206,6 @@ static inline void assert_one_step(struct session *session, const char *original
 }
 
 /// Opens a scene given as text and shows its first frame (1280×720, paused). Fails the test on errors.
-/// possible.
 static inline void session_open(struct session *session, const char *scene)
 {
     memset(session, 0, sizeof *session);

@@ -69,8 +69,8 @@ static void hold(struct core *core, int old, int of, const struct knot *knot)
     core_put_knot(core, of, &pose);
 }
 
-/// Goes through the knots before and after the step in order of time, in a loop twice. A knot that stayed ends what a change before it began. A
-/// loop without a pose has the phase with which it comes back to its first knot; held there, too, it keeps that.
+/// Goes through the knots before and after the step in order of time, in a loop twice. The first knot after a change that stayed is held. In a loop
+/// that had no pose the phase of the first knot comes from the whole round, so that knot is held, too.
 static void keep_spline(struct core *core, int old, int of)
 {
     const struct document *document = core->document, *earlier = history_before(core->history);

@@ -74,7 +74,6 @@ static int sample_of(const struct core *core, int spline)
 
 /// Sets a knot at the playhead. A fixed coordinate gets a spline that starts at the body's place. Returns the new spline that swings the
 /// tail with it, or -1.
-/// which the tail swings with it, or -1.
 static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, double by,
                           char why[STOPPED_SIZE])
 {

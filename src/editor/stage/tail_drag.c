@@ -6,8 +6,8 @@
 ///
 ///     x = x₀ + Jᵀ (JJᵀ + Φ)⁻¹ (target − p + J(x − x₀)),   x₀ at the press, in radians of bend, so that both axes count alike.
 ///
-/// So the least change of x that reaches the target is taken, and a direction in which the point hardly moves gives way. Where the way there
-/// bends, the change still stays within twice what the best direction needs.
+/// So the least change of x that reaches the target is taken, and a direction in which the point hardly moves gives way. On a
+/// curved way there the change still stays within twice what the best direction needs.
 #include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
