@@ -34,20 +34,25 @@ static double lapack_error(const wiggly_desc *desc, const double *expected)
     double *y = calloc((size_t)desc->samples, sizeof *y);
     solver_describe(solver, desc, y);
     const system_rows *rows = &solver->rows;
-    const pentadiagonal *m = &solver->matrix;
+    const band_matrix *m = &solver->band;
     int w = rows->is_complex ? 2 : 1, n = w * rows->count, kd = 3 * w - 1, first = desc->samples - rows->count;
-    system_gradient(rows);
+    system_gradient(rows, NULL, NULL);
     double *band = calloc((size_t)(n * (kd + 1)), sizeof *band);
     for (int u = 0; u < n; u++) {
-        int k = u / w, part = u % w;
+        const int k = u / w, part = u % w;
+        const band_block block = band_block_at(m, k);
         double *column = band + (size_t)u * (size_t)(kd + 1);
-        column[0] = m->diagonal[3 * k + 2 * part];
-        if (w == 2 && part == 0) column[1] = m->diagonal[3 * k + 1];
-        for (int r = 0; r < w; r++) {
-            column[w + r - part] = m->below[4 * k + 2 * r + part];
-            column[2 * w + r - part] = m->below2[4 * k + 2 * r + part];
-        }
         rows->gradient[u] = rows->gradient[2 * k + part];
+        column[0] = 1;
+        if (rows->fixed[k] & (part ? FIXED_IM : FIXED_RE)) continue;
+        column[0] = block.d[2 * part];
+        for (int by = 0; by < 3 && k + by < rows->count; by++) {
+            const double *a = by == 1 ? block.e : block.f;
+            for (int r = by ? 0 : 1; r < w; r++) {
+                if ((by == 0 && part == 1) || rows->fixed[k + by] & (r ? FIXED_IM : FIXED_RE)) continue;
+                column[by * w + r - part] = by ? a[2 * r + part] : block.d[1];
+            }
+        }
     }
     double *x = rows->gradient, *re = calloc(2 * (size_t)desc->samples, sizeof *re), *im = re + desc->samples;
     int info = LAPACKE_dpbsv(LAPACK_COL_MAJOR, 'L', n, kd, 1, band, kd + 1, x, n);
@@ -104,11 +109,14 @@ static void check(const struct subject *c)
     double error, lapack;
     wiggly_status status = solve(c, &curve, &error, &lapack);
     double tolerance = c->mode == WIGGLY_CUBIC ? 1e-9 : 1e-8;
+    const double bound = curve.error;
     print_message("mode %d f %-6g zeta %-4g beta %-4g %6d samples, gap %6d: %.1e, %d sweeps; dpbsv %.1e\n", c->mode,
                   c->frequency, c->damping, c->bandwidth, c->samples, c->gap, error, curve.refinements + 1, lapack);
     curve_destroy(&curve);
-    if (status != WIGGLY_OK) fail_msg("%s", wiggly_status_text(status));
-    assert_near(error, 0, tolerance);
+    // Undamped, without bandwidth, with knots at whole periods: only the start holds Im x, and it amplifies the rounding of the poles.
+    const bool is_hard = c->damping == 0 && c->bandwidth == 0;
+    if (status != WIGGLY_OK && !(is_hard && status == WIGGLY_INEXACT)) fail_msg("%s", wiggly_status_text(status));
+    assert_near(error, 0, status == WIGGLY_OK ? tolerance : bound);
 }
 
 TEST(every_mode_at_every_length)
@@ -195,7 +203,7 @@ static struct subject some_subject(uint64_t seed)
     return c;
 }
 
-/// Whatever is said to be solved is within the tolerance; what is not is estimated to within a few times.
+/// Whatever is said to be solved is within the tolerance, and what is not within its bound.
 TEST(no_long_spline_is_called_exact_that_is_not)
 {
     int exact = 0;
@@ -209,8 +217,8 @@ TEST(no_long_spline_is_called_exact_that_is_not)
         curve_destroy(&curve);
         exact += status == WIGGLY_OK;
         if (status == WIGGLY_OK && error > tolerance) fail_msg("seed %d is off by %g", (int)seed, error);
-        if (error > tolerance && error > 4 * estimate)
+        if (error > tolerance && error > estimate)
             fail_msg("seed %d is off by %g, not by %g", (int)seed, error, estimate);
     }
-    assert_in_range(exact, subjects * 9 / 10, subjects);
+    assert_in_range(exact, subjects * 8 / 10, subjects);
 }

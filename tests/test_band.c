@@ -39,7 +39,8 @@ static void compare(pair *p, const wiggly_desc *desc)
     wiggly_set_method(p->solver, WIGGLY_BAND);
     wiggly_status said = wiggly_solve(p->solver, desc, &p->usual);
     p->solver->longest_squared = 2;
-    assert_int_equal(wiggly_solve(p->solver, desc, &p->rows), WIGGLY_OK);
+    const wiggly_status of_rows = wiggly_solve(p->solver, desc, &p->rows);
+    assert_true(of_rows == WIGGLY_OK || (said == WIGGLY_INEXACT && p->rows.error < 1e-6));
     p->solver->longest_squared = usual;
     double size = 0, worst = 0;
     for (int i = 0; i < desc->samples; i++) {

@@ -13,7 +13,7 @@ static const char scene[] =
     "{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}, {\"frame\": 90, \"value\": 2}]},"
     "{\"name\": \"b\", \"mode\": \"real\", \"spring\": 40, \"friction\": 1, \"variation\": {\"amount\": 0.2}, "
     "\"knots\": [{\"frame\": 8, \"value\": 1}, {\"frame\": 40, \"value\": 0, \"slope\": 1}]},"
-    "{\"name\": \"c\", \"mode\": \"cubic\", \"start\": \"rest\", \"knots\": ["
+    "{\"name\": \"c\", \"mode\": \"cubic\", \"frequency\": 0.5, \"start\": \"rest\", \"knots\": ["
     "{\"frame\": 8, \"value\": 0.4}, {\"frame\": 40, \"value\": 0.5}]}]}";
 
 static enum desc_kind kind_in_desc(enum parameter_kind kind)

@@ -187,7 +187,7 @@ wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
     const bool found = rests_on_one(&w) || one_sided_solve(&w.search, find_slack(&w));
     if (!w.has_room) return WIGGLY_ERROR_CAPACITY;
     if (found) result->error += 2 * limits_catch(&w, rounded * find_slack(&w));
-    if (!found) result->error += reach * fmax(w.missed, find_excess(&w)), result->unrefined = false;
+    if (!found) result->error += reach * fmax(w.missed, find_excess(&w));
     return w.status;
 }
 

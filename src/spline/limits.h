@@ -44,6 +44,7 @@ typedef struct limits_work {
     int attempts; ///< of the search
     double missed;
     bool fresh;             ///< the rows must be set
+    bool is_lossy;          ///< solutions of the factor are corrected
     bool has_room;          ///< for all samples that are to be held
     limits_part body, tail; ///< one of them may be empty: to < from
     int first;              ///< sample of the first block of the matrix

@@ -10,29 +10,37 @@
 #include "spline/limits.h"
 #include <string.h>
 
-enum { SWEEPS = 2 };
-
-static const double lossy = 1e8;    ///< from this loss of digits in a complex factor on, its solutions are refined
+static const double lossy = 1e-4;   ///< from this rounding of a factor on, its solutions are corrected
 static const double stiffest = 1e8; ///< of what holds a sample, relative to its row
 static const double stiff = 1e6;    ///< that spring's weight, relative to the first row
 
-static double on_own(const coefficients *at) { return -2 - at->m.re; }
-static double on_before(const coefficients *at) { return 1 + at->m.re + at->p.re; }
+/// A row of the tail: its weight and its coefficients on d of its own sample and of the one before, and on v.
+typedef struct tail_jet {
+    double weight, own, before, turn;
+} tail_jet;
 
-/// The tail's rows, at their place after `body` blocks, with c_i among the drives.
+static tail_jet tail_jet_at(const limits_work *w, int i)
+{
+    const system_rows *rows = &w->solver->rows;
+    const int at = rows->count + i;
+    return (tail_jet){rows->jet_weight[at], -2 - rows->m_re[at], 1 + rows->m_re[at] + rows->p_re[at],
+                      rows->drive[at].re};
+}
+
+/// The tail's rows, at their place after `body` samples, with c_i among the drives.
 static void set_tail(limits_work *w, int body)
 {
     system_rows *rows = &w->solver->rows;
     const int count = w->tail.to - w->tail.begin;
     limits_set_tail_rows(w);
-    memmove(rows->at + body, rows->at, sizeof *rows->at * (size_t)count);
-    memmove(rows->jet_weight + body, rows->jet_weight, sizeof *rows->jet_weight * (size_t)count);
     const double *turned = w->solver->limits.free[1] + w->tail.begin; // φ
-    for (int i = 0; i < count; i++) {
-        const coefficients *at = &rows->at[body + i];
-        rows->jet_weight[body + i] *= w->p->unit / w->tail.p.unit;
-        rows->drive[body + i].re =
-            turned[i + 1] + on_own(at) * turned[i] + (i > 0 ? on_before(at) * turned[i - 1] : 0);
+    for (int i = count - 1; i >= 0; i--) {
+        const coefficients at = system_coefficients(rows, i);
+        const double own = -2 - at.m.re, before = 1 + at.m.re + at.p.re;
+        const double weight = (rows->is_constant ? 1 : rows->jet_weight[i]) * (rows->fixed[i] & JET_TWICE ? 2 : 1);
+        rows->m_re[body + i] = at.m.re, rows->p_re[body + i] = at.p.re;
+        rows->jet_weight[body + i] = weight * (w->p->unit / w->tail.p.unit);
+        rows->drive[body + i].re = turned[i + 1] + own * turned[i] + (i > 0 ? before * turned[i - 1] : 0);
     }
 }
 
@@ -45,6 +53,8 @@ static void set_rest(system_rows *rows)
     rows->slope_count = 0;
     rows->start = (start_cost){0};
     rows->fixed[0] = FIXED_RE | FIXED_IM;
+    rows->is_constant = true, rows->fast = false;
+    rows->own_im = 0;
 }
 
 /// Prepares the solver's rows for set_matrix().
@@ -64,32 +74,32 @@ static void set_system(limits_work *w)
 static void add_tail(const limits_work *w)
 {
     const system_rows *rows = &w->solver->rows;
-    pentadiagonal *m = &w->solver->matrix;
+    band_matrix *m = &w->solver->band;
     const int last = rows->count - 1, count = w->tail.to - w->tail.begin;
-    const coefficients *at = rows->at + last + 1;
-    const double *weight = rows->jet_weight + last + 1, spring = stiff * weight[0];
-    const cplx *turn = rows->drive + last + 1; // c
+    const tail_jet first = tail_jet_at(w, 0);
+    const double spring = stiff * first.weight;
     m->count += count;
+    memset(m->marks + last + 1, BAND_OWN | BAND_BESIDE, (size_t)count);
+    memset(m->own + last + 1, 0, sizeof *m->own * (size_t)count);
+    band_block *end = band_own(m, last);
     if (!(rows->fixed[last] & FIXED_IM)) {
-        m->diagonal[3 * last + 2] += weight[0] * (turn[0].re * turn[0].re) + spring;
-        m->below[4 * last + 1] = -weight[0] * turn[0].re, m->below[4 * last + 3] = -spring;
+        end->d[2] += first.weight * (first.turn * first.turn) + spring;
+        end->e[1] = -first.weight * first.turn, end->e[3] = -spring;
     }
-    memset(m->below + 4 * (last + 1), 0, sizeof *m->below * 4 * (size_t)count);
-    memset(m->below2 + 4 * (last + 1), 0, sizeof *m->below2 * 4 * (size_t)count);
     for (int i = 1; i <= count; i++) {
-        double *diagonal = m->diagonal + 3 * (last + i), *below = m->below + 4 * (last + i);
-        diagonal[0] = weight[i - 1], diagonal[1] = 0, diagonal[2] = spring;
+        band_block *at = &m->own[last + i];
+        at->d[0] = tail_jet_at(w, i - 1).weight, at->d[2] = spring;
         if (i < count) {
-            const double own = on_own(&at[i]), c = turn[i].re;
-            diagonal[0] += weight[i] * (own * own), diagonal[1] -= weight[i] * (own * c);
-            diagonal[2] += weight[i] * (c * c) + spring;
-            below[0] += weight[i] * own, below[1] -= weight[i] * c, below[3] = -spring;
+            const tail_jet jet = tail_jet_at(w, i);
+            at->d[0] += jet.weight * (jet.own * jet.own), at->d[1] -= jet.weight * (jet.own * jet.turn);
+            at->d[2] += jet.weight * (jet.turn * jet.turn) + spring;
+            at->e[0] += jet.weight * jet.own, at->e[1] -= jet.weight * jet.turn, at->e[3] = -spring;
         }
         if (i + 1 < count) {
-            const double own = on_own(&at[i + 1]), before = on_before(&at[i + 1]);
-            diagonal[0] += weight[i + 1] * (before * before);
-            below[0] += weight[i + 1] * (own * before), below[2] -= weight[i + 1] * (turn[i + 1].re * before);
-            m->below2[4 * (last + i)] = weight[i + 1] * before;
+            const tail_jet jet = tail_jet_at(w, i + 1);
+            at->d[0] += jet.weight * (jet.before * jet.before);
+            at->e[0] += jet.weight * (jet.own * jet.before), at->e[2] -= jet.weight * (jet.turn * jet.before);
+            at->f[0] = jet.weight * jet.before;
         }
     }
 }
@@ -97,22 +107,24 @@ static void add_tail(const limits_work *w)
 /// The matrix with nothing held, for the change of the total; a block's first number is Re of its sample.
 static void set_matrix(const limits_work *w)
 {
-    system_matrix(&w->solver->rows, &w->solver->matrix);
+    system_matrix(&w->solver->rows, &w->solver->band);
     if (limits_has_tail(w)) add_tail(w);
 }
 
 static bool factor(void *user, const double *stiffness)
 {
     limits_work *w = user;
-    pentadiagonal *m = &w->solver->matrix;
+    band_matrix *m = &w->solver->band;
+    const int shift = w->from - w->first;
     double *kept = w->solver->limits.stiffness;
-    if (w->fresh) set_system(w);
-    w->fresh = false;
-    set_matrix(w);
-    double *at = m->diagonal + 3 * (w->from - w->first);
-    for (int i = 0; i < w->search.count; i++) kept[i] = stiffness ? stiffness[i] : 0;
-    for (int i = 0; i < w->search.count; i++) at[3 * i] += kept[i];
-    return pentadiagonal_factor(m) != RANK_BROKEN;
+    if (w->fresh) {
+        set_system(w);
+        set_matrix(w);
+    }
+    memset(kept, 0, sizeof *kept * (size_t)m->count);
+    if (stiffness) memcpy(kept + shift, stiffness, sizeof *kept * (size_t)w->search.count);
+    m->stiffness = kept;
+    return band_factor(m);
 }
 
 /// Subtracts the contribution of the tail's rows and the spring at x from the gradient.
@@ -120,16 +132,16 @@ static void pull_tail(const limits_work *w)
 {
     const system_rows *rows = &w->solver->rows;
     const int last = rows->count - 1, count = w->tail.to - w->tail.begin;
-    const double *weight = rows->jet_weight + last + 1, spring = stiff * weight[0];
+    const double spring = stiff * tail_jet_at(w, 0).weight;
     const double *d = rows->x + 2 * last; // d₀ = 0, v₀, d₁, …
     double *g = rows->gradient + 2 * last;
     const bool turns = !(rows->fixed[last] & FIXED_IM);
     memset(g + 2, 0, sizeof *g * 2 * (size_t)count);
     for (int i = 0; i < count; i++) {
-        const coefficients *at = &rows->at[last + 1 + i];
-        const double own = on_own(at), before = on_before(at), c = rows->drive[last + 1 + i].re;
+        const tail_jet jet = tail_jet_at(w, i);
+        const double own = jet.own, before = jet.before, c = jet.turn;
         const double here = i > 0 ? d[2 * i] : 0, back = i > 1 ? d[2 * i - 2] : 0;
-        const double r = weight[i] * (d[2 * i + 2] + own * here + before * back - c * d[2 * i + 1]);
+        const double r = jet.weight * (d[2 * i + 2] + own * here + before * back - c * d[2 * i + 1]);
         g[2 * i + 2] -= r;
         if (i > 0) g[2 * i] -= own * r;
         if (i > 1) g[2 * i - 2] -= before * r;
@@ -146,28 +158,36 @@ static void find_residual(limits_work *w, const double *force)
     const system_rows *rows = &w->solver->rows;
     const int shift = w->from - w->first;
     const double *kept = w->solver->limits.stiffness;
-    system_right_side(rows);
+    system_gradient(rows, NULL, NULL);
     if (limits_has_tail(w)) pull_tail(w);
     for (int i = 0; i < w->search.count; i++) {
         const int k = shift + i;
         if (k < rows->count && rows->fixed[k] & FIXED_RE) continue;
-        rows->gradient[2 * k] += force[i] - kept[i] * rows->x[2 * k];
+        rows->gradient[2 * k] += force[i] - kept[k] * rows->x[2 * k];
     }
 }
 
 static void solve(void *user, double *force)
 {
     limits_work *w = user;
-    const pentadiagonal *m = &w->solver->matrix;
+    band_matrix *m = &w->solver->band;
     const int unknowns = 2 * m->count, from = 2 * (w->from - w->first);
     double *all = w->solver->rows.gradient, *x = w->solver->rows.x;
-    memset(all, 0, sizeof *all * (size_t)unknowns);
-    for (int i = 0; i < w->search.count; i++) all[from + 2 * i] = force[i];
-    pentadiagonal_solve(m, all);
-    memcpy(x, all, sizeof *x * (size_t)unknowns);
-    for (int sweep = 0; sweep < SWEEPS && m->is_complex && m->lost > lossy; sweep++) {
+    memset(x, 0, sizeof *x * (size_t)unknowns);
+    for (int i = 0; i < w->search.count; i++) {
+        const bool known = m->marks[from / 2 + i] & FIXED_RE;
+        x[from + 2 * i] = known ? 0 : force[i];
+    }
+    if (w->fresh) {
+        band_solve_spread(m, x);
+        w->is_lossy = m->is_complex && !(m->rounding < lossy);
+        w->fresh = false;
+    } else {
+        band_solve(m, x);
+    }
+    if (w->is_lossy) {
         find_residual(w, force);
-        pentadiagonal_solve(m, all);
+        band_solve(m, all);
         for (int i = 0; i < unknowns; i++) x[i] += all[i];
     }
     for (int i = 0; i < w->search.count; i++) force[i] = x[from + 2 * i];
@@ -180,7 +200,7 @@ static double largest_move(limits_work *w, double *force)
     const double *x = w->solver->rows.x;
     double most = 0, *e = w->solver->limits.pushed[0];
     solve(w, force);
-    for (int i = 0; i < 2 * w->solver->matrix.count; i++) most = fmax(most, fabs(x[i]));
+    for (int i = 0; i < 2 * w->solver->band.count; i++) most = fmax(most, fabs(x[i]));
     const bound_tail tail = bound_tail_of(w->p, 1);
     for (int i = tail.begin + 1; i < tail.end && tail.is_complex; i++) e[i] = x[2 * (i - w->first)];
     for (int i = tail.begin + 1; i < tail.end && tail.is_complex; i++) {
@@ -210,21 +230,25 @@ double limits_release(limits_work *w)
 double limits_catch(limits_work *w, double slack)
 {
     const limit_memory *m = &w->solver->limits;
-    double *force = w->search.move;
+    double *force = w->search.move, *stiffness = w->search.lack;
     bool any = false;
     for (int i = 0; i < w->search.count; i++) {
         force[i] = m->held[w->from + i] == LIMITS_FREE ? limits_excess(w, w->from + i, slack) : 0;
         any = any || force[i] != 0;
     }
     if (!any) return 0;
-    set_system(w);
-    w->fresh = false;
+    w->fresh = true;
+    if (!factor(w, NULL)) return INFINITY; // sets the rows
     for (int i = 0; i < w->search.count; i++) {
         const bool stays = limits_hold(w, w->from + i) || force[i] != 0;
-        m->stiffness[i] = stays ? stiffest * w->solver->rows.jet_weight[w->from - w->first + i] : 0;
-        force[i] *= m->stiffness[i];
+        const int k = w->from - w->first + i;
+        const bool usual = k < w->solver->rows.count && w->solver->rows.is_constant;
+        stiffness[i] = stays ? stiffest * (usual ? 1 : w->solver->rows.jet_weight[k]) : 0;
+        force[i] *= stiffness[i];
     }
-    if (!factor(w, m->stiffness)) return INFINITY;
+    w->fresh = false;
+    w->is_lossy = true;
+    if (!factor(w, stiffness)) return INFINITY;
     return largest_move(w, force);
 }
 
@@ -246,13 +270,13 @@ void limits_set_search(limits_work *w)
     const limit_memory *m = &solver->limits;
     const wiggly_desc *desc = w->p->desc;
     const size_t n = (size_t)solver->samples;
-    double *jet = solver->rows.jet, *x = m->by_push;
+    double *own = m->search, *x = m->by_push;
     w->from = limits_has_body(w) ? w->body.from : w->tail.from;
     one_sided *o = &w->search;
-    *o = (one_sided){.value = jet,
-                     .move = jet + n,
-                     .is_open = jet + 2 * n,
-                     .lack = jet + 3 * n,
+    *o = (one_sided){.value = own,
+                     .move = own + n,
+                     .is_open = own + 2 * n,
+                     .lack = own + 3 * n,
                      .count = (limits_has_tail(w) ? w->tail.to : w->body.to) - w->from + 1,
                      .user = w,
                      .factor = factor,

@@ -1,57 +1,69 @@
-/// Squares the rows into the banded matrix.
+/// Squares the rows into the band (the normal equations of eq. 6, 9 and 25).
 //
 // Rᵀ W R from the rows, block by block. With A_i = 2 + m_i and B_i = 1 + m_i + p_i the jet row i is
 // (B_i, −A_i, 1) on x_{i−1}, x_i, x_{i+1}, so that
 //
 //     D_k = |A_k|² + |B_{k+1}|² + 1        E_k = −A_k − A_{k+1}* B_{k+1}        F_k = B_{k+1}
 //
-// minus what rows outside the domain would add. A complex number u + jv is the block (u −v; v u); in the other modes v is 0.
+// of weighted rows. With constant poles all samples share one block; only those beside an end, a slope or a still knot have their own.
 #include "spline/system.h"
+#include "spline/wide.h"
+#include <string.h>
 
-static void add_complex(double *at, cplx z) { at[0] += z.re, at[1] -= z.im, at[2] += z.im, at[3] += z.re; }
-
-static inline void put_complex(bool is_complex, double *at, cplx z)
+jet_row system_jet(const system_rows *rows, int i)
 {
-    at[0] = z.re;
-    if (is_complex) at[1] = -z.im, at[2] = z.im, at[3] = z.re;
-}
-
-/// A jet row's weight, and its coefficients −a and b on its sample and the one before; the last sample's includes the tail.
-static double jet_row(const system_rows *rows, int i, cplx *a, cplx *b)
-{
-    const coefficients *at = &rows->at[i];
-    *a = coefficients_a(at);
-    *b = coefficients_b(at);
-    if (!rows->loop && i == rows->count - 1) *a = (cplx){a->re - 1 - rows->tail.re, a->im - rows->tail.im};
-    return i >= rows->jet_from && i <= rows->jet_to ? rows->jet_weight[i] : 0;
-}
-
-/// The jets' blocks, each written once when the next row is known; in a loop the row after the last is the first.
-static inline void jet_rows(const system_rows *rows, pentadiagonal *m, const bool is_complex)
-{
-    const int n = rows->count, end = rows->loop ? n : n - 1;
-    cplx a, b, left = {0, 0}; // w a of the row before
-    double before = rows->loop ? rows->jet_weight[n - 1] : 0, own = 0;
-    for (int i = 0; i <= end; i++) {
-        const double w = jet_row(rows, i < n ? i : 0, &a, &b);
-        if (i > 0) {
-            double *d = m->diagonal + 3 * (i - 1);
-            d[0] = own + w * cplx_norm(b);
-            if (is_complex) d[1] = 0, d[2] = d[0];
-            put_complex(is_complex, m->below + 4 * (i - 1),
-                        cplx_scale(-1, cplx_add(left, cplx_scale(w, cplx_mul(cplx_conj(a), b)))));
-            const bool apart = rows->fixed[i < n ? i : 0] & FIXED_STILL || (!rows->loop && i == n - 1);
-            put_complex(is_complex, m->below2 + 4 * (i - 1), cplx_scale(apart ? 0 : w, b));
-        }
-        own = before + w * cplx_norm(a);
-        left = cplx_scale(w, a);
-        before = w;
+    const coefficients at = system_coefficients(rows, i);
+    const cplx a = coefficients_a(&at);
+    jet_row row = {.own = {-a.re, -a.im}, .before = coefficients_b(&at)};
+    if (rows->fixed[i] & FIXED_STILL) {
+        row.own.re += 1;
+    } else if (!rows->loop && i == rows->count - 1) {
+        row.own = cplx_add(row.own, (cplx){1 + rows->tail.re, rows->tail.im});
     }
-    if (rows->loop) return;
-    double *d = m->diagonal + 3 * (n - 1);
-    d[0] = d[2] = own, d[1] = 0;
-    put_complex(is_complex, m->below + 4 * (n - 1), (cplx){0, 0});
-    put_complex(is_complex, m->below2 + 4 * (n - 1), (cplx){0, 0});
+    if (i < rows->jet_from || i > rows->jet_to) return row;
+    row.weight = rows->is_constant ? 1 : rows->jet_weight[i];
+    if (rows->fixed[i] & JET_TWICE) row.weight *= 2;
+    return row;
+}
+
+static void put_complex(double *at, cplx z) { at[0] += z.re, at[1] -= z.im, at[2] += z.im, at[3] += z.re; }
+
+/// The jets' part of a sample's block, from the rows around it.
+static void set_own(const system_rows *rows, band_matrix *m, int k)
+{
+    band_block *block = band_own(m, k);
+    const int n = rows->count,
+              next = k + 1 < n    ? k + 1
+                     : rows->loop ? 0
+                                  : -1,
+              before = k > 0        ? k - 1
+                       : rows->loop ? n - 1
+                                    : -1;
+    const jet_row own = system_jet(rows, k);
+    double d = own.weight * cplx_norm(own.own);
+    *block = (band_block){.d = {0}};
+    if (before >= 0) d += system_jet(rows, before).weight;
+    if (next >= 0) {
+        const jet_row after = system_jet(rows, next);
+        const double of_own = rows->fixed[k] & FIXED_STILL ? -own.weight : 0;
+        d += after.weight * cplx_norm(after.before);
+        put_complex(block->e, cplx_scale(after.weight, cplx_mul(cplx_conj(after.own), after.before)));
+        put_complex(block->e, of_own != 0 ? (cplx){of_own, 0} : cplx_scale(own.weight, own.own));
+        const bool ends = !rows->loop && next == n - 1;
+        if (!ends && !(rows->fixed[next] & FIXED_STILL))
+            put_complex(block->f, cplx_scale(after.weight, after.before));
+    }
+    block->d[0] = block->d[2] = d;
+    if (rows->is_complex) block->d[2] += rows->is_constant ? rows->own_im : rows->im_weight[k];
+}
+
+static void set_own_around(const system_rows *rows, band_matrix *m, int i)
+{
+    const int n = rows->count;
+    for (int k = i - 1; k <= i + 1; k++) {
+        const int at = rows->loop ? (k + n) % n : k;
+        if (at >= 0 && at < n && !(m->marks[at] & BAND_OWN)) set_own(rows, m, at);
+    }
 }
 
 stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
@@ -83,7 +95,8 @@ static void add_product(double *block, double w, cplx to, cplx from)
     block[2] -= w * (to.im * from.re), block[3] += w * (to.im * from.im);
 }
 
-static void slope_rows(const system_rows *rows, pentadiagonal *m)
+/// Equation 9.
+static void slope_rows(const system_rows *rows, band_matrix *m)
 {
     for (int r = 0; r < rows->slope_count; r++) {
         const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
@@ -92,65 +105,88 @@ static void slope_rows(const system_rows *rows, pentadiagonal *m)
         for (int i = 0; i < 3; i++) {
             for (int j = 0; at[i] >= 0 && j <= i; j++) {
                 if (at[j] < 0) continue;
-                double *coupling = i - j == 2 ? m->below2 : m->below;
+                band_block *block = band_own(m, at[j]);
                 if (i == j) {
-                    add_square(m->diagonal + 3 * at[i], w, s.c[i]);
+                    add_square(block->d, w, s.c[i]);
                 } else {
-                    add_product(coupling + 4 * at[j], w, s.c[i], s.c[j]);
+                    add_product(i - j == 2 ? block->f : block->e, w, s.c[i], s.c[j]);
                 }
             }
         }
     }
 }
 
-static void start_rows(const system_rows *rows, pentadiagonal *m)
+static void start_rows(const system_rows *rows, band_matrix *m)
 {
     for (int i = 0; i < 2; i++) {
         const struct start_row *row = &rows->start.row[i];
         if (!(row->weight > 0)) continue;
-        cplx on_x1 = row->on_e, on_x0 = cplx_sub(row->on_x, row->on_e);
-        bool alone = rows->count == 1;
-        if (alone) on_x0 = cplx_add(row->on_x, cplx_mul(row->on_e, rows->tail));
-        double w = row->weight, first = w * cplx_norm(on_x0), second = w * cplx_norm(on_x1);
-        cplx both = cplx_scale(w, cplx_mul(cplx_conj(on_x1), on_x0));
-        m->diagonal[0] += first, m->diagonal[2] += first;
+        const bool alone = rows->count == 1;
+        const cplx on_x0 =
+            alone ? cplx_add(row->on_x, cplx_mul(row->on_e, rows->tail)) : cplx_sub(row->on_x, row->on_e);
+        band_block *block = band_own(m, 0);
+        const double first = row->weight * cplx_norm(on_x0), second = row->weight * cplx_norm(row->on_e);
+        block->d[0] += first, block->d[2] += first;
         if (alone) continue;
-        m->diagonal[3] += second, m->diagonal[5] += second;
-        add_complex(m->below, both);
+        put_complex(block->e, cplx_scale(row->weight, cplx_mul(cplx_conj(row->on_e), on_x0)));
+        block = band_own(m, 1);
+        block->d[0] += second, block->d[2] += second;
     }
 }
 
-/// Clears row or column `part` (0 re, 1 im) of a 2×2 block.
-static void clear_row(double *at, int part) { at[2 * part] = at[2 * part + 1] = 0; }
-static void clear_column(double *at, int part) { at[part] = at[2 + part] = 0; }
-
-static void fix(const system_rows *rows, pentadiagonal *m, int k, int part)
+/// The blocks of varying rows, as if all around them were jets of the usual kind.
+WIDEST static void square(int count, const double *restrict mr, const double *restrict mi, const double *restrict pr,
+                          const double *restrict pi, const double *restrict w, double *restrict d,
+                          double *restrict e_re, double *restrict e_im, double *restrict f_re, double *restrict f_im)
 {
-    int n = rows->count, before = k > 0 ? k - 1 : n - 1, second = before > 0 ? before - 1 : n - 1;
-    double *d = m->diagonal + 3 * k;
-    d[1] = 0;
-    d[2 * part] = 1;
-    clear_column(m->below + 4 * k, part);
-    clear_column(m->below2 + 4 * k, part);
-    if (rows->loop || k > 0) clear_row(m->below + 4 * before, part);
-    if (rows->loop || k > 1) clear_row(m->below2 + 4 * second, part);
+    for (int k = 0; k < count; k++) {
+        const double a = 2 + mr[k], ai = mi[k];
+        const double c = 2 + mr[k + 1], ci = mi[k + 1], b = (c - 1) + pr[k + 1], bi = ci + pi[k + 1];
+        const double own = w[k], next = w[k + 1];
+        d[k] = own * (a * a + ai * ai) + next * (b * b + bi * bi) + (k > 0 ? w[k - 1] : 0);
+        f_re[k] = next * b, f_im[k] = next * bi;
+        e_re[k] = -(own * a + next * (c * b + ci * bi));
+        e_im[k] = -(own * ai + next * (c * bi - ci * b));
+    }
 }
 
-void system_matrix(const system_rows *rows, pentadiagonal *m)
+static void square_alike(const system_rows *rows, band_matrix *m)
 {
-    m->count = rows->count;
+    const cplx a = coefficients_a(&rows->own), b = coefficients_b(&rows->own);
+    m->alike = (band_block){.d = {0}};
+    m->alike.d[0] = m->alike.d[2] = cplx_norm(a) + cplx_norm(b) + 1;
+    put_complex(m->alike.e, cplx_scale(-1, cplx_add(a, cplx_mul(cplx_conj(a), b))));
+    put_complex(m->alike.f, b);
+    if (rows->is_complex) m->alike.d[2] += rows->own_im;
+}
+
+void system_matrix(const system_rows *rows, band_matrix *m)
+{
+    const int n = rows->count;
+    m->count = n;
     m->is_complex = rows->is_complex;
     m->cyclic = rows->loop;
-    if (rows->is_complex) {
-        jet_rows(rows, m, true);
-    } else {
-        jet_rows(rows, m, false);
+    m->is_alike = rows->is_constant;
+    m->is_kept = false;
+    m->marks = rows->fixed;
+    m->im_weight = rows->is_complex && !rows->is_constant ? rows->im_weight : NULL;
+    m->stiffness = NULL;
+    for (int k = 0; k < n; k++) rows->fixed[k] &= (unsigned char)~(BAND_OWN | BAND_BESIDE);
+    if (rows->is_constant) {
+        square_alike(rows, m);
+    } else if (n > 1) {
+        square(n - 1, rows->m_re, rows->m_im, rows->p_re, rows->p_im, rows->jet_weight, m->d, m->e_re, m->e_im,
+               m->f_re, m->f_im);
     }
+    for (int k = 0; k < n && !rows->loop; k++) { // the rows beside an end
+        if (k <= rows->jet_from || k >= rows->jet_to) set_own_around(rows, m, k);
+        if (k == rows->jet_from && k < rows->jet_to) k = rows->jet_to - 1;
+    }
+    const bool each = rows->fast && !rows->is_constant;
+    for (int k = 0; k < n; k++) {
+        if (each || rows->fixed[k] & (FIXED_STILL | JET_TWICE)) set_own_around(rows, m, k);
+    }
+    if (rows->loop && !rows->is_constant) set_own_around(rows, m, 0), set_own_around(rows, m, n - 1);
     slope_rows(rows, m);
     start_rows(rows, m);
-    for (int k = 0; k < rows->count && rows->is_complex; k++) m->diagonal[3 * k + 2] += rows->im_weight[k];
-    for (int k = 0; k < rows->count; k++) {
-        if (rows->fixed[k] & FIXED_RE) fix(rows, m, k, 0);
-        if (rows->is_complex && rows->fixed[k] & FIXED_IM) fix(rows, m, k, 1);
-    }
 }

@@ -1,4 +1,4 @@
-/// Solves ill-conditioned systems by Givens rotations of the rows themselves.
+/// Factors ill-conditioned systems by Givens rotations of the rows themselves.
 //
 // A row touches at most three neighbouring samples, so U of Q U = R is as narrow as the band:
 //
@@ -7,37 +7,32 @@
 //     |         U22 U23 U24     |   x_{k+2}. Once all rows that begin at x_k are in, U_k* is done.
 //     |             U33 U34 U35 |
 //
-// In a loop the last two samples, the seam, have their own columns at the right and stay to the end. A rotation involves only two rows, so a
-// stiff slope row does not drown the soft ones. As Uᵀ U = L S Lᵀ, the results are U_kk⁻¹, the root of S_k⁻¹, and
-// L_ik = (U_kk⁻¹ U_ki)ᵀ.
+// As the band, from both ends: rows that touch none of the samples between are taken there. In a loop the last two samples, the seam, have
+// their own columns at the right and stay to the end. A rotation involves only two rows, so a stiff slope row does not drown the soft ones.
+// As Uᵀ U = L D Lᵀ, the pivots are U_kk² and what couples them U_kk U_kj.
 #include "spline/system.h"
 #include <math.h>
 #include <string.h>
 
-enum { COLUMNS = 10, SEAM = 6 };
+enum { COLUMNS = BAND_DENSE, SEAM = 6 };
 
-/// A smaller pivot is rounding, because each column had a 1 from a jet. What holds Im x of a slow spline of N samples is N⁻² of it.
-static const double lost = 1e-13;
+/// Lanes, and the dense block after them.
+enum { UP, DOWN, BETWEEN };
 
 typedef struct walk {
     const system_rows *rows;
-    int interior;               ///< samples before the seam
-    int k;                      ///< the sample being eliminated
-    int slope;                  ///< the next slope row
-    double u[COLUMNS][COLUMNS]; ///< of x_k, x_{k+1}, x_{k+2} and, from SEAM on, the seam: re and im of each
+    int interior, steps; ///< samples before the seam; those that each lane eliminates
+    int lane, k;         ///< the lane, and the sample that it eliminates
+    double u[COLUMNS]
+            [COLUMNS]; ///< of the sample and the two behind it and, from SEAM on, the seam: re and im of each
 } walk;
-
-static bool is_fixed(const walk *w, int sample, int part)
-{
-    return w->rows->fixed[sample] & (part ? FIXED_IM : FIXED_RE);
-}
 
 /// Sets a row's coefficient; fixed unknowns have none.
 static void put(const walk *w, double *row, int sample, int part, double value)
 {
-    const int n = w->rows->count, at = sample < 0 ? sample + n : sample >= n ? sample - n : sample;
-    const int column = at >= w->interior ? SEAM + 2 * (at - w->interior) : 2 * (at - w->k);
-    if (!is_fixed(w, at, part)) row[column + part] += value;
+    const int begin = w->lane == BETWEEN ? w->steps : w->k, away = w->lane == DOWN ? begin - sample : sample - begin;
+    const int column = sample >= w->interior ? SEAM + 2 * (sample - w->interior) : 2 * away;
+    if (!(w->rows->fixed[sample] & (part ? FIXED_IM : FIXED_RE))) row[column + part] += value;
 }
 
 /// Rotates a row into U; its content is lost.
@@ -60,9 +55,24 @@ static void take_row(walk *w, double *row)
     }
 }
 
-/// Adds a complex row (two real ones, or one outside complex mode) of coefficients on n samples.
-static void add_row(walk *w, double weight, int n, const int *samples, const cplx *c)
+/// Whether a row on these samples is taken now: where it begins.
+static bool begins_here(const walk *w, int n, const int *samples)
 {
+    int least = w->interior, most = -1;
+    for (int i = 0; i < n; i++) {
+        if (samples[i] >= w->interior) continue;
+        least = samples[i] < least ? samples[i] : least;
+        most = samples[i] > most ? samples[i] : most;
+    }
+    if (least < w->steps) return w->lane == UP && least == w->k;
+    if (most >= w->interior - w->steps) return w->lane == DOWN && most == w->k;
+    return w->lane == BETWEEN;
+}
+
+/// Adds a complex row of coefficients on n samples, as two real ones, or one outside complex mode or if it is `real`: Re(c x).
+static void add_row(walk *w, double weight, bool real, int n, const int *samples, const cplx *c)
+{
+    if (!(weight > 0) || !begins_here(w, n, samples)) return;
     const double root = sqrt(weight);
     double re[COLUMNS] = {0}, im[COLUMNS] = {0};
     for (int i = 0; i < n; i++) {
@@ -72,114 +82,91 @@ static void add_row(walk *w, double weight, int n, const int *samples, const cpl
         put(w, im, samples[i], 1, root * c[i].re);
     }
     take_row(w, re);
-    if (w->rows->is_complex) take_row(w, im);
+    if (w->rows->is_complex && !real) take_row(w, im);
 }
 
 static void add_jet(walk *w, int i)
 {
     const system_rows *rows = w->rows;
-    int n = rows->count;
-    cplx a = coefficients_a(&rows->at[i]), b = coefficients_b(&rows->at[i]);
-    bool has_before = rows->loop || i > 0, has_after = rows->loop || i < n - 1;
-    if (!has_after) a = (cplx){a.re - 1 - rows->tail.re, a.im - rows->tail.im};
+    const int n = rows->count;
+    const jet_row jet = system_jet(rows, i);
+    const int before = i > 0 ? i - 1 : rows->loop ? n - 1 : -1, after = i < n - 1 ? i + 1 : rows->loop ? 0 : -1;
     const cplx one = {1, 0};
     if (rows->fixed[i] & FIXED_STILL) { // two rows
-        if (has_before) add_row(w, rows->jet_weight[i], 1, (int[]){i - 1}, &b);
-        if (has_after) add_row(w, rows->jet_weight[i], 1, (int[]){i + 1}, &one);
+        if (before >= 0) add_row(w, jet.weight, false, 1, &before, &jet.before);
+        if (after >= 0) add_row(w, jet.weight, false, 1, &after, &one);
         return;
     }
     int samples[3] = {i}, count = 1;
-    cplx c[3] = {{-a.re, -a.im}};
-    if (has_before) samples[count] = i - 1, c[count++] = b;
-    if (has_after) samples[count] = i + 1, c[count++] = one;
-    add_row(w, rows->jet_weight[i], count, samples, c);
+    cplx c[3] = {jet.own};
+    if (before >= 0) samples[count] = before, c[count++] = jet.before;
+    if (after >= 0) samples[count] = after, c[count++] = one;
+    add_row(w, jet.weight, false, count, samples, c);
 }
 
-static void add_slope(walk *w, const slope_row *slope)
+/// Adds the slopes on a sample.
+static void add_slopes(walk *w, int sample)
 {
-    const stencil s = system_slope_stencil(w->rows, slope);
-    const int at[3] = {s.before, s.at, s.after};
-    const double root = sqrt(slope->weight);
-    double row[COLUMNS] = {0};
-    for (int i = 0; i < 3; i++) {
-        if (at[i] < 0 || (s.c[i].re == 0 && s.c[i].im == 0)) continue;
-        put(w, row, at[i], 0, root * s.c[i].re);
-        put(w, row, at[i], 1, -root * s.c[i].im);
+    const system_rows *rows = w->rows;
+    int from = 0, to = rows->slope_count;
+    while (from < to) {
+        const int middle = (from + to) / 2;
+        if (rows->slopes[middle].sample < sample) {
+            from = middle + 1;
+        } else {
+            to = middle;
+        }
     }
-    take_row(w, row);
-}
-
-static void add_imaginary(walk *w, int sample)
-{
-    double row[COLUMNS] = {0};
-    put(w, row, sample, 1, sqrt(w->rows->im_weight[sample]));
-    take_row(w, row);
+    for (; from < rows->slope_count && rows->slopes[from].sample == sample; from++) {
+        const stencil s = system_slope_stencil(rows, &rows->slopes[from]);
+        const int at[3] = {s.before, s.at, s.after};
+        int samples[3], count = 0;
+        cplx c[3];
+        for (int i = 0; i < 3; i++) {
+            if (at[i] >= 0 && (s.c[i].re != 0 || s.c[i].im != 0)) samples[count] = at[i], c[count++] = s.c[i];
+        }
+        add_row(w, rows->slopes[from].weight, true, count, samples, c);
+    }
 }
 
 static void add_start(walk *w)
 {
+    const system_rows *rows = w->rows;
+    const bool alone = rows->count == 1;
     for (int i = 0; i < 2; i++) {
-        const struct start_row *row = &w->rows->start.row[i];
-        if (row->weight > 0)
-            add_row(w, row->weight, 2, (int[]){0, 1}, (cplx[]){cplx_sub(row->on_x, row->on_e), row->on_e});
+        const struct start_row *row = &rows->start.row[i];
+        const cplx on_x0 =
+            alone ? cplx_add(row->on_x, cplx_mul(row->on_e, rows->tail)) : cplx_sub(row->on_x, row->on_e);
+        add_row(w, row->weight, false, alone ? 1 : 2, (int[]){0, 1}, (cplx[]){on_x0, row->on_e});
     }
 }
 
-/// The first sample of a slope row.
-static int first_of(const slope_row *slope)
-{
-    return slope->behind.re == 0 && slope->behind.im == 0 ? slope->sample : slope->sample - 1;
-}
-
-/// Whether a row begins in the seam: it is then added in the first step.
-static bool begins_in_seam(const walk *w, const slope_row *slope)
-{
-    const int first = first_of(slope);
-    return first < 0 || first >= w->interior;
-}
-
-/// Adds all rows whose first interior sample is x_k; in the first step also those that begin in the seam.
-static void add_rows(walk *w)
+/// Adds the rows of a sample that begin here.
+static void add_rows(walk *w, int sample)
 {
     const system_rows *rows = w->rows;
-    if (w->k == 0) {
-        if (rows->jet_from == 0) add_jet(w, 0);
-        if (rows->loop) add_jet(w, rows->count - 1);
-        for (int s = 0; s < rows->slope_count; s++) {
-            if (begins_in_seam(w, &rows->slopes[s])) add_slope(w, &rows->slopes[s]);
-        }
-        for (int sample = w->interior; sample < rows->count; sample++) add_imaginary(w, sample);
-    }
-    if (w->k + 1 <= rows->jet_to && w->k + 1 < rows->count - (rows->loop ? 1 : 0)) add_jet(w, w->k + 1);
-    add_imaginary(w, w->k);
-    for (; w->slope < rows->slope_count && first_of(&rows->slopes[w->slope]) <= w->k; w->slope++) {
-        if (!begins_in_seam(w, &rows->slopes[w->slope])) add_slope(w, &rows->slopes[w->slope]);
-    }
-    if (w->k == 0) add_start(w);
+    const double weight = rows->is_constant ? rows->own_im : rows->im_weight[sample];
+    add_jet(w, sample);
+    add_slopes(w, sample);
+    if (rows->is_complex) add_row(w, weight, true, 1, &sample, &(cplx){0, -1});
+    if (sample == 0) add_start(w);
 }
 
-/// Checks the pivots of a sample, from column `c` on; those of fixed unknowns are 1.
-static pentadiagonal_rank close_sample(walk *w, int sample, int c)
+/// The pivot of an unknown; that of a fixed one is 1. False: there is none.
+static bool close_row(walk *w, int sample, int column, int part)
 {
-    pentadiagonal_rank rank = RANK_FULL;
+    double *pivot = &w->u[column][column];
+    if (w->rows->fixed[sample] & (part ? FIXED_IM : FIXED_RE)) *pivot = 1;
+    return fabs(*pivot) > 0 && fabs(*pivot) < INFINITY;
+}
+
+/// Hands over the rows of a sample, and goes on to the next one.
+static bool finish_step(walk *w, int step, band_matrix *m)
+{
+    double(*u)[COLUMNS] = w->u;
     for (int part = 0; part < 2; part++) {
-        double *pivot = &w->u[c + part][c + part];
-        if (is_fixed(w, sample, part)) *pivot = 1;
-        if (!(fabs(*pivot) > 0 && fabs(*pivot) < INFINITY)) return RANK_BROKEN;
-        if (fabs(*pivot) < lost) rank = RANK_WEAK;
-    }
-    return rank;
-}
-
-/// Stores U_k's row and goes on to the next sample.
-static void finish_step(walk *w, pentadiagonal *m)
-{
-    double(*u)[COLUMNS] = w->u, *d = m->diagonal + 3 * w->k;
-    double *const to[] = {m->below + 4 * w->k, m->below2 + 4 * w->k, m->border + BORDER_ROW * w->k};
-    d[0] = 1 / u[0][0], d[2] = 1 / u[1][1], d[1] = -u[0][1] * d[0] * d[2];
-    for (int c = 2; c < (m->cyclic ? COLUMNS : SEAM); c++) {
-        double *at = c < SEAM ? to[c / 2 - 1] + 2 * (c % 2) : to[2] + 2 * (c - SEAM);
-        at[0] = u[0][c], at[1] = u[1][c];
+        if (!close_row(w, w->k, part, part)) return false;
+        if (part == 0 || m->is_complex) band_put_row(m, step, w->lane, part, u[part] + part, u[part] + SEAM);
     }
     for (int r = 0; r < SEAM; r++) {
         const bool is_new = r + 2 >= SEAM;
@@ -188,26 +175,57 @@ static void finish_step(walk *w, pentadiagonal *m)
             u[r][c] = is_new || (c < SEAM && from >= SEAM) ? 0 : u[r + 2][from];
         }
     }
+    return true;
 }
 
-pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *m)
+/// Rows that a lane has left, into the dense block.
+static void take_left(walk *between, const walk *w)
 {
-    walk w = {.rows = rows, .interior = rows->loop ? rows->count - 2 : rows->count};
-    m->count = rows->count;
-    m->is_complex = rows->is_complex;
-    m->cyclic = rows->loop;
-    m->is_rooted = true;
-    pentadiagonal_rank rank = RANK_FULL;
-    for (w.k = 0; w.k < rows->count; w.k++) {
-        const bool in_seam = w.k >= w.interior;
-        if (!in_seam) add_rows(&w);
-        const pentadiagonal_rank step = close_sample(&w, w.k, in_seam ? SEAM + 2 * (w.k - w.interior) : 0);
-        rank = step < rank ? step : rank;
-        if (rank == RANK_BROKEN) return rank;
-        if (!in_seam) finish_step(&w, m);
+    const int last = w->interior - 2 * w->steps - 1;
+    for (int r = 0; r < COLUMNS; r++) {
+        double row[COLUMNS] = {0};
+        for (int c = 0; c < 4; c++) row[w->lane == DOWN ? 2 * (last - c / 2) + c % 2 : c] = w->u[r][c];
+        memcpy(row + SEAM, w->u[r] + SEAM, (COLUMNS - SEAM) * sizeof *row);
+        take_row(between, row);
     }
-    for (int r = 0; r < BORDER_MAX; r++) {
-        for (int c = 0; c <= r; c++) m->corner[r][c] = w.u[SEAM + c][SEAM + r];
+}
+
+/// What is between the lanes, in the order of the band's dense block.
+static bool finish_between(walk *w, band_matrix *m)
+{
+    const int parts = m->is_complex ? 2 : 1, middle = band_middle(m), samples = middle + (m->cyclic ? 2 : 0);
+    int column[BAND_DENSE] = {0};
+    for (int s = 0; s < samples; s++) {
+        for (int part = 0; part < parts; part++) {
+            const int at = s < middle ? 2 * s : SEAM + 2 * (s - middle);
+            column[parts * s + part] = at + part;
+            if (!close_row(w, s < middle ? w->steps + s : w->interior + s - middle, at + part, part)) return false;
+        }
     }
-    return rank;
+    double dense[BAND_DENSE][BAND_DENSE];
+    for (int i = 0; i < samples * parts; i++) {
+        for (int j = i; j < samples * parts; j++) dense[i][j] = w->u[column[i]][column[j]];
+    }
+    band_put_dense(m, dense);
+    return true;
+}
+
+bool orthogonal_factor(const system_rows *rows, band_matrix *m)
+{
+    walk between = {.rows = rows, .interior = band_interior(m), .steps = band_steps(m), .lane = BETWEEN};
+    m->is_factor = false;
+    for (int lane = UP; lane <= DOWN && between.steps > 0; lane++) {
+        walk w = {.rows = rows, .interior = between.interior, .steps = between.steps, .lane = lane};
+        for (int step = 0; step < w.steps; step++) {
+            w.k = lane == UP ? step : w.interior - 1 - step;
+            for (int i = w.k - 1; i <= w.k + 1; i++) { // those that begin here lie on it, or beside it
+                const int n = rows->count, at = rows->loop ? (i + n) % n : i;
+                if (at >= 0 && at < n) add_rows(&w, at);
+            }
+            if (!finish_step(&w, step, m)) return false;
+        }
+        take_left(&between, &w);
+    }
+    for (int sample = 0; sample < rows->count; sample++) add_rows(&between, sample);
+    return finish_between(&between, m);
 }

@@ -14,7 +14,7 @@ typedef struct pulled {
     problem problem;
     system_pulls pulls;
     double scale;    ///< of the system's compliance, to that of its weighted energy
-    double spread;   ///< the most that a pull moves any x, in units of √(energy / scale)
+    double spread;   ///< √ of the largest D: the most that pulls move any x, in units of √(energy / scale)
     bound_tail tail; ///< the motion that bounds add after the last knot
     double *e;       ///< that motion, one number per sample
 } pulled;

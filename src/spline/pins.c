@@ -16,8 +16,6 @@
 /// Correction rounds, and the miss they tolerate, as a share of the largest target.
 enum { MAX_ROUNDS = 3 };
 static const double near_enough = 1e-10;
-/// How much farther than one pull several together may move x.
-static const double together = 10;
 
 // --- arguments -------------------------------------------------------------------------------------------------------
 
@@ -299,13 +297,12 @@ static void read_pulled(const pulled *of, double *x)
 }
 
 /// x at the pulled samples from knots and equilibrium alone.
-static bool find_alone(pulled *of, factorisation *factor, double *alone)
+static bool find_alone(pulled *of, double *alone)
 {
     const problem *p = &of->problem;
     problem_set_rows(of->solver, p);
-    *factor = solver_factor(of->solver);
-    minimum found = solver_refine(of->solver, factor);
-    if (!found.solved || (found.weak && p->free_end)) return false;
+    const minimum found = solver_minimise(of->solver);
+    if (!found.solved || (found.lost && p->free_end)) return false;
     read_pulled(of, alone);
     for (int i = 0; i < of->pulls.count; i++) {
         int sample = of->pulls.sample[i];
@@ -320,12 +317,11 @@ static bool respond_alone(pulled *of, double *compliance, double *alone)
 {
     const int count = of->pulls.count, width = 2 * count;
     system_rows *rows = &of->solver->rows;
-    factorisation factor;
     memset(of->pulls.pull, 0, sizeof *of->pulls.pull * (size_t)count);
     of->spread = 0;
-    if (!find_alone(of, &factor, alone)) {
+    if (!find_alone(of, alone)) {
         of->problem.level_slope = true; // as for a spline without pins
-        if (!of->problem.free_end || !find_alone(of, &factor, alone)) return false;
+        if (!of->problem.free_end || !find_alone(of, alone)) return false;
     }
     for (int i = 0; i < width; i++) {
         double *row = compliance + width * i;
@@ -333,12 +329,12 @@ static bool respond_alone(pulled *of, double *compliance, double *alone)
         if (i % 2 == 1 && !rows->is_complex) continue;
         system_forget_known(rows);
         of->pulls.pull[i / 2] = (cplx){i % 2 == 0, i % 2 == 1};
-        const minimum found = solver_refine(of->solver, &factor);
+        const minimum found = solver_find(of->solver);
         of->pulls.pull[i / 2] = (cplx){0, 0};
         if (!found.solved) return false;
         read_pulled(of, row);
-        if (row[i] > 0) of->spread = fmax(of->spread, found.largest / sqrt(row[i]));
     }
+    of->spread = of->solver->band.largest;
     return true;
 }
 
@@ -482,13 +478,14 @@ static bool find_miss(wiggly_group *g)
     return most <= near_enough * size;
 }
 
-/// Adds what the misses leave to the curves' errors: the pulls that would meet them have that energy, Σ λ S λ.
+/// Adds what the misses leave to the curves' errors: the pulls that would meet them have that energy, Σ λ S λ, and so move no x by more than
+/// √(D energy).
 static wiggly_status add_miss(wiggly_group *g, double energy, wiggly_status status)
 {
     for (int s = 0; s < g->rows.splines && status < WIGGLY_ERROR_ARGUMENT; s++) {
         const pulled *of = &g->pulled[s];
         if (of->pulls.count == 0) continue;
-        const double moved = together * of->spread * sqrt(of->scale * energy);
+        const double moved = of->spread * sqrt(of->scale * energy);
         const wiggly_status own = solver_add_error(of->solver, of->curve, moved, WIGGLY_OK);
         status = own > status ? own : status;
     }

@@ -156,9 +156,9 @@ coefficients poles_coefficients(const poles *at, double step)
             if (fabs(a.re) + fabs(a.im) < DBL_EPSILON) c.m = (cplx){-2, 0};
             c.p = (cplx){-1 - c.m.re, -c.m.im};
         }
-        c.a_rest = (cplx){rest_of(a.re, 2, c.m.re, 0), rest_of(a.im, 0, c.m.im, 0)};
-        c.b_rest = (cplx){rest_of(b.re, 1, c.m.re, c.p.re), rest_of(b.im, 0, c.m.im, c.p.im)};
-        if (at->s[0].im == -at->s[1].im) c.a_rest.im = c.b_rest.im = 0;
+        c.rest.a = (cplx){rest_of(a.re, 2, c.m.re, 0), rest_of(a.im, 0, c.m.im, 0)};
+        c.rest.b = (cplx){rest_of(b.re, 1, c.m.re, c.p.re), rest_of(b.im, 0, c.m.im, c.p.im)};
+        if (at->s[0].im == -at->s[1].im) c.rest.a.im = c.rest.b.im = 0;
     }
     return c;
 }
@@ -189,7 +189,10 @@ start_cost poles_start_cost(const poles *at, double step)
            other = s[1].re == s[0].re ? decay : -maths_expm1(2 * step * s[1].re);
     double det = decay * other * distance_from_one((cplx){step * (s[0].re + s[1].re), step * (s[0].im - s[1].im)});
     cplx e = {sum.re / h00, -sum.im / h00}; // |x₀ + (e−1) x₁|², x₁ = x₀ + e₀
-    return (start_cost){{{h00, e, {e.re - 1, e.im}}, {det / h00, {1, 0}, {1, 0}}}};
+    const double unit = 16 * DBL_EPSILON,
+                 of_e = unit * (cplx_size(sum) + cplx_norm(p) + sqrt(cplx_norm(p) * cplx_norm(m))) / h00;
+    return (start_cost){{{h00, e, {e.re - 1, e.im}, {of_e, of_e + unit * cplx_size((cplx){e.re - 1, e.im}), 0}},
+                         {det / h00, {1, 0}, {1, 0}, {0, 0, 0}}}};
 }
 
 double poles_weight_exponent(const poles *at, double step)
@@ -220,11 +223,15 @@ speed_form poles_speed(const poles *at, double step, bool backwards)
     cplx s1 = {fmax(at->s[1].re * step, alike ? -DEEPEST : -3 * DEEPEST) / step, at->s[1].im};
     cplx z = cplx_scale(0.5 * h, cplx_sub(s0, s1)), mean = cplx_scale(0.5 * h, cplx_add(s0, s1));
     const double exact = z_over_sinh(z.re * z.re - z.im * z.im), ratio = fmin(fmax(exact, -steepest), steepest);
-    const double cut = fabs(exact) < steepest ? 0 : 2 * sqrt(cplx_norm(z)) / steepest;
+    const double cut = fabs(exact) < steepest ? 0 : 2 * cplx_size(z) / steepest;
     cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));
     cplx on_x = cplx_sub(cplx_scale(h, s0), cplx_mul(q, cplx_expm1(cplx_scale(h, s0))));
     if (s0.im == -s1.im) on_x.im = q.im = 0; // conjugate or real poles: not even rounding may couple Im x to Re x
-    return backwards ? (speed_form){cplx_scale(-1, on_x), q, cut} : (speed_form){on_x, q, cut};
+    // the ratio is the less exact, the nearer the poles alias; what remains of on_x is a difference
+    const double size = cplx_size(q), part = 8 * DBL_EPSILON * (1 + cplx_size(z) * fabs(ratio));
+    const double first = cplx_size(s0) * fabs(h), moved = first < 2 ? first : 2;
+    const speed_loss loss = {8 * DBL_EPSILON * first + part * size * moved + cut * size, part * size, cut};
+    return (speed_form){backwards ? cplx_scale(-1, on_x) : on_x, q, cut, loss};
 }
 
 start_cost poles_start_seen_from(start_cost cost, const poles *damped, const poles *at, double step)
@@ -233,6 +240,11 @@ start_cost poles_start_seen_from(start_cost cost, const poles *damped, const pol
     cplx on_x = cplx_divide(cplx_sub(here.on_x, there.on_x), there.on_e), on_e = cplx_divide(here.on_e, there.on_e);
     for (int i = 0; i < 2; i++) {
         struct start_row *row = &cost.row[i];
+        const double apart = (here.loss.x + there.loss.x + cplx_size(on_x) * there.loss.e) / cplx_size(there.on_e);
+        const double share = (here.loss.e / cplx_size(here.on_e) + there.loss.e / cplx_size(there.on_e));
+        row->loss.x += row->loss.e * cplx_size(on_x) + cplx_size(row->on_e) * apart;
+        row->loss.e = row->loss.e * cplx_size(on_e) + cplx_size(row->on_e) * cplx_size(on_e) * share;
+        row->loss.cut = fmax(here.loss.cut, there.loss.cut);
         row->on_x = cplx_add(row->on_x, cplx_mul(row->on_e, on_x));
         row->on_e = cplx_mul(row->on_e, on_e);
     }
@@ -363,8 +375,11 @@ static void load(wiggly_param param, int from, int count, double *out)
     }
 }
 
-static inline void put_poles(const poles *at, double h, int i, poles_block *restrict block, exponents *restrict e)
+static inline void put_poles(const poles *at, double h, int i, bool pair, poles_block *restrict block,
+                             exponents *restrict e)
 {
+    const coefficient_loss loss = poles_loss(at->decay * h, h * at->s[0].im, h * at->natural, pair);
+    block->loss_m[i] = loss.m, block->loss_p[i] = loss.p;
     block->natural[i] = at->natural;
     block->centre[i] = at->centre;
     for (int k = 0; k < 2; k++) e->real[k][i] = at->s[k].re * h, e->half[k][i] = 0.5 * h * at->s[k].im;
@@ -376,7 +391,7 @@ WIDEST static void set_complex(const double *restrict f, const double *restrict 
     for (int i = 0; i < count; i++) {
         const double zeta = z[i] > floor ? z[i] : floor;
         const poles at = complex_poles(2 * pi * f[i], zeta < 1 ? zeta : 1, b[i] < 1 ? b[i] : 1);
-        put_poles(&at, h, i, block, e);
+        put_poles(&at, h, i, false, block, e);
     }
 }
 
@@ -386,7 +401,7 @@ WIDEST static void set_real(const double *restrict f, const double *restrict z, 
     for (int i = 0; i < count; i++) {
         const double omega = 2 * pi * f[i];
         const poles at = real_poles((z[i] > floor ? z[i] : floor) * omega, omega);
-        put_poles(&at, h, i, block, e);
+        put_poles(&at, h, i, true, block, e);
     }
 }
 
@@ -429,8 +444,12 @@ static void fill_each(const wiggly_desc *desc, int from, int count, double floor
         block->natural[i] = at.natural;
         block->centre[i] = at.centre;
         block->exponent[i] = poles_weight_exponent(&at, desc->step);
+        const bool pair = desc->mode == WIGGLY_REAL;
+        const coefficient_loss loss =
+            poles_loss(at.decay * desc->step, fabs(at.s[0].im) * desc->step, at.natural * desc->step, pair);
         block->m_re[i] = c.m.re, block->m_im[i] = c.m.im;
         block->p_re[i] = c.p.re, block->p_im[i] = c.p.im;
+        block->loss_m[i] = loss.m, block->loss_p[i] = loss.p;
     }
 }
 

@@ -2,6 +2,7 @@
 #ifndef SPLINE_POLES_H
 #define SPLINE_POLES_H
 
+#include <math.h>
 #include <wiggly/more.h>
 
 typedef struct cplx {
@@ -14,6 +15,7 @@ static inline cplx cplx_scale(double s, cplx a) { return (cplx){s * a.re, s * a.
 static inline cplx cplx_mul(cplx a, cplx b) { return (cplx){a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re}; }
 static inline cplx cplx_conj(cplx a) { return (cplx){a.re, -a.im}; }
 static inline double cplx_norm(cplx a) { return a.re * a.re + a.im * a.im; }
+static inline double cplx_size(cplx a) { return sqrt(cplx_norm(a)); }
 
 /// Continuous poles in 1/s, natural frequency and band centre in rad/s.
 typedef struct poles {
@@ -27,22 +29,45 @@ typedef struct poles {
 ///     r_i = (x_{i+1} − 2x_i + x_{i−1}) − m (x_i − x_{i−1}) + p x_{i−1} + g ÿ,   m = μ₀ + μ₁, p = μ₀μ₁, μ = λ − 1,
 /// because at high sample rates a and b hold no digit of the frequency. If poles fade within a sample, m and p hold no digit of a and b, and
 /// weights of |b|⁻¹ make that matter; so the rest is kept separately.
+typedef struct coefficient_rest {
+    cplx a, b; ///< 0 up to FAST
+} coefficient_rest;
+
 typedef struct coefficients {
-    cplx m, p;           ///< a = 2 + m + a_rest, −b = 1 + m + p + b_rest
-    cplx a_rest, b_rest; ///< 0 up to FAST
-    cplx g;              ///< exp((s₀+s₁)h/2): the drive in phase with the filter
+    cplx m, p; ///< a = 2 + m + rest.a, −b = 1 + m + p + rest.b
+    coefficient_rest rest;
+    cplx g; ///< exp((s₀+s₁)h/2): the drive in phase with the filter
 } coefficients;
+
+/// What the rounding of m and p may be.
+typedef struct coefficient_loss {
+    double m, p;
+} coefficient_loss;
 
 static inline cplx coefficients_a(const coefficients *at)
 {
-    return (cplx){(2 + at->m.re) + at->a_rest.re, at->m.im + at->a_rest.im};
+    return (cplx){(2 + at->m.re) + at->rest.a.re, at->m.im + at->rest.a.im};
 }
 
 /// −b.
 static inline cplx coefficients_b(const coefficients *at)
 {
-    return (cplx){(2 + at->m.re - 1 + at->p.re) + at->b_rest.re, (at->m.im + at->p.im) + at->b_rest.im};
+    return (cplx){(2 + at->m.re - 1 + at->p.re) + at->rest.b.re, (at->m.im + at->p.im) + at->rest.b.im};
 }
+
+/// What rounding, and coefficients that are cut, may be to a row: a share of x_j, and one of the differences to its neighbours.
+typedef struct speed_loss {
+    double x, e;
+    double cut; ///< not 0: the row may weigh more than it does
+} speed_loss;
+
+/// h times the speed that the poles give from a sample and the difference to its neighbour: on_x x_j + on_e (x_{j+1} − x_j), or backwards with
+/// (x_j − x_{j−1}).
+typedef struct speed_form {
+    cplx on_x, on_e;
+    double cut; ///< how much of on_e on_x may be off by, because the poles nearly alias to one; 0: nothing
+    speed_loss loss;
+} speed_form;
 
 /// The cost of swing at the start: two squares of the first state, taken as (x₀, e₀) with e₀ = x₁ − x₀,
 ///     Σ weight |on_x x₀ + on_e e₀|²,
@@ -52,15 +77,9 @@ typedef struct start_cost {
     struct start_row {
         double weight;
         cplx on_x, on_e;
+        speed_loss loss;
     } row[2];
 } start_cost;
-
-/// h times the speed that the poles give from a sample and the difference to its neighbour: on_x x_j + on_e (x_{j+1} − x_j), or backwards with
-/// (x_j − x_{j−1}).
-typedef struct speed_form {
-    cplx on_x, on_e;
-    double cut; ///< how much of on_e on_x may be off by, because the poles nearly alias to one; 0: nothing
-} speed_form;
 
 /// Faster decay makes no difference to a double, but weights and their products stay finite.
 #define DEEPEST 100.0
@@ -86,6 +105,17 @@ poles poles_at(const wiggly_desc *desc, int sample, double floor);
 bool poles_are_constant(const wiggly_desc *desc);
 
 coefficients poles_coefficients(const poles *at, double step);
+
+/// What rounding leaves of m and p, to first order: of each λ the angle's and the decay's, 4ε (|s h| |λ| + |λ − 1|). Of a conjugate pair the
+/// angle's is of second order, and what a critical damping does to both poles cancels. `pair`: conjugate or real poles.
+static inline coefficient_loss poles_loss(double decay, double turn, double natural, bool pair)
+{
+    const double unit = 0x1p-50, fade = decay < 1 ? decay : 1, square = natural * natural; // 4 ε
+    const double bend = square < 4 + natural ? square : 4 + natural, reach = fade + turn,
+                 most = reach < 2 ? reach : 2;
+    return pair ? (coefficient_loss){2 * unit * (fade + bend), 4 * unit * bend}
+                : (coefficient_loss){4 * unit * reach, 4 * unit * reach * most};
+}
 /// λ = (λ₀ + λ₁)/2 and δ² = (λ₀ − λ₁)²/4 of the discrete poles.
 void poles_mean(const poles *at, double step, cplx *lambda, cplx *delta2);
 start_cost poles_start_cost(const poles *at, double step);
@@ -98,6 +128,13 @@ static inline cplx poles_passive(const poles *at) { return (cplx){-at->decay, at
 cplx poles_tail(cplx passive, const speed_form *ahead, double step);
 cplx cplx_exp(cplx z);
 
+/// The same of poles that fade within a sample, from a and b, which are kept apart.
+static inline coefficient_loss poles_fast_loss(const coefficients *at, double decay, double turn)
+{
+    const double unit = 2 * 0x1p-50 * (1 + 2 * decay + turn), of_a = unit * cplx_size(coefficients_a(at));
+    return (coefficient_loss){of_a, of_a + unit * cplx_size(coefficients_b(at))};
+}
+
 // --- many samples at once, for parameters that vary ---
 
 enum { POLES_BLOCK = 64 };
@@ -106,6 +143,7 @@ typedef struct poles_block {
     double natural[POLES_BLOCK], centre[POLES_BLOCK]; ///< rad/s
     double exponent[POLES_BLOCK];                     ///< poles_weight_exponent()
     double m_re[POLES_BLOCK], m_im[POLES_BLOCK], p_re[POLES_BLOCK], p_im[POLES_BLOCK];
+    double loss_m[POLES_BLOCK], loss_p[POLES_BLOCK]; ///< poles_loss()
 } poles_block;
 
 /// Fills `count` ≤ POLES_BLOCK samples from `from` on, as poles_at() and poles_coefficients() would to the last

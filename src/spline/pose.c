@@ -143,7 +143,7 @@ static void set_about(wiggly_solver *solver, problem *p)
         p->about = p->response.total;
         if (desc->equilibrium.track || p->settled) {
             if (desc->start == WIGGLY_LOOP && !poles_are_constant(desc))
-                chain_forget(&solver->chain); // its tables are where the response is found
+                solver_forget_factors(solver); // the response is found in their memory
             p->status = forced_response_find(desc, p->y, p->calm, &p->response);
         } else {
             forced_response_rest(desc, p->y, &p->response);
@@ -156,11 +156,7 @@ static void set_about(wiggly_solver *solver, problem *p)
 static start_cost cost_of_start(wiggly_solver *solver, problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    p->cut = 0;
-    if (poles_are_constant(desc)) {
-        p->cut = problem_filter(solver, p)->cut;
-        return problem_filter(solver, p)->start;
-    }
+    if (poles_are_constant(desc)) return problem_filter(solver, p)->start;
     const int end = p->still >= 0 && p->still < p->latest ? p->still : p->latest;
     int at = problem_oscillates(p) ? poles_fastest(desc, p->first, end, NULL) : p->first;
     poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
@@ -168,7 +164,6 @@ static start_cost cost_of_start(wiggly_solver *solver, problem *p)
     if (!problem_oscillates(p)) return cost;
     double weight = maths_exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&here, desc->step));
     for (int i = 0; i < 2; i++) cost.row[i].weight *= weight;
-    p->cut = fmax(poles_speed(&damped, desc->step, false).cut, poles_speed(&here, desc->step, false).cut);
     return poles_start_seen_from(cost, &damped, &here, desc->step);
 }
 

@@ -205,8 +205,6 @@ static bool make_nodes(wiggly_solver *solver, const problem *p)
     return same;
 }
 
-static double cplx_size(cplx z) { return fmax(fabs(z.re), fabs(z.im)); }
-
 static bool same_cplx(cplx a, cplx b) { return a.re == b.re && a.im == b.im; }
 
 /// The coefficient of the free motion in the last sample's jet.
@@ -280,6 +278,7 @@ static bool make_chain(wiggly_solver *solver, const problem *p)
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im)
 {
     chain *c = &solver->chain;
+    solver->band.is_kept = false; // its memory is that of the chain's tables
     bool same_nodes = make_chain(solver, p);
     c->kept = c->kept && same_nodes;
     if (!is_held(c) || !chain_solve(c, x_re, x_im)) return false;

@@ -47,13 +47,11 @@ typedef struct problem {
     int earliest, latest;      ///< samples of the earliest and of the latest knot or pull, or -1
     bool settles;              ///< w is free after the latest knot: the system ends there
     bool settled;              ///< knots that settle move the equilibrium
-    bool strict;               ///< one plain solve is not enough: the total is far smaller than x
     bool level_slope;          ///< a level slope is implied at the earliest knot
     bool free_end;             ///< c·H = 0
     int still;                 ///< sample of the earliest still knot, or -1
     double unit;               ///< unit of all weights but the jets': the oscillator's |g|² at `first`, else 1
     start_cost cost;           ///< of the start's swing, times calm; weights 0 if it is free
-    double cut;                ///< of the speeds that it sees (speed_form)
 } problem;
 
 static inline double problem_y(const problem *p, int sample) { return p->y ? p->y[sample] : p->level; }

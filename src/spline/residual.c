@@ -1,129 +1,244 @@
-/// The gradient through the un-squared rows, in double-double.
+/// The gradient through the un-squared rows.
 //
 // The gradient −½ ∇(E·h³) = −Rᵀ W (R x − d) at a given x, where the rows R are never squared.
 //
-//     r_i = [(x_{i+1} − x_i) − (x_i − x_{i−1})] − m_i (x_i − x_{i−1}) + p_i x_{i−1} + f_i
+//     r_i = [(x_{i+1} − x_i) − (x_i − x_{i−1})] − m_i (x_i − x_{i−1}) + p_i x_{i−1} + f_i                       (eq. 25)
 //     g_k = −[j_{k−1} − 2j_k + j_{k+1}] + m_k* j_k − (m_{k+1} + p_{k+1})* j_{k+1},   j = w r
 //
-// Both are sums of nearly equal numbers: over a gap of G samples r is G² times smaller than x, and g again than r. In
-// double-double the cancellation leaves full double precision for any G that a double can count.
-#include "spline/dd.h"
+// The differences are those of near numbers, so they are exact or almost. Beside it are sums of what the rows' own rounding may be
+// (minimise.c has the bound).
 #include "spline/system.h"
+#include "spline/wide.h"
+#include <float.h>
+#include <math.h>
 #include <string.h>
 
-typedef struct ddc {
-    dd re, im;
-} ddc;
+#define ALWAYS_INLINE static inline __attribute__((always_inline))
 
-static inline ddc ddc_from(cplx z) { return (ddc){dd_from(z.re), dd_from(z.im)}; }
+static inline cplx as_cplx(twin z) { return (cplx){z[0], z[1]}; }
+static inline twin as_twin(cplx z) { return (twin){z.re, z.im}; }
 
-/// z·w for a double z.
-static inline ddc ddc_scale(cplx z, ddc w)
-{
-    return (ddc){dd_subtract(dd_scale(z.re, w.re), dd_scale(z.im, w.im)),
-                 dd_add(dd_scale(z.re, w.im), dd_scale(z.im, w.re))};
-}
+/// A complex number c as factors of z and of z with its parts exchanged: c z.
+typedef struct factors {
+    twin same, turned;
+} factors;
 
-static inline ddc ddc_weigh(double w, ddc z) { return (ddc){dd_scale(w, z.re), dd_scale(w, z.im)}; }
-
-static inline ddc ddc_add(ddc a, ddc b) { return (ddc){dd_add(a.re, b.re), dd_add(a.im, b.im)}; }
-static inline ddc ddc_subtract(ddc a, ddc b) { return (ddc){dd_subtract(a.re, b.re), dd_subtract(a.im, b.im)}; }
+ALWAYS_INLINE factors factors_of(double re, double im) { return (factors){{re, re}, {-im, im}}; }
+ALWAYS_INLINE twin turned(twin z) { return (twin){z[1], z[0]}; }
+ALWAYS_INLINE twin times(const factors *c, twin z) { return c->same * z + c->turned * turned(z); }
+ALWAYS_INLINE twin times_conjugate(const factors *c, twin z) { return c->same * z - c->turned * turned(z); }
+ALWAYS_INLINE twin both(double a) { return (twin){a, a}; }
+ALWAYS_INLINE void store(double *x, int k, twin z) { *(twin *)(void *)(x + 2 * k) = z; }
+ALWAYS_INLINE twin sample_at(const double *x, int k) { return *(const twin *)(const void *)(x + 2 * k); }
+ALWAYS_INLINE double norm(twin z) { return z[0] * z[0] + z[1] * z[1]; }
 
 /// A sample of x; 0 before the first, the tail after the last.
-static inline cplx sample_of(const system_rows *rows, int k)
-{
-    int last = rows->count - 1;
-    if (rows->loop) k = k < 0 ? last : k > last ? 0 : k;
-    if (k < 0) return (cplx){0, 0};
-    if (k > last) k = last;
-    return (cplx){rows->x[2 * k], rows->x[2 * k + 1]};
-}
-
-/// f_i. In a slow loop the sum of all is almost 0, so not even their rounding may remain.
-static inline ddc drive_of(const system_rows *rows, int i)
+static twin sample_of(const system_rows *rows, int k)
 {
     const int last = rows->count - 1;
-    const cplx plain = rows->drive[i];
-    if (!rows->driven || (!rows->loop && (i == 0 || i == last))) return ddc_from(plain);
-    const double *y = rows->driven, here = y[i];
-    const dd ahead = dd_difference(y[i < last ? i + 1 : 0], here),
-             behind = dd_difference(here, y[i > 0 ? i - 1 : last]);
-    const dd bend = dd_subtract(ahead, behind);
-    return (ddc){dd_scale(rows->at[i].g.re, bend), dd_scale(rows->at[i].g.im, bend)};
+    if (rows->loop) k = k < 0 ? last : k > last ? 0 : k;
+    if (k < 0) return (twin){0, 0};
+    if (k <= last) return sample_at(rows->x, k);
+    const cplx end = as_cplx(sample_at(rows->x, last));
+    return as_twin(cplx_add(end, cplx_mul(rows->tail, end)));
 }
 
-static inline ddc jet_of(const system_rows *rows, int i)
+/// What a pass over the jets sums: w |x_i − x_{i−1}|² and w |x_{i−1}|², times the rounding of m and p if that varies, and w |r|².
+typedef struct sums {
+    twin by_step, by_x, energy;
+} sums;
+
+/// The weighted jet at i, of the samples before, at and after it.
+ALWAYS_INLINE twin jet_at(const system_rows *rows, const bool is_constant, const bool is_complex, int i,
+                          const factors *m, const factors *p, twin before, twin here, twin ahead, sums *s)
 {
-    cplx before = sample_of(rows, i - 1), here = sample_of(rows, i), after = sample_of(rows, i + 1);
-    if (rows->fixed[i] & FIXED_STILL) after = here;
-    ddc step = {dd_difference(here.re, before.re), dd_difference(here.im, before.im)};
-    ddc next = {dd_difference(after.re, here.re), dd_difference(after.im, here.im)};
-    if (!rows->loop && i == rows->count - 1) next = ddc_scale(rows->tail, ddc_from(here));
-    ddc base = {dd_from(before.re), dd_from(before.im)};
-    ddc spring = ddc_subtract(ddc_scale(rows->at[i].p, base), ddc_scale(rows->at[i].m, step));
-    if (rows->fast) {
-        ddc own = ddc_scale(rows->at[i].a_rest, ddc_from(here));
-        spring = ddc_add(spring, ddc_subtract(ddc_scale(rows->at[i].b_rest, base), own));
+    const twin step = here - before;
+    double w = is_constant ? 1 : rows->jet_weight[i];
+    twin r = ahead - step;
+    if (rows->fixed[i] & (FIXED_STILL | JET_TWICE)) {
+        if (rows->fixed[i] & JET_TWICE) w *= 2;
+        if (rows->fixed[i] & FIXED_STILL) r = -step;
     }
-    return ddc_add(ddc_subtract(next, step), ddc_add(spring, drive_of(rows, i)));
+    if (is_complex) {
+        r += times(p, before) - times(m, step);
+    } else {
+        r += p->same * before - m->same * step;
+    }
+    if (rows->driven) r += as_twin(rows->drive[i]);
+    const twin weight = both(w), j = weight * r;
+    s->energy += r * j;
+    if (is_constant) {
+        s->by_step += weight * (step * step), s->by_x += weight * (before * before);
+    } else {
+        const double of_m = rows->loss_m[i], of_p = rows->loss_p[i];
+        s->by_step += both(of_m * of_m) * (weight * (step * step)),
+            s->by_x += both(of_p * of_p) * (weight * (before * before));
+    }
+    return j;
 }
 
-static const ddc no_jet = {{0, 0}, {0, 0}};
-
-static inline ddc jet_at(const system_rows *rows, int i)
+/// The jets at x, weighted, to rows->jet, 0 where there is none, and their adjoint to the gradient. Returns Σ w (rounding of the row at x)²,
+/// and to `energy` Σ w |r|².
+ALWAYS_INLINE double pull_jets(const system_rows *rows, const bool is_constant, const bool is_complex, double *energy)
 {
-    const double *j = rows->jet + 4 * i;
-    return (ddc){{j[0], j[1]}, {j[2], j[3]}};
+    const int n = rows->count, last = n - 1, from = rows->jet_from, to = rows->jet_to;
+    const cplx m = rows->own.m, p = rows->own.p;
+    factors of_m = factors_of(m.re, m.im), of_p = factors_of(p.re, p.im), of_b = factors_of(m.re + p.re, m.im + p.im),
+            own = of_m;
+    double *jet = rows->jet, *g = rows->gradient;
+    const double *x = rows->x;
+    sums s = {.by_step = {0, 0}};
+    twin j[3] = {{0}}; // of the last three rows
+    twin before = sample_of(rows, from - 1), here = sample_of(rows, from);
+    for (int i = 0; i < from; i++) store(jet, i, j[2]);
+    for (int i = to + 1; i < n; i++) store(jet, i, j[2]);
+    for (int i = from; i <= to + 1; i++) {
+        own = of_m;
+        j[0] = j[1], j[1] = j[2], j[2] = both(0);
+        if (i <= to) {
+            if (!is_constant) {
+                of_m = factors_of(rows->m_re[i], rows->m_im[i]), of_p = factors_of(rows->p_re[i], rows->p_im[i]);
+                of_b = factors_of(rows->m_re[i] + rows->p_re[i], rows->m_im[i] + rows->p_im[i]);
+            }
+            const bool inside = i < last;
+            const twin after = inside ? sample_at(x, i + 1) : sample_of(rows, i + 1);
+            twin ahead = after - here;
+            if (!inside && !rows->loop) ahead = as_twin(cplx_mul(rows->tail, as_cplx(here)));
+            j[2] = jet_at(rows, is_constant, is_complex, i, &of_m, &of_p, before, here, ahead, &s);
+            store(jet, i, j[2]);
+            before = here, here = after;
+        }
+        if (i == 0) continue;
+        const twin bend = (j[1] - j[0]) - (j[2] - j[1]);
+        if (is_complex) {
+            store(g, i - 1, bend + (times_conjugate(&own, j[1]) - times_conjugate(&of_b, j[2])));
+        } else {
+            store(g, i - 1, bend + (own.same * j[1] - of_b.same * j[2]));
+        }
+    }
+    for (int k = 0; k < from - 1; k++) store(g, k, both(0));
+    if (to + 1 < n) store(g, to + 1, -j[1]);
+    for (int k = to + 2; k < n; k++) store(g, k, both(0));
+    if (rows->loop) { // the first row and the last are neighbours
+        const twin first = sample_at(jet, 0), end = sample_at(jet, last);
+        const factors b =
+            is_constant ? of_b : factors_of(rows->m_re[0] + rows->p_re[0], rows->m_im[0] + rows->p_im[0]);
+        store(g, 0, sample_at(g, 0) - end);
+        store(g, last, sample_at(g, last) - first - times_conjugate(&b, first));
+    }
+    *energy = s.energy[0] + s.energy[1];
+    const double by_m = is_constant ? rows->own_loss.m : 1, by_p = is_constant ? rows->own_loss.p : 1;
+    const double root = by_m * sqrt(s.by_step[0] + s.by_step[1]) + by_p * sqrt(s.by_x[0] + s.by_x[1]); // Minkowski
+    return root * root;
 }
 
-static void set_jets(const system_rows *rows)
+/// Σ over the jets of what their coefficients' rounding pulls: |j| (Δm √D of the difference + Δp √D of the sample before), or a root of both.
+/// The products are summed in lanes, so that all processors sum them in one order.
+WIDEST static double sum_pulls(const double *restrict jet, const double *restrict spread, coefficient_loss loss,
+                               int count)
 {
+    enum { LANES = 8 };
+    const double of_step = 2 * loss.m * loss.m, of_x = 2 * loss.p * loss.p;
+    double sum[LANES] = {0}, all = 0;
+    int i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        for (int n = 0; n < LANES; n++) {
+            const double *j = jet + 2 * (i + n), *d = spread + 2 * (i + n);
+            sum[n] += sqrt((j[0] * j[0] + j[1] * j[1]) * (of_step * d[1] + of_x * d[-2]));
+        }
+    }
+    for (; i < count; i++) {
+        const double *j = jet + 2 * i, *d = spread + 2 * i;
+        all += sqrt((j[0] * j[0] + j[1] * j[1]) * (of_step * d[1] + of_x * d[-2]));
+    }
+    for (int n = 0; n < LANES; n++) all += sum[n];
+    return all;
+}
+
+/// The same if the rounding varies.
+WIDEST static double sum_varying(const double *restrict jet, const double *restrict spread,
+                                 const double *restrict loss_m, const double *restrict loss_p, int count)
+{
+    enum { LANES = 8 };
+    double sum[LANES] = {0}, all = 0;
+    int i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        for (int n = 0; n < LANES; n++) {
+            const double *j = jet + 2 * (i + n), *d = spread + 2 * (i + n), m = loss_m[i + n], p = loss_p[i + n];
+            sum[n] += sqrt(2 * (j[0] * j[0] + j[1] * j[1]) * (m * m * d[1] + p * p * d[-2]));
+        }
+    }
+    for (; i < count; i++) {
+        const double *j = jet + 2 * i, *d = spread + 2 * i, m = loss_m[i], p = loss_p[i];
+        all += sqrt(2 * (j[0] * j[0] + j[1] * j[1]) * (m * m * d[1] + p * p * d[-2]));
+    }
+    for (int n = 0; n < LANES; n++) all += sum[n];
+    return all;
+}
+
+static double pulls_of(const system_rows *rows, const double *spread)
+{
+    const int last = rows->count - 1;
+    const coefficient_loss own =
+        rows->is_constant ? rows->own_loss : (coefficient_loss){rows->loss_m[0], rows->loss_p[0]};
+    const double first[4] = {rows->loop ? spread[2 * last] : 0, 0, spread[0], spread[1]};
+    const double of_first = sum_pulls(rows->jet, first + 2, own, 1);
+    if (rows->is_constant) return of_first + sum_pulls(rows->jet + 2, spread + 2, own, last);
+    return of_first + sum_varying(rows->jet + 2, spread + 2, rows->loss_m + 1, rows->loss_p + 1, last);
+}
+
+static inline void pull(const system_rows *rows, int k, cplx c, cplx j)
+{
+    const cplx pulled = cplx_mul(cplx_conj(c), j);
+    rows->gradient[2 * k] -= pulled.re, rows->gradient[2 * k + 1] -= pulled.im;
+}
+
+/// What the usual adjoint leaves out: the tail's row, and the second row of still knots, whose own sample is known.
+static void adjust(const system_rows *rows)
+{
+    const int n = rows->count, last = n - 1;
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        const ddc r = ddc_weigh(rows->jet_weight[i], jet_of(rows, i));
-        double *j = rows->jet + 4 * i;
-        j[0] = r.re.hi, j[1] = r.re.lo, j[2] = r.im.hi, j[3] = r.im.lo;
+        if (!(rows->fixed[i] & FIXED_STILL) || (i == last && !rows->loop)) continue;
+        const int after = i < last ? i + 1 : 0;
+        const double weight = system_jet(rows, i).weight;
+        const cplx from = as_cplx(sample_at(rows->x, i)), to = as_cplx(sample_at(rows->x, after));
+        const cplx jet = cplx_scale(weight, cplx_sub(to, from));
+        pull(rows, after, (cplx){1, 0}, cplx_sub(jet, as_cplx(sample_at(rows->jet, i))));
     }
+    if (!rows->loop && rows->jet_to == last && !(rows->fixed[last] & FIXED_STILL))
+        pull(rows, last, (cplx){1 + rows->tail.re, rows->tail.im}, as_cplx(sample_at(rows->jet, last)));
 }
 
-/// The jet that starts from rest at the still sample before k.
-static inline ddc jet_from_rest(const system_rows *rows, int k)
+/// The jets' gradient if poles fade within a sample: a and b themselves are small then, and differences would cost their digits.
+static row_errors pull_each(const system_rows *rows, const double *spread, double *energy)
 {
-    const cplx from = sample_of(rows, k - 1), to = sample_of(rows, k);
-    const double weight = rows->jet_weight[k > 0 ? k - 1 : rows->count - 1];
-    return ddc_weigh(weight, (ddc){dd_difference(to.re, from.re), dd_difference(to.im, from.im)});
-}
-
-/// The index of the jet at k, or -1.
-static inline int jet_beside(const system_rows *rows, int i)
-{
-    if (rows->loop) return i < 0 ? rows->count - 1 : i >= rows->count ? 0 : i;
-    return i >= rows->jet_from && i <= rows->jet_to ? i : -1;
-}
-
-/// g = −(before − 2·here + after) + m* here − (m+p)* after, with 0 for missing rows; the tail's row has a smaller coefficient on the last
-/// sample.
-static void set_adjoint(const system_rows *rows)
-{
-    for (int k = 0; k < rows->count; k++) {
-        int b = jet_beside(rows, k - 1), a = jet_beside(rows, k + 1), h = jet_beside(rows, k);
-        ddc before = b >= 0 ? jet_at(rows, b) : no_jet, after = a >= 0 ? jet_at(rows, a) : no_jet;
-        if (b >= 0 && rows->fixed[b] & FIXED_STILL) before = jet_from_rest(rows, k);
-        ddc here = h >= 0 ? jet_at(rows, h) : no_jet;
-        ddc second = ddc_subtract(ddc_subtract(before, here), ddc_subtract(here, after));
-        ddc g = ddc_subtract(ddc_scale(cplx_conj(rows->at[k].m), here), second);
-        if (a >= 0) {
-            g = ddc_subtract(
-                g, ddc_add(ddc_scale(cplx_conj(rows->at[a].m), after), ddc_scale(cplx_conj(rows->at[a].p), after)));
-        }
-        if (rows->fast) {
-            g = ddc_add(g, ddc_scale(cplx_conj(rows->at[k].a_rest), here));
-            if (a >= 0) g = ddc_subtract(g, ddc_scale(cplx_conj(rows->at[a].b_rest), after));
-        }
-        if (!rows->loop && k == rows->count - 1)
-            g = ddc_subtract(g, ddc_add(here, ddc_scale(cplx_conj(rows->tail), here)));
-        rows->gradient[2 * k] = g.re.hi + g.re.lo;
-        rows->gradient[2 * k + 1] = g.im.hi + g.im.lo;
+    const int n = rows->count;
+    row_errors errors = {0};
+    memset(rows->gradient, 0, sizeof *rows->gradient * 2 * (size_t)n);
+    *energy = 0;
+    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
+        const jet_row row = system_jet(rows, i);
+        const int before = i > 0 ? i - 1 : rows->loop ? n - 1 : -1, after = i < n - 1 ? i + 1 : rows->loop ? 0 : -1;
+        const bool still = rows->fixed[i] & FIXED_STILL;
+        const cplx x = as_cplx(sample_of(rows, i)), back = as_cplx(sample_of(rows, i - 1));
+        cplx r = cplx_add(cplx_mul(row.own, x), cplx_mul(row.before, back)), ahead = {0, 0};
+        if (rows->driven) r = cplx_add(r, rows->drive[i]);
+        if (after >= 0) ahead = as_cplx(sample_at(rows->x, after));
+        if (!still) r = cplx_add(r, ahead);
+        const cplx j = cplx_scale(row.weight, r);
+        pull(rows, i, row.own, j);
+        if (before >= 0) pull(rows, before, row.before, j);
+        if (after >= 0) pull(rows, after, (cplx){1, 0}, still ? cplx_scale(row.weight, cplx_sub(ahead, x)) : j);
+        const double lm = rows->is_constant ? rows->own_loss.m : rows->loss_m[i];
+        const double lp = rows->is_constant ? rows->own_loss.p : rows->loss_p[i];
+        const double off = lm * cplx_size(cplx_sub(x, back)) + lp * cplx_size(back);
+        errors.misses += row.weight * (off * off);
+        *energy += row.weight * cplx_norm(r);
+        if (!spread) continue;
+        errors.pulls +=
+            cplx_size(j) * (lm * sqrt(spread[2 * i + 1]) + (before >= 0 ? lp * sqrt(spread[2 * before]) : 0));
     }
+    return errors;
 }
 
 /// Re(c x_j).
@@ -141,20 +256,53 @@ static void pull_back(const system_rows *rows, cplx c, int j, double miss)
     rows->gradient[2 * j + 1] += c.im * miss;
 }
 
-static void add_slopes(const system_rows *rows)
+/// The least that a row's miss costs: its own weight, or that of moving one of its samples alone.
+static double least_cost(const system_rows *rows, const band_matrix *m, double weight, const stencil *s)
+{
+    const int at[3] = {s->before, s->at, s->after};
+    double least = weight;
+    for (int i = 0; i < 3; i++) {
+        const double on[2] = {s->c[i].re, s->c[i].im};
+        for (int part = 0; part < 2; part++) {
+            if (at[i] < 0 || on[part] == 0 || rows->fixed[at[i]] & (part ? FIXED_IM : FIXED_RE)) continue;
+            const double square = on[part] * on[part], others = band_diagonal(m, at[i], part) - weight * square;
+            if (others > 0) least = fmin(least, others / square);
+        }
+    }
+    return least;
+}
+
+static void add_slopes(const system_rows *rows, const band_matrix *m, row_errors *errors)
 {
     for (int r = 0; r < rows->slope_count; r++) {
         const slope_row *slope = &rows->slopes[r];
         const stencil s = system_slope_stencil(rows, slope);
-        double seen = part_of(rows, s.c[0], s.before) + part_of(rows, s.c[1], s.at) + part_of(rows, s.c[2], s.after);
-        double miss = slope->weight * (seen - slope->target);
-        pull_back(rows, s.c[0], s.before, miss);
-        pull_back(rows, s.c[1], s.at, miss);
-        pull_back(rows, s.c[2], s.after, miss);
+        const double seen =
+            part_of(rows, s.c[0], s.before) + part_of(rows, s.c[1], s.at) + part_of(rows, s.c[2], s.after);
+        const double miss = seen - slope->target, force = slope->weight * miss;
+        pull_back(rows, s.c[0], s.before, force);
+        pull_back(rows, s.c[1], s.at, force);
+        pull_back(rows, s.c[2], s.after, force);
+        if (!errors) continue;
+        const twin here = sample_at(rows->x, s.at);
+        double apart = 0, off = 0;
+        if (s.before >= 0 && (slope->behind.re != 0 || slope->behind.im != 0))
+            apart += sqrt(norm(here - sample_at(rows->x, s.before)));
+        if (s.after >= 0 && (slope->ahead.re != 0 || slope->ahead.im != 0))
+            apart += sqrt(norm(sample_at(rows->x, s.after) - here));
+        off = slope->loss.x * sqrt(norm(here)) + slope->loss.e * apart + slope->target_error;
+        if (slope->loss.cut > 0) off += fabs(miss);
+        errors->misses += off * off * least_cost(rows, m, slope->weight, &s);
+        const int at[3] = {s.before, s.at, s.after};
+        for (int i = 0; i < 3; i++) {
+            if (at[i] < 0) continue;
+            const double loss = i == 1 ? slope->loss.x + 2 * slope->loss.e : slope->loss.e;
+            errors->pulls += loss * fabs(force) * sqrt(m->spread[2 * at[i]]);
+        }
     }
 }
 
-static void add_start(const system_rows *rows)
+static void add_start(const system_rows *rows, const band_matrix *m, row_errors *errors)
 {
     bool alone = rows->count == 1;
     const double *x = rows->x;
@@ -164,11 +312,20 @@ static void add_start(const system_rows *rows)
     for (int i = 0; i < 2; i++) {
         const struct start_row *row = &rows->start.row[i];
         if (!(row->weight > 0)) continue;
-        cplx cost = cplx_scale(row->weight, cplx_add(cplx_mul(row->on_x, x0), cplx_mul(row->on_e, e0)));
+        const cplx seen = cplx_add(cplx_mul(row->on_x, x0), cplx_mul(row->on_e, e0)),
+                   cost = cplx_scale(row->weight, seen);
         cplx on_x = cplx_mul(cplx_conj(row->on_x), cost), on_e = cplx_mul(cplx_conj(row->on_e), cost);
         cplx back = alone ? cplx_mul(cplx_conj(rows->tail), on_e) : cplx_scale(-1, on_e);
         g[0] -= on_x.re + back.re, g[1] -= on_x.im + back.im;
         if (!alone) g[2] -= on_e.re, g[3] -= on_e.im;
+        if (!errors) continue;
+        const double off =
+            row->loss.x * cplx_size(x0) + row->loss.e * cplx_size(e0) + (row->loss.cut > 0 ? cplx_size(seen) : 0);
+        const double part = 32 * DBL_EPSILON * cplx_size(seen); // of the weight
+        errors->misses += row->weight * (off * off + part * part);
+        const double first = sqrt(m->spread[0]);
+        errors->pulls +=
+            cplx_size(cost) * ((row->loss.x + row->loss.e) * first + (alone ? 0 : row->loss.e * sqrt(m->spread[2])));
     }
 }
 
@@ -181,13 +338,69 @@ static void add_pulls(const system_rows *rows)
     }
 }
 
-/// Slope, start and imaginary rows, and pulls: few terms, without cancellation between samples.
-static void add_other_rows(const system_rows *rows)
+/// The imaginary rows.
+static void add_imaginary(const system_rows *rows)
 {
+    if (!rows->is_complex) return;
+    for (int k = 0; k < rows->count; k++)
+        rows->gradient[2 * k + 1] -= (rows->is_constant ? rows->own_im : rows->im_weight[k]) * rows->x[2 * k + 1];
+}
+
+/// Known values are rounded, and so is each as far as it moves the rows that see it.
+static void add_known(const system_rows *rows, const band_matrix *m, row_errors *errors)
+{
+    for (int k = 0; k < rows->count; k++) {
+        if (!(rows->fixed[k] & FIXED_RE)) continue;
+        const double x = fabs(rows->x[2 * k]), off = rows->noise + DBL_EPSILON * x;
+        double a = 0;
+        for (int i = k - 1; i <= k + 1; i++) {
+            const int n = rows->count, at = rows->loop ? (i + n) % n : i;
+            if (at < rows->jet_from || at > rows->jet_to) continue;
+            const jet_row row = system_jet(rows, at);
+            a += row.weight * (i < k ? 1 : cplx_norm(i > k ? row.before : row.own));
+        }
+        for (int i = 0; i < 2 && k < 2; i++)
+            a += rows->start.row[i].weight *
+                 cplx_norm(k ? rows->start.row[i].on_e : cplx_sub(rows->start.row[i].on_x, rows->start.row[i].on_e));
+        errors->misses += off * off * a;
+    }
+    for (int r = 0; r < rows->slope_count && rows->noise > 0; r++) {
+        const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
+        const double size = rows->noise * (cplx_size(s.c[0]) + cplx_size(s.c[1]) + cplx_size(s.c[2]));
+        errors->misses += size * size * least_cost(rows, m, rows->slopes[r].weight, &s);
+    }
+}
+
+static void find_gradient(const system_rows *rows, const band_matrix *m, row_errors *errors)
+{
+    const double *spread = errors ? m->spread : NULL;
+    double energy;
+    row_errors jets;
+    if (rows->fast) {
+        jets = pull_each(rows, spread, &energy);
+    } else {
+        jets.misses = rows->is_constant  ? rows->is_complex ? pull_jets(rows, true, true, &energy)
+                                                            : pull_jets(rows, true, false, &energy)
+                       : rows->is_complex ? pull_jets(rows, false, true, &energy)
+                                         : pull_jets(rows, false, false, &energy);
+        jets.pulls = spread ? pulls_of(rows, spread) : 0;
+        adjust(rows);
+    }
+    if (errors) {
+        const double of_weight = 16 * DBL_EPSILON;
+        *errors = (row_errors){.misses = jets.misses + rows->drive_error + of_weight * of_weight * energy,
+                               .pulls = jets.pulls};
+        if (!rows->loop && rows->jet_to == rows->count - 1) {
+            const jet_row row = system_jet(rows, rows->count - 1);
+            const double off = rows->tail_loss;
+            errors->misses += row.weight * (off * off) * norm(sample_at(rows->x, rows->count - 1));
+        }
+        add_known(rows, m, errors);
+    }
     add_pulls(rows);
-    add_slopes(rows);
-    add_start(rows);
-    for (int k = 0; k < rows->count; k++) rows->gradient[2 * k + 1] -= rows->im_weight[k] * rows->x[2 * k + 1];
+    add_slopes(rows, m, errors);
+    add_start(rows, m, errors);
+    add_imaginary(rows);
 }
 
 /// Fixed unknowns have no gradient.
@@ -199,70 +412,57 @@ static void hold_fixed(const system_rows *rows)
     }
 }
 
-/// Subtracts w c* r from the gradient at a sample.
-static inline void pull_jet(const system_rows *rows, int k, cplx c, cplx r)
+void system_forces(const system_rows *rows) { find_gradient(rows, NULL, NULL); }
+
+void system_gradient(const system_rows *rows, const band_matrix *matrix, row_errors *errors)
 {
-    cplx pulled = cplx_mul(cplx_conj(c), r);
-    rows->gradient[2 * k] -= pulled.re, rows->gradient[2 * k + 1] -= pulled.im;
+    find_gradient(rows, matrix, errors);
+    hold_fixed(rows);
 }
 
-static cplx before_of(const coefficients *at)
+/// Adds to an unknown of x; what is known stays.
+static void load(const system_rows *rows, int k, cplx by)
 {
-    return (cplx){1 + at->m.re + at->p.re + at->b_rest.re, at->m.im + at->p.im + at->b_rest.im};
+    if (k < 0) return;
+    if (!(rows->fixed[k] & FIXED_RE)) rows->x[2 * k] += by.re;
+    if (!(rows->fixed[k] & FIXED_IM)) rows->x[2 * k + 1] += by.im;
 }
 
-static bool is_zero(cplx z) { return z.re == 0 && z.im == 0; }
-
-/// The jets at x in plain double; far from known values and drives they are 0.
-static void pull_plainly(const system_rows *rows)
+void system_right_side(const system_rows *rows)
 {
-    const int last = rows->count - 1;
-    cplx before, here = sample_of(rows, rows->jet_from - 1), after = sample_of(rows, rows->jet_from);
-    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
-        const coefficients *at = &rows->at[i];
-        before = here, here = after, after = sample_of(rows, i + 1);
-        if (is_zero(before) && is_zero(here) && is_zero(after) && is_zero(rows->drive[i])) continue;
-        const bool is_tail = !rows->loop && i == last, is_still = rows->fixed[i] & FIXED_STILL;
-        const cplx step = cplx_sub(here, before), ahead = cplx_sub(after, here);
-        const cplx next = is_still ? (cplx){0, 0} : is_tail ? cplx_mul(rows->tail, here) : ahead;
-        cplx r = cplx_add(cplx_add(cplx_sub(next, step), rows->drive[i]),
-                          cplx_sub(cplx_mul(at->p, before), cplx_mul(at->m, step)));
-        if (rows->fast) r = cplx_add(r, cplx_sub(cplx_mul(at->b_rest, before), cplx_mul(at->a_rest, here)));
-        r = cplx_scale(rows->jet_weight[i], r);
-        cplx middle = cplx_scale(-1, coefficients_a(at));
-        if (is_tail) middle = cplx_add(middle, (cplx){1 + rows->tail.re, rows->tail.im});
-        pull_jet(rows, i, middle, r);
-        if (i > 0 || rows->loop) pull_jet(rows, i > 0 ? i - 1 : last, before_of(at), r);
-        if (is_still) r = cplx_scale(rows->jet_weight[i], ahead);
-        if (i < last || rows->loop) pull_jet(rows, i < last ? i + 1 : 0, (cplx){1, 0}, r);
+    const int n = rows->count;
+    double *x = rows->x;
+    if (rows->driven) {
+        double *known = rows->jet + 2 * n; // the second half of it
+        memcpy(known, x, sizeof *x * 2 * (size_t)n);
+        memset(x, 0, sizeof *x * 2 * (size_t)n);
+        system_forces(rows);
+        for (int k = 0; k < n; k++) {
+            for (int part = 0; part < 2; part++) {
+                const bool is_known = rows->fixed[k] & (part ? FIXED_IM : FIXED_RE);
+                x[2 * k + part] = (is_known ? known : rows->gradient)[2 * k + part];
+            }
+        }
+        return;
+    }
+    for (int k = 0; k < n; k++) {
+        if (!(rows->fixed[k] & FIXED_RE)) x[2 * k] = 0;
+        if (!(rows->fixed[k] & FIXED_IM)) x[2 * k + 1] = 0;
+    }
+    for (int i = 0; rows->pulls && i < rows->pulls->count; i++)
+        load(rows, rows->pulls->sample[i] - rows->first, rows->pulls->pull[i]);
+    for (int r = 0; r < rows->slope_count; r++) {
+        const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
+        const double force = rows->slopes[r].weight * rows->slopes[r].target;
+        const int at[3] = {s.before, s.at, s.after};
+        for (int i = 0; i < 3; i++) load(rows, at[i], cplx_scale(force, cplx_conj(s.c[i])));
     }
 }
 
 void system_forget_known(system_rows *rows)
 {
-    rows->driven = NULL;
+    rows->driven = false;
+    rows->drive_error = rows->noise = 0;
     memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
-    memset(rows->drive, 0, sizeof *rows->drive * (size_t)rows->count);
-    for (int i = 0; i < rows->slope_count; i++) rows->slopes[i].target = 0;
-}
-
-void system_forces(const system_rows *rows)
-{
-    memset(rows->gradient, 0, sizeof *rows->gradient * 2 * (size_t)rows->count);
-    pull_plainly(rows);
-    add_other_rows(rows);
-}
-
-void system_right_side(const system_rows *rows)
-{
-    system_forces(rows);
-    hold_fixed(rows);
-}
-
-void system_gradient(const system_rows *rows)
-{
-    set_jets(rows);
-    set_adjoint(rows);
-    add_other_rows(rows);
-    hold_fixed(rows);
+    for (int i = 0; i < rows->slope_count; i++) rows->slopes[i].target = rows->slopes[i].target_error = 0;
 }

@@ -1,22 +1,12 @@
 /// The rows of a problem for the solvers of the band (system.h), sample by sample.
 #include "spline/problem.h"
+#include "spline/wide.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
-static const double little = 1e-3;
-
 /// Largest cost of a start, in jets of its first sample; beside a larger one nothing keeps a digit.
 static const double heaviest_start = 1e26;
-
-/// ln of the largest ratio of two jets' weights. Beyond, the lighter one loses too many digits.
-static const double unlike_jets = 16;
-
-/// The same, from which on what the light jets lose must be measured.
-static const double partly_unlike = 4;
-
-/// After so many samples without a knot it must be, too: two poles of a band near each other bend a gap as a cubic's do, however they swing.
-enum { LONG_GAP = 64 };
 
 /// If the oscillator's frequency is below this share of the fastest one's, Im x is held.
 static const double slow_part = 0.1;
@@ -28,13 +18,16 @@ static double about_at(const problem *p, int k)
     return problem_about(p, p->first + k);
 }
 
-/// The filter's drive g ÿ, where the equilibrium moves.
-static cplx drive_at(const problem *p, int k, cplx g)
+/// The filter's drive g ÿ, where the equilibrium moves, and the rounding of its differences.
+static void set_drive(system_rows *rows, const problem *p, int k, cplx g, double weight)
 {
-    bool inner = p->start == WIGGLY_LOOP || (k > 0 && k < p->count - 1);
-    if (problem_oscillates(p) || !p->about || !inner) return (cplx){0, 0};
-    double here = about_at(p, k), bend = (about_at(p, k + 1) - here) - (here - about_at(p, k - 1));
-    return cplx_scale(bend, g);
+    const bool inner = p->start == WIGGLY_LOOP || (k > 0 && k < p->count - 1);
+    rows->drive[k] = (cplx){0, 0};
+    if (!inner) return;
+    const double here = about_at(p, k), ahead = about_at(p, k + 1) - here, behind = here - about_at(p, k - 1);
+    const double off = (fabs(ahead) + fabs(behind) + (p->settled ? 2 * fabs(here) : 0)) + 16 * fabs(ahead - behind);
+    rows->drive[k] = cplx_scale(ahead - behind, g);
+    rows->drive_error += weight * cplx_norm(g) * (off * off) * (DBL_EPSILON * DBL_EPSILON);
 }
 
 /// h⁴ times the cost of an oscillator's Im x at a sample whose frequency is that much below the highest.
@@ -51,16 +44,6 @@ double problem_im_weight(const problem *p, double natural)
     double intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, t = intervals * p->desc->step;
     double phase2 = natural * t * (natural * t), phase4 = phase2 * phase2, i2 = intervals * intervals;
     return 1 / (i2 * i2 * (1 + phase4 * phase4));
-}
-
-/// Sets a sample's coefficients, drive and weight.
-static void set_row(system_rows *rows, const problem *p, int k, coefficients at, double jet_weight, double im_weight)
-{
-    rows->at[k] = at;
-    rows->fast = rows->fast || at.a_rest.re != 0 || at.b_rest.re != 0;
-    rows->jet_weight[k] = jet_weight;
-    rows->im_weight[k] = im_weight;
-    rows->drive[k] = drive_at(p, k, at.g);
 }
 
 /// g = exp((s₀+s₁)h/2) at a block's sample; real outside complex mode.
@@ -98,66 +81,64 @@ static double highest_around(const problem *p, int k, int *end)
     return highest;
 }
 
-/// All rows of varying parameters, block by block; returns the lowest natural frequency at which Im x is not held. Weights are relative to the
-/// first sample's |g|⁻².
-static double set_varying(system_rows *rows, const problem *p, bool weighted)
+WIDEST static void im_weights(const double *restrict natural, int count, double t, double part, double unit,
+                              double *restrict weight)
 {
-    const wiggly_desc *desc = p->desc;
-    const bool oscillates = problem_oscillates(p), driven = !oscillates && p->about;
-    const double floor = problem_least_damping(p);
-    poles_block block;
-    double weight[POLES_BLOCK], reference = 0, highest = 0, lightest = INFINITY, heaviest = -INFINITY;
-    double slowest = INFINITY, least_highest = INFINITY;
-    int end = -1; // the end of the range of `highest`
-    for (int k = 0; k < rows->count; k += POLES_BLOCK) {
-        int count = rows->count - k < POLES_BLOCK ? rows->count - k : POLES_BLOCK;
-        poles_block_fill(desc, p->first + k, count, floor, &block);
-        if (k == 0 && oscillates) reference = block.exponent[0];
-        for (int i = 0; i < count; i++) weight[i] = oscillates ? block.exponent[i] - reference : 0;
-        poles_block_exp(weight, count, weight);
-        for (int i = 0; i < count; i++) {
-            coefficients at = {.m = {block.m_re[i], block.m_im[i]}, .p = {block.p_re[i], block.p_im[i]}};
-            rows->cut = rows->cut || (oscillates && block.exponent[i] >= HEAVIEST);
-            lightest = block.exponent[i] < lightest ? block.exponent[i] : lightest;
-            heaviest = block.exponent[i] > heaviest ? block.exponent[i] : heaviest;
-            if (block.exponent[i] > FAST) {
-                const poles own = poles_at(desc, p->first + k + i, floor);
-                at = poles_coefficients(&own, desc->step);
-            }
-            if (driven) at.g = drive_phase(&block, i, desc);
-            double im = weighted ? problem_im_weight(p, block.natural[i]) : 0;
-            if (oscillates && k + i > end) {
-                highest = highest_around(p, k + i, &end);
-                least_highest = fmin(least_highest, highest);
-            }
-            if (oscillates) im = (im + slowness(block.natural[i], highest, desc->step)) * p->unit;
-            set_row(rows, p, k + i, at, weight[i], im);
-            slowest = block.natural[i] < slowest ? block.natural[i] : slowest;
-        }
+    for (int i = 0; i < count; i++) {
+        const double phase2 = natural[i] * t * (natural[i] * t), phase4 = phase2 * phase2;
+        weight[i] = unit / (part * (1 + phase4 * phase4));
     }
-    rows->unlike = oscillates && heaviest - lightest > unlike_jets;
-    rows->is_tested = oscillates && heaviest - lightest > partly_unlike;
-    if (oscillates && desc->mode == WIGGLY_COMPLEX)
-        return fmax(slowest, slow_part * least_highest); // below, Im x is held
-    return slowest;
 }
 
-/// After this phase a longer stretch is not less accurate.
-static const double swings_back = 8;
+/// problem_im_weight() of many samples, in the unit of all weights; 0 if Im x costs nothing.
+static void set_im_weights(const problem *p, const double *natural, int count, bool weighted, double *weight)
+{
+    const double intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1, i2 = intervals * intervals;
+    im_weights(natural, count, intervals * p->desc->step, i2 * i2, weighted ? p->unit : 0, weight);
+}
 
-static void set_stretch(system_rows *rows, const wiggly_solver *solver, const problem *p, double slowest)
+/// All rows of varying parameters, block by block. Weights are relative to the first sample's |g|⁻².
+static void set_varying(system_rows *rows, const problem *p, bool weighted)
 {
     const wiggly_desc *desc = p->desc;
-    int before = p->start == WIGGLY_REST ? 0 : p->earliest, longest = 0;
-    if (p->start == WIGGLY_LOOP) before = p->latest - p->count;
-    for (int n = 0; n < desc->knot_count; n++) {
-        int sample = desc->knots[solver->order[n]].sample;
-        if (sample - before > longest) longest = sample - before;
-        before = sample;
+    const bool oscillates = problem_oscillates(p);
+    const double floor = problem_least_damping(p);
+    poles_block block;
+    double *const weight = rows->jet_weight, reference = 0, highest = 0;
+    int end = -1; // the end of the range of `highest`
+    for (int k = 0; k < rows->count; k += POLES_BLOCK) {
+        const int count = rows->count - k < POLES_BLOCK ? rows->count - k : POLES_BLOCK;
+        const size_t size = sizeof(double) * (size_t)count;
+        poles_block_fill(desc, p->first + k, count, floor, &block);
+        if (k == 0 && oscillates) reference = block.exponent[0];
+        for (int i = 0; i < count; i++) weight[k + i] = oscillates ? block.exponent[i] - reference : 0;
+        poles_block_exp(weight + k, count, weight + k);
+        memcpy(rows->m_re + k, block.m_re, size), memcpy(rows->m_im + k, block.m_im, size);
+        memcpy(rows->p_re + k, block.p_re, size), memcpy(rows->p_im + k, block.p_im, size);
+        memcpy(rows->loss_m + k, block.loss_m, size), memcpy(rows->loss_p + k, block.loss_p, size);
+        for (int i = 0; i < count; i++) {
+            rows->unknown = rows->unknown || (oscillates && block.exponent[i] >= HEAVIEST);
+            if (block.exponent[i] <= FAST) continue;
+            const poles own = poles_at(desc, p->first + k + i, floor);
+            const coefficients at = poles_coefficients(&own, desc->step);
+            if (!rows->fast) memset(rows->rest, 0, sizeof *rows->rest * (size_t)rows->count);
+            rows->fast = true;
+            rows->rest[k + i] = at.rest;
+            rows->m_re[k + i] = at.m.re, rows->m_im[k + i] = at.m.im;
+            rows->p_re[k + i] = at.p.re, rows->p_im[k + i] = at.p.im;
+            const double h = desc->step;
+            const coefficient_loss loss = poles_fast_loss(&at, own.decay * h, fabs(own.s[0].im) * h);
+            rows->loss_m[k + i] = loss.m, rows->loss_p[k + i] = loss.p;
+        }
+        for (int i = 0; i < count && rows->driven; i++)
+            set_drive(rows, p, k + i, drive_phase(&block, i, desc), weight[k + i]);
+        if (rows->is_complex) set_im_weights(p, block.natural, count, weighted, rows->im_weight + k);
+        for (int i = 0; i < count && rows->is_complex && oscillates; i++) {
+            if (k + i > end) highest = highest_around(p, k + i, &end);
+            if (block.natural[i] < slow_part * highest)
+                rows->im_weight[k + i] += slowness(block.natural[i], highest, desc->step) * p->unit;
+        }
     }
-    const double whole = desc->mode == WIGGLY_COMPLEX ? 1.6 * p->count : longest; // knots do not hold Im x
-    rows->is_tested = rows->is_tested || (desc->mode == WIGGLY_COMPLEX && longest > LONG_GAP);
-    rows->stretch = fmin(whole, swings_back / (slowest * desc->step));
 }
 
 /// Coefficients, drives and weights of jets and Im x of every row.
@@ -166,17 +147,23 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     chain_forget(&solver->chain); // its tables share the matrix's memory
     system_rows *rows = &solver->rows;
     const wiggly_desc *desc = p->desc;
-    bool weighted = desc->mode == WIGGLY_COMPLEX && (p->start != WIGGLY_REST || problem_is_asked(p));
-    if (!poles_are_constant(desc)) {
-        set_stretch(rows, solver, p, set_varying(rows, p, weighted));
+    const bool weighted = rows->is_complex && (p->start != WIGGLY_REST || problem_is_asked(p));
+    rows->is_constant = poles_are_constant(desc);
+    rows->driven = !problem_oscillates(p) && p->about;
+    rows->drive_error = 0;
+    if (!rows->is_constant) {
+        rows->own_loss = (coefficient_loss){0, 0};
+        set_varying(rows, p, weighted);
         return;
     }
     const poles *at = &problem_filter(solver, p)->at;
-    coefficients row = poles_coefficients(at, desc->step);
-    double im = weighted ? problem_im_weight(p, at->natural) : 0;
-    im *= p->unit;
-    for (int k = 0; k < rows->count; k++) set_row(rows, p, k, row, 1, im);
-    set_stretch(rows, solver, p, at->natural);
+    const double h = desc->step, turn = fmax(fabs(at->s[0].im), fabs(at->s[1].im));
+    rows->own = poles_coefficients(at, h);
+    rows->own_loss = poles_loss(at->decay * h, turn * h, at->natural * h, !rows->is_complex);
+    rows->own_im = weighted ? problem_im_weight(p, at->natural) * p->unit : 0;
+    rows->fast = cplx_norm(rows->own.rest.a) + cplx_norm(rows->own.rest.b) > 0;
+    if (rows->fast) rows->own_loss = poles_fast_loss(&rows->own, at->decay * h, turn * h);
+    for (int k = 0; k < rows->count && rows->driven; k++) set_drive(rows, p, k, rows->own.g, 1);
 }
 
 /// The paper's slope: a difference of the total.
@@ -188,7 +175,8 @@ static slope_row filter_slope(const problem *p, int k, double slope, double stif
                        .ahead.re = last ? 0 : 1,
                        .behind.re = last ? 1 : 0,
                        .weight = fmin(stiffness * h, STIFFEST),
-                       .target = h * slope - (to - from)};
+                       .target = h * slope - (to - from),
+                       .target_error = 2 * DBL_EPSILON * (fabs(h * slope) + fabs(to - from))};
 }
 
 /// How much a cubic's one-sided speed of the total exceeds the two-sided speed of x and the equilibrium.
@@ -228,23 +216,27 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
         if (count == 1) row.target += bend_beside(p, k);
     }
     row.weight = fmin(row.weight, STIFFEST) * p->unit;
+    row.target_error = 4 * DBL_EPSILON * h * (fabs(slope) + fabs(known));
     return row;
 }
 
 /// The speed by the poles from both sides, or from one at an end; on the tail, the tail's speed.
-static void see_speed(system_rows *rows, const problem *p, slope_row *row)
+static void see_speed(const problem *p, slope_row *row)
 {
     const double h = p->desc->step;
     const sides from = sides_of(p, row->sample);
     if (from.tied) {
         poles own = poles_at(p->desc, p->latest, 0);
         row->here = cplx_scale(h, poles_passive(&own));
+        row->loss.x = 8 * DBL_EPSILON * cplx_size(row->here);
         return;
     }
     poles at = poles_at(p->desc, p->first + row->sample, problem_least_damping(p));
     const double part = 1.0 / (from.ahead + from.behind);
     speed_form forward = poles_speed(&at, h, false), backward = poles_speed(&at, h, true);
-    rows->steep = fmax(rows->steep, forward.cut);
+    row->loss.cut = fmax(forward.loss.cut, backward.loss.cut);
+    row->loss.x = part * (from.ahead * forward.loss.x + from.behind * backward.loss.x);
+    row->loss.e = part * fmax(forward.loss.e, backward.loss.e);
     if (from.ahead) row->here = cplx_scale(part, forward.on_x), row->ahead = cplx_scale(part, forward.on_e);
     if (from.behind) {
         row->here = cplx_add(row->here, cplx_scale(part, backward.on_x));
@@ -262,7 +254,7 @@ static void add_slope(system_rows *rows, const problem *p, int sample, double sl
 {
     slope_row row = problem_slope(p, sample, slope, stiffness);
     if (!(row.weight > 0)) return;
-    if (problem_oscillates(p)) see_speed(rows, p, &row);
+    if (problem_oscillates(p)) see_speed(p, &row);
     rows->slopes[rows->slope_count++] = row;
 }
 
@@ -281,7 +273,7 @@ static void set_rest(wiggly_solver *solver, const problem *p)
     rows->fixed[0] = FIXED_RE | FIXED_IM;
     if (problem_oscillates(p)) {
         rows->jet_from = 0;
-        rows->jet_weight[0] *= 2;
+        rows->fixed[0] |= JET_TWICE;
     } else {
         rows->fixed[1] = FIXED_RE | FIXED_IM;
         if (p->y && !p->about) rows->x[2] = p->y[1] - p->level;
@@ -293,8 +285,8 @@ static void set_still(system_rows *rows, const problem *p, int k)
 {
     rows->fixed[k] |= FIXED_IM | FIXED_STILL;
     if (p->settles && p->first + k == p->latest) return; // done by set_tail()
-    rows->jet_weight[k] *= 2;
-    rows->drive[k] = rows->at[k].g = (cplx){0, 0};
+    rows->fixed[k] |= JET_TWICE;
+    if (rows->driven) rows->drive[k] = (cplx){0, 0};
     if (k == 0) rows->jet_from = 0;
     if (k == rows->count - 1) rows->jet_to = k;
 }
@@ -304,8 +296,6 @@ static void set_constraints(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     rows->slope_count = 0;
-    memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
-    memset(rows->fixed, rows->is_complex ? 0 : FIXED_IM, (size_t)rows->count);
     if (p->start == WIGGLY_REST) set_rest(solver, p);
     if (problem_implies_slope(p)) add_slope(rows, p, p->earliest, 0, USUAL_STIFFNESS);
     for (int n = 0; n < p->desc->knot_count; n++) {
@@ -326,55 +316,43 @@ static void set_constraints(wiggly_solver *solver, const problem *p)
 static void set_tail(system_rows *rows, const problem *p)
 {
     rows->tail = (cplx){0, 0};
+    rows->tail_loss = 0;
     if (!p->settles) return;
     rows->jet_to = rows->count - 1;
-    if (rows->count > 1) rows->jet_weight[rows->count - 1] *= 2;
+    if (rows->count > 1) rows->fixed[rows->count - 1] |= JET_TWICE;
     if (rows->count == 1) rows->jet_to = -1;
     if (!rows->is_complex) return;
     poles own = poles_at(p->desc, p->latest, 0);
     speed_form ahead = poles_speed(&own, p->desc->step, false);
-    rows->steep = fmax(rows->steep, ahead.cut);
     rows->tail = poles_tail(poles_passive(&own), &ahead, p->desc->step);
+    const double size = cplx_size(ahead.on_e),
+                 moved = 8 * DBL_EPSILON * cplx_size(poles_passive(&own)) * p->desc->step;
+    rows->tail_loss = (moved + ahead.loss.x + cplx_size(rows->tail) * ahead.loss.e) / size;
 }
 
-/// Whether the knots are negligible beside what w must cancel for them: then w needs all its digits.
-static bool cancels(const problem *p)
-{
-    double values = 0, needed = 0;
-    for (int k = 0; k < p->desc->knot_count; k++) {
-        const wiggly_knot *knot = &p->desc->knots[k];
-        if (knot->still) continue;
-        values = fmax(values, fabs(knot->value));
-        needed = fmax(needed, fabs(problem_knot_re(p, knot)));
-    }
-    return values < little * needed;
-}
-
-/// Rounding of the level that knots are measured from. An infinite error of the response is reported elsewhere.
+/// Rounding of the level that knots are measured from, and the error of the response. An infinite one is reported elsewhere.
 static double noise_of(const problem *p)
 {
-    return 4 * DBL_EPSILON * extent_size(extent_of(p->y, p->desc->samples)) +
-           (p->response.error < INFINITY ? p->response.error / 240 : 0);
+    return 2 * DBL_EPSILON * extent_size(extent_of(p->y, p->desc->samples)) +
+           (p->response.error < INFINITY ? p->response.error : 0);
 }
 
 void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     rows->loop = p->start == WIGGLY_LOOP;
-    rows->fast = rows->unlike = rows->is_tested = false;
+    rows->fast = false;
     rows->is_complex = p->desc->mode == WIGGLY_COMPLEX;
     rows->count = problem_rows(p);
     rows->jet_from = rows->loop ? 0 : 1;
     rows->jet_to = rows->loop ? rows->count - 1 : rows->count - 2;
     rows->start = p->cost;
-    rows->steep = p->cost.row[0].weight > 0 ? p->cut : 0;
-    rows->cut = problem_oscillates(p) && p->cost.row[0].weight > heaviest_start;
+    rows->unknown = problem_oscillates(p) && p->cost.row[0].weight > heaviest_start;
     rows->pulls = p->pulls;
     rows->first = p->first;
-    rows->driven = !problem_oscillates(p) && p->about ? p->about + p->first : NULL;
     rows->noise = p->about ? noise_of(p) : 0;
-    rows->is_open = p->free_end && p->desc->mode != WIGGLY_CUBIC;
-    rows->is_held = !rows->is_open && !p->strict && !problem_is_loose(p) && !cancels(p);
+    memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
+    memset(rows->fixed, rows->is_complex ? 0 : FIXED_IM, (size_t)rows->count);
     set_filter(solver, p);
     set_tail(rows, p);
     set_constraints(solver, p);

@@ -33,19 +33,33 @@ static void lay_out_columns(unsigned char *at, double **const *columns, int coun
     }
 }
 
-/// Arrays of `samples` numbers. The matrix comes first: the chain's tables share its memory, and are larger for few samples. The response to a
+/// Arrays of `samples` numbers. The factor comes first: the chain's tables share its memory, and are larger for few samples. The response to a
 /// moving equilibrium, which is found before, uses it as one array.
 static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
 {
     system_rows *rows = &at->rows;
-    pentadiagonal *m = &at->matrix;
+    band_matrix *m = &at->band;
     chain *c = &at->chain;
     limit_memory *l = &at->limits;
     const struct {
         double **array;
         size_t each;
-    } matrix[] = {{&m->diagonal, 3}, {&m->below, 4}, {&m->below2, 4}, {&m->border, BORDER_ROW}},
-      others[] = {{&rows->jet_weight, 1},
+    } arrays[] = {{&m->record, BAND_RECORD},
+                  {&m->seam, BAND_SEAM},
+                  {NULL, 1}, // see below
+                  {&m->spread, 2},
+                  {&m->d, 1},
+                  {&m->e_re, 1},
+                  {&m->e_im, 1},
+                  {&m->f_re, 1},
+                  {&m->f_im, 1},
+                  {&rows->m_re, 1},
+                  {&rows->m_im, 1},
+                  {&rows->p_re, 1},
+                  {&rows->p_im, 1},
+                  {&rows->loss_m, 1},
+                  {&rows->loss_p, 1},
+                  {&rows->jet_weight, 1},
                   {&rows->im_weight, 1},
                   {&rows->x, 2},
                   {&rows->gradient, 2},
@@ -64,16 +78,19 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
                   {&l->pushed[0], 1},
                   {&l->pushed[1], 1},
                   {&l->stiffness, 1},
-                  {&l->by_push, 2}};
+                  {&l->by_push, 2},
+                  {&l->search, 4}};
     double **const powers[POWER_COLUMNS] = {&c->powers.p.re,   &c->powers.p.im,   &c->powers.q.re, &c->powers.q.im,
                                             &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,  &c->powers.w11};
-    for (size_t i = 0; i < sizeof matrix / sizeof *matrix; i++)
-        *matrix[i].array = arena_take(a, samples, matrix[i].each * sizeof(double));
-    at->response.room = m->diagonal;
-    arena_take(a, POWER_COLUMNS + 1, LINE);
-    lay_out_columns((unsigned char *)m->diagonal, powers, POWER_COLUMNS, samples);
-    for (size_t i = 0; i < sizeof others / sizeof *others; i++)
-        *others[i].array = arena_take(a, samples, others[i].each * sizeof(double));
+    for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
+        if (arrays[i].array) {
+            *arrays[i].array = arena_take(a, samples, arrays[i].each * sizeof(double));
+        } else {
+            arena_take(a, POWER_COLUMNS + 1, LINE); // the chain's columns begin on lines
+        }
+    }
+    at->response.room = m->record;
+    lay_out_columns((unsigned char *)m->record, powers, POWER_COLUMNS, samples);
 }
 
 static wiggly_solver *lay_out(arena *a, int samples, int knots)
@@ -91,7 +108,10 @@ static wiggly_solver *lay_out(arena *a, int samples, int knots)
         knots; // with the start at rest there is one node more than knots, and one stretch less than nodes
     lay_out_numbers(at, a, n);
     lay_out_columns(arena_take(a, RUN_COLUMNS, CHAIN_RUN * sizeof(double) + LINE), runs, RUN_COLUMNS, CHAIN_RUN);
-    rows->at = arena_take(a, n, sizeof *rows->at);
+    rows->rest = arena_take(a, n, sizeof *rows->rest);
+    at->band.own = arena_take(a, n, sizeof *at->band.own);
+    at->band.kept_own = arena_take(a, n, sizeof *at->band.kept_own);
+    at->band.kept_marks = arena_take(a, n, sizeof *at->band.kept_marks);
     rows->drive = arena_take(a, n, sizeof *rows->drive);
     rows->slopes = arena_take(a, k, sizeof *rows->slopes);
     rows->fixed = arena_take(a, n, sizeof *rows->fixed);
@@ -152,7 +172,7 @@ void wiggly_destroy(wiggly_solver *solver)
     if (solver && solver->owned) free(solver);
 }
 
-_Static_assert(RESPONSE_ROOM <= 3 + 4 + 4 + BORDER_ROW, "the matrix has too little room for a loop's response");
+_Static_assert(RESPONSE_ROOM <= BAND_RECORD + BAND_SEAM, "the matrix has too little room for a loop's response");
 
 /// Limits over a run, as exponents of e: how differently the poles may decay, and how much both together.
 static const double most_unlike = 5, most_decay = 50;
@@ -191,9 +211,15 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
 
 void wiggly_set_method(wiggly_solver *solver, wiggly_method method) { solver->method = method; }
 
+void solver_forget_factors(wiggly_solver *solver)
+{
+    solver->band.is_kept = false;
+    chain_forget(&solver->chain);
+}
+
 void solver_forget(wiggly_solver *solver)
 {
     solver->filter.known = false;
     solver->wind.is_kept = false;
-    chain_forget(&solver->chain);
+    solver_forget_factors(solver);
 }

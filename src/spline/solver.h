@@ -33,6 +33,7 @@ typedef struct limit_memory {
     double *pull;           ///< per held sample: how hard the limit holds it
     double *spare;          ///< for the search for them
     double *by_push;        ///< the same, two numbers a sample
+    double *search;         ///< the same, four
     double *stiffness;      ///< the same
     double *re, *im;        ///< for arrays that the curve lacks
     double *free[2];        ///< after the last knot: the free Re w, and the effect of an Im w of 1 there
@@ -85,7 +86,7 @@ struct wiggly_solver {
     wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it
     system_rows rows;
-    pentadiagonal matrix;
+    band_matrix band;
     constant_filter filter;
     chain chain; ///< shares its large arrays' memory with the matrix: a solve uses one of the two
     limit_memory limits;
@@ -102,22 +103,14 @@ struct wiggly_solver {
     int *knot_at;             ///< scratch: index of the knot on each sample, or -1
 };
 
-/// A factorisation: of the squared matrix, else of the rows.
-typedef struct factorisation {
-    pentadiagonal_rank rank;
-    bool squared;
-    double error; ///< of one solve, estimated, relative to x
-} factorisation;
-
 /// How a minimisation went.
 typedef struct minimum {
-    bool solved;    ///< false: the factorisation broke down or a number overflowed
+    bool solved;    ///< false: there is no factor, or a number overflowed
     bool by_chain;  ///< the chain found it
-    bool unrefined; ///< one plain solve found it
-    bool weak;      ///< a pivot was lost in rounding: if the problem can be singular, it is
+    bool lost;      ///< the rows hardly determine x: if the problem can be singular, it is
     double largest; ///< max |x|
-    double error;   ///< estimated error of x, absolute
-    int sweeps;
+    double error;   ///< bound of x's error, absolute
+    int sweeps;     ///< corrections
 } minimum;
 
 /// A block handed out piece by piece; without one it is only measured.
@@ -135,10 +128,8 @@ wiggly_solver *solver_lay_out(void *memory, int samples, int knots);
 /// Minimises the rows' energy over the unknowns that are not fixed; rows->x holds the fixed ones and 0 elsewhere.
 minimum solver_minimise(wiggly_solver *solver);
 
-/// Its two parts, for rows whose known values, targets, drives and pulls change while their factor stays. The second leaves out of the
-/// error how far x would be elsewhere if the coefficients were rounded otherwise.
-factorisation solver_factor(wiggly_solver *solver);
-minimum solver_refine(wiggly_solver *solver, factorisation *factor);
+/// The same with the factor that it left, for rows whose known values, targets, drives and pulls have changed.
+minimum solver_find(wiggly_solver *solver);
 
 /// wiggly_solve() of a description that was read (desc_read()).
 wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve);
@@ -164,6 +155,9 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
 
 /// Forgets everything that is kept for the case that little changes: the next solve is a whole one. Changes no result.
 void solver_forget(wiggly_solver *solver);
+
+/// The same of the chain's tables and of factors, whose memory is used for something else.
+void solver_forget_factors(wiggly_solver *solver);
 
 /// x behind the row `from` ≥ 1, from that and the one before: the filter run forward (r_i = 0, Figure 5).
 void solver_run_forward(wiggly_solver *solver, int from);

@@ -33,27 +33,15 @@ static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
     problem_settle(solver, p, curve->re, curve->im);
 }
 
-/// Solves for w by the chain if possible, else by the band. If the start is nearly free and the chain has lost most of its digits, its error
-/// estimate is unreliable: the band solves, too, and the smaller estimate wins.
+/// Solves for w by the chain if that is right for sure, else by the band.
 static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
 {
     const chain *c = &solver->chain;
-    double *re = curve->re + p->first, *im = curve->im + p->first;
-    minimum by_chain = {.by_chain = true};
-    if (problem_fits_chain(solver, p) && problem_solve_chain(solver, p, re, im)) {
-        by_chain.solved = true;
-        by_chain.error = c->error;
-        if (c->rank != CHAIN_WEAK || !c->loose) return by_chain;
-    }
+    if (problem_fits_chain(solver, p) && problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first) &&
+        c->error <= tolerance(p->desc->mode) * c->size)
+        return (minimum){.by_chain = true, .solved = true, .largest = c->size, .error = c->error};
     problem_set_rows(solver, p);
-    minimum result = solver_minimise(solver);
-    const bool is_worse = by_chain.solved && !(result.solved && result.error <= by_chain.error);
-    if (is_worse && problem_solve_chain(solver, p, re, im)) {
-        // Both are inexact, and agreement of two roundings proves nothing: the estimate is at least what the factor lost.
-        if (by_chain.error > tolerance(WIGGLY_COMPLEX) * c->size)
-            by_chain.error = fmax(by_chain.error, 100 * DBL_EPSILON * c->lost * c->size);
-        return by_chain;
-    }
+    const minimum result = solver_minimise(solver);
     unpack(solver, p, curve);
     return result;
 }
@@ -94,7 +82,7 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
         bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
         if (result->solved && is_told(solver, p, curve) &&
             !(may_be_singular &&
-              (result->weak || problem_blew_up(p, result->by_chain ? &solver->chain : NULL, curve))))
+              (result->lost || problem_blew_up(p, result->by_chain ? &solver->chain : NULL, curve))))
             return status;
         if (may_be_singular && p->calm == 0) {
             problem_set_calm(solver, p, FALLBACK_CALM);
@@ -184,7 +172,7 @@ wiggly_status solver_describe(wiggly_solver *solver, const wiggly_desc *desc, do
     problem_pose(solver, &own, y, &p);
     for (int i = 0; i < desc->samples; i++) y[i] = problem_about(&p, i);
     problem_set_rows(solver, &p);
-    system_matrix(&solver->rows, &solver->matrix);
+    system_matrix(&solver->rows, &solver->band);
     return WIGGLY_OK;
 }
 
@@ -282,18 +270,14 @@ wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc
     wiggly_desc ordered;
     curve->knot = limited ? limits_begin(solver, &p, &ordered, curve, &all) : -1;
     if (curve->knot >= 0) return WIGGLY_ERROR_KNOT_LIMIT;
-    for (;;) {
-        minimum result = {0};
-        status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
-        if (status >= WIGGLY_ERROR_ARGUMENT) return status;
-        problem_complete(solver, &p, &all);
-        if (limited) limits_clamp(solver, &p, &all);
-        all.error = 0;
-        all.refinements = result.sweeps > 1 ? result.sweeps - 1 : 0;
-        status = judge(&all, result.error + p.response.error, status);
-        if (status != WIGGLY_INEXACT || !result.unrefined) break;
-        p.strict = true;
-    }
+    minimum result = {0};
+    status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
+    if (status >= WIGGLY_ERROR_ARGUMENT) return status;
+    problem_complete(solver, &p, &all);
+    if (limited) limits_clamp(solver, &p, &all);
+    all.error = 0;
+    all.refinements = result.sweeps;
+    status = judge(&all, result.error + p.response.error, status);
     keep_asked(curve, all);
     return status;
 }

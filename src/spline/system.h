@@ -12,15 +12,15 @@
 #ifndef SPLINE_SYSTEM_H
 #define SPLINE_SYSTEM_H
 
-#include "spline/pentadiagonal.h"
+#include "spline/band.h"
 #include "spline/poles.h"
-
-enum { FIXED_RE = 1, FIXED_IM = 2, FIXED_STILL = 4 };
 
 typedef struct slope_row {
     int sample;
     cplx here, ahead, behind;
     double weight, target;
+    speed_loss loss;     ///< of its coefficients
+    double target_error; ///< rounding of the target
 } slope_row;
 
 /// Pulls on x of one spline, by sample. They fix nothing, but for where a spline starts and ends, samples from the first to the last pin count
@@ -35,31 +35,32 @@ typedef struct system_pulls {
 typedef struct system_rows {
     int count; ///< M
     bool loop, is_complex;
-    bool fast;      ///< some coefficients have a rest
-    bool unlike;    ///< jets' weights differ so much that a squared matrix would lose the light ones
-    bool cut;       ///< a jet would weigh more beside another than it does here
-    double steep;   ///< the largest cut of a speed that a row sees (speed_form)
-    bool is_tested; ///< knots so far apart, or jets so unlike, that the pivots alone do not show the digits lost
-    bool is_held;   ///< the start costs enough, or there is none: only knot-free stretches cost digits
-    double noise;   ///< rounding of the known values, if they are differences to an equilibrium
-    bool is_open;   ///< the start costs nothing
+    bool is_constant;     ///< all rows have the coefficients `own`, weight 1 and the imaginary weight `own_im`
+    bool fast;            ///< some coefficients have a rest
+    bool driven;          ///< some f_i is not 0
+    bool unknown;         ///< a weight is beyond what the rows can hold: no bound is right
     int jet_from, jet_to; ///< a loop has a jet at every sample
-    double stretch;       ///< samples of the longest knot-free stretch, or until x swings back if that is less
-    coefficients *at;     ///< of row i, except g, which is included in `drive`
-    cplx *drive;          ///< f_i
-    const double *driven; ///< y from row 0 on, for f_i = g_i ÿ_i with all its digits; or NULL
-    double *jet_weight;
+    coefficients own;
+    double own_im;
+    coefficient_loss own_loss;            ///< rounding of m and p
+    double *m_re, *m_im, *p_re, *p_im;    ///< of each row
+    coefficient_rest *rest;               ///< of each row, if `fast`
+    double *loss_m, *loss_p, *jet_weight; ///< of each row
     double *im_weight;
-    unsigned char *fixed;
-    slope_row *slopes; ///< by sample
+    cplx *drive;          ///< f_i
+    double drive_error;   ///< Σ w (rounding of f)²
+    double noise;         ///< rounding of known values
+    unsigned char *fixed; ///< marks of each sample (band.h)
+    slope_row *slopes;    ///< by sample
     int slope_count;
     start_cost start;          ///< times calm; weights 0 if it is free
     const system_pulls *pulls; ///< or NULL
     int first;                 ///< the spline's sample of row 0, from which pulls are counted
     cplx tail;                 ///< x_M / x_{M−1} − 1, for the free motion after the last sample
+    double tail_loss;          ///< rounding of that
     double *x;                 ///< 2M: re, im
     double *gradient;          ///< like x
-    double *jet;               ///< scratch of the residual: w r as double-doubles, 4M
+    double *jet;               ///< scratch, 4M
 } system_rows;
 
 /// A row's coefficients on the existing ones of the samples j − 1, j and j + 1: `before` and `after` are their numbers or -1.
@@ -71,24 +72,46 @@ typedef struct stencil {
 /// A slope row as coefficients; a sample after the last is expressed by the last.
 stencil system_slope_stencil(const system_rows *rows, const slope_row *slope);
 
-/// gradient = −½ ∇(E·h³) at x, 0 at fixed unknowns. Jets are double-double through the unsquared rows, so that it is right to the last digits
-/// of x even if the squared matrix has lost them.
-void system_gradient(const system_rows *rows);
+/// A jet row, with its weight and its coefficients −a and −b on its own sample and the one before.
+typedef struct jet_row {
+    double weight;
+    cplx own, before;
+} jet_row;
 
-/// The same if x holds only known values: these are small sums, and plain double is enough.
-void system_right_side(const system_rows *rows);
+jet_row system_jet(const system_rows *rows, int i);
 
-/// The rows' pull at x, in plain double, at fixed unknowns, too: the force that holds them is its opposite.
+/// A row's m and p.
+static inline coefficients system_coefficients(const system_rows *rows, int i)
+{
+    if (rows->is_constant) return rows->own;
+    coefficients c = {.m = {rows->m_re[i], rows->m_im[i]}, .p = {rows->p_re[i], rows->p_im[i]}};
+    if (rows->fast) c.rest = rows->rest[i];
+    return c;
+}
+
+/// What rounding does to the rows at x: see minimise.c.
+typedef struct row_errors {
+    double misses; ///< ‖W^½ (ΔR x − Δd)‖²
+    double pulls;  ///< Σ_j √D_j (|ΔR|ᵀ W |r|)_j
+} row_errors;
+
+/// gradient = −½ ∇(E·h³) at x, 0 at fixed unknowns, through the unsquared rows; `errors` as to the matrix's spread, or NULL.
+void system_gradient(const system_rows *rows, const band_matrix *matrix, row_errors *errors);
+
+/// The rows' pull at x, at fixed unknowns, too: the force that holds them is its opposite.
 void system_forces(const system_rows *rows);
+
+/// The gradient at x = 0, known values, too: x becomes known values and, at the unknowns, that.
+void system_right_side(const system_rows *rows);
 
 /// Sets all known values, targets and drives to 0: the solution is then the response to pulls.
 void system_forget_known(system_rows *rows);
 
-/// The squared matrix Rᵀ W R with fixed unknowns as rows of the identity, ready to be factored.
-void system_matrix(const system_rows *rows, pentadiagonal *matrix);
+/// The squared matrix Rᵀ W R, ready to be factored.
+void system_matrix(const system_rows *rows, band_matrix *matrix);
 
-/// The same factor as pentadiagonal_factor() of that, but by rotations from the rows themselves, so that the condition is not squared. For
-/// long domains.
-pentadiagonal_rank orthogonal_factor(const system_rows *rows, pentadiagonal *matrix);
+/// The same factor as band_factor() of that, but by rotations from the rows themselves, so that the condition is not squared. What is known
+/// has no part in it: its pull is in the gradient. False: the rows do not determine all unknowns.
+bool orthogonal_factor(const system_rows *rows, band_matrix *matrix);
 
 #endif

@@ -77,10 +77,12 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     const double floor = problem_least_damping(p), h = desc->step;
     solver->wind.is_constant = poles_are_constant(desc);
     if (solver->wind.is_constant) {
-        rows->at[0] = poles_coefficients(&problem_filter(solver, p)->at, h);
+        rows->is_constant = true;
+        rows->own = poles_coefficients(&problem_filter(solver, p)->at, h);
         return;
     }
     const int samples = p->start == WIGGLY_LOOP ? p->count : desc->samples;
+    rows->is_constant = rows->fast = false;
     poles_block block;
     for (int from = 0; from < samples; from += POLES_BLOCK) {
         const int count = samples - from < POLES_BLOCK ? samples - from : POLES_BLOCK, end = from + count;
@@ -89,8 +91,8 @@ static void set_filter(wiggly_solver *solver, const problem *p)
         double real[POLES_BLOCK], angle[POLES_BLOCK];
         for (int k = 0; k < count; k++) {
             const bool last = k + 1 == count;
-            rows->at[from + k].m = (cplx){block.m_re[k], block.m_im[k]};
-            rows->at[from + k].p = (cplx){block.p_re[k], block.p_im[k]};
+            rows->m_re[from + k] = block.m_re[k], rows->m_im[from + k] = block.m_im[k];
+            rows->p_re[from + k] = block.p_re[k], rows->p_im[from + k] = block.p_im[k];
             rows->im_weight[from + k] = block.exponent[k];
             real[k] = -0.25 * (block.exponent[k] + (last ? poles_weight_exponent(&next, h) : block.exponent[k + 1]));
             angle[k] = 0.5 * h * (block.centre[k] + (last ? next.centre : block.centre[k + 1]));
@@ -105,9 +107,8 @@ static void set_filter(wiggly_solver *solver, const problem *p)
 static void look_back(const wiggly_solver *solver, const problem *p, const poles *end, wind_gap *g)
 {
     const system_rows *rows = &solver->rows;
-    const coefficients *row = rows->at;
     const bool constant = solver->wind.is_constant;
-    const coefficients last = constant ? row[0] : poles_coefficients(end, p->desc->step);
+    const coefficients last = constant ? rows->own : poles_coefficients(end, p->desc->step);
     const bool is_fast = poles_weight_exponent(end, p->desc->step) > FAST; // then m and p hold no digit of a and b
     const cplx half = cplx_scale(0.5, coefficients_a(&last)), b = cplx_scale(-1, coefficients_b(&last));
     cplx w[2] = {{1, 0}, is_fast ? cplx_add(half, b) : cplx_sub(cplx_scale(-0.5, last.m), last.p)};
@@ -121,10 +122,11 @@ static void look_back(const wiggly_solver *solver, const problem *p, const poles
         missed += q * cplx_norm(d[1]);
         both = cplx_add(both, cplx_scale(q, cplx_mul(d[0], cplx_conj(d[1]))));
         if (i == g->begin) break;
+        const coefficients row = system_coefficients(rows, at);
         for (int n = 0; n < 2; n++) {
             const cplx before = w[n];
-            w[n] = cplx_sub(before, cplx_mul(row[at].p, d[n]));
-            d[n] = cplx_add(cplx_add(before, d[n]), cplx_mul(row[at].m, d[n]));
+            w[n] = cplx_sub(before, cplx_mul(row.p, d[n]));
+            d[n] = cplx_add(cplx_add(before, d[n]), cplx_mul(row.m, d[n]));
         }
     }
     g->back[0] = w[0], g->back[1] = w[1];
@@ -270,12 +272,13 @@ static double fill_gap(wiggly_solver *solver, const problem *p, const wind_gap *
         re[at] = x.re, im[at] = x.im;
     }
     for (int i = g->begin; i < g->end; i++) {
-        const int at = sample_of(p, i), k = constant ? 0 : at;
+        const int at = sample_of(p, i);
         const wind_push *push = &g->push[i - g->begin];
         const double q = (i == g->begin ? g->part : 1) * (constant ? 1 : rows->jet_weight[at]);
         const cplx e = cplx_add(cplx_mul(cplx_conj(push->knot), knot), cplx_mul(cplx_conj(push->row), row));
         if (i > g->begin) {
-            const cplx bent = cplx_sub(cplx_mul(rows->at[k].m, d), cplx_mul(rows->at[k].p, x));
+            const coefficients own = system_coefficients(rows, at);
+            const cplx bent = cplx_sub(cplx_mul(own.m, d), cplx_mul(own.p, x));
             x = cplx_add(x, d);
             d = cplx_add(d, bent);
             re[at] = x.re, im[at] = x.im;

@@ -58,26 +58,38 @@ static void work_destroy(struct work *w)
     free(w->curve.total);
 }
 
-/// The right side is the gradient at "knots fixed, 0 elsewhere", so the solution is x minus the knots. Entries below the last row are never
-/// read.
+/// Whether an unknown is known.
+static bool is_known(const system_rows *rows, int k, int part)
+{
+    return rows->fixed[k] & (part ? FIXED_IM : FIXED_RE);
+}
+
+/// The squared matrix, with 1 for known unknowns. The right side is the gradient at "knots fixed, 0 elsewhere", so the solution is x minus
+/// the knots. Entries below the last row are never read.
 static void fill_band(struct work *w)
 {
-    const pentadiagonal *m = &w->solver->matrix;
+    const band_matrix *m = &w->solver->band;
+    const system_rows *rows = &w->solver->rows;
     solver_describe(w->solver, &w->desc, w->about);
     const int width = m->is_complex ? 2 : 1, kd = width == 2 ? MOST_BAND : 2;
-    system_gradient(&w->solver->rows);
+    system_gradient(rows, NULL, NULL);
     w->unknowns = width * m->count;
     w->band_width = kd;
     memset(w->band, 0, sizeof(double) * (size_t)(w->unknowns * (kd + 1)));
     for (int unknown = 0; unknown < w->unknowns; unknown++) {
         const int k = unknown / width, part = unknown % width;
+        const band_block block = band_block_at(m, k);
+        const double *const from[3] = {block.d, block.e, block.f};
         double *column = w->band + (size_t)unknown * (size_t)(kd + 1);
-        for (int row = part; row < width; row++) column[row - part] = m->diagonal[3 * k + row + part];
-        for (int row = 0; row < width; row++) {
-            column[width + row - part] = m->below[4 * k + 2 * row + part];
-            column[2 * width + row - part] = m->below2[4 * k + 2 * row + part];
+        w->right[unknown] = rows->gradient[2 * k + part];
+        column[0] = 1;
+        if (is_known(rows, k, part)) continue;
+        for (int by = 0; by < 3 && k + by < m->count; by++) {
+            for (int row = by ? 0 : part; row < width; row++) {
+                const double value = by ? from[by][2 * row + part] : from[0][row + part];
+                if (!is_known(rows, k + by, row)) column[by * width + row - part] = value;
+            }
         }
-        w->right[unknown] = w->solver->rows.gradient[2 * k + part];
     }
 }
 
@@ -94,31 +106,18 @@ static double run_dpbsv(struct work *w, const struct lapack *lapack)
     return info == 0 ? time : NAN;
 }
 
-/// Solves with the band of all samples, block by block: factor and solve.
-static double run_band(struct work *w)
-{
-    double start = clock_now();
-    solver_describe(w->solver, &w->desc, w->about);
-    bool good = pentadiagonal_factor(&w->solver->matrix) != RANK_BROKEN;
-    system_right_side(&w->solver->rows);
-    pentadiagonal_solve(&w->solver->matrix, w->solver->rows.gradient);
-    double time = clock_now() - start;
-    return good ? time : NAN;
-}
-
-/// Compares the system's samples with dpbsv's, or with the band's without LAPACK, relative to the largest value; NAN on failure.
+/// The curve with dpbsv's solution instead of ours: the largest difference, relative to the largest value; NAN on failure.
 static double compare(struct work *w, const struct lapack *lapack)
 {
     const system_rows *rows = &w->solver->rows;
-    double worst = 0 * (lapack ? run_dpbsv(w, lapack) : run_band(w)), largest = 0;
-    const double *solved = lapack ? w->solved : rows->gradient;
+    double worst = 0 * run_dpbsv(w, lapack), largest = 0;
     bool swings = w->desc.equilibrium.track && rows->is_complex && w->desc.passive == WIGGLY_OSCILLATOR;
     int width = rows->is_complex ? 2 : 1;
     for (int i = 0; i < width * rows->count; i++) {
         int sample = w->curve.first + i / width;
         bool im = i % width == 1;
         double ours = im ? w->curve.im[sample] : w->curve.total[sample];
-        double theirs = solved[lapack ? i : 2 * (i / width) + i % width] + rows->x[2 * (i / width) + i % width];
+        double theirs = w->solved[i] + rows->x[2 * (i / width) + i % width];
         if (!im) theirs += w->about[sample];
         if (im && swings) theirs += w->solver->response.im[sample];
         worst = fmax(worst, fabs(theirs - ours)) + 0 * theirs;
@@ -127,18 +126,19 @@ static double compare(struct work *w, const struct lapack *lapack)
     return worst / largest;
 }
 
-/// Fastest of several runs of LAPACK or the band, per sample.
-static double time_beside(struct work *w, const struct lapack *lapack, bool by_band)
+/// Fastest of several runs of LAPACK, per sample.
+static double time_lapack(struct work *w, const struct lapack *lapack)
 {
     double best = INFINITY, end = clock_now() + seconds_beside;
     for (int run = 0; bench_goes_on(run, end); run++) {
-        double time = by_band ? run_band(w) : run_dpbsv(w, lapack);
+        double time = run_dpbsv(w, lapack);
         if (!(time >= 0)) return NAN;
         if (run > 0) best = fmin(best, time);
     }
     return 1e9 * best / w->desc.samples;
 }
 
+/// wiggly_solve(), everything included.
 static void time_solver(struct bench *bench, struct work *w, bool values_only, struct bench_result *result)
 {
     int runs = 0;
@@ -161,17 +161,20 @@ void bench_case(struct bench *bench, const wiggly_desc *desc, bool values_only, 
     if (status != WIGGLY_OK) bench_stop("%s: %s", result->name, wiggly_status_text(status));
     result->samples = desc->samples;
     result->error = w.curve.error;
-    if (!is_alone(desc)) {
-        // A loop's system has blocks in the corners, so it is not banded.
-        const struct lapack *lapack = bench->lapack.dpbsv && desc->start != WIGGLY_LOOP ? &bench->lapack : NULL;
-        if (lapack) fill_band(&w);
-        result->error = compare(&w, lapack);
+    // A loop's system has blocks in the corners, so it is not banded.
+    if (!is_alone(desc) && bench->lapack.dpbsv && desc->start != WIGGLY_LOOP) {
+        fill_band(&w);
+        result->error = compare(&w, &bench->lapack);
         if (!(result->error <= agreement))
-            bench_stop("%s: differs from %s by %g of the largest value", result->name,
-                       lapack ? "LAPACKE_dpbsv" : "the band", result->error);
-        if (lapack) result->dpbsv_ns_per_sample = time_beside(&w, lapack, false);
-        result->band_ns_per_sample = time_beside(&w, lapack, true);
+            bench_stop("%s: differs from LAPACKE_dpbsv by %g of the largest value", result->name, result->error);
+        result->dpbsv_ns_per_sample = time_lapack(&w, &bench->lapack);
     }
+    wiggly_set_method(w.solver, WIGGLY_BAND);
+    wiggly_solve(w.solver, &w.desc, &w.curve);
+    time_solver(bench, &w, values_only, result);
+    result->band_ns_per_sample = result->ns_per_sample;
+    wiggly_set_method(w.solver, WIGGLY_CHAIN);
+    wiggly_solve(w.solver, &w.desc, &w.curve);
     time_solver(bench, &w, values_only, result);
     work_destroy(&w);
 }
