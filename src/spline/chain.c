@@ -28,11 +28,6 @@
 #include <float.h>
 #include <math.h>
 
-enum { MAX_SWEEPS = 30 };
-enum { LONGEST_FOR_BAND = 1000 };      ///< samples up to which the band, which knows its error, solves weak systems
-static const double refined = 1e-13;   ///< of the largest unknown
-static const double acceptable = 1e-6; ///< likewise: still a curve to show, but reported as inexact
-
 /// Whether sums of tabulated columns (each below 1e25) weighted with z stay finite; false for NaN.
 static bool is_tame(cplx z) { return fabs(z.re) < 1e250 && fabs(z.im) < 1e250; }
 
@@ -52,8 +47,7 @@ static cplx jet_of_slope(const chain *c, const chain_stretch *s, const chain_nod
     return cplx_scale(chain_slope_pull(c, q, nu_d, s->form[FORM_V11]), cplx_conj(c->speed[q->view].on_r));
 }
 
-/// The costate ν at a stretch's end.
-static void costate_at_end(const chain *c, const chain_node *p, const chain_node *q, cplx nu[2])
+void chain_costate(const chain *c, const chain_node *p, const chain_node *q, cplx nu[2])
 {
     const chain_stretch *s = &c->stretches[p->stretch];
     const cplx xp = {p->value, p->x_im}, dp = {p->d_re, p->d_im}, xq = {q->value, q->x_im}, dq = chain_end_d(q);
@@ -176,10 +170,11 @@ static void fill_run(const chain *c, const cplx weight[4], int at, int count, do
     }
 }
 
-void chain_begin_run(const chain *c, const chain_node *p, const chain_node *q, int k, cplx nu[2], cplx weight[4])
+/// State and costate at the start of the run at sample k of a stretch. ν is that of the stretch's end, set with the second run.
+static void begin_run(const chain *c, const chain_node *p, const chain_node *q, int k, cplx nu[2], cplx weight[4])
 {
     if (k > 0) {
-        if (k == c->run) costate_at_end(c, p, q, nu);
+        if (k == c->run) chain_costate(c, p, q, nu);
         go_on(c, p, c->stretches[p->stretch].length - k, k, nu, weight);
     } else if (c->is_complex) {
         begin_complex(c, p, q, weight);
@@ -198,7 +193,7 @@ static bool fill_stretch(const chain *c, const chain_node *p, const chain_node *
     for (int k = 0; k < n; k += c->run) {
         int at = p->sample + c->turned + k, count = n - k < c->run ? n - k : c->run;
         if (c->cyclic && at >= c->count) at -= c->count;
-        chain_begin_run(c, p, q, k, nu, weight);
+        begin_run(c, p, q, k, nu, weight);
         for (int i = 0; i < 4; i++) tame = tame && is_tame(weight[i]);
         fill_run(c, weight, at, count, re, im);
     }
@@ -251,56 +246,6 @@ static double take_solution(chain *c)
     return largest;
 }
 
-/// Refines until the correction is in the last digits or stops shrinking. What then remains is the rounding of the poles, amplified by the
-/// system; it is the error. False if the refinement does not converge.
-static bool refine(chain *c, double size)
-{
-    double before = size;
-    for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
-        chain_gradient(c);
-        chain_solve_nodes(c);
-        double change = take_solution(c);
-        const bool done = change <= refined * size;
-        c->error = done ? change : 4 * fmax(change, before < size ? before : 0);
-        if (done) return true;
-        if (!(change < 0.5 * before)) return c->error <= acceptable * size;
-        before = change;
-    }
-    return false;
-}
-
-static void change_filter(chain *c, cplx lambda, cplx delta2)
-{
-    chain_forget(c);
-    c->lambda = lambda, c->delta2 = delta2;
-    chain_make_tables(c);
-}
-
-/// How far the nodes would move if the poles, and so the powers, were rounded differently in magnitude and in phase.
-static double sensitivity(chain *c)
-{
-    const cplx lambda = c->lambda, delta2 = c->delta2;
-    const double rounding = c->rounding;
-    double change = 0;
-    for (int part = 0; part < 2; part++) {
-        const cplx turned = {0, rounding}, larger = {rounding, 0}, none = {0, 0};
-        const cplx apart = {part ? 1 - rounding : 1 + rounding, part && c->is_complex ? rounding : 0};
-        change_filter(c, cplx_add(lambda, !part ? larger : c->is_complex ? turned : none), cplx_mul(apart, delta2));
-        chain_gradient(c);
-        chain_solve_nodes(c);
-        double largest = 0;
-        for (int j = 0; j < c->node_count; j++) {
-            const double *moved = c->rows[j].right;
-            const double size = fabs(moved[1]) + (c->is_complex ? fabs(moved[0]) + fabs(moved[2]) : 0);
-            if (!(size <= largest)) largest = size;
-        }
-        change += largest;
-    }
-    change_filter(c, lambda, delta2);
-    c->kept = true;
-    return (c->is_complex ? 24 : 48) * change;
-}
-
 /// Sets all unknowns of the nodes to 0.
 static void reset_nodes(chain *c)
 {
@@ -345,55 +290,24 @@ static double largest_value(const chain *c)
     return largest;
 }
 
-static bool must_refine(const chain *c)
-{
-    const double unrefined = 3e4; // with more, an answer may miss the tolerance
-    return c->rank == CHAIN_WEAK || c->loose || c->lost > unrefined;
-}
-
-/// The error that the factor's lost digits cause in an x of that size; 0 if it is negligible.
-static double error_of(const chain *c, double size)
-{
-    if (c->rank == CHAIN_WEAK || (c->im_weight > 0 && c->lost > TELLING_LOSS))
-        return 16 * DBL_EPSILON * sqrt(c->lost) * size; // after refinement only the coefficients' rounding remains
-    if (c->loose) return 100 * DBL_EPSILON * c->lost * size;
-    return c->lost > TELLING_LOSS ? 16 * DBL_EPSILON * c->lost * size : 0;
-}
-
-/// Lets the imaginary rows pull on the nodes: once if they hardly move them, else until what remains is negligible. Returns that, at least the
-/// square of the last relative move.
-static double add_imaginary(chain *c, double size)
-{
-    double before = size;
-    for (int sweep = 0;; sweep++) {
-        chain_pull_imaginary(c, sweep > 0);
-        chain_solve_nodes(c);
-        const double moved = take_solution(c), left = 4 * moved * (moved / before);
-        const bool shrinks = moved < 0.5 * before;
-        if (!shrinks || left <= refined * size || sweep == MAX_SWEEPS) return shrinks ? left : 4 * moved;
-        before = moved;
-    }
-}
-
 bool chain_solve(chain *c, double *x_re, double *x_im)
 {
     if (!c->kept) {
         chain_make_tables(c);
         chain_assemble(c);
-        c->rank = chain_factor(c);
+        c->sound = chain_factor(c);
+        if (c->sound) chain_find_spread(c);
         c->kept = true;
     }
-    c->error = 0;
-    if (c->rank == CHAIN_LOST) return false;
+    if (!c->sound) return false;
     reset_nodes(c);
     chain_pull_known(c);
     chain_solve_nodes(c);
-    double size = fmax(take_solution(c), largest_value(c));
-    if (c->rank == CHAIN_WEAK && c->count <= LONGEST_FOR_BAND) return false;
-    if (must_refine(c) && !refine(c, size)) return false;
-    if (c->rank == CHAIN_WEAK || (c->loose && c->lost > TELLING_LOSS)) c->error += sensitivity(c);
-    const double omitted = c->im_weight > 0 ? add_imaginary(c, size) : 0;
-    c->size = size;
-    c->error = fmax(c->error, error_of(c, size)) + omitted;
-    return fill(c, x_re, x_im);
+    c->size = fmax(take_solution(c), largest_value(c));
+    chain_pull(c); // once more, for what the inverses of blocks have lost
+    const double energy = chain_solve_nodes(c);
+    take_solution(c);
+    if (!fill(c, x_re, x_im)) return false;
+    c->error = chain_bound(c, energy, x_im);
+    return true;
 }

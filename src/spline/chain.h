@@ -38,6 +38,9 @@ typedef struct chain_stretch {
     int length;
     bool settles; ///< the jet of its last sample counts twice
     double form[FORM_SIZE];
+    double power[3];  ///< what |F^L|'s entries may be off by, in units of rounding: 00 and 11, 01, 10
+    double size[5];   ///< of C and of P₀₁
+    double column[4]; ///< the largest of each column that a run is filled from
 } chain_stretch;
 
 /// The known parts of a node's state (x, d) besides Re x.
@@ -82,18 +85,11 @@ typedef struct chain_row {
     double diagonal[6]; ///< 00 01 02 11 12 22 → inverse of the pivot block
     double below[9];    ///< A_{j+1,j}, row-major → L_{j+1,j}
     double right[3];    ///< → solution
+    double entry[3];    ///< the diagonal before
+    double spread[3];   ///< √ of the inverse's diagonal, 0 for what is known; of d also where it is tied to Im x
 } chain_row;
 
 enum { CHAIN_RUN = 64 }; ///< the most samples that are filled from one state
-
-/// Ratio of entries to pivots from which the remaining error is reported.
-#define TELLING_LOSS 300
-
-typedef enum chain_rank {
-    CHAIN_LOST, ///< a pivot is not positive
-    CHAIN_WEAK, ///< a pivot has lost digits: to be refined
-    CHAIN_FIRM,
-} chain_rank;
 
 typedef struct chain {
     bool is_complex;
@@ -122,18 +118,18 @@ typedef struct chain {
     /// A loop's: for each row but the first, the inverse of its pivot times its coupling to the first, 3×3 or 1.
     double *to_first;
     bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
-    chain_rank rank;    ///< of the factor
-    bool loose;         ///< the start is nearly free, so errors are larger
-    double rounding;    ///< of the poles
+    bool sound;         ///< the factor's pivots are positive
+    double loss;        ///< rounding of the poles' powers, of a sample
+    double noise;       ///< rounding of the level that values are measured from
     double lost;        ///< entries over pivots of the factor, the largest of its rows
-    double error;       ///< estimated error of x
+    double rounding;    ///< ρ of the factor
+    double error;       ///< bound of x's error
     double size;        ///< of the solution
     double cubic_bound; ///< both poles at 1: a bound for |x|
 } chain;
 
 /// Solves for the nodes and writes x of every sample of the system (x_im only in complex mode). If `kept` is set, only values have changed
-/// since the last solve, and its factor is reused. false if the nodes' system has lost too many digits, or numbers are so large that sums
-/// might overflow.
+/// since the last solve, and its factor is reused. false if the nodes' system has no factor, or numbers are so large that sums might overflow.
 bool chain_solve(chain *chain, double *x_re, double *x_im);
 
 /// Clears tables and factor, because the filter has changed or their memory was used otherwise.
@@ -188,22 +184,22 @@ static inline cplx chain_entry(const chain_stretch *stretch, int at)
 /// The steps of chain_solve().
 void chain_make_tables(chain *chain);
 void chain_assemble(chain *chain);
-chain_rank chain_factor(chain *chain);
-/// rows' right ← solution.
-void chain_solve_nodes(chain *chain);
+bool chain_factor(chain *chain);
+/// rows' right ← solution; returns b·A⁻¹b.
+double chain_solve_nodes(chain *chain);
 /// rows' right ← the right-hand side: −½ of the energy's gradient with all unknowns 0.
 void chain_pull_known(chain *chain);
-/// The same at the nodes' present state, in double-double.
-void chain_gradient(chain *chain);
-/// Adds a pull on a node's x and d to rows' right, except on Re x, which is known.
-void chain_pull(const chain *chain, int j, cplx on_x, cplx on_d);
-/// Removes it from known parts, and moves it from a tied d to Im x.
-void chain_hold_known(const chain *chain, int j);
-/// The same for the imaginary rows alone; from the second time on with the gradient, which is then not yet 0.
-void chain_pull_imaginary(chain *chain, bool again);
+/// The same at the nodes' present state.
+void chain_pull(chain *chain);
+/// rows' spread, and ρ.
+void chain_find_spread(chain *chain);
+/// Of a stretch what the bound needs.
+void chain_measure(const chain *chain, chain_stretch *stretch);
+/// A bound of the error of x, for the energy that chain_solve_nodes() returned of the last correction.
+double chain_bound(const chain *chain, double energy, const double *x_im);
+/// The costate ν at a stretch's end.
+void chain_costate(const chain *chain, const chain_node *p, const chain_node *q, cplx nu[2]);
 static inline int chain_next(const chain *c, int j) { return j + 1 < c->node_count ? j + 1 : 0; }
 /// Number of stretches: one less than nodes, in a loop the same.
 static inline int chain_stretches(const chain *c) { return c->cyclic ? c->node_count : c->node_count - 1; }
-/// State and costate at the start of the run at sample k of a stretch. ν is that of the stretch's end, set with the second run.
-void chain_begin_run(const chain *chain, const chain_node *p, const chain_node *q, int k, cplx nu[2], cplx weight[4]);
 #endif

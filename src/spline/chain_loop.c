@@ -10,7 +10,7 @@ WIDEST static kernel_rank close_blocks(chain *c)
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     double f[9], n[9] = {0}, l[9] = {0};
-    kernel_rank all = {true, true, 1};
+    kernel_rank all = {true, 1};
     if (last == 0) { // couples to itself: A + Aᵀ
         const double *a = first->below;
         const double twice[6] = {2 * a[0], a[1] + a[3], a[2] + a[6], 2 * a[4], a[5] + a[7], 2 * a[8]};
@@ -42,7 +42,7 @@ static kernel_rank close_scalars(chain *c)
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     double s = 1, n = 0, f = first->below[4], closed = first->diagonal[3] + (last == 0 ? 2 * f : 0), whole = closed;
-    kernel_rank all = {true, true, 1};
+    kernel_rank all = {true, 1};
     for (int k = 1; k <= last; k++) {
         chain_row *row = &c->rows[k];
         if (k == last) f += row->below[4];
@@ -57,18 +57,21 @@ static kernel_rank close_scalars(chain *c)
         f *= -row->below[4];
     }
     first->diagonal[3] = 1 / closed;
-    chain_add_rank(&all, (kernel_rank){closed > 0 && closed < INFINITY, closed >= WEAKEST * whole, whole / closed});
+    chain_add_rank(&all, (kernel_rank){closed > 0 && closed < INFINITY, whole / closed});
     return all;
 }
 
-static void solve_loop_scalars(chain *c)
+static double solve_loop_scalars(chain *c)
 {
+    double energy = 0;
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     for (int k = 1; k <= last; k++) {
         if (k > 1) c->rows[k].right[1] -= c->rows[k - 1].below[4] * c->rows[k - 1].right[1];
+        energy += kernel_energy(false, c->rows[k].right, c->rows[k].diagonal);
         first->right[1] -= c->to_first[k] * c->rows[k].right[1];
     }
+    energy += kernel_energy(false, first->right, first->diagonal);
     double closed = first->right[1] *= first->diagonal[3], after = 0;
     for (int k = last; k > 0; k--) {
         chain_row *row = &c->rows[k];
@@ -76,17 +79,21 @@ static void solve_loop_scalars(chain *c)
         if (k < last) row->right[1] -= row->below[4] * after;
         after = row->right[1];
     }
+    return energy;
 }
 
-WIDEST static void solve_loop_blocks(chain *c)
+WIDEST static double solve_loop_blocks(chain *c)
 {
+    double energy = 0;
     const int last = c->node_count - 1;
     chain_row *first = &c->rows[0];
     const double none[9] = {0};
     for (int k = 1; k <= last; k++) {
         if (k > 1) kernel_forward(true, c->rows[k].right, c->rows[k - 1].below, c->rows[k - 1].right);
+        energy += kernel_energy(true, c->rows[k].right, c->rows[k].diagonal);
         kernel_subtract_transposed(first->right, c->to_first + 9 * k, c->rows[k].right);
     }
+    energy += kernel_energy(true, first->right, first->diagonal);
     kernel_backward(true, first->right, first->diagonal, none, none);
     for (int k = last; k > 0; k--) {
         chain_row *row = &c->rows[k];
@@ -94,18 +101,9 @@ WIDEST static void solve_loop_blocks(chain *c)
                         k < last ? row[1].right : none);
         kernel_forward(true, row->right, c->to_first + 9 * k, first->right);
     }
+    return energy;
 }
 
-void chain_solve_loop(chain *c)
-{
-    if (c->is_complex) {
-        solve_loop_blocks(c);
-    } else {
-        solve_loop_scalars(c);
-    }
-}
+double chain_solve_loop(chain *c) { return c->is_complex ? solve_loop_blocks(c) : solve_loop_scalars(c); }
 
-chain_rank chain_close(chain *c)
-{
-    return chain_rank_with_loss(c, c->is_complex ? close_blocks(c) : close_scalars(c));
-}
+kernel_rank chain_close(chain *c) { return c->is_complex ? close_blocks(c) : close_scalars(c); }

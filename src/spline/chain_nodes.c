@@ -112,6 +112,7 @@ ALWAYS_INLINE void assemble(chain *c, const bool is_complex)
         }
         d[3] += own.h11, d[5] += own.h11;
         kernel_hold(d, &node);
+        c->rows[j].entry[0] = d[0], c->rows[j].entry[1] = d[3], c->rows[j].entry[2] = d[5];
         for (int i = 0; i < 6; i++) {
             if (is_complex || i == 3) c->rows[j].diagonal[i] = d[i];
             d[i] = entering[i];
@@ -133,7 +134,7 @@ void chain_assemble(chain *c)
 
 static kernel_rank factor_blocks(chain *c)
 {
-    kernel_rank all = {true, true, 1};
+    kernel_rank all = {true, 1};
     double n[9] = {0}, l[9] = {0};
     for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
         kernel_rank rank = kernel_pivot(row->diagonal, l, n);
@@ -147,7 +148,7 @@ static kernel_rank factor_blocks(chain *c)
 
 static kernel_rank factor_scalars(chain *c)
 {
-    kernel_rank all = {true, true, 1};
+    kernel_rank all = {true, 1};
     double n = 0, s = 1;
     for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
         kernel_rank rank = kernel_pivot_one(&s, row->diagonal[3], n);
@@ -159,39 +160,41 @@ static kernel_rank factor_scalars(chain *c)
     return all;
 }
 
-chain_rank chain_factor(chain *c)
+bool chain_factor(chain *c)
 {
-    if (c->cyclic) return chain_close(c);
-    return chain_rank_with_loss(c, c->is_complex ? factor_blocks(c) : factor_scalars(c));
+    const kernel_rank rank = c->cyclic ? chain_close(c) : c->is_complex ? factor_blocks(c) : factor_scalars(c);
+    c->lost = rank.lost;
+    return rank.sound;
 }
 
-ALWAYS_INLINE void solve(chain *c, const bool is_complex)
+ALWAYS_INLINE double solve(chain *c, const bool is_complex)
 {
     chain_row *last = &c->rows[c->node_count - 1];
+    double energy = 0;
     for (chain_row *row = c->rows; row < last; row++)
         kernel_forward(is_complex, row[1].right, row->below, row->right);
     const double none[3] = {0};
-    for (chain_row *row = last; row >= c->rows; row--)
+    for (chain_row *row = last; row >= c->rows; row--) {
+        energy += kernel_energy(is_complex, row->right, row->diagonal);
         kernel_backward(is_complex, row->right, row->diagonal, row->below, row < last ? row[1].right : none);
-}
-
-void chain_solve_nodes(chain *c)
-{
-    if (c->cyclic) {
-        chain_solve_loop(c);
-    } else if (c->is_complex) {
-        solve(c, true);
-    } else {
-        solve(c, false);
     }
+    return energy;
 }
 
-/// The pull of a stretch and the slope at its end when all unknowns are 0.
+double chain_solve_nodes(chain *c)
+{
+    if (c->cyclic) return chain_solve_loop(c);
+    return c->is_complex ? solve(c, true) : solve(c, false);
+}
+
+/// The pull of a stretch and the slope at its end.
 ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, bool is_complex,
                               bool posed, double *right, double *entering)
 {
     const double *form = form_after(c, j);
     const chain_node *end = &c->nodes[chain_next(c, j)];
+    kernel_node at_rest = *q;
+    if (end->fixed & NODE_STILL) at_rest.d = at_rest.d_im = 0, q = &at_rest;
     kernel_leave_pull(is_complex, posed, right, form, p, q);
     kernel_enter_pull(is_complex, posed, entering, form, p, q);
     if (end->slope_weight > 0) {
@@ -236,6 +239,8 @@ ALWAYS_INLINE void pull_known(chain *c, const bool is_complex, const bool posed)
             const state_form end = chain_end_form(c);
             kernel_form_pull(posed, right, end.h00, end.h01.re, end.h01.im, end.h11, &node);
         }
+        const double own = chain_node_form(&c->nodes[j]).h11;
+        right[1] -= own * node.d, right[2] -= own * node.d_im;
         kernel_hold_pull(right, &node);
         for (int i = 0; i < 3; i++) {
             if (is_complex || i == 1) c->rows[j].right[i] = right[i];
@@ -251,5 +256,14 @@ void chain_pull_known(chain *c)
         pull_known(c, true, true);
     } else {
         pull_known(c, true, false);
+    }
+}
+
+void chain_pull(chain *c)
+{
+    if (c->is_complex) {
+        pull_known(c, true, true);
+    } else {
+        pull_known(c, false, false);
     }
 }

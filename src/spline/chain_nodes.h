@@ -11,12 +11,6 @@
 /// A row's numbers stay in registers from step to step.
 #define ALWAYS_INLINE static inline __attribute__((always_inline))
 
-/// A pivot below this share of its diagonal entry has lost digits; refinement must restore them.
-#define WEAKEST 1e-6
-
-/// Ratio of entries to pivots from which the chain is not used.
-#define GREATEST_LOSS 1e7
-
 /// A row's data from its node. Known unknowns are removed from the system by 0 instead of 1.
 typedef struct kernel_node {
     double x, x_im, d, d_im;       ///< the known parts of x and d
@@ -35,10 +29,10 @@ typedef struct kernel_link {
     double before[3], at[3], weight, miss;
 } kernel_link;
 
-/// Whether all pivots are positive, and none has lost digits.
+/// Whether all pivots are positive, and how far they are below their entries, for all three of a row together.
 typedef struct kernel_rank {
-    bool sound, firm;
-    double lost; ///< entries over pivots, for all three of a row together
+    bool sound;
+    double lost;
 } kernel_rank;
 
 /// The Hermitian form [h00 h01; h01* h11] of a node's state.
@@ -211,7 +205,7 @@ ALWAYS_INLINE kernel_rank kernel_invert(const double *s, double *p)
     p[4] = (s[1] * s[2] - s[0] * s[4]) * inverse;
     p[5] = (s[0] * s[3] - s[1] * s[1]) * inverse;
     const bool sound = s[0] > 0.0 && s[3] > 0.0 && s[5] > 0.0 && det > 0.0 && det < INFINITY;
-    return (kernel_rank){.sound = sound, .firm = det > WEAKEST * (s[0] * s[3] * s[5]), .lost = inverse};
+    return (kernel_rank){.sound = sound, .lost = inverse};
 }
 
 /// d ← inverse of the pivot d − L N*, with L and N the coupling to the node before: L = N times the inverse of its pivot.
@@ -222,10 +216,8 @@ ALWAYS_INLINE kernel_rank kernel_pivot(double *d, const double *l, const double 
         d[2] - (l[0] * n[6] + l[1] * n[7] + l[2] * n[8]), d[3] - (l[3] * n[3] + l[4] * n[4] + l[5] * n[5]),
         d[4] - (l[3] * n[6] + l[4] * n[7] + l[5] * n[8]), d[5] - (l[6] * n[6] + l[7] * n[7] + l[8] * n[8]),
     };
-    bool kept = s[0] >= WEAKEST * d[0] && s[3] >= WEAKEST * d[3] && s[5] >= WEAKEST * d[5];
     double entries = d[0] * d[3] * d[5];
     kernel_rank rank = kernel_invert(s, d);
-    rank.firm = rank.firm && kept;
     rank.lost *= entries;
     return rank;
 }
@@ -259,6 +251,14 @@ ALWAYS_INLINE void kernel_backward(bool is_complex, double *r, const double *p, 
     r[0] = p[0] * z0 + p[1] * z1 + p[2] * z2 - (l[0] * u[0] + l[3] * u[1] + l[6] * u[2]);
     r[1] = p[1] * z0 + p[3] * z1 + p[4] * z2 - (l[1] * u[0] + l[4] * u[1] + l[7] * u[2]);
     r[2] = p[2] * z0 + p[4] * z1 + p[5] * z2 - (l[2] * u[0] + l[5] * u[1] + l[8] * u[2]);
+}
+
+/// zᵀ P z.
+ALWAYS_INLINE double kernel_energy(bool is_complex, const double *z, const double *p)
+{
+    if (!is_complex) return p[3] * (z[1] * z[1]);
+    return (p[0] * (z[0] * z[0]) + p[3] * (z[1] * z[1]) + p[5] * (z[2] * z[2])) +
+           2 * (p[1] * (z[0] * z[1]) + p[2] * (z[0] * z[2]) + p[4] * (z[1] * z[2]));
 }
 
 /// g = P F for a symmetric P.
@@ -299,28 +299,20 @@ ALWAYS_INLINE void kernel_subtract_transposed(double *r, const double *g, const 
 ALWAYS_INLINE kernel_rank kernel_pivot_one(double *s, double d, double n)
 {
     *s = d - n * n / *s;
-    return (kernel_rank){.sound = *s > 0.0 && *s < INFINITY, .firm = *s >= WEAKEST * d, .lost = d / *s};
+    return (kernel_rank){.sound = *s > 0.0 && *s < INFINITY, .lost = d / *s};
 }
 
 /// Merges one row's rank into the total.
 static inline void chain_add_rank(kernel_rank *all, kernel_rank rank)
 {
-    all->sound = all->sound && rank.sound, all->firm = all->firm && rank.firm;
+    all->sound = all->sound && rank.sound;
     all->lost = rank.lost > all->lost ? rank.lost : all->lost;
 }
 
-/// The rank of a factor, and what it has lost.
-static inline chain_rank chain_rank_with_loss(chain *c, kernel_rank rank)
-{
-    c->lost = rank.lost;
-    if (!rank.sound) return CHAIN_LOST;
-    return rank.firm && rank.lost < GREATEST_LOSS ? CHAIN_FIRM : CHAIN_WEAK;
-}
-
 /// Factors a loop's rows.
-chain_rank chain_close(chain *chain);
+kernel_rank chain_close(chain *chain);
 
-/// rows' right ← solution of a loop's.
-void chain_solve_loop(chain *chain);
+/// chain_solve_nodes() of a loop.
+double chain_solve_loop(chain *chain);
 
 #endif

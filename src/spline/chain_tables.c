@@ -199,6 +199,7 @@ static int find_stretch(chain *c, int length, bool settles)
     s->length = length;
     s->settles = settles;
     set_form(c, s);
+    chain_measure(c, s);
     *at = c->stretch_count;
     return c->stretch_count - 1;
 }

@@ -5,17 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-/// Below this phase (radians of the natural frequency over the domain) the imaginary rows hold Im x and may not be left out. Above it they
-/// change x by less than 1e-9, from twice the phase on by about 1e-14. With a nearly free start the phase must be higher.
-static const double least_unpulled_phase = 12.6, least_phase_of_loose_start = 48;
-
-/// Between that and this phase the chain lets them pull on its nodes, if (radians² · domain / longest gap)⁴ is so large that their bending of
-/// the gaps, which is left out, stays below `most_omitted`.
-static const double least_phase = 6, least_stiffness_of_gaps = 1e7;
-
-/// The largest omission, as a share of x; from `least_unpulled_phase` on it falls with the eighth power.
-static const double most_omitted = 2e-10;
-
 /// If a row's b almost vanishes, the jet at a sample and the motion after it are unrelated: the chain cannot handle speeds seen from there.
 static const double least_b = 1e-3;
 
@@ -68,43 +57,6 @@ static bool knots_fit(wiggly_solver *solver, const problem *p, int begin)
     return true;
 }
 
-/// Radians of the natural frequency over the domain.
-static double phase_of(wiggly_solver *solver, const problem *p)
-{
-    int intervals = p->start == WIGGLY_LOOP ? p->count : p->count - 1;
-    return problem_filter(solver, p)->at.natural * (intervals * p->desc->step);
-}
-
-/// Whether the imaginary rows become a pull on the chain's nodes.
-static bool pulls_imaginary(wiggly_solver *solver, const problem *p)
-{
-    return p->desc->mode == WIGGLY_COMPLEX && (problem_is_loose(p) || phase_of(solver, p) < least_unpulled_phase);
-}
-
-/// Samples of the longest stretch. A free end makes a stretch bend like one two and a half times as long.
-static double longest_gap(const wiggly_solver *solver, const problem *p)
-{
-    const int before = p->start == WIGGLY_LOOP ? p->latest - p->count : p->first;
-    double longest = 0;
-    if (p->start != WIGGLY_LOOP && !p->settles) longest = 2.5 * (p->first + p->count - 1 - p->latest);
-    for (int n = 0, from = before; n < p->desc->knot_count; n++) {
-        const int sample = knot_at(solver, p, n)->sample;
-        longest = fmax(longest, sample - from);
-        from = sample;
-    }
-    return longest;
-}
-
-/// Whether the imaginary rows may be left out, or pull on the nodes alone.
-static bool imaginary_fit(wiggly_solver *solver, const problem *p)
-{
-    const double phase = phase_of(solver, p), phase2 = phase * phase;
-    if (problem_is_loose(p)) return phase >= least_phase_of_loose_start;
-    if (!pulls_imaginary(solver, p)) return true;
-    const double stiffness = phase2 * (p->count / longest_gap(solver, p)), stiffness2 = stiffness * stiffness;
-    return phase >= least_phase && stiffness2 * stiffness2 >= least_stiffness_of_gaps;
-}
-
 bool problem_fits_chain(wiggly_solver *solver, const problem *p)
 {
     const wiggly_desc *desc = p->desc;
@@ -112,19 +64,10 @@ bool problem_fits_chain(wiggly_solver *solver, const problem *p)
     if (p->about && !problem_oscillates(p)) return false; // the paper's filter is driven by a moving equilibrium
     if (problem_oscillates(p) && problem_filter(solver, p)->cut > 0)
         return false; // only the band knows what that changes
-    if (desc->mode == WIGGLY_COMPLEX && !imaginary_fit(solver, p)) return false;
     if (p->start == WIGGLY_REST && desc->knot_count > 0 && knot_at(solver, p, 0)->sample < 2)
         return false; // held at a limit: too close to the node at rest
     int begin = first_of_chain(solver, p);
     return begin >= 0 && knots_fit(solver, p, begin);
-}
-
-/// Relative error of a chain without the imaginary rows, or with their pull on the nodes alone; 0 if negligible.
-static double omission(wiggly_solver *solver, const problem *p)
-{
-    if (p->desc->mode != WIGGLY_COMPLEX) return 0;
-    double ratio = fmin(1, least_unpulled_phase / phase_of(solver, p)), r2 = ratio * ratio, r4 = r2 * r2;
-    return ratio > 0.5 ? most_omitted * r4 * r4 : 0;
 }
 
 /// Writes a knot to a node, field by field. True if the node there differed only in values.
@@ -253,15 +196,15 @@ static void set_chain(wiggly_solver *solver, const problem *p)
     c->count = problem_rows(p);
     c->start = p->cost;
     c->settles = p->settles;
-    c->loose = problem_is_loose(p);
     c->cyclic = p->start == WIGGLY_LOOP;
     c->oscillates = problem_oscillates(p);
     c->lambda = f->lambda;
     c->delta2 = f->delta2;
     c->run = f->run;
-    c->rounding = DBL_EPSILON * (1 + fmax(cplx_size(f->at.s[0]), cplx_size(f->at.s[1])) * p->desc->step);
-    c->im_weight = 0;
-    if (pulls_imaginary(solver, p)) c->im_weight = p->unit * problem_im_weight(p, f->at.natural);
+    const double reach = fmax(cplx_size(f->at.s[0]), cplx_size(f->at.s[1])) * p->desc->step;
+    c->loss = 4 * DBL_EPSILON * (1 + reach);
+    c->noise = p->about ? problem_noise(p) : 0;
+    c->im_weight = c->is_complex ? p->unit * problem_im_weight(p, f->at.natural) : 0;
     set_speeds(c, p, f);
 }
 
@@ -282,7 +225,6 @@ bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, 
     bool same_nodes = make_chain(solver, p);
     c->kept = c->kept && same_nodes;
     if (!is_held(c) || !chain_solve(c, x_re, x_im)) return false;
-    c->error += omission(solver, p) * c->size;
     problem_settle(solver, p, x_re - p->first, x_im - p->first);
     return true;
 }

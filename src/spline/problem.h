@@ -15,9 +15,6 @@
 /// A heavier slope row is met to the last digit anyway, and might overflow.
 #define STIFFEST 1e20
 
-/// Below this calm a start or a loop may be loose.
-#define LOOSE_CALM 0.05
-
 /// Replaces a calm of 0 if the document is singular.
 #define FALLBACK_CALM 0.05
 
@@ -47,6 +44,7 @@ typedef struct problem {
     int earliest, latest;      ///< samples of the earliest and of the latest knot or pull, or -1
     bool settles;              ///< w is free after the latest knot: the system ends there
     bool settled;              ///< knots that settle move the equilibrium
+    bool by_band;              ///< the chain is not exact enough
     bool level_slope;          ///< a level slope is implied at the earliest knot
     bool free_end;             ///< c·H = 0
     int still;                 ///< sample of the earliest still knot, or -1
@@ -89,12 +87,6 @@ static inline double problem_least_damping(const problem *p)
     return p->start == WIGGLY_LOOP ? LEAST_DAMPING * p->calm : 0;
 }
 
-/// Whether the start is nearly free, or a loop nearly undamped.
-static inline bool problem_is_loose(const problem *p)
-{
-    return p->calm < LOOSE_CALM && p->start != WIGGLY_REST && p->desc->mode != WIGGLY_CUBIC;
-}
-
 /// The filter of a problem without pole tracks.
 static inline const constant_filter *problem_filter(wiggly_solver *solver, const problem *p)
 {
@@ -106,6 +98,9 @@ static inline bool problem_is_asked(const problem *p) { return p->earliest >= 0;
 
 /// Whether the oscillator's rules apply: jets weighted by |g|⁻², speeds given by the poles, the tail.
 static inline bool problem_oscillates(const problem *p) { return p->desc->passive == WIGGLY_OSCILLATOR; }
+
+/// Rounding of the level that knots are measured from, and the error of the response. An infinite one is reported elsewhere.
+double problem_noise(const problem *p);
 
 /// The cost of Im x at a sample of that natural frequency, times h³: T⁻⁴ (1 + (ω_n T)⁸)⁻¹, without `unit`.
 double problem_im_weight(const problem *p, double natural);

@@ -292,12 +292,21 @@ static void add_slopes(const system_rows *rows, const band_matrix *m, row_errors
             apart += sqrt(norm(sample_at(rows->x, s.after) - here));
         off = slope->loss.x * sqrt(norm(here)) + slope->loss.e * apart + slope->target_error;
         if (slope->loss.cut > 0) off += fabs(miss);
-        errors->misses += off * off * least_cost(rows, m, slope->weight, &s);
+        // as a row that misses its target, or as a pull
+        const double miss_by = off * sqrt(least_cost(rows, m, slope->weight, &s));
         const int at[3] = {s.before, s.at, s.after};
+        double pulled = 0;
         for (int i = 0; i < 3; i++) {
             if (at[i] < 0) continue;
-            const double loss = i == 1 ? slope->loss.x + 2 * slope->loss.e : slope->loss.e;
-            errors->pulls += loss * fabs(force) * sqrt(m->spread[2 * at[i]]);
+            const double loss = i == 1 ? slope->loss.x + 2 * slope->loss.e : slope->loss.e,
+                         spread = sqrt(m->spread[2 * at[i]]);
+            errors->pulls += loss * fabs(force) * spread;
+            pulled += slope->weight * off * cplx_size(s.c[i]) * spread;
+        }
+        if (pulled < miss_by) {
+            errors->pulls += pulled;
+        } else {
+            errors->misses += miss_by * miss_by;
         }
     }
 }

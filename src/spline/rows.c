@@ -330,8 +330,7 @@ static void set_tail(system_rows *rows, const problem *p)
     rows->tail_loss = (moved + ahead.loss.x + cplx_size(rows->tail) * ahead.loss.e) / size;
 }
 
-/// Rounding of the level that knots are measured from, and the error of the response. An infinite one is reported elsewhere.
-static double noise_of(const problem *p)
+double problem_noise(const problem *p)
 {
     return 2 * DBL_EPSILON * extent_size(extent_of(p->y, p->desc->samples)) +
            (p->response.error < INFINITY ? p->response.error : 0);
@@ -350,7 +349,7 @@ void problem_set_rows(wiggly_solver *solver, const problem *p)
     rows->unknown = problem_oscillates(p) && p->cost.row[0].weight > heaviest_start;
     rows->pulls = p->pulls;
     rows->first = p->first;
-    rows->noise = p->about ? noise_of(p) : 0;
+    rows->noise = p->about ? problem_noise(p) : 0;
     memset(rows->x, 0, sizeof *rows->x * 2 * (size_t)rows->count);
     memset(rows->fixed, rows->is_complex ? 0 : FIXED_IM, (size_t)rows->count);
     set_filter(solver, p);

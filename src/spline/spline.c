@@ -37,7 +37,8 @@ static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
 {
     const chain *c = &solver->chain;
-    if (problem_fits_chain(solver, p) && problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first) &&
+    if (!p->by_band && problem_fits_chain(solver, p) &&
+        problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first) &&
         c->error <= tolerance(p->desc->mode) * c->size)
         return (minimum){.by_chain = true, .solved = true, .largest = c->size, .error = c->error};
     problem_set_rows(solver, p);
@@ -270,14 +271,18 @@ wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc
     wiggly_desc ordered;
     curve->knot = limited ? limits_begin(solver, &p, &ordered, curve, &all) : -1;
     if (curve->knot >= 0) return WIGGLY_ERROR_KNOT_LIMIT;
-    minimum result = {0};
-    status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
-    if (status >= WIGGLY_ERROR_ARGUMENT) return status;
-    problem_complete(solver, &p, &all);
-    if (limited) limits_clamp(solver, &p, &all);
-    all.error = 0;
-    all.refinements = result.sweeps;
-    status = judge(&all, result.error + p.response.error, status);
+    for (;;) {
+        minimum result = {0};
+        status = (limited ? limits_find : problem_find)(solver, &p, &all, &result);
+        if (status >= WIGGLY_ERROR_ARGUMENT) return status;
+        problem_complete(solver, &p, &all);
+        if (limited) limits_clamp(solver, &p, &all);
+        all.error = 0;
+        all.refinements = result.sweeps;
+        status = judge(&all, result.error + p.response.error, status);
+        if (status != WIGGLY_INEXACT || !result.by_chain) break;
+        p.by_band = true; // what both are the sum of is far larger than the total
+    }
     keep_asked(curve, all);
     return status;
 }
