@@ -307,10 +307,130 @@ static void make_short(struct adversary_problem *p, uint64_t *seed)
     make_mixed(p, seed, pick(seed, 40) ? 4 + pick(seed, 37) : 1 + pick(seed, 3));
 }
 
+/// Knots, poses or still knots with hundreds to thousands of samples between, slow and fast, hardly damped or not.
+static void make_gaps(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    const int gap = 400 + (int)(600 * power(seed, 0, 0.7) - 600), count = 2 + pick(seed, 3), what = pick(seed, 4);
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->mode = pick(seed, 4) ? WIGGLY_COMPLEX : (wiggly_mode)pick(seed, 3);
+    d->start = pick(seed, 3) ? WIGGLY_FREE : WIGGLY_REST;
+    d->samples = 2 + pick(seed, 100);
+    d->frequency.value = 24 * power(seed, -3, 0);
+    d->damping.value = (double[]){0, 1e-6, 1e-3, 0.05}[pick(seed, 4)];
+    d->bandwidth.value = 0.1 * uniform(seed) * pick(seed, 2);
+    for (int k = 0; k < count && d->samples < ADVERSARY_MAX - 101; k++, d->samples += gap) {
+        add_knot(p, seed, d->samples - 1, 1, false);
+        wiggly_knot *knot = &p->knots[d->knot_count - 1];
+        if (what == 1 || (what == 2 && pick(seed, 2))) knot->has_phase = true, knot->phase = between(seed, -1, 1);
+        if (what == 3 && pick(seed, 2)) *knot = (wiggly_knot){.sample = knot->sample, .still = true};
+    }
+    d->samples += 1 + pick(seed, 100) - gap;
+}
+
+static void make_calm(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    make_chain(p, seed);
+    d->start = WIGGLY_FREE;
+    d->calm = power(seed, -20, -3);
+    if (pick(seed, 2)) d->damping.value = power(seed, -3, -0.5);
+}
+
+static void make_critical(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    make_mixed(p, seed, 20 + pick(seed, 200));
+    d->mode = (wiggly_mode)pick(seed, 2);
+    d->frequency.track = d->damping.track = NULL;
+    d->frequency.value = power(seed, -2, -0.4) / d->step;
+    d->damping.value = 1 + between(seed, -1e-9, 1e-9);
+    if (d->passive == WIGGLY_OSCILLATOR) d->bandwidth = (wiggly_param){.value = pick(seed, 2) ? 0 : 0.1};
+}
+
+static void make_alias(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    d->samples = 10 + pick(seed, 100);
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->start = (wiggly_start)pick(seed, 3);
+    d->calm = some_calm(seed);
+    d->frequency.value = (0.5 * (1 + pick(seed, 4)) + between(seed, -1e-3, 1e-3)) / d->step;
+    d->damping.value = some_damping(seed);
+    d->bandwidth.value = 1;
+    make_knots(p, seed, 1);
+}
+
+static void make_jumps(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    d->samples = 60 + pick(seed, 400);
+    d->mode = WIGGLY_REAL;
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->start = (wiggly_start)pick(seed, 3);
+    d->calm = some_calm(seed);
+    double *track = p->tracks[p->tracks_used++], now = 0;
+    for (int i = 0; i < d->samples; i++) {
+        if (pick(seed, 20) == 0) now = pick(seed, 3) ? power(seed, -3, -0.6) / d->step : 0;
+        track[i] = now;
+    }
+    if (d->start == WIGGLY_LOOP) track[d->samples - 1] = track[0];
+    d->frequency.track = track;
+    d->damping.value = some_damping(seed);
+    make_equilibrium(p, seed, 1);
+    make_regular_knots(p, seed, 4 + pick(seed, d->samples / 2));
+}
+
+static void make_last(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    make_mixed(p, seed, 20 + pick(seed, 300));
+    d->passive = WIGGLY_FILTER;
+    d->start = pick(seed, 2) ? WIGGLY_FREE : WIGGLY_REST;
+    while (d->knot_count > 0 && p->knots[d->knot_count - 1].sample >= d->samples - 1) d->knot_count--;
+    add_knot(p, seed, d->samples - 1, 1, true);
+}
+
+static void make_stiff(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    make_mixed(p, seed, 20 + pick(seed, 300));
+    for (int k = 0; k < d->knot_count; k++) {
+        wiggly_knot *knot = &p->knots[k];
+        knot->has_slope = pick(seed, 2);
+        knot->slope = between(seed, -2, 2) / d->step / 10;
+        knot->stiffness = power(seed, -12, 15);
+    }
+}
+
+/// An equilibrium that swings as fast as the loop.
+static void make_resonant(struct adversary_problem *p, uint64_t *seed)
+{
+    wiggly_desc *d = &p->desc;
+    d->samples = 20 + pick(seed, 300);
+    d->start = WIGGLY_LOOP;
+    d->passive = (wiggly_passive)pick(seed, 2);
+    d->mode = (wiggly_mode)pick(seed, 2);
+    d->calm = some_calm(seed);
+    const int periods = 1 + pick(seed, 4), seam = d->samples - 1;
+    d->frequency.value = (periods + (pick(seed, 2) ? 0 : between(seed, -1e-3, 1e-3))) / (seam * d->step);
+    d->damping.value = (double[]){0, 1e-6, 0.03, 0.3}[pick(seed, 4)];
+    d->bandwidth.value = 0.1 * pick(seed, 2);
+    double *track = p->tracks[p->tracks_used++];
+    for (int i = 0; i <= seam; i++) track[i] = sin(2 * 3.14159265358979323846 * periods * (i % seam) / seam);
+    if (pick(seed, 2)) d->equilibrium.track = track;
+    add_knot(p, seed, 0, 1, pick(seed, 2));
+    for (int i = 1 + pick(seed, seam); i < seam - 1; i += 2 + pick(seed, seam)) add_knot(p, seed, i, 1, false);
+    if (pick(seed, 2)) add_knot(p, seed, seam - 1, 1, pick(seed, 2));
+}
+
 static void (*const makers[ADVERSARY_KINDS])(struct adversary_problem *p, uint64_t *seed) = {
     [ADVERSARY_FILTER] = make_short, [ADVERSARY_OSCILLATOR] = make_short, [ADVERSARY_ADJACENT] = make_adjacent,
     [ADVERSARY_NODAL] = make_nodal,  [ADVERSARY_NYQUIST] = make_nyquist,  [ADVERSARY_FROM_ZERO] = make_from_zero,
-    [ADVERSARY_SLOW] = make_slow,    [ADVERSARY_CHAIN] = make_chain,      [ADVERSARY_LONG] = make_long};
+    [ADVERSARY_SLOW] = make_slow,    [ADVERSARY_CHAIN] = make_chain,      [ADVERSARY_LONG] = make_long,
+    [ADVERSARY_GAPS] = make_gaps,    [ADVERSARY_CALM] = make_calm,        [ADVERSARY_CRITICAL] = make_critical,
+    [ADVERSARY_ALIAS] = make_alias,  [ADVERSARY_JUMPS] = make_jumps,      [ADVERSARY_LAST] = make_last,
+    [ADVERSARY_STIFF] = make_stiff,  [ADVERSARY_RESONANT] = make_resonant};
 
 static const double rates[] = {24, 60, 1000, 1, 15, 120, 24 * 16, 23.976 * 4, 30 * 256};
 
@@ -337,7 +457,7 @@ void adversary_hold(struct adversary_problem *p, uint64_t seed)
         wiggly_knot *knot = &p->knots[k];
         const double phase = size * between(&seed, -1, 1);
         const int what = pick(&seed, 3 * rarely);
-        if (what < 2) knot->has_phase = true, knot->phase = phase;
+        if (what < 2 && !knot->still) knot->has_phase = true, knot->phase = phase;
         if (what == 2) *knot = (wiggly_knot){.sample = knot->sample, .still = true};
     }
 }

@@ -20,6 +20,14 @@ typedef enum adversary_kind {
     ADVERSARY_SLOW,       ///< a loop of a few periods or less
     ADVERSARY_CHAIN,      ///< hundreds of samples, undamped, almost no calm
     ADVERSARY_LONG,       ///< up to thousands of samples, random parameters
+    ADVERSARY_GAPS,       ///< hundreds to thousands of samples between poses, still knots or knots
+    ADVERSARY_CALM,       ///< a start held by 1e-20 to 1e-3
+    ADVERSARY_CRITICAL,   ///< damping within 1e-9 of 1
+    ADVERSARY_ALIAS,      ///< frequencies near multiples of the sample rate, bandwidth 1
+    ADVERSARY_JUMPS,      ///< real tracks from 0 with jumps
+    ADVERSARY_LAST,       ///< the filter with a slope on its last sample
+    ADVERSARY_STIFF,      ///< stiffness from 1e-12 to 1e15
+    ADVERSARY_RESONANT,   ///< loops with knots on the seam and equilibria in resonance
     ADVERSARY_KINDS
 } adversary_kind;
 

@@ -25,6 +25,7 @@ static double error_of(const struct answer *a, const struct answer *exact, int n
         off = fmax(off, fabs(a->im[i] - exact->im[i]));
         if (!(off <= worst)) worst = off;
         parts = fmax(parts, fmax(fabs(exact->re[i]), fabs(exact->total[i] - exact->re[i])));
+        parts = fmax(parts, fabs(exact->im[i]));
     }
     return worst <= 0x1p-40 * parts ? 0 : worst / fmax(size_of(exact, n), 1e-6 * parts);
 }

@@ -35,7 +35,7 @@ says "names the spline" 'warning: ' "$out"
 
 # Undamped, no calm, knots at half periods: only last digits hold it.
 {
-    printf '{"fps": 15, "frames": [0, 610], "splines": [{"name": "chain", "frequency": 0.75, "bandwidth": 0, "calm": 1.2e-10, "knots": ['
+    printf '{"fps": 15, "frames": [0, 610], "splines": [{"name": "chain", "frequency": 0.75, "bandwidth": 0, "calm": 1e-6, "knots": ['
     for k in {0..60}; do printf '%s{"frame": %d, "value": 0.%d}' "${comma-}" $((10 * k)) $((k * k * 7 % 10)) && comma=,; done
     printf ']}]}'
 } >"$scratch/chain.json"

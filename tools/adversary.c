@@ -7,8 +7,9 @@
 #include <time.h>
 #include <unistd.h>
 
-static const char *const kinds[ADVERSARY_KINDS] = {"filter",    "oscillator", "adjacent", "nodal", "nyquist",
-                                                   "from zero", "slow",       "chain",    "long"};
+static const char *const kinds[ADVERSARY_KINDS] = {
+    "filter", "oscillator", "adjacent", "nodal", "nyquist", "from zero", "slow",  "chain",   "long",
+    "gaps",   "calm",       "critical", "alias", "jumps",   "last",      "stiff", "resonant"};
 
 struct tally {
     long tried[ADVERSARY_KINDS], faults[ADVERSARY_KINDS], inexact[ADVERSARY_KINDS], needless, undecided;

@@ -153,8 +153,8 @@ typedef struct wiggly_curve {
     double before[2]; ///< Re and Im x there, without what the equilibrium's motion adds
     wiggly_mode mode;
     wiggly_start start;
-    double error;    ///< estimated largest error, as a part of the total's range or of its size, whichever is larger
-    int refinements; ///< sweeps of iterative refinement
+    double error; ///< bound of the largest error, as a part of the total's range or of its size, whichever is larger
+    int refinements; ///< corrections by the band; 0 by the chain
     int knot;        ///< index of the knot that an error is about; else -1
 } wiggly_curve;
 

@@ -205,7 +205,7 @@ static bool close_circle(double seconds, forces f, const step_matrix *a, const d
 static double error_of_circle(const forced_response *u, int period, double step, forces f, const step_matrix *a,
                               double rounding)
 {
-    const double seconds = period * step, small = 4 * DBL_EPSILON * step;
+    const double seconds = period * step, small = 2 * DBL_EPSILON * step;
     double q = 0, v = 0;
     for (int i = 0; i < period; i++) q += fabs(u->total[i]), v += fabs(u->speed[i]) + fabs(u->im[i]);
     const double of_q = rounding * q + small * v, of_v = rounding * v + small * (f.k * q + 2 * f.d * v);
@@ -405,7 +405,7 @@ static bool run_loop(const wiggly_desc *desc, const double *y, double floor, for
     u->error = INFINITY;
     if (!close_circle(seconds, f, &a, end, state)) return false;
     run(desc, floor, state[0], state[1], u, end);
-    u->error = error_of_circle(u, period, desc->step, f, &a, 4 * DBL_EPSILON);
+    u->error = error_of_circle(u, period, desc->step, f, &a, 2 * DBL_EPSILON);
     if (u->error > narrow * range) {
         run_exactly(desc, y, floor, state, u, end);
         close_circle(seconds, f, &a, end, more);
@@ -460,6 +460,36 @@ WIDEST static void add(double *restrict total, const double *restrict y, int cou
     for (int i = 0; i < count; i++) total[i] += y[i];
 }
 
+/// A bound of what rounding has done to q and to Im u on the way from rest. The free motion of an error never grows in the norm of its energy,
+/// k q² + q'²; where k is constant and swings, (ω_d q)² + (q' + d q)² falls with the damping. To that each step adds its own rounding.
+static double error_of_run(const wiggly_desc *desc, const forced_response *u)
+{
+    const bool constant = poles_are_constant(desc);
+    const double h = desc->step, t = (desc->samples - 1) * h, unit = 2 * DBL_EPSILON;
+    oscillator o = oscillator_at(desc, 0, 0);
+    const double swing = o.k - o.d * o.d;
+    const bool falls = constant && swing > 0.5 * o.k;
+    double decay = falls ? maths_exp(-o.d * h) : 1, size = falls ? swing : o.k, turn = fabs(oscillator_turn(o, t));
+    double norm = 0, of_q = 0, most = 0;
+    if (desc->mode != WIGGLY_COMPLEX) turn = 0;
+    for (int i = 0; i < desc->samples; i++) {
+        const double q = fabs(u->total[i]), v = fabs(u->speed[i]);
+        if (!constant && i > 0) {
+            o = oscillator_at(desc, i, 0);
+            if (o.k > size) norm = sqrt(norm * norm + (o.k - size) * of_q * of_q);
+            size = o.k;
+            if (desc->mode == WIGGLY_COMPLEX) turn = fabs(oscillator_turn(o, t));
+        }
+        const double root = sqrt(size), own = unit * (v + (o.k * h + o.d) * q);
+        norm = decay * norm + own + unit * root * q;
+        const double held = root > 0 ? norm / root : INFINITY, run = of_q + h * norm + unit * q;
+        of_q = held < run ? held : run;
+        const double im = turn * (norm + (falls ? 0 : o.d * of_q)) + (turn > 0 ? unit * turn * (v + o.d * q) : 0);
+        most = fmax(most, fmax(of_q, im));
+    }
+    return most;
+}
+
 wiggly_status forced_response_find(const wiggly_desc *desc, const double *y, double calm, forced_response *u)
 {
     wiggly_status status = WIGGLY_OK;
@@ -468,6 +498,7 @@ wiggly_status forced_response_find(const wiggly_desc *desc, const double *y, dou
     double end[2], floor = desc->start == WIGGLY_LOOP ? LEAST_DAMPING * calm : 0;
     if (desc->start != WIGGLY_LOOP) {
         run(desc, floor, 0, 0, u, end);
+        u->error = error_of_run(desc, u);
     } else if (!run_loop(desc, y, floor, u) && calm == 0) {
         floor = LEAST_DAMPING * FALLBACK_CALM;
         run_loop(desc, y, floor, u);

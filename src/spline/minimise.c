@@ -22,6 +22,8 @@ static const double most_squared = 0.02, most = 0.5;
 static const double settled = 1e-3;
 /// Share of x at which a bound's first term asks for another correction.
 static const double enough = 1e-10;
+/// The same under pulls: pins and bounds compare what splines do to the last digit.
+static const double exact = 1e-22;
 
 /// x + by; returns the largest magnitude of a part, NaN if there is one.
 WIDEST static double add_change(double *restrict x, const double *restrict by, int count)
@@ -90,7 +92,8 @@ static minimum finish(wiggly_solver *solver)
         result.largest = add_change(rows->x, rows->gradient, 2 * rows->count);
         result.sweeps = n + 1;
         result.error = m->largest * (left + sqrt(errors.misses) + errors.pulls);
-        if (m->largest * change <= settled * result.largest && m->largest * left <= enough * result.largest) break;
+        const double least = rows->pulls ? exact : enough;
+        if (m->largest * change <= settled * result.largest && m->largest * left <= least * result.largest) break;
     }
     result.solved = result.largest < INFINITY;
     result.lost = !rows->fast && !(m->rounding < most); // jets of different weights cost digits, too

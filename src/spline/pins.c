@@ -334,6 +334,12 @@ static bool respond_alone(pulled *of, double *compliance, double *alone)
         if (!found.solved) return false;
         read_pulled(of, row);
     }
+    for (int i = 0; i < width; i++) { // what is left of symmetry: S is nearly singular where pins and bounds meet
+        for (int j = 0; j < i; j++) {
+            double *a = &compliance[width * i + j], *b = &compliance[width * j + i];
+            *a = *b = 0.5 * (*a + *b);
+        }
+    }
     of->spread = of->solver->band.largest;
     return true;
 }

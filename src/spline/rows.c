@@ -1,4 +1,5 @@
-/// The rows of a problem for the solvers of the band (system.h), sample by sample.
+/// The rows of a problem for the band (system.h), sample by sample: the jets of a cubic (eq. 6), of a spring (eq. 14 and 17) and of a complex
+/// spline (eq. 22) with their drive (eq. 25), and the slopes (eq. 9).
 #include "spline/problem.h"
 #include "spline/wide.h"
 #include <float.h>
@@ -166,7 +167,7 @@ static void set_filter(wiggly_solver *solver, const problem *p)
     for (int k = 0; k < rows->count && rows->driven; k++) set_drive(rows, p, k, rows->own.g, 1);
 }
 
-/// The paper's slope: a difference of the total.
+/// The paper's slope (eq. 9): a difference of the total.
 static slope_row filter_slope(const problem *p, int k, double slope, double stiffness)
 {
     bool last = p->start != WIGGLY_LOOP && k == p->count - 1;

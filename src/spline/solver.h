@@ -82,6 +82,7 @@ typedef struct wind_memory {
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
+    bool is_grouped;           ///< of a group, whose pins and bounds compare last digits
     const system_pulls *pulls; ///< on the splines to be solved, or NULL
     wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it

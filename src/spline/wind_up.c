@@ -14,6 +14,7 @@
 /// Then e_i = q_i χ_i* λ, and a forward pass fills the gap. Nothing is squared that was not small, whatever the length.
 #include "maths/maths.h"
 #include "spline/problem.h"
+#include <float.h>
 #include <math.h>
 
 /// Where the oscillator hardly turns a slope says nothing of the phase: shares of ω_n from which it begins to, and to which it fades in.
@@ -222,6 +223,16 @@ static cplx as_posed(const problem *p, int sample, cplx w)
     return w;
 }
 
+/// What rounding may do to Im w at the end of a gap where nothing gives it, `before` having been its error at the beginning: the passes of a
+/// gap are sums of that many terms, and the mean is a difference of two.
+static double error_at_end(const wind_gap *g, cplx w, double before, const goal *to)
+{
+    if (to->is_whole) return 0;
+    const double unit = 32 * DBL_EPSILON * (g->end - g->begin + 8), share = cplx_size(g->both) / g->row;
+    const double size = cplx_size(g->coast[0]) + share * cplx_size(g->coast[1]);
+    return cplx_size(mean_of(g, (cplx){before, 0})) + unit * size * cplx_size(w);
+}
+
 /// w at the end of a gap, from w at its beginning.
 static cplx arrive(const wiggly_solver *solver, const problem *p, const wind_gap *g, cplx w, const goal *to)
 {
@@ -393,6 +404,7 @@ void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *c
     const course c = {
         .first = rests ? 0 : p->earliest, .gaps = knots - (loops || rests ? 0 : 1), .skipped = rests ? 0 : 1};
     set_gaps(solver, p, &c);
+    double off = 0;
     cplx w = loops ? close_round(solver, p) : rests ? (cplx){0, 0} : start_of(solver, p);
     const cplx first = w;
     re[c.first] = w.re, im[c.first] = w.im;
@@ -400,7 +412,8 @@ void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *c
         const wind_gap *g = &solver->wind.gap[n];
         const goal to = goal_of(solver, p, knot_of(solver, p, n + c.skipped));
         const cplx end = loops && n + 1 == c.gaps ? first : arrive(solver, p, g, w, &to);
-        result->error = fmax(result->error, fill_gap(solver, p, g, w, end, re, im));
+        off = error_at_end(g, w, off, &to);
+        result->error = fmax(result->error, fmax(off, fill_gap(solver, p, g, w, end, re, im)));
         w = end;
     }
     if (!loops) coast(solver, p, w, p->latest, samples - 1 - p->latest, re, im);

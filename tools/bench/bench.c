@@ -80,9 +80,13 @@ void bench_report(struct bench *bench, const struct bench_result *r)
 {
     char band[32], dpbsv[32], times[32], error[32];
     const bool first = bench->lines++ == 0;
-    if (first)
+    if (first) {
+        printf("ns/sample and band ns: wiggly_solve(), all included, and the same by the band; dpbsv ns: LAPACKE's "
+               "factor and solve alone,\n"
+               "without poles, assembly, output and any bound\n");
         printf("%-26s %7s %9s %10s %10s %9s %9s %8s %8s\n", "case", "threads", "ns/sample", "p50 us", "p99 us",
                "band ns", "dpbsv ns", "dpbsv x", "error");
+    }
     printf(
         "%-26s %7d %9.2f %10.2f %10.2f %9s %9s %8s %8s", r->name, r->threads, r->ns_per_sample, r->p50_us, r->p99_us,
         number(band, "%.4g", r->band_ns_per_sample, "-"), number(dpbsv, "%.4g", r->dpbsv_ns_per_sample, "-"),
