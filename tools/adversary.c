@@ -12,13 +12,14 @@ static const char *const kinds[ADVERSARY_KINDS] = {
     "gaps",   "calm",       "critical", "alias", "jumps",   "last",      "stiff", "resonant"};
 
 struct tally {
-    long tried[ADVERSARY_KINDS], faults[ADVERSARY_KINDS], inexact[ADVERSARY_KINDS], needless, undecided;
+    long tried[ADVERSARY_KINDS], faults[ADVERSARY_KINDS], inexact[ADVERSARY_KINDS], needless[ADVERSARY_KINDS],
+        undecided;
 };
 
 static struct tally search(uint64_t seed, long first, long count, int step)
 {
     static struct adversary_problem problem;
-    struct tally tally = {.needless = 0};
+    struct tally tally = {.undecided = 0};
     wiggly_solver *solver = NULL;
     if (wiggly_create(ADVERSARY_MAX, ADVERSARY_MAX, &solver) != WIGGLY_OK) exit(2);
     for (long n = first; n < first + count; n += step) {
@@ -28,7 +29,7 @@ static struct tally search(uint64_t seed, long first, long count, int step)
         tally.tried[kind]++;
         tally.inexact[kind] += verdict.said == WIGGLY_INEXACT;
         tally.undecided += verdict.undecided;
-        tally.needless += verdict.fault && verdict.needless;
+        tally.needless[kind] += verdict.fault && verdict.needless;
         if (!verdict.fault || verdict.needless) continue;
         tally.faults[kind]++;
         char name[80];
@@ -68,28 +69,28 @@ int main(int argc, char **argv)
     int processes = argc > 3 ? atoi(argv[3]) : 1, ends[MOST];
     if (processes < 1 || processes > MOST) processes = 1;
     const time_t started = time(NULL);
-    struct tally all = {.needless = 0};
+    struct tally all = {.undecided = 0};
     for (int i = 0; i < processes; i++) ends[i] = begin(seed, first + i, count - i, processes);
     for (int i = 0; i < processes; i++) {
         struct tally one;
         if (read(ends[i], &one, sizeof one) != sizeof one) return 2;
-        all.needless += one.needless, all.undecided += one.undecided;
+        all.undecided += one.undecided;
         for (int k = 0; k < ADVERSARY_KINDS; k++) {
             all.tried[k] += one.tried[k];
             all.faults[k] += one.faults[k];
             all.inexact[k] += one.inexact[k];
+            all.needless[k] += one.needless[k];
         }
     }
     while (wait(NULL) > 0) {
     }
-    long tried = 0, faults = 0, inexact = 0;
+    long tried = 0, faults = 0, inexact = 0, needless = 0;
     for (int k = 0; k < ADVERSARY_KINDS; k++) {
-        printf("%-10s %7ld tried, %5ld inexact, %3ld silent\n", kinds[k], all.tried[k], all.inexact[k],
-               all.faults[k]);
-        tried += all.tried[k], faults += all.faults[k], inexact += all.inexact[k];
+        printf("%-10s %7ld tried, %5ld inexact, %5ld needlessly, %3ld silent\n", kinds[k], all.tried[k],
+               all.inexact[k], all.needless[k], all.faults[k]);
+        tried += all.tried[k], faults += all.faults[k], inexact += all.inexact[k], needless += all.needless[k];
     }
     printf("seed %llu: %ld tried, %ld inexact (%ld needlessly), %ld undecided, %ld wrong in silence, %ld s\n",
-           (unsigned long long)seed, tried, inexact, all.needless, all.undecided, faults,
-           (long)(time(NULL) - started));
+           (unsigned long long)seed, tried, inexact, needless, all.undecided, faults, (long)(time(NULL) - started));
     return faults > 0;
 }

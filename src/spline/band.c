@@ -234,7 +234,7 @@ typedef struct seam_taken {
 ALWAYS_INLINE void eliminate_seam(const band_matrix *m, int step, int up, int down, const step_blocks *s,
                                   const record2 *r, const twin pair[4][2], twin (*kept_seam)[4], seam_taken *t)
 {
-    twin h[2][4] = {{{0}}}, of[2][4];
+    twin h[2][4] = {{{0}}}, of[2][4] = {{{0}}};
     if (step < 2) load_seam(m, up, down, h);
     const twin l = kept(r->l, s->re);
     for (int c = 0; c < 4; c++) {
@@ -247,7 +247,8 @@ ALWAYS_INLINE void eliminate_seam(const band_matrix *m, int step, int up, int do
             t->near[i][c] = t->far[i][c] + (pair[0][i] * by_re + pair[1][i] * by_im);
             t->far[i][c] = pair[2][i] * by_re + pair[3][i] * by_im;
         }
-        for (int k = 0; k <= c; k++) t->corner[c][k] += by_re * of[0][k] + by_im * of[1][k];
+        // above the diagonal, too, where nothing reads: Emscripten 3.1.6 gets the triangle wrong
+        for (int k = 0; k < 4; k++) t->corner[c][k] += by_re * of[0][k] + by_im * of[1][k];
     }
 }
 
