@@ -54,6 +54,22 @@ static inline bool panel_shows(struct session *session, const char *name)
     return inspector_target(session->editor->inspector, name, &x, &y);
 }
 
+/// The id of a widget in sight; 0: none.
+static inline uint32_t panel_id(struct session *session, const char *name)
+{
+    return panel_shows(session, name) ? session->editor->inspector->ui.found : 0;
+}
+
+/// Goes on with Tab until the widget has the focus.
+static inline void panel_tab_to(struct session *session, const char *name)
+{
+    struct ui *ui = &session->editor->inspector->ui;
+    for (int i = 0; i < UI_MAX_FOCUS && (!ui->focus || ui->focus != panel_id(session, name)); i++)
+        session_key(session, KEY_TAB, 0);
+    assert_int_not_equal(ui->focus, 0);
+    assert_int_equal(ui->focus, panel_id(session, name));
+}
+
 /// Presses a widget of the inspector and keeps the button down.
 static inline void panel_press(struct session *session, const char *name, int clicks)
 {
@@ -101,6 +117,20 @@ static inline void panel_pull(struct session *session, const char *name, float d
     panel_press(session, name, 1);
     session_drag(session, dx, dy, steps);
     panel_release(session);
+}
+
+/// Opens every section of the inspector.
+static inline void panel_unfold(struct session *session)
+{
+    static const char *const sections[] = {"feel",   "knot",      "splines",   "spline",   "rigs",
+                                           "model",  "tail",      "character", "advanced", "poles",
+                                           "limits", "variation", "scene",     "history",  "pins"};
+    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
+        char name[32];
+        snprintf(name, sizeof name, "section.%s", sections[i]);
+        inspector_unfold(session->editor->inspector, name);
+    }
+    session_frame(session);
 }
 
 /// The app's answer to the oldest request of a kind.

@@ -3,6 +3,7 @@
 #define TESTS_SESSION_H
 
 #include "documents.h"
+#include "inside.h"
 
 #include "app/table.h"
 #include "base/file.h"
@@ -42,6 +43,7 @@ static inline void session_frame(struct session *session)
     table_solve(&session->table, &row);
     table_pose(&session->table, &row);
     table_show(&session->table, &row);
+    assert_ids(session->editor);
 }
 
 static inline void session_move(struct session *session, float x, float y)

@@ -197,7 +197,7 @@ SESSION_TEST(test_a_chain_of_two_axes_comes_to_the_pointer, open_beast(s, TAIL))
 {
     float tip[2];
     session_click(s, "chain(tail,0.5)");
-    panel_click(s, "spline.add");
+    panel_click(s, "splines.add");
     panel_click(s, "channel.add");
     panel_click(s, "axis.up");
     assert_int_equal(s->document->rigs[1]->chain.channels[1].axis, AXIS_UP);

@@ -330,16 +330,8 @@ static void assert_whole(const struct tooltip *tooltip, struct rect window)
 /// Points at each control that Tab could reach, in every section.
 static void assert_all_explained(struct session *s)
 {
-    static const char *const sections[] = {"feel",   "knot",      "splines",   "spline",   "rigs",
-                                           "model",  "tail",      "character", "advanced", "poles",
-                                           "limits", "variation", "scene",     "history",  "pins"};
     struct ui *ui = &s->editor->inspector->ui;
-    for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
-        char name[32];
-        snprintf(name, sizeof name, "section.%s", sections[i]);
-        inspector_unfold(s->editor->inspector, name);
-    }
-    session_frame(s);
+    panel_unfold(s);
     struct ui_stop stops[UI_MAX_FOCUS];
     const int count = ui->stop_count;
     assert_true(count > 40 && count < UI_MAX_FOCUS);

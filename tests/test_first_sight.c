@@ -15,18 +15,19 @@ static int count_controls(const struct session *s)
     const struct ui *ui = inspector_ui(s->editor->inspector);
     int count = ui->stop_count;
     for (int i = 0; i < ui->stop_count; i++) {
-        for (size_t h = 0; h < sizeof headers / sizeof headers[0]; h++) count -= ui->stop[i].id == ui_id(headers[h]);
+        for (size_t h = 0; h < sizeof headers / sizeof headers[0]; h++)
+            count -= ui->stop[i].id == ui_id(ui, headers[h]);
     }
     return count;
 }
 
 SESSION_TEST(test_twenty_controls_at_the_first_start, open_first(s))
 {
-    static const char *const shown[] = {"preset.cat", "frequency",   "damping",    "wind-up", "lag",       "gain",
-                                        "knot.next",  "spline.sway", "spline.add", "more",    "look.stiff"};
-    static const char *const hidden[] = {"follow.frequency", "gain.ramp",     "gain.curve",     "eye.sway",
-                                         "color.sway",       "spline.delete", "section.spline", "section.rigs",
-                                         "section.tail",     "section.pins",  "section.poles",  "section.history"};
+    static const char *const shown[] = {"preset.cat", "frequency",   "damping",     "wind-up", "lag",       "gain",
+                                        "knot.next",  "spline.sway", "splines.add", "more",    "look.stiff"};
+    static const char *const hidden[] = {"follow.frequency", "gain.ramp",      "gain.curve",     "eye.sway",
+                                         "color.sway",       "splines.delete", "section.spline", "section.rigs",
+                                         "section.tail",     "section.pins",   "section.poles",  "section.history"};
     for (size_t i = 0; i < sizeof shown / sizeof shown[0]; i++) assert_true(panel_shows(s, shown[i]));
     for (size_t i = 0; i < sizeof hidden / sizeof hidden[0]; i++) assert_false(panel_shows(s, hidden[i]));
     session_frame(s);
@@ -68,7 +69,7 @@ TEST(test_an_empty_scene_is_not_an_empty_inspector)
     struct session s;
     session_open(&s, "{\"wiggly\": 1, \"frames\": [0, 96]}");
     s.editor->core.more = false;
-    assert_true(panel_shows(&s, "rig.add") && panel_shows(&s, "spline.add"));
+    assert_true(panel_shows(&s, "rig.add") && panel_shows(&s, "splines.add"));
     session_close(&s);
 }
 

@@ -39,8 +39,7 @@ SESSION_TEST(test_keys, open_list(s, 4))
 {
     panel_click(s, "section.history"); // a press gives no keyboard focus; Tab does
     panel_click(s, "section.history");
-    for (int i = 0; i < 60 && s->editor->inspector->ui.focus != ui_id("history.4"); i++) session_key(s, KEY_TAB, 0);
-    assert_int_equal(s->editor->inspector->ui.focus, ui_id("history.4"));
+    panel_tab_to(s, "history.4");
     session_key(s, KEY_UP, 0);
     session_key(s, KEY_UP, 0);
     assert_int_equal(knots(s), 3);

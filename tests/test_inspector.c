@@ -90,7 +90,7 @@ SESSION_TEST(test_typing_keeps_keys_from_the_editor, panel_open(s, scene, 1280, 
 
 SESSION_TEST(test_arrows_belong_to_the_focus, panel_open(s, scene, 1280, 720))
 {
-    s->editor->inspector->ui.focus = ui_id("frequency");
+    s->editor->inspector->ui.focus = panel_id(s, "frequency");
     session_key(s, KEY_RIGHT, 0);
     session_key(s, KEY_RIGHT, 0);
     assert_near(parameter(s, 0, PARAMETER_FREQUENCY)->value, 1.1, 0);

@@ -12,7 +12,7 @@ SESSION_TEST(test_a_spline_is_added_at_the_playhead, panel_open(s, scene, 1280, 
 {
     session_click(s, "ruler(24)");
     const char *before = session_saved(s);
-    panel_click(s, "spline.add");
+    panel_click(s, "splines.add");
     assert_string_equal(active_name(s), "spline");
     assert_near(s->document->splines[3]->knots[0].frame, 24, 0);
     assert_near(s->document->splines[3]->parameter[PARAMETER_FREQUENCY].value, 1, 0);
@@ -26,16 +26,16 @@ SESSION_TEST(test_the_active_spline_is_followed, panel_open(s, scene, 1280, 720)
 {
     panel_click(s, "spline.pace");
     const char *before = session_saved(s);
-    panel_click(s, "spline.down");
+    panel_click(s, "splines.down");
     assert_string_equal(active_name(s), "pace");
     assert_int_equal(s->editor->core.active, 2);
     assert_one_step(s, before);
     assert_string_equal(active_name(s), "pace");
     session_key(s, 'Z', MOD_CTRL);
     assert_string_equal(active_name(s), "pace");
-    panel_click(s, "spline.copy");
+    panel_click(s, "splines.copy");
     assert_string_equal(active_name(s), "pace 2");
-    panel_click(s, "spline.delete"); // nothing follows it: no question
+    panel_click(s, "splines.delete"); // nothing follows it: no question
     assert_int_equal(s->document->spline_count, 3);
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_NONE);
 }
@@ -46,11 +46,11 @@ SESSION_TEST(test_deleting_a_followed_spline_asks, panel_open(s, scene, 1280, 72
     session_click(s, "ruler(90)");
     panel_click(s, "spline.pace");
     const char *before = session_saved(s);
-    panel_click(s, "spline.delete");
+    panel_click(s, "splines.delete");
     assert_int_equal(s->editor->dialogs->dialog.kind, DIALOG_ASK);
     session_key(s, KEY_ESCAPE, 0);
     assert_int_equal(s->document->spline_count, 3);
-    panel_click(s, "spline.delete");
+    panel_click(s, "splines.delete");
     session_key(s, 'D', 0);
     assert_int_equal(s->document->spline_count, 2);
     assert_int_equal(s->document->splines[1]->parameter[PARAMETER_FREQUENCY].track, -1);
@@ -59,7 +59,7 @@ SESSION_TEST(test_deleting_a_followed_spline_asks, panel_open(s, scene, 1280, 72
     assert_one_step(s, before);
     panel_click(s, "spline.lift");
     before = session_saved(s);
-    panel_click(s, "spline.delete");
+    panel_click(s, "splines.delete");
     session_key(s, KEY_ENTER, 0);
     assert_int_equal(document_tail(s->document, 0)->channel_count, 1);
     assert_one_step(s, before);
@@ -69,14 +69,14 @@ SESSION_TEST(test_deleting_a_followed_spline_asks, panel_open(s, scene, 1280, 72
 SESSION_TEST(test_an_empty_list, panel_open(s, scene, 960, 680))
 {
     for (int i = 0; i < 3; i++) {
-        panel_click(s, "spline.delete");
+        panel_click(s, "splines.delete");
         if (s->editor->dialogs->dialog.kind == DIALOG_ASK) session_key(s, 'D', 0);
     }
     assert_int_equal(s->document->spline_count, 0);
     assert_int_equal(s->editor->core.active, -1);
-    panel_click(s, "spline.delete");
-    panel_click(s, "spline.copy");
-    panel_click(s, "spline.add");
+    panel_click(s, "splines.delete");
+    panel_click(s, "splines.copy");
+    panel_click(s, "splines.add");
     assert_string_equal(active_name(s), "spline");
 }
 
@@ -149,7 +149,7 @@ SESSION_TEST(test_hidden_and_solo_curves, panel_open(s, scene, 1280, 720))
     panel_click(s, "eye.pace");
     assert_int_equal(s->editor->curves->cache.other_count, 1);
     panel_click(s, "spline.pace"); // the order of the list does not matter to what is hidden
-    panel_click(s, "spline.up");
+    panel_click(s, "splines.up");
     assert_false(spline_list_shows(&s->editor->core, 0));
     panel_click(s, "solo.lift");
     assert_true(spline_list_shows(&s->editor->core, 2));

@@ -73,9 +73,7 @@ SESSION_TEST(test_a_joint_is_chosen_from_a_list, open_beast(s, FOLLOWS))
 /// Tab to the field, Enter, a few letters, Enter.
 SESSION_TEST(test_a_joint_is_found_by_typing, open_beast(s, FOLLOWS))
 {
-    for (int tabs = 0; tabs < 100 && s->editor->inspector->ui.focus != ui_id("joint.0"); tabs++)
-        session_key(s, KEY_TAB, 0);
-    assert_int_equal(s->editor->inspector->ui.focus, ui_id("joint.0"));
+    panel_tab_to(s, "joint.0");
     session_key(s, KEY_ENTER, 0);
     session_type(s, "fr_2");
     assert_true(panel_shows(s, "item.leg_FR_2"));

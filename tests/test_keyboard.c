@@ -84,7 +84,7 @@ SESSION_TEST(test_a_warning_is_done_away_with, session_open(s, jump))
 
 SESSION_TEST(test_a_number_goes_to_its_default, session_open(s, scene))
 {
-    for (int i = 0; i < 40 && s->editor->inspector->ui.focus != ui_id("frequency"); i++) session_key(s, KEY_TAB, 0);
+    panel_tab_to(s, "frequency");
     session_key(s, KEY_DELETE, 0);
     assert_near(s->document->splines[0]->parameter[PARAMETER_FREQUENCY].value, 1, 1e-12);
     assert_int_equal(s->document->splines[0]->knot_count, 4);
@@ -100,7 +100,7 @@ static bool is_ringed(const struct session *s, struct rect r)
         const struct draw_command *c = &list->commands[i];
         struct rect both = rect_intersect(c->bounds, r);
         bool around = both.w * both.h > 0.6f * fminf(r.w * r.h, c->bounds.w * c->bounds.h);
-        bool near = c->bounds.h < r.h + 16;
+        bool near = c->bounds.h < r.h + 20; // a handle has a ring of 18 pixels
         if (c->kind == DRAW_LINE && c->color == theme()->accent && around && near) return true;
     }
     return false;
@@ -141,4 +141,30 @@ SESSION_TEST(test_the_focus_is_seen_wherever_it_goes, session_open(s, scene))
     inspector_unfold(s->editor->inspector, "section.history");
     session_click(s, "knot(sway,1)");
     assert_true(tab_round(s) > 45);
+}
+
+/// Each stop is counted once, and after the last comes the first.
+static void assert_goes_round(struct session *s)
+{
+    const struct ui *ui = &s->editor->inspector->ui;
+    panel_unfold(s);
+    const int stops = ui->stop_count;
+    assert_true(stops > 60 && stops < UI_MAX_FOCUS);
+    assert_int_equal(tab_round(s), stops);
+}
+
+/// The start scene has a spline with the name of a button: up.
+SESSION_TEST(test_tab_goes_round_the_start_scene, session_open_file(s, "assets/scenes/tail.json"))
+{
+    assert_goes_round(s);
+}
+
+/// Each has its own switches for onion skin, motion arc and ghost.
+SESSION_TEST(test_tab_goes_round_a_tail_and_a_character,
+             session_open(s, "{\"frames\": [0, 48], \"splines\": [{\"name\": \"down\", \"knots\": [{\"frame\": 9, "
+                             "\"value\": 1}]}], \"rigs\": [{\"type\": \"tail\", \"name\": \"tail\", \"spline\": "
+                             "\"down\"}, {\"type\": \"character\", \"model\": \"none.glb\", \"coordinates\": "
+                             "[{\"name\": \"a\", \"spline\": \"down\"}]}]}"))
+{
+    assert_goes_round(s);
 }

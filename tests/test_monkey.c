@@ -295,6 +295,7 @@ static void step(struct run *run)
     watch_origin(&run->origin, app);
     if (!history_is_open(app->table.history)) keep_small(app);
     assert_editor(app);
+    assert_ids(app->table.editor);
     const int frame = run->frame++;
     if (history_revision(app->table.history) == run->checked) return;
     run->checked = history_revision(app->table.history);

@@ -94,13 +94,13 @@ SESSION_TEST(test_tracks_stay, open_poles(s, 3))
 
 SESSION_TEST(test_arrow_keys_move_a_focused_pole, open_poles(s, 0))
 {
-    s->editor->inspector->ui.focus = ui_id("pole.centre");
+    s->editor->inspector->ui.focus = panel_id(s, "pole.centre");
     session_key(s, KEY_RIGHT, 0);
     session_key(s, KEY_RIGHT, 0);
     assert_near(value(s, PARAMETER_FREQUENCY), 1.1, 1e-12);
     session_key(s, 'Z', MOD_CTRL);
     assert_near(value(s, PARAMETER_FREQUENCY), 1, 0);
-    s->editor->inspector->ui.focus = ui_id("pole.lower");
+    s->editor->inspector->ui.focus = panel_id(s, "pole.lower");
     session_key(s, KEY_LEFT, 0);
     assert_near(value(s, PARAMETER_BANDWIDTH), 0.133, 1e-12);
 }

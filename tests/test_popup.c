@@ -76,13 +76,14 @@ static bool key(struct panel *p, int code, unsigned mods)
     return send(p, (struct event){.kind = EVENT_KEY, .key = code, .action = ACTION_PRESS, .mods = mods});
 }
 
-static void find(struct panel *p, const char *name, float *x, float *y)
+static uint32_t find(struct panel *p, const char *name, float *x, float *y)
 {
     ui_begin_find(&p->ui, p->area, name, NULL);
     build(p);
     if (!ui_end(&p->ui)) fail_msg("%s is not to be seen", name);
     *x = p->ui.found_x;
     *y = p->ui.found_y;
+    return p->ui.found;
 }
 
 static bool press(struct panel *p, const char *name, int clicks)
@@ -173,20 +174,20 @@ TEST(test_escape_and_chords_close)
 TEST(test_a_list_by_keyboard)
 {
     struct panel p = make_panel();
-    p.ui.focus = ui_id("kind.7");
+    p.ui.focus = ui_id(&p.ui, "kind.7");
     key(&p, KEY_ENTER, 0);
     assert_true(is_open(&p));
-    assert_true(p.ui.focus == ui_id("item.2"));
-    for (int i = 0; i < 20; i++) key(&p, KEY_DOWN, 0);
     float x, y;
+    assert_true(p.ui.focus == find(&p, "item.2", &x, &y));
+    for (int i = 0; i < 20; i++) key(&p, KEY_DOWN, 0);
     find(&p, "item.22", &x, &y); // scrolled into sight
     key(&p, KEY_ENTER, 0);
     assert_int_equal(p.chosen, 22);
     assert_false(is_open(&p));
-    assert_true(p.ui.focus == ui_id("kind.7"));
+    assert_true(p.ui.focus == ui_id(&p.ui, "kind.7"));
     key(&p, KEY_SPACE, 0);
     key(&p, KEY_TAB, MOD_SHIFT);
-    assert_true(p.ui.focus == ui_id("item.21"));
+    assert_true(p.ui.focus == find(&p, "item.21", &x, &y));
 }
 
 TEST(test_the_wheel_scrolls_the_list_alone)

@@ -238,10 +238,10 @@ TEST(test_tab_moves_the_focus_round)
     struct panel p = make_panel();
     for (size_t i = 0; i < sizeof order / sizeof order[0]; i++) {
         assert_true(key(&p, KEY_TAB, 0));
-        assert_int_equal(p.ui.focus, ui_id(order[i]));
+        assert_int_equal(p.ui.focus, ui_id(&p.ui, order[i]));
     }
     key(&p, KEY_TAB, MOD_SHIFT);
-    assert_int_equal(p.ui.focus, ui_id("go"));
+    assert_int_equal(p.ui.focus, ui_id(&p.ui, "go"));
     assert_true(key(&p, KEY_ENTER, 0)); // what the focus takes does nothing else: Space would play, too
     assert_true(p.pressed);
     key(&p, KEY_TAB, MOD_SHIFT);
@@ -256,6 +256,24 @@ TEST(test_tab_moves_the_focus_round)
     key(&p, KEY_TAB, 0);
     button(&p, BUTTON_LEFT, ACTION_PRESS, 1, 10, 10);
     assert_int_equal(p.ui.focus, 0);
+}
+
+/// Buttons of one name: beside each other they are noticed, each in its own scope they are two.
+TEST(test_a_name_is_free_again_in_another_scope)
+{
+    static const struct rect area = {0, 0, 100, 100};
+    struct event event = {.kind = EVENT_KEY, .key = KEY_TAB, .action = ACTION_PRESS};
+    for (int scoped = 0; scoped < 2; scoped++) {
+        struct ui ui = {.focus = 0};
+        ui_begin_event(&ui, area, &event);
+        for (uint32_t row = 0; row < 3; row++) {
+            if (scoped) ui_push(&ui, row);
+            ui_button(&ui, ui_row(&ui, UI_ROW), "go", "Go", false);
+            if (scoped) ui_pop(&ui);
+        }
+        ui_end(&ui);
+        assert_int_equal(ui.twice.id != 0, !scoped);
+    }
 }
 
 TEST(test_focused_slider_takes_arrows_and_digits_only)
@@ -278,7 +296,7 @@ TEST(test_focused_slider_takes_arrows_and_digits_only)
     type(&p, "4.2");
     key(&p, KEY_TAB, 0);
     assert_near(p.speed, 4.2, 0);
-    assert_int_equal(p.ui.focus, ui_id("offset"));
+    assert_int_equal(p.ui.focus, ui_id(&p.ui, "offset"));
 }
 
 TEST(test_the_comma_of_a_keypad_is_a_point)
@@ -470,7 +488,7 @@ TEST(test_controls_are_seen_where_they_are)
         build(&p);
         ui_end(&p.ui);
         for (int i = 0; i < 5; i++) {
-            assert_true(p.ui.stop[i].id == ui_id(names[i]));
+            assert_true(p.ui.stop[i].id == ui_id(&p.ui, names[i]));
             if (!is_seen(&list, p.ui.stop[i].rect)) fail_msg("%s theme: \"%s\" is not seen", theme()->name, names[i]);
         }
     }

@@ -80,7 +80,7 @@ static void draw_part(struct drawlist *list, const struct part *part, float x, f
 
 bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint)
 {
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     bool pressed = ui_clicked(ui, id, r);
     bool hot = ui_hovered(ui, r);
     ui_hint(ui, r, hint);

@@ -9,7 +9,7 @@ void ui_popup_open(struct ui *ui, const char *name, int which, struct rect ancho
 {
     bool by_key = ui->event && ui->event->kind == EVENT_KEY;
     ui->popup = (struct ui_popup){
-        .id = ui_id(name), .which = which, .anchor = anchor, .opener = by_key ? ui->focus : 0, .fresh = true};
+        .id = ui_hash(name), .which = which, .anchor = anchor, .opener = by_key ? ui->focus : 0, .fresh = true};
     ui->held = 0;
     ui->typing = 0;
 }
@@ -21,7 +21,7 @@ void ui_popup_close(struct ui *ui)
     ui->popup.id = 0;
 }
 
-bool ui_popup_is_open(const struct ui *ui, const char *name) { return ui->popup.id == ui_id(name); }
+bool ui_popup_is_open(const struct ui *ui, const char *name) { return ui->popup.id == ui_hash(name); }
 
 static bool is_beside(const struct ui *ui) { return ui->popup.room.w > 0; }
 
@@ -85,18 +85,12 @@ void ui_popup_end(struct ui *ui)
     if (event->kind == EVENT_WHEEL || event->kind == EVENT_TEXT) ui->used = true;
 }
 
-/// Id of the field that opens the popup; several may open the same one.
-static uint32_t opener_id(const char *name, int which)
-{
-    char full[96];
-    snprintf(full, sizeof full, "%s.%d", name, which);
-    return ui_id(full);
-}
-
 void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, const char *text, uint32_t color)
 {
     struct rect field = ui_field_of(r);
-    uint32_t id = opener_id(name, which);
+    char full[96]; // several may open the same popup
+    snprintf(full, sizeof full, "%s.%d", name, which);
+    uint32_t id = ui_id(ui, full);
     if (ui_clicked(ui, id, field))
         ui_popup_open(ui, name, which, field); // a second press counts as outside, which closes it
     if (ui->pass != UI_PASS_DRAW) return;
@@ -116,7 +110,7 @@ void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, cons
 
 void ui_swatch(struct ui *ui, struct rect r, const char *name, const char *popup, int which, uint32_t color)
 {
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     if (ui_clicked(ui, id, r)) ui_popup_open(ui, popup, which, r);
     if (ui->pass != UI_PASS_DRAW) return;
     struct rect chip = {r.x + (r.w - 10) / 2, r.y + (r.h - 10) / 2, 10, 10};
@@ -127,7 +121,7 @@ void ui_swatch(struct ui *ui, struct rect r, const char *name, const char *popup
 
 bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bool chosen)
 {
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     struct rect field = rect_inset(r, 4);
     bool pressed = ui_clicked(ui, id, r);
     if (ui->pass != UI_PASS_DRAW) return pressed;
@@ -140,10 +134,12 @@ bool ui_color(struct ui *ui, struct rect r, const char *name, uint32_t color, bo
     return pressed;
 }
 
-static const char *row_name(char name[UI_NAME_SIZE], const struct ui_item *item)
+/// Opens the scope of a row, because two may have one name: None, and a clip called none.
+static uint32_t push_row(struct ui *ui, int row, const struct ui_item *item, char name[UI_NAME_SIZE])
 {
     snprintf(name, UI_NAME_SIZE, "item.%s", item->name);
-    return name;
+    ui_push(ui, (uint32_t)row);
+    return ui_id(ui, name);
 }
 
 /// The least fit of a shown row.
@@ -168,7 +164,8 @@ static void type_filter(struct ui *ui, const struct ui_item *items, int count)
     for (int i = 0; i < count; i++) {
         char row[UI_NAME_SIZE];
         if (ui_filter_fit(&ui->popup.filter, items[i].label) < least) continue;
-        ui->focus = ui_id(row_name(row, &items[i]));
+        ui->focus = push_row(ui, i, &items[i], row);
+        ui_pop(ui);
         ui_keep(ui, ui->focus);
         return;
     }
@@ -195,11 +192,12 @@ int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, 
     for (int i = 0; i < count; i++) {
         char row[UI_NAME_SIZE];
         if (ui_filter_fit(&ui->popup.filter, items[i].label) < least) continue;
-        row_name(row, &items[i]);
-        if (ui->popup.fresh && i == chosen) ui->popup.focus = ui_id(row);
+        const uint32_t id = push_row(ui, i, &items[i], row);
+        if (ui->popup.fresh && i == chosen) ui->popup.focus = id;
         struct rect r = {area.x + 6, ui->y, area.w - 12, UI_ROW};
         ui_space(ui, UI_ROW);
         if (ui_list_row(ui, r, row, items[i].label, items[i].color, i == chosen)) picked = i;
+        ui_pop(ui);
     }
     if (ui->pass == UI_PASS_EVENT && !ui->used) type_filter(ui, items, count);
     ui_popup_end(ui);

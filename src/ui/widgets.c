@@ -1,6 +1,7 @@
 /// Focus, layout, scrolling and hit-testing of widgets.
 #include "ui/widgets.h"
 #include "ui/widgets_internal.h"
+#include <assert.h>
 #include <math.h>
 
 static void begin(struct ui *ui, enum ui_pass pass, struct rect area)
@@ -12,11 +13,12 @@ static void begin(struct ui *ui, enum ui_pass pass, struct rect area)
     ui->event = NULL;
     ui->list = NULL;
     ui->find = 0;
-    ui->found = false;
+    ui->found = 0;
     ui->used = false;
     ui->began = false;
     ui->scroll = NULL;
     ui->stop_count = 0;
+    ui->depth = 0;
     ui->popup.built = ui->popup.fresh = false;
     ui->focus_hint = ui->offered = NULL;
     ui->blocked = ui->popup.id != 0 && pass != UI_PASS_FIND;
@@ -46,7 +48,7 @@ void ui_begin_draw(struct ui *ui, struct rect area, struct drawlist *list)
 void ui_begin_find(struct ui *ui, struct rect area, const char *name, const double *value)
 {
     begin(ui, UI_PASS_FIND, area);
-    ui->find = ui_id(name);
+    ui->find = ui_hash(name);
     ui->find_has_value = value != NULL;
     ui->find_value = value ? *value : 0;
 }
@@ -116,7 +118,7 @@ bool ui_end(struct ui *ui)
     if (ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, ui->list_clip);
     ui->event = NULL;
     ui->list = NULL;
-    return ui->pass == UI_PASS_FIND ? ui->found : ui->used;
+    return ui->pass == UI_PASS_FIND ? ui->found != 0 : ui->used;
 }
 
 void ui_release(struct ui *ui)
@@ -161,7 +163,7 @@ void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view)
 /// Pixels by which the event scrolls: the wheel, or a drag beside the widgets.
 static float scrolled(struct ui *ui, struct rect view)
 {
-    const uint32_t held = ui_id("scroll");
+    const uint32_t held = ui_hash("scroll");
     const struct event *event = ui->event;
     if (ui_pressed(ui, view, BUTTON_LEFT)) ui_hold(ui, held);
     if (ui->held == held && !ui->blocked) {
@@ -197,12 +199,23 @@ void ui_scroll_end(struct ui *ui)
     ui->y = view.y + view.h;
 }
 
-uint32_t ui_id(const char *name)
+void ui_push(struct ui *ui, uint32_t number)
+{
+    assert(ui->depth + 1 < UI_MAX_SCOPES);
+    const uint32_t outer = ui->scope[ui->depth++];
+    ui->scope[ui->depth] = (outer + number + 1) * 2654435761u; // odd, so that no two siblings are alike
+}
+
+void ui_pop(struct ui *ui) { ui->depth--; }
+
+uint32_t ui_hash(const char *name)
 {
     uint32_t hash = 2166136261u; // FNV-1a; 0 stands for no widget
     for (; *name; name++) hash = (hash ^ (unsigned char)*name) * 16777619u;
     return hash ? hash : 1;
 }
+
+uint32_t ui_id(const struct ui *ui, const char *name) { return ui_hash(name) ^ ui->scope[ui->depth]; }
 
 bool ui_hovered(const struct ui *ui, struct rect r)
 {
@@ -232,12 +245,13 @@ void ui_register(struct ui *ui, uint32_t id, struct rect r)
         ui->focus_rect = r;
         hint_focus(ui, ui->offered_rect, ui->offered);
     }
+    if (ui->pass == UI_PASS_EVENT && !ui->blocked && is_shown(ui, id)) ui->twice = (struct ui_stop){id, r};
     if ((!ui->blocked || ui->pass == UI_PASS_DRAW) && ui->stop_count < UI_MAX_FOCUS)
         ui->stop[ui->stop_count++] = (struct ui_stop){id, r};
-    if (ui->pass == UI_PASS_FIND && ui->find == id && !ui->found) {
+    if (ui->pass == UI_PASS_FIND && (ui->find == id || ui->find == (id ^ ui->scope[ui->depth])) && !ui->found) {
         ui->found_x = r.x + r.w / 2;
         ui->found_y = r.y + r.h / 2;
-        ui->found = rect_contains(ui->clip, ui->found_x, ui->found_y);
+        ui->found = rect_contains(ui->clip, ui->found_x, ui->found_y) ? id : 0;
     }
 }
 

@@ -5,8 +5,8 @@
 ///     build(&ui, …);                                 build(&ui, …);
 ///     used = ui_end(&ui);                            ui_end(&ui);
 ///
-/// Widgets have names; a name is unique in its panel and is also what ui_begin_find() looks for. Takes input, emits draw
-/// commands; no GL, no allocation. Tab and Shift+Tab move the focus; the pointer takes it away.
+/// A widget's id is the hash of its name and of the scopes around it, so that a name must be unique only in its scope. ui_begin_find()
+/// looks for the name alone and takes the first in sight. Takes input, emits draw commands; no GL, no allocation. Tab and Shift+Tab move the focus; the pointer takes it away.
 #ifndef UI_WIDGETS_H
 #define UI_WIDGETS_H
 
@@ -21,6 +21,7 @@ enum {
     UI_LABEL = 84,      ///< width of the label column
     UI_GAP = 8,         ///< between things in a row
     UI_MAX_FOCUS = 160, ///< widgets per panel that Tab reaches
+    UI_MAX_SCOPES = 4,  ///< one inside the other, with the panel's own
     UI_TEXT_SIZE = PATH_LIMIT,
     UI_NAME_SIZE = 1024, ///< bytes of the name of a widget for a spline or a bone
 };
@@ -49,7 +50,7 @@ struct ui_stop {
 
 /// The open popup. Only it gets events.
 struct ui_popup {
-    uint32_t id;        ///< hash of its name; 0: none
+    uint32_t id;        ///< hash of its name, outside any scope; 0: none
     int which;          ///< its subject, chosen by the caller
     struct rect anchor; ///< the rectangle that it opens at
     struct rect room;   ///< its limits; empty: the panel
@@ -94,7 +95,7 @@ struct ui {
     uint32_t find;
     bool find_has_value;
     double find_value;
-    bool found;
+    uint32_t found; ///< the widget's id; 0: none
     float found_x, found_y;
     bool used;
     struct rect area, clip, list_clip;
@@ -103,6 +104,10 @@ struct ui {
     struct rect scroll_area, scroll_clip;
     struct ui_stop stop[UI_MAX_FOCUS];
     int stop_count;
+    struct ui_stop
+        twice; ///< a widget with the id of another one, since the start; the tests assert that there is none
+    uint32_t scope[UI_MAX_SCOPES];
+    int depth; ///< of the open scopes
 };
 
 void ui_begin_event(struct ui *ui, struct rect area, const struct event *event);
@@ -116,6 +121,11 @@ bool ui_end(struct ui *ui);
 void ui_release(struct ui *ui);
 /// Whether a key belongs to the typed text: all except F keys and Ctrl chords other than Ctrl+A.
 bool ui_is_typing_key(const struct ui *ui, const struct event *event);
+
+/// Opens a scope for the ids of the widgets that follow: a section or a row of a list, by a number that no sibling has. Popups and typed
+/// lines, which other places open, have their ids outside scopes.
+void ui_push(struct ui *ui, uint32_t number);
+void ui_pop(struct ui *ui);
 
 /// The next row, inset by UI_PAD.
 struct rect ui_row(struct ui *ui, float height);
@@ -255,8 +265,8 @@ bool ui_text_event(struct ui_text *text, const struct event *event, bool *change
 void ui_hint(struct ui *ui, struct rect r, const char *text);
 float ui_text_width(const char *text);
 
-/// For widgets defined elsewhere: the id of a name, whether the pointer is over `r` and not clipped, registration.
-uint32_t ui_id(const char *name);
+/// For widgets defined elsewhere: the id of a name in the open scope, whether the pointer is over `r` and not clipped, registration.
+uint32_t ui_id(const struct ui *ui, const char *name);
 bool ui_hovered(const struct ui *ui, struct rect r);
 void ui_register(struct ui *ui, uint32_t id, struct rect r);
 

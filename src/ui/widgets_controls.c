@@ -76,7 +76,7 @@ bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed
     ui_space(ui, 4);
     struct rect line = {ui->area.x, ui->y, ui->area.w, 1};
     struct rect r = ui_row(ui, UI_ROW);
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     bool first = ui->stop_count == 0;
     ui_hint(ui, r, *closed ? "Open this section" : "Close this section");
     if (ui_clicked(ui, id, r)) *closed = !*closed;
@@ -101,7 +101,7 @@ static void paint_centred(struct ui *ui, struct rect r, const char *text, uint32
 bool ui_button(struct ui *ui, struct rect r, const char *name, const char *label, bool primary)
 {
     struct rect field = ui_field_of(r);
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     bool pressed = ui_clicked(ui, id, field);
     if (ui->pass == UI_PASS_DRAW) {
         bool hot = ui_hovered(ui, field);
@@ -117,7 +117,7 @@ bool ui_button(struct ui *ui, struct rect r, const char *name, const char *label
 bool ui_toggle(struct ui *ui, struct rect r, const char *name, bool *on)
 {
     struct rect box = {r.x, r.y + (r.h - 16) / 2, 28, 16};
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     bool pressed = ui_clicked(ui, id, box);
     if (pressed) *on = !*on;
     if (ui->pass == UI_PASS_DRAW) {
@@ -141,7 +141,7 @@ static void paint_row(struct ui *ui, uint32_t id, struct rect r, bool selected, 
 
 bool ui_list_row(struct ui *ui, struct rect r, const char *name, const char *text, uint32_t color, bool selected)
 {
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     bool pressed = ui_clicked(ui, id, r);
     if (ui->pass == UI_PASS_DRAW) {
         const bool hot = ui_hovered(ui, r);
@@ -185,7 +185,7 @@ bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui
                  int *index)
 {
     struct rect field = ui_field_of(r);
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     int before = *index, next = -1;
     float w = field.w / (float)count;
     ui_register(ui, id, field);
@@ -194,10 +194,10 @@ bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui
         if (ui_pressed(ui, part, BUTTON_LEFT)) next = i;
         char full[96];
         snprintf(full, sizeof full, "%s.%s", name, choices[i].name);
-        if (ui->pass == UI_PASS_FIND && ui->find == ui_id(full)) {
+        if (ui->pass == UI_PASS_FIND && ui->find == ui_hash(full)) {
             ui->found_x = part.x + part.w / 2;
             ui->found_y = part.y + part.h / 2;
-            ui->found = rect_contains(ui->clip, ui->found_x, ui->found_y);
+            ui->found = rect_contains(ui->clip, ui->found_x, ui->found_y) ? id : 0;
         }
     }
     if (ui_focused_key(ui, id) && (next = segment_key(ui, count, before)) >= 0) ui->used = true;
@@ -212,7 +212,7 @@ bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui
 
 enum { DRAG_THRESHOLD = 4 }; ///< pixels; a shorter way is a click
 
-bool ui_is_dragged(const struct ui *ui, const char *name) { return ui->held == ui_id(name) && ui->moved; }
+bool ui_is_dragged(const struct ui *ui, const char *name) { return ui->held == ui_id(ui, name) && ui->moved; }
 
 static enum ui_row_event held_event(struct ui *ui)
 {
@@ -241,7 +241,7 @@ static enum ui_row_event row_event(struct ui *ui, struct rect r, uint32_t id)
 enum ui_row_event ui_sort_row(struct ui *ui, struct rect row, struct rect label, const char *name, const char *text,
                               bool selected)
 {
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     ui_register(ui, id, label);
     enum ui_row_event event = row_event(ui, label, id);
     if (ui->pass != UI_PASS_DRAW) return event;

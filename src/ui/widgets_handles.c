@@ -5,8 +5,6 @@
 
 enum { REACH = 11, DRAG_THRESHOLD = 2 }; ///< pixels: around a point; a shorter drag is a click
 
-static uint32_t id_of(const struct ui_handle *handle) { return ui_id(handle->name); }
-
 static int nearest(const struct ui_handle *handles, int count, float x, float y)
 {
     int best = -1;
@@ -41,7 +39,7 @@ static enum ui_change held_event(struct ui *ui, struct ui_handle *handle)
 
 static enum ui_change focused_event(struct ui *ui, struct ui_handle *handle)
 {
-    if (!ui_focused_key(ui, id_of(handle))) return UI_NONE;
+    if (!ui_focused_key(ui, ui_id(ui, handle->name))) return UI_NONE;
     int steps = ui->event->mods & MOD_SHIFT ? 10 : 1;
     switch (ui->event->key) {
     case KEY_LEFT:
@@ -67,7 +65,7 @@ static void press(struct ui *ui, struct rect area, const struct ui_handle *handl
 {
     int at = nearest(handles, count, ui->event->x, ui->event->y);
     if (at < 0 || !ui_pressed(ui, area, BUTTON_LEFT)) return;
-    ui_hold(ui, id_of(&handles[at]));
+    ui_hold(ui, ui_id(ui, handles[at].name));
     ui->handle_x = handles[at].x;
     ui->handle_y = handles[at].y;
 }
@@ -77,26 +75,26 @@ static void show(struct ui *ui, struct rect area, const struct ui_handle *handle
     int hot = ui_hovered(ui, area) && !ui->held ? nearest(handles, count, ui->pointer_x, ui->pointer_y) : -1;
     for (int i = 0; i < count; i++) {
         struct rect around = {handles[i].x - 8, handles[i].y - 8, 16, 16};
-        bool held = ui->held == id_of(&handles[i]);
+        bool held = ui->held == ui_id(ui, handles[i].name);
         if (held || i == hot) {
             ui->over = UI_OVER_NUMBER;
             drawlist_rounded_line(ui->list, around, 8, 1.5f, held ? theme()->accent : theme()->text_dim);
         }
-        if (i == hot || ui->focus == id_of(&handles[i])) ui_hint(ui, around, handles[i].hint);
-        ui_focus_ring(ui, id_of(&handles[i]), around);
+        if (i == hot || ui->focus == ui_id(ui, handles[i].name)) ui_hint(ui, around, handles[i].hint);
+        ui_focus_ring(ui, ui_id(ui, handles[i].name), around);
     }
 }
 
 enum ui_change ui_handles(struct ui *ui, struct rect area, struct ui_handle *handles, int count, int *which)
 {
     for (int i = 0; i < count; i++) {
-        ui_register(ui, id_of(&handles[i]), (struct rect){handles[i].x - 1, handles[i].y - 1, 2, 2});
+        ui_register(ui, ui_id(ui, handles[i].name), (struct rect){handles[i].x - 1, handles[i].y - 1, 2, 2});
     }
     if (ui->pass == UI_PASS_DRAW) show(ui, area, handles, count);
     if (ui->pass != UI_PASS_EVENT || ui->used) return UI_NONE;
     for (*which = 0; *which < count; ++*which) {
         struct ui_handle *handle = &handles[*which];
-        if (ui->held == id_of(handle)) return held_event(ui, handle);
+        if (ui->held == ui_id(ui, handle->name)) return held_event(ui, handle);
         enum ui_change change = focused_event(ui, handle);
         if (change != UI_NONE) return change;
     }

@@ -11,6 +11,8 @@
 /// A row's field, inset so that neighbours do not touch.
 struct rect ui_field_of(struct rect row);
 
+/// The id of a name outside scopes.
+uint32_t ui_hash(const char *name);
 /// Whether this event presses `button` over `r`, unclipped and unused; then it is used.
 bool ui_pressed(struct ui *ui, struct rect r, enum event_button button);
 /// Makes the widget hold the pointer.

@@ -151,12 +151,12 @@ void ui_line_begin(struct ui *ui, const char *name, const char *text)
 {
     ui_text_set(&ui->text, text);
     ui->text.all = true;
-    ui->focus = ui->typing = ui_id(name);
+    ui->focus = ui->typing = ui_hash(name);
     ui_keep(ui, ui->typing);
     ui->began = true; // the press that began typing must not end it
 }
 
-bool ui_line_is_open(const struct ui *ui, const char *name) { return ui->typing == ui_id(name); }
+bool ui_line_is_open(const struct ui *ui, const char *name) { return ui->typing == ui_hash(name); }
 
 enum ui_line ui_typing_event(struct ui *ui, uint32_t id, struct rect field)
 {
@@ -184,7 +184,7 @@ enum ui_line ui_typing_event(struct ui *ui, uint32_t id, struct rect field)
 
 enum ui_line ui_line(struct ui *ui, struct rect r, const char *name)
 {
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_hash(name);
     struct rect field = ui_field_of(r);
     ui_register(ui, id, field);
     if (ui->typing != id) return UI_LINE_NONE;
@@ -198,7 +198,7 @@ enum ui_line ui_line(struct ui *ui, struct rect r, const char *name)
 
 bool ui_text_field(struct ui *ui, struct rect r, const char *name)
 {
-    uint32_t id = ui_id(name);
+    uint32_t id = ui_id(ui, name);
     bool changed = false;
     ui_register(ui, id, r);
     if (ui_pressed(ui, r, BUTTON_LEFT)) {

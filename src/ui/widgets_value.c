@@ -311,7 +311,7 @@ static void find_bar(struct ui *ui, struct rect field, const struct ui_number *n
 
 enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *number, double *value)
 {
-    uint32_t id = ui_id(number->name);
+    uint32_t id = ui_id(ui, number->name);
     struct rect field = ui_field_of(r);
     if (number->label) {
         field.x += UI_LABEL + UI_GAP;
@@ -324,7 +324,7 @@ enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *nu
         paint(ui, r, field, id, number, *value);
         return UI_NONE;
     case UI_PASS_FIND:
-        if (ui->find == id && has_bar(number)) find_bar(ui, field, number, *value);
+        if (ui->found == id && has_bar(number)) find_bar(ui, field, number, *value);
         return UI_NONE;
     case UI_PASS_EVENT:
         break;

@@ -374,7 +374,7 @@ static void build(struct dialogs *dialogs, struct core *core)
     } else if (dialog->kind == DIALOG_EXPORT) {
         export_build(dialogs, core);
     } else {
-        ui->focus = ui_id("dialog.path"); // the path is the only text field
+        ui->focus = ui_id(ui, "dialog.path"); // the path is the only text field
         build_path(dialogs, core);
     }
     ui_space(ui, 12);

@@ -111,7 +111,7 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core)
         wish->last = document->last_frame;
     }
     dialog_open(dialogs, DIALOG_EXPORT, "");
-    dialogs->dialog.ui.focus = ui_id(path_field);
+    dialogs->dialog.ui.focus = ui_id(&dialogs->dialog.ui, path_field);
 }
 
 void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory)
@@ -157,7 +157,7 @@ static void stop(struct dialogs *dialogs, struct core *core)
 bool export_key(struct dialogs *dialogs, struct core *core, int key)
 {
     const struct ui *ui = &dialogs->dialog.ui;
-    const bool in_text = ui->focus == ui_id(path_field) || ui->focus == ui_id(clip_field);
+    const bool in_text = ui->focus == ui_id(ui, path_field) || ui->focus == ui_id(ui, clip_field);
     const int format = dialogs->exporting.format, last = dialogs->dialog.files.format_count - 1;
     if (key == KEY_ESCAPE && !ui->typing && !ui->held) {
         stop(dialogs, core);
@@ -180,7 +180,7 @@ static bool build_text(struct dialogs *dialogs, struct rect r, const char *name,
 {
     struct exporting *exporting = &dialogs->exporting;
     struct ui *ui = &dialogs->dialog.ui;
-    const uint32_t id = ui_id(name);
+    const uint32_t id = ui_id(ui, name);
     const struct ui_text others = ui->text;
     if (exporting->typed == id && ui->focus != id) exporting->typed = 0;
     if (exporting->typed != id) ui_text_set(&ui->text, text);
@@ -389,7 +389,7 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
         const struct rect r = labelled(ui, &rows[1], PAIR_WIDTH, "clip");
         build_text(dialogs, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, clip_field, memory->wish.clip,
                    sizeof memory->wish.clip);
-        if (!memory->wish.clip[0] && ui->focus != ui_id(clip_field))
+        if (!memory->wish.clip[0] && ui->focus != ui_id(ui, clip_field))
             ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual_clip(document), theme()->text_dim);
     }
     if (format->choices & CHOICE_RIG)
@@ -408,7 +408,7 @@ static void build_formats(struct dialogs *dialogs, float room)
                                                      : fitting;
     const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
     // Scroll to the format being typed.
-    if (ui->focus == ui_id(path_field))
+    if (ui->focus == ui_id(ui, path_field))
         exporting->scroll.offset =
             fmaxf(fminf(exporting->scroll.offset, (float)chosen * UI_ROW), (float)(chosen + 1 - rows) * UI_ROW);
     int taken = -1;

@@ -43,7 +43,7 @@ static void change_angles(struct inspector *in, enum angle_kind kind, enum ui_ch
 static double reach_of(struct inspector *in, enum angle_kind kind, double angle)
 {
     double *reach = &in->angle_reach[kind];
-    if (*reach >= 1 && in->ui.held == ui_id(rows[kind].name)) return *reach;
+    if (*reach >= 1 && in->ui.held == ui_id(&in->ui, rows[kind].name)) return *reach;
     *reach = 1;
     while (fabs(angle) > *reach * rows[kind].maximum && *reach < MOST_REACH) *reach *= 2;
     return *reach;
@@ -185,10 +185,10 @@ static double angle_at(const struct angle_view *view, float y)
     return core_round(view->high - share * (view->high - view->low), rows[view->kind].step / 5);
 }
 
-static bool is_held(const struct angle_view *view, uint32_t held)
+static bool is_held(const struct angle_view *view, const struct ui *ui)
 {
-    for (int i = 0; held && i < view->handle_count; i++) {
-        if (ui_id(view->names[i]) == held) return true;
+    for (int i = 0; ui->held && i < view->handle_count; i++) {
+        if (ui_id(ui, view->names[i]) == ui->held) return true;
     }
     return false;
 }
@@ -207,7 +207,7 @@ static void lay_out(struct inspector *in, struct angle_view *view)
     snprintf(view->names[0], NAME, "%s.curve", rows[view->kind].name);
     for (int i = 0; is_ramp && i < angles->count; i++)
         snprintf(view->names[i], NAME, "%s.point.%d", rows[view->kind].name, i);
-    if (!is_held(view, in->ui.held)) {
+    if (!is_held(view, &in->ui)) {
         scale[0] = 0;
         scale[1] = LEAST;
         for (int i = 0; i < angles->count; i++) {
@@ -320,7 +320,7 @@ static int removed_point(const struct inspector *in, const struct angle_view *vi
                        event->button == BUTTON_RIGHT && ui_hovered(&in->ui, view->box);
     for (int i = 0; i < view->angles->count; i++) {
         const struct ui_handle *handle = &view->handles[i];
-        if (key && in->ui.focus == ui_id(handle->name)) return i;
+        if (key && in->ui.focus == ui_id(&in->ui, handle->name)) return i;
         if (click && maths_hypotf(event->x - handle->x, event->y - handle->y) < REACH) return i;
     }
     return -1;
@@ -332,7 +332,7 @@ static void take_event(struct inspector *in, const struct angle_view *view)
     struct ui *ui = &in->ui;
     const struct event *event = ui->event;
     const bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS && event->button == BUTTON_LEFT;
-    if (press && is_held(view, ui->held)) ui->focus = ui->held;
+    if (press && is_held(view, ui)) ui->focus = ui->held;
     if (ui->used) return;
     const int removed = removed_point(in, view);
     const bool adds = press && event->clicks == 2 && ui_hovered(ui, view->box);
@@ -425,7 +425,7 @@ static void build_each(struct inspector *in, struct angle_view *view)
     ui_hint(ui, view->box, view->handles->hint);
     if (ui->pass == UI_PASS_EVENT) take_press(in, view);
     const enum ui_change change = ui_handles(ui, view->box, view->handles, 1, &which);
-    if (is_held(view, ui->held)) ui->focus = ui->held; // arrow keys then move the pressed point
+    if (is_held(view, ui)) ui->focus = ui->held; // arrow keys then move the pressed point
     if (change == UI_NUDGE) {
         nudge(in, view);
     } else if (change != UI_NONE) {

@@ -39,7 +39,7 @@ static void go_to(struct inspector *in, size_t row)
 {
     char name[32];
     name_of(row, name);
-    if (in->ui.focus) in->ui.focus = ui_id(name);
+    if (in->ui.focus) in->ui.focus = ui_id(&in->ui, name);
     core_jump(in->core, row);
 }
 
@@ -66,7 +66,7 @@ static void step_by_key(struct inspector *in, size_t first, size_t end)
     for (size_t row = first; row < end; row++) {
         char name[32];
         name_of(row, name);
-        if (ui->focus != ui_id(name)) continue;
+        if (ui->focus != ui_id(ui, name)) continue;
         ui->used = true;
         bool up = ui->event->key == KEY_UP;
         if (up ? view->done > 0 : view->done < view->count) go_to(in, up ? view->done - 1 : view->done + 1);

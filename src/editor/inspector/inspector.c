@@ -125,7 +125,9 @@ static void build_sections(struct inspector *in)
         *flipped = closed != section->closed;
         in->called[i] &= open;
         if (!open) continue;
+        ui_push(&in->ui, (uint32_t)i);
         section->build(in);
+        ui_pop(&in->ui);
         ui_space(&in->ui, 4);
         if (in->revealed && strcmp(in->revealed, section->name) == 0) reveal(in, top);
     }
@@ -326,7 +328,7 @@ bool inspector_begin(struct inspector *in, enum ui_change change, const char *la
         return false;
     case UI_NUDGE:
     case UI_SET:
-        return core_begin(in->core, label, change == UI_NUDGE ? core_merge_key(in->core, ui_id(what)) : 0);
+        return core_begin(in->core, label, change == UI_NUDGE ? core_merge_key(in->core, ui_id(&in->ui, what)) : 0);
     }
     return false;
 }

@@ -302,8 +302,8 @@ static void build_inset(struct inspector *in, const struct pole_setting *setting
 
 static bool is_held(const struct ui *ui)
 {
-    return ui->held &&
-           (ui->held == ui_id("pole.centre") || ui->held == ui_id("pole.lower") || ui->held == ui_id("pole.upper"));
+    return ui->held && (ui->held == ui_id(ui, "pole.centre") || ui->held == ui_id(ui, "pole.lower") ||
+                        ui->held == ui_id(ui, "pole.upper"));
 }
 
 void inspector_poles(struct inspector *in)

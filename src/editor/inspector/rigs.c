@@ -253,5 +253,7 @@ void inspector_add_menu(struct inspector *in, int unused)
     (void)unused;
     open_add(in, beside ? (struct rect){x, y, 0, 0} : (struct rect){panel.x + UI_PAD, panel.y, 0, 4});
     if (beside) in->ui.popup.room = (struct rect){0, 0, panel.x, layout->status.y};
-    in->ui.focus = ui_id("item.tail");
+    ui_push(&in->ui, 0);
+    in->ui.focus = ui_id(&in->ui, "item.tail"); // the first row
+    ui_pop(&in->ui);
 }

@@ -171,11 +171,11 @@ static bool build_row(struct inspector *in, int s, struct rect r)
 static void build_buttons(struct inspector *in)
 {
     static const struct icon_button buttons[] = {
-        {"spline.add", "Add a spline with a knot at the playhead", UI_ICON_ADD},
-        {"spline.copy", "Duplicate this spline", UI_ICON_COPY},
-        {"spline.delete", "Delete this spline", UI_ICON_DELETE},
-        {"spline.up", "Move this spline up", UI_ICON_UP},
-        {"spline.down", "Move this spline down", UI_ICON_DOWN},
+        {"splines.add", "Add a spline with a knot at the playhead", UI_ICON_ADD},
+        {"splines.copy", "Duplicate this spline", UI_ICON_COPY},
+        {"splines.delete", "Delete this spline", UI_ICON_DELETE},
+        {"splines.up", "Move this spline up", UI_ICON_UP},
+        {"splines.down", "Move this spline down", UI_ICON_DOWN},
     };
     struct core *core = in->core;
     const int count = core->more ? sizeof buttons / sizeof buttons[0] : 1;
@@ -204,10 +204,13 @@ void inspector_splines(struct inspector *in)
     int rows = count < MAX_ROWS ? count : MAX_ROWS;
     float top = ui->y;
     for (int i = 0; i < rows; i++) {
+        const struct spline *spline = in->core->document->splines[first + i];
         char name[UI_NAME_SIZE];
-        snprintf(name, sizeof name, "spline.%s", in->core->document->splines[first + i]->name);
+        snprintf(name, sizeof name, "spline.%s", spline->name);
+        ui_push(ui, spline->id);
         if (ui_is_dragged(ui, name)) from = first + i;
         if (build_row(in, first + i, ui_row(ui, UI_ROW))) dropped = first + i;
+        ui_pop(ui);
     }
     int to = drop_place(in, first, rows, top);
     if (from >= 0) show_drop(in, from, to, top + (float)((to - first + (to > from ? 1 : 0)) * UI_ROW));
