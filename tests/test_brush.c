@@ -323,6 +323,24 @@ STUDIO_TEST(smoothing_reduces_variation)
     assert_near(calm[0], even[0], 1e-3 * rough[0]);
 }
 
+/// A drag of the brush's numbers is no edit, so that no undo step restores them.
+STUDIO_TEST(esc_takes_back_the_brushs_radius_and_strength)
+{
+    static const char *const names[] = {"radius", "strength"};
+    const struct brush *brush = &s->session.editor->core.brush;
+    session_key(&s->session, 'B', MOD_SHIFT);
+    for (int i = 0; i < 2; i++) {
+        const struct brush before = *brush;
+        panel_drag(&s->session, names[i], 49);
+        assert_near(i == 0 ? brush->radius : brush->strength, 0.49, 0.01);
+        session_key(&s->session, KEY_ESCAPE, 0);
+        panel_release(&s->session);
+        assert_near(brush->radius, before.radius, 0);
+        assert_near(brush->strength, before.strength, 0);
+        assert_true(brush->on);
+    }
+}
+
 STUDIO_TEST(the_map_is_shown_and_the_rest_of_the_stage_still_turns)
 {
     const struct editor *editor = s->session.editor;

@@ -306,6 +306,16 @@ SESSION_TEST(test_a_tooltip_is_near_the_pointer, panel_open(s, tail_scene, 960, 
     assert_true(tooltip_box(tooltip, window).x > window.w - 280);
 }
 
+SESSION_TEST(test_controls_below_have_tooltips, panel_open(s, tail_scene, 960, 600))
+{
+    for (enum hover_kind control = HOVER_PLAY; control <= HOVER_PRESENT; control++) {
+        const struct rect r = controls_rect(&s->editor->core, control);
+        session_move(s, r.x + r.w / 2, r.y + r.h / 2);
+        wait(s, 40);
+        assert_true(tooltip_is_shown(&s->editor->tooltip));
+    }
+}
+
 /// All words of a tooltip are drawn, inside its box.
 static void assert_whole(const struct tooltip *tooltip, struct rect window)
 {

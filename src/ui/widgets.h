@@ -80,6 +80,7 @@ struct ui {
     float handle_x, handle_y; ///< of the held handle at the press
     float anchor_x;           ///< where the drag's mapping starts: at the press, or where Shift changed
     double anchor_value;
+    double before; ///< the dragged number at the press
     float pointer_x, pointer_y;
     const char *hint;       ///< hint of the widget under the pointer, a static text, or NULL
     const char *focus_hint; ///< hint of the focused widget
@@ -178,13 +179,13 @@ enum ui_change {
     UI_NONE,
     UI_DRAG,   ///< dragged; more may follow
     UI_DROP,   ///< the drag ended; the value is the last UI_DRAG's
-    UI_CANCEL, ///< Esc cancelled the drag; restore the value
+    UI_CANCEL, ///< Esc cancelled the drag; the value is as it was before
     UI_SET,    ///< typed, or the default
     UI_NUDGE,  ///< arrow key; a run of them is one undo step
 };
 
 /// Drag (Shift: a tenth as fast), double-click or Enter to type, right-click or Delete for the default, arrow keys when focused. Sets
-/// `*value` for UI_DRAG, UI_SET and UI_NUDGE.
+/// `*value` unless the change is UI_NONE or UI_DROP.
 enum ui_change ui_value(struct ui *ui, struct rect r, const struct ui_number *number, double *value);
 
 /// A point to drag, or to move by arrow keys.

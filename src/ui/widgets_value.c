@@ -151,10 +151,15 @@ static double dragged(const struct ui *ui, struct rect field, const struct ui_nu
 static enum ui_change held_event(struct ui *ui, struct rect field, const struct ui_number *number, double *value)
 {
     const struct event *event = ui->event;
-    if (event->kind != EVENT_POINTER) return ui_held_change(ui);
+    if (event->kind != EVENT_POINTER) {
+        const enum ui_change change = ui_held_change(ui);
+        if (change == UI_CANCEL) *value = ui->before;
+        return change;
+    }
     ui->used = true;
     if (!ui->moved && fabsf(event->x - ui->press_x) < DRAG_THRESHOLD) return UI_NONE;
     bool fine = event->mods & MOD_SHIFT;
+    if (!ui->moved) ui->before = *value;
     if (!ui->moved || fine != ui->fine) {
         ui->fine = fine;
         set_anchor(ui, field, number, ui->moved ? event->x : ui->press_x, *value);

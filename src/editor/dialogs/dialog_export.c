@@ -101,7 +101,6 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core)
     if (!same || !memory->path[0]) begin_memory(dialogs, core);
     exporting->serial = core->serial;
     exporting->typed = 0;
-    exporting->dragged = NULL;
     exporting->done = exporting->total = 0;
     struct export_wish *wish = &memory->wish;
     const struct document *document = core->document;
@@ -207,27 +206,12 @@ static void build_path(struct dialogs *dialogs)
     if (format >= 0) exporting->format = format;
 }
 
-/// A whole-number field. `value` changes at once; cancelling a drag restores it.
+/// A whole-number field.
 static bool build_number(struct dialogs *dialogs, struct rect r, struct ui_number number, double *value)
 {
-    struct exporting *exporting = &dialogs->exporting;
-    const double before = *value;
     number.step = 1;
     number.fallback = NAN;
-    switch (ui_value(&dialogs->dialog.ui, r, &number, value)) {
-    case UI_NONE:
-        return false;
-    case UI_DRAG:
-        if (exporting->dragged != number.name) exporting->before = before;
-        exporting->dragged = number.name;
-        break;
-    case UI_CANCEL:
-        *value = exporting->before;
-        exporting->dragged = NULL;
-        break;
-    default:
-        exporting->dragged = NULL;
-    }
+    if (ui_value(&dialogs->dialog.ui, r, &number, value) == UI_NONE) return false;
     *value = round(*value);
     return true;
 }

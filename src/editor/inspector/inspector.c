@@ -439,7 +439,7 @@ enum ui_change inspector_number(struct inspector *in, const struct number_row *r
     }
     if (row->undo) {
         change_number(in, row, home, which, change, value);
-    } else if (home->settles ? inspector_changed(change) : change != UI_NONE && change != UI_CANCEL) {
+    } else if (home->settles ? inspector_changed(change) : change != UI_NONE) {
         home->set(in, which, value, NULL);
     }
     if (home->settles && change == UI_DRAG) in->dragged = value;

@@ -210,7 +210,7 @@ static const char *hover_hint(const struct core *core)
 const char *transport_hint(const struct core *core)
 {
     const enum hover_kind kind = core->hover.kind;
-    const bool is_control = kind == HOVER_PLAY || kind == HOVER_LOOP || kind == HOVER_SPEED || kind == HOVER_UNITS;
+    const bool is_control = (kind >= HOVER_PLAY && kind <= HOVER_PRESENT) || kind == HOVER_UNITS;
     return is_control ? hover_hints[kind] : NULL;
 }
 
