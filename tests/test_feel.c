@@ -308,9 +308,11 @@ SESSION_TEST(test_a_tooltip_is_near_the_pointer, panel_open(s, tail_scene, 960, 
 
 SESSION_TEST(test_controls_below_have_tooltips, panel_open(s, tail_scene, 960, 600))
 {
-    for (enum hover_kind control = HOVER_PLAY; control <= HOVER_PRESENT; control++) {
-        const struct rect r = controls_rect(&s->editor->core, control);
-        session_move(s, r.x + r.w / 2, r.y + r.h / 2);
+    static const char *const controls[] = {"play", "loop", "speed", "auto-key", "keep", "size", "present"};
+    for (size_t i = 0; i < sizeof controls / sizeof controls[0]; i++) {
+        char target[32];
+        snprintf(target, sizeof target, "widget(%s)", controls[i]);
+        session_hover(s, target);
         wait(s, 40);
         assert_true(tooltip_is_shown(&s->editor->tooltip));
     }

@@ -93,7 +93,7 @@ static void check_status(struct session *f)
     for (size_t m = 0; m < sizeof messages / sizeof messages[0]; m++) {
         core_message(&f->editor->core, true, "%s", messages[m]);
         show(f);
-        transport_show(&f->editor->core, NULL);
+        transport_show(&f->editor->status, &f->editor->core, NULL);
         const int texts = assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.status);
         // The figures and the scene's name may give way to a long message.
         assert_in_range(texts, messages[m] == long_message ? 7 : 9, 9);

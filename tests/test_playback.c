@@ -170,32 +170,31 @@ SESSION_TEST(test_scrubbing, open_at(s, 0))
     session_release(s, BUTTON_LEFT);
 }
 
-static void click_on(struct session *session, enum hover_kind control, enum event_button button)
+static void click_on(struct session *session, const char *control, enum event_button button)
 {
-    struct rect r = controls_rect(&session->editor->core, control);
-    session_move(session, r.x + r.w / 2, r.y + r.h / 2);
+    session_point(session, control);
     session_press(session, button, 1);
     session_release(session, button);
 }
 
 SESSION_TEST(test_controls, open_at(s, 10))
 {
-    click_on(s, HOVER_PLAY, BUTTON_LEFT);
+    click_on(s, "widget(play)", BUTTON_LEFT);
     assert_true(s->editor->core.playback.playing);
-    click_on(s, HOVER_PLAY, BUTTON_LEFT);
+    click_on(s, "widget(play)", BUTTON_LEFT);
     assert_false(s->editor->core.playback.playing);
-    click_on(s, HOVER_LOOP, BUTTON_LEFT);
+    click_on(s, "widget(loop)", BUTTON_LEFT);
     assert_false(s->editor->core.playback.looping);
-    click_on(s, HOVER_SPEED, BUTTON_LEFT);
+    click_on(s, "widget(speed)", BUTTON_LEFT);
     assert_near(s->editor->core.playback.speed, 2, 0);
     s->mods = MOD_SHIFT;
-    click_on(s, HOVER_SPEED, BUTTON_LEFT);
-    click_on(s, HOVER_SPEED, BUTTON_LEFT);
+    click_on(s, "widget(speed)", BUTTON_LEFT);
+    click_on(s, "widget(speed)", BUTTON_LEFT);
     assert_near(s->editor->core.playback.speed, 0.5, 0);
     s->mods = 0;
     session_wheel(s, -1);
     assert_near(s->editor->core.playback.speed, 0.25, 0);
-    click_on(s, HOVER_SPEED, BUTTON_RIGHT);
+    click_on(s, "widget(speed)", BUTTON_RIGHT);
     assert_near(s->editor->core.playback.speed, 1, 0);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
 }

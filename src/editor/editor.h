@@ -19,6 +19,7 @@ struct editor {
     struct stage *stage;
     struct inspector *inspector;
     struct dialogs *dialogs;
+    struct ui status; ///< the controls in the status line
     struct press press;
     struct tooltip tooltip;
     struct {

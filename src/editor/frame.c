@@ -39,7 +39,7 @@ static void press(struct editor *editor, const struct event *event)
     } else if (panel == PANEL_STAGE) {
         stage_press(editor->stage, &editor->core, event);
     } else {
-        transport_event(&editor->core, event);
+        transport_event(&editor->status, &editor->core, event);
     }
 }
 
@@ -54,7 +54,7 @@ static void turn_wheel(struct editor *editor, const struct event *event)
 {
     const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
     if (panel == PANEL_CURVES) curves_wheel(editor->curves, &editor->core, event);
-    if (panel == PANEL_STATUS) transport_event(&editor->core, event);
+    if (panel == PANEL_STATUS) transport_event(&editor->status, &editor->core, event);
     if (panel == PANEL_STAGE) stage_wheel(editor->stage, &editor->core, event);
 }
 
@@ -199,6 +199,8 @@ void editor_pose_alone(struct editor *editor, double frame, float width, float h
 /// Every frame, because things move under the pointer.
 static void update_hover(struct editor *editor)
 {
+    editor->status.pointer_x = -1;
+    editor->status.hint = NULL;
     if (editor->core.drag.owner) return;
     float x = editor->core.pointer_x, y = editor->core.pointer_y;
     editor->core.hover = (struct hover){.kind = HOVER_NONE};
@@ -206,7 +208,7 @@ static void update_hover(struct editor *editor)
     const enum panel panel = core_panel_at(&editor->core, x, y);
     if (panel == PANEL_CURVES) editor->core.hover = curves_hover(editor->curves, &editor->core, x, y);
     if (panel == PANEL_STAGE) editor->core.hover = stage_hover(editor->stage, &editor->core, x, y);
-    if (panel == PANEL_STATUS) editor->core.hover = transport_hover(&editor->core, x, y);
+    if (panel == PANEL_STATUS) editor->status.pointer_x = x, editor->status.pointer_y = y;
 }
 
 static void show_divider(struct editor *editor, enum divider divider)
@@ -235,7 +237,7 @@ static void show_tooltip(struct editor *editor)
     struct core *core = &editor->core;
     const struct rect cursor = {core->pointer_x, core->pointer_y - 4, 14, 22};
     const struct ui *ui = inspector_ui(editor->inspector);
-    const char *text = ui->hint ? ui->hint : transport_hint(core);
+    const char *text = ui->hint ? ui->hint : editor->status.hint ? editor->status.hint : transport_hint(core);
     const bool is_focus = !text && ui->focus;
     if (is_focus) text = ui->focus_hint;
     if (dialogs_cover(editor->dialogs) || core->drag.owner) text = NULL;
@@ -254,7 +256,7 @@ static void show_panels(struct editor *editor)
     if (side) inspector_show(editor->inspector, dialogs_cover(editor->dialogs));
     if (side) show_divider(editor, editor->core.layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
     if (!hint) hint = editor->core.drag.hint;
-    if (below) transport_show(&editor->core, hint);
+    if (below) transport_show(&editor->status, &editor->core, hint);
 }
 
 void editor_show(struct editor *editor)
@@ -274,14 +276,12 @@ void editor_show(struct editor *editor)
 enum mouse_cursor editor_cursor(const struct editor *editor)
 {
     static const enum mouse_cursor of_hover[] = {
-        [HOVER_NONE] = CURSOR_ARROW,    [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
-        [HOVER_CURVE] = CURSOR_HAND,    [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
-        [HOVER_BONE] = CURSOR_HAND,     [HOVER_UNITS] = CURSOR_HAND,       [HOVER_SHEET] = CURSOR_HAND,
-        [HOVER_BODY] = CURSOR_MOVE,     [HOVER_PLAY] = CURSOR_HAND,        [HOVER_LOOP] = CURSOR_HAND,
-        [HOVER_SPEED] = CURSOR_HAND,    [HOVER_WARNING] = CURSOR_HAND,     [HOVER_LIMIT] = CURSOR_VERTICAL,
-        [HOVER_POINT] = CURSOR_HAND,    [HOVER_PIN] = CURSOR_MOVE,         [HOVER_ROW] = CURSOR_ARROW,
-        [HOVER_AUTO_KEY] = CURSOR_HAND, [HOVER_KEEP] = CURSOR_HAND,        [HOVER_UI_SCALE] = CURSOR_HAND,
-        [HOVER_PRESENT] = CURSOR_HAND,  [HOVER_BOX] = CURSOR_MOVE,         [HOVER_FLOOR] = CURSOR_VERTICAL,
+        [HOVER_NONE] = CURSOR_ARROW, [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
+        [HOVER_CURVE] = CURSOR_HAND, [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
+        [HOVER_BONE] = CURSOR_HAND,  [HOVER_UNITS] = CURSOR_HAND,       [HOVER_SHEET] = CURSOR_HAND,
+        [HOVER_BODY] = CURSOR_MOVE,  [HOVER_WARNING] = CURSOR_HAND,     [HOVER_LIMIT] = CURSOR_VERTICAL,
+        [HOVER_POINT] = CURSOR_HAND, [HOVER_PIN] = CURSOR_MOVE,         [HOVER_ROW] = CURSOR_ARROW,
+        [HOVER_BOX] = CURSOR_MOVE,   [HOVER_FLOOR] = CURSOR_VERTICAL,
     };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
@@ -292,6 +292,7 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
     if (divider != DIVIDER_NONE) return divider_drags[divider].cursor;
     over = inspector_ui(editor->inspector)->over;
     if (over != UI_OVER_NOTHING) return of_widget[over];
+    if (editor->status.hint) return CURSOR_HAND;
     if (editor->core.hover.kind == HOVER_CURVE && editor->core.hover.spline == editor->core.active)
         return CURSOR_ARROW;
     return of_hover[editor->core.hover.kind];

@@ -4,6 +4,7 @@
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
+#include "editor/transport/transport.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -162,7 +163,8 @@ static bool find_divider(struct editor *editor, const struct target *target, flo
 
 static bool find_widget(struct editor *editor, const struct target *target, float xy[2])
 {
-    return inspector_target(editor->inspector, target->name, &xy[0], &xy[1]);
+    return inspector_target(editor->inspector, target->name, &xy[0], &xy[1]) ||
+           transport_target(&editor->status, &editor->core, target->name, &xy[0], &xy[1]);
 }
 
 /// What a target's name belongs to.
@@ -194,8 +196,8 @@ static const struct target_kind {
     {"pintime", OF_PIN, 0, 1, find_pin_time, "that pin is not on the visible part of the ruler"},
     {"floor", OF_RIG, RIG_CHARACTER, 0, find_floor, "no floor of that character is to be seen"},
     {"divider", OF_ITSELF, 0, 0, find_divider, "there is no such divider: expected stage or inspector"},
-    {"slider", OF_ITSELF, 0, 0, find_widget, "the inspector does not show it"},
-    {"widget", OF_ITSELF, 0, 0, find_widget, "the inspector does not show it"},
+    {"slider", OF_ITSELF, 0, 0, find_widget, "neither inspector nor status line shows it"},
+    {"widget", OF_ITSELF, 0, 0, find_widget, "neither inspector nor status line shows it"},
 };
 
 /// Finds the spline of the name, and its knot if the kind needs one.

@@ -159,13 +159,6 @@ enum hover_kind {
     HOVER_JOINT, ///< of a tail or chain
     HOVER_BONE,  ///< of an imported character, in no chain
     HOVER_BODY,
-    HOVER_PLAY,
-    HOVER_LOOP,
-    HOVER_SPEED,
-    HOVER_AUTO_KEY,
-    HOVER_KEEP,
-    HOVER_UI_SCALE,
-    HOVER_PRESENT,
     HOVER_LIMIT,
     HOVER_BOX,   ///< a handle of the selection box
     HOVER_POINT, ///< a point of a rig that can be pinned

@@ -4,112 +4,120 @@
 #include "editor/core/rigs.h"
 #include "ui/font.h"
 #include "ui/theme.h"
-#include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
 
-enum {
-    MARGIN = 6,
-    PLAY_WIDTH = 24,
-    LOOP_WIDTH = 42,
-    SPEED_WIDTH = 44,
-    AUTO_KEY_WIDTH = 64,
-    KEEP_WIDTH = 48,
-    UI_SCALE_WIDTH = 48,
-    PRESENT_WIDTH = 28,
-    NARROW = 420, ///< window without the least of them
-};
+enum { PLAY, LOOP, SPEED, AUTO_KEY, KEEP, SIZE, PRESENT, CONTROLS };
 
-struct rect controls_rect(const struct core *core, enum hover_kind control)
-{
-    struct rect bar = core->layout.status, r = {bar.x + MARGIN, bar.y + 2, PLAY_WIDTH, bar.h - 3};
-    const float keep = bar.w < NARROW ? 0 : KEEP_WIDTH;
-    const float width[] = {PLAY_WIDTH, LOOP_WIDTH, SPEED_WIDTH, AUTO_KEY_WIDTH, keep, UI_SCALE_WIDTH, PRESENT_WIDTH};
-    for (int i = 1; i <= (int)control - HOVER_PLAY; i++) {
-        r.x += r.w;
-        r.w = width[i];
-    }
-    return r;
-}
+static const struct {
+    const char *name, *hint;
+    float width;
+} controls[CONTROLS] = {
+    [PLAY] = {"play", "Play, pause (Space)", 24},
+    [LOOP] = {"loop", "Loop or stop at the end (Ctrl+L)", 42},
+    [SPEED] = {"speed", "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)", 44},
+    [AUTO_KEY] = {"auto-key",
+                  "Auto-key: dragging the body sets knots at the playhead; off, it moves the whole shot (Shift+A)",
+                  64},
+    [KEEP] = {"keep",
+              "Keep: an edit changes nothing beyond the next knot, which becomes a pose; hold Alt to swing through "
+              "(Alt+A)",
+              48},
+    [SIZE] = {"size",
+              "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)", 48},
+    [PRESENT] = {"present", "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves",
+                 28},
+};
 
 /// In a narrow window a message takes the whole line.
 static bool is_covered(const struct core *core) { return core->message.text[0] && core->layout.status.w < 640; }
 
-struct hover transport_hover(const struct core *core, float x, float y)
+/// A press or the wheel on a control; true if used.
+static bool use(struct core *core, int control, const struct event *event)
 {
-    for (enum hover_kind control = HOVER_PLAY; control <= HOVER_PRESENT && !is_covered(core); control++) {
-        if (rect_contains(controls_rect(core, control), x, y)) return (struct hover){.kind = control};
-    }
-    return (struct hover){.kind = HOVER_NONE};
-}
-
-bool transport_event(struct core *core, const struct event *event)
-{
-    const enum hover_kind control = transport_hover(core, event->x, event->y).kind;
-    if (is_covered(core) && event->kind == EVENT_BUTTON) core->message.text[0] = '\0';
     const bool turns = event->kind == EVENT_WHEEL, left = event->button == BUTTON_LEFT;
-    if (control == HOVER_NONE || (turns ? event->dy == 0 : event->button == BUTTON_MIDDLE)) return false;
+    if (turns ? event->dy == 0 : event->button == BUTTON_MIDDLE) return false;
     const int step = turns ? (event->dy > 0 ? 1 : -1) : !left ? 0 : event->mods & MOD_SHIFT ? -1 : 1;
-    if (control == HOVER_SPEED) playback_change_speed(core, step);
-    if (control == HOVER_UI_SCALE) core->request = (struct request){.kind = REQUEST_UI_SCALE, .number = step};
+    if (control == SPEED) playback_change_speed(core, step);
+    if (control == SIZE) core->request = (struct request){.kind = REQUEST_UI_SCALE, .number = step};
     if (turns || !left) return true;
-    if (control == HOVER_PLAY) playback_toggle(core);
-    if (control == HOVER_LOOP) core_flip(core, SWITCH_LOOP);
-    if (control == HOVER_AUTO_KEY) core_flip(core, SWITCH_AUTO_KEY);
-    if (control == HOVER_KEEP) core_flip(core, SWITCH_KEEP);
-    if (control == HOVER_PRESENT) presenter_toggle(core, 0);
+    if (control == PLAY) playback_toggle(core);
+    if (control == LOOP) core_flip(core, SWITCH_LOOP);
+    if (control == AUTO_KEY) core_flip(core, SWITCH_AUTO_KEY);
+    if (control == KEEP) core_flip(core, SWITCH_KEEP);
+    if (control == PRESENT) presenter_toggle(core, 0);
     return true;
 }
 
-static void paint_play_state(struct drawlist *list, float x, float y, bool playing, bool hot)
+static void paint(const struct core *core, struct drawlist *list, int control, struct rect r, bool hot)
 {
-    uint32_t color = playing ? theme()->accent : hot ? theme()->text : theme()->text_dim;
-    if (playing) {
+    const struct playback *playback = &core->playback;
+    char speed[16], size[16];
+    snprintf(speed, sizeof speed, "%g×", playback->speed);
+    snprintf(size, sizeof size, "%.0f %%", 100 * core->ui_scale);
+    const bool on[] = {[PLAY] = playback->playing,    [LOOP] = playback->looping, [SPEED] = playback->speed != 1,
+                       [AUTO_KEY] = core->auto_key,   [KEEP] = core->keep,        [SIZE] = core->ui_scale != 1,
+                       [PRESENT] = core->presenter.on};
+    const char *const words[CONTROLS] = {
+        [LOOP] = "Loop", [SPEED] = speed, [AUTO_KEY] = "Auto-key", [KEEP] = "Keep", [SIZE] = size};
+    const uint32_t color = on[control] ? theme()->accent : hot ? theme()->text : theme()->text_dim;
+    if (control == PLAY) {
+        const float x = r.x + 6, y = r.y + r.h / 2;
         const float triangle[6] = {x, y - 5, x + 9, y, x, y + 5};
-        drawlist_convex(list, triangle, 3, color);
+        if (playback->playing) drawlist_convex(list, triangle, 3, color);
+        for (int bar = 0; bar < 2 && !playback->playing; bar++)
+            drawlist_rect(list, (struct rect){x + 5 * (float)bar, y - 5, 3, 10}, color);
+    } else if (control == PRESENT) {
+        const float x = roundf(r.x + (r.w - 14) / 2), y = roundf(r.y + (r.h - 12) / 2);
+        drawlist_rounded_line(list, (struct rect){x, y, 14, 10}, 1.5f, 1.25f, color);
+        drawlist_rect(list, (struct rect){x + 4, y + 11, 6, 1}, color);
     } else {
-        drawlist_rect(list, (struct rect){x, y - 5, 3, 10}, color);
-        drawlist_rect(list, (struct rect){x + 5, y - 5, 3, 10}, color);
+        const bool is_number = control == SPEED || control == SIZE;
+        const enum font font = is_number ? FONT_NUMBER : FONT_LABEL;
+        const float high = is_number ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
+        const float x = roundf(r.x + (r.w - font_width(font, high, words[control])) / 2);
+        drawlist_text(list, x, ui_baseline(r, font, high), font, high, color, words[control]);
     }
 }
 
-static void paint_word(struct core *core, struct rect r, enum font font, const char *text, bool on, bool hot)
+/// Lays out the controls from left to right; returns their right end.
+static float build(struct ui *ui, struct core *core)
 {
-    float size = font == FONT_NUMBER ? THEME_TEXT_SMALL : THEME_TEXT_NORMAL;
-    uint32_t color = on ? theme()->accent : hot ? theme()->text : theme()->text_dim;
-    float x = roundf(r.x + (r.w - font_width(font, size, text)) / 2);
-    float y = ui_baseline(r, font, size);
-    drawlist_text(&core->list, x, y, font, size, color, text);
+    enum { MARGIN = 6, NARROW = 420 /* a window without the least of them */ };
+    const struct rect bar = core->layout.status;
+    struct rect r = {bar.x + MARGIN, bar.y + 2, 0, bar.h - 3};
+    for (int c = 0; c < CONTROLS && !is_covered(core); c++) {
+        if (c == KEEP && bar.w < NARROW) continue;
+        r.x += r.w;
+        r.w = controls[c].width;
+        ui_register(ui, ui_id(ui, controls[c].name), r);
+        ui_hint(ui, r, controls[c].hint);
+        const bool hot = ui_hovered(ui, r);
+        if (ui->pass == UI_PASS_DRAW) paint(core, ui->list, c, r, hot);
+        if (ui->pass == UI_PASS_EVENT && hot && !ui->used) ui->used = use(core, c, ui->event);
+    }
+    return r.x + r.w;
 }
 
-static void paint_screen(struct drawlist *list, struct rect r, bool on, bool hot)
+void transport_event(struct ui *ui, struct core *core, const struct event *event)
 {
-    const uint32_t color = on ? theme()->accent : hot ? theme()->text : theme()->text_dim;
-    const float x = roundf(r.x + (r.w - 14) / 2), y = roundf(r.y + (r.h - 12) / 2);
-    drawlist_rounded_line(list, (struct rect){x, y, 14, 10}, 1.5f, 1.25f, color);
-    drawlist_rect(list, (struct rect){x + 4, y + 11, 6, 1}, color);
+    if (is_covered(core) && event->kind == EVENT_BUTTON) {
+        core->message.text[0] = '\0';
+        return;
+    }
+    ui_begin_event(ui, core->layout.status, event);
+    build(ui, core);
+    ui_end(ui);
 }
 
-/// Returns the controls' right end.
-static float controls_show(struct core *core)
+bool transport_target(struct ui *ui, struct core *core, const char *name, float *x, float *y)
 {
-    const struct playback *playback = &core->playback;
-    enum hover_kind hover = core->hover.kind;
-    struct rect play = controls_rect(core, HOVER_PLAY), loop = controls_rect(core, HOVER_LOOP);
-    struct rect speed = controls_rect(core, HOVER_SPEED);
-    char text[16];
-    snprintf(text, sizeof text, "%g×", playback->speed);
-    paint_play_state(&core->list, play.x + 6, play.y + play.h / 2, playback->playing, hover == HOVER_PLAY);
-    paint_word(core, loop, FONT_LABEL, "Loop", playback->looping, hover == HOVER_LOOP);
-    paint_word(core, speed, FONT_NUMBER, text, playback->speed != 1, hover == HOVER_SPEED);
-    const struct rect auto_key = controls_rect(core, HOVER_AUTO_KEY), keep = controls_rect(core, HOVER_KEEP);
-    paint_word(core, auto_key, FONT_LABEL, "Auto-key", core->auto_key, hover == HOVER_AUTO_KEY);
-    if (keep.w > 0) paint_word(core, keep, FONT_LABEL, "Keep", core->keep, hover == HOVER_KEEP);
-    const struct rect scale = controls_rect(core, HOVER_UI_SCALE), present = controls_rect(core, HOVER_PRESENT);
-    snprintf(text, sizeof text, "%.0f %%", 100 * core->ui_scale);
-    paint_word(core, scale, FONT_NUMBER, text, core->ui_scale != 1, hover == HOVER_UI_SCALE);
-    paint_screen(&core->list, present, core->presenter.on, hover == HOVER_PRESENT);
-    return present.x + present.w;
+    ui_begin_find(ui, core->layout.status, name, NULL);
+    build(ui, core);
+    const bool found = ui_end(ui);
+    *x = ui->found_x;
+    *y = ui->found_y;
+    return found;
 }
 
 static const double REFRESH = 0.5; ///< seconds between updates of the performance figures
@@ -161,16 +169,6 @@ static const char *const hover_hints[] = {
     [HOVER_JOINT] = "Drag the tail: it is held where you let go. Ctrl+drag or H pins a joint",
     [HOVER_BONE] = "Click to select this bone (Alt shows control bones too); drag to move the character",
     [HOVER_BODY] = "Drag the body: the tail follows through (Ctrl lifts it, X, Y or Z locks an axis, R records)",
-    [HOVER_PLAY] = "Play, pause (Space)",
-    [HOVER_LOOP] = "Loop or stop at the end (Ctrl+L)",
-    [HOVER_SPEED] = "Click: faster; Shift+click: slower; right-click: real time (- and =, or the wheel)",
-    [HOVER_AUTO_KEY] =
-        "Auto-key: dragging the body sets knots at the playhead; off, it moves the whole shot (Shift+A)",
-    [HOVER_KEEP] =
-        "Keep: an edit changes nothing beyond the next knot, which becomes a pose; hold Alt to swing through (Alt+A)",
-    [HOVER_UI_SCALE] =
-        "Size of everything. Click: larger; Shift+click: smaller; right-click: 100 % (Ctrl+Shift+=, -, 0)",
-    [HOVER_PRESENT] = "Present: large type, keys as they are pressed, panels that slide away (F5); Esc leaves",
     [HOVER_LIMIT] = "Drag the limit; the curve stays on this side of it",
     [HOVER_BOX] =
         "Drag to scale the selected knots about the other side; with Alt about the equilibrium (P while you drag)",
@@ -209,9 +207,7 @@ static const char *hover_hint(const struct core *core)
 
 const char *transport_hint(const struct core *core)
 {
-    const enum hover_kind kind = core->hover.kind;
-    const bool is_control = (kind >= HOVER_PLAY && kind <= HOVER_PRESENT) || kind == HOVER_UNITS;
-    return is_control ? hover_hints[kind] : NULL;
+    return core->hover.kind == HOVER_UNITS ? hover_hints[HOVER_UNITS] : NULL;
 }
 
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
@@ -282,13 +278,16 @@ static void show_unkept(struct core *core, struct rect bar)
     paint_text(&core->list, (struct rect){r.x, bar.y, r.w, bar.h}, FONT_LABEL, theme()->error, unkept);
 }
 
-void transport_show(struct core *core, const char *hint)
+void transport_show(struct ui *ui, struct core *core, const char *hint)
 {
     struct rect bar = core->layout.status;
     const struct message *message = &core->message;
     drawlist_rect(&core->list, bar, theme()->panel);
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
-    float x = is_covered(core) ? bar.x + STATUS_MARGIN : show_time(core, bar, controls_show(core)) + GAP;
+    ui_begin_draw(ui, bar, &core->list);
+    const float controls_end = build(ui, core);
+    ui_end(ui);
+    float x = is_covered(core) ? bar.x + STATUS_MARGIN : show_time(core, bar, controls_end) + GAP;
     char figures[160];
     figures_text(core, figures, sizeof figures);
     const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
@@ -306,7 +305,7 @@ void transport_show(struct core *core, const char *hint)
                    saved ? theme()->text_dim : theme()->text, title.text);
         x += title.width + GAP;
     }
-    const char *text = message->text[0] ? message->text : hint ? hint : hover_hint(core);
+    const char *text = message->text[0] ? message->text : hint ? hint : ui->hint ? ui->hint : hover_hint(core);
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
     const struct rect middle = {x, bar.y, end - (roomy && figures[0] ? width + GAP : 0) - x, bar.h};
     if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);

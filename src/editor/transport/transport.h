@@ -3,17 +3,17 @@
 #define EDITOR_TRANSPORT_TRANSPORT_H
 
 #include "editor/core/state.h"
+#include "ui/widgets.h"
 
-/// The rectangle of a control: HOVER_PLAY … HOVER_PRESENT.
-struct rect controls_rect(const struct core *core, enum hover_kind control);
-struct hover transport_hover(const struct core *core, float x, float y);
-/// A press or the wheel on a control; true if used.
-bool transport_event(struct core *core, const struct event *event);
+/// A press or the wheel on a control.
+void transport_event(struct ui *ui, struct core *core, const struct event *event);
+/// Finds a control by name: "play", "loop", "speed", "auto-key", "keep", "size", "present". false if it is not visible.
+bool transport_target(struct ui *ui, struct core *core, const char *name, float *x, float *y);
 /// The figures change at most twice a second, to save redraws.
 void transport_advance(struct core *core, double dt);
-/// A sentence on the control under the pointer; NULL: none.
+/// A sentence on the ruler's unit under the pointer; NULL: none.
 const char *transport_hint(const struct core *core);
 /// Draws the status line. Without a message it shows `hint`, or if that is NULL a hint on the item under the pointer.
-void transport_show(struct core *core, const char *hint);
+void transport_show(struct ui *ui, struct core *core, const char *hint);
 
 #endif
