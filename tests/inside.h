@@ -13,6 +13,7 @@
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/state.h"
+#include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "editor/transport/transport.h"

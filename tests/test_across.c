@@ -290,7 +290,7 @@ SESSION_TEST(test_the_box_has_the_handles_that_can_scale, session_open(s, TWO))
     assert_false(editor_target(s->editor, "box(1,0)", &x, &y, &error));
     assert_false(editor_target(s->editor, "box(1,-1)", &x, &y, &error));
     session_hover(s, "knot(sway,1)");
-    assert_int_equal(s->editor->core.hover.kind, HOVER_KNOT);
+    assert_ptr_equal(s->editor->core.hover.thing, &thing_knot);
 }
 
 /// With Alt, from the playhead; a system that sends the comma all the same goes no further.

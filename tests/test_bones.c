@@ -41,7 +41,7 @@ SESSION_TEST(test_the_bone_pointed_at_says_its_name_and_a_click_selects_it, open
 {
     assert_false(session_shows(s, "neck"));
     session_hover(s, "bone(neck)");
-    assert_int_equal(s->editor->core.hover.kind, HOVER_BONE);
+    assert_ptr_equal(s->editor->core.hover.thing, &thing_bone);
     assert_true(session_shows(s, "neck"));
     assert_string_equal(selected(s), "");
     session_click(s, "bone(neck)");

@@ -2,7 +2,7 @@
 #include "blind.h"
 #include "shown.h"
 
-#include "editor/stage/stage.h"
+#include "editor/stage/parts.h"
 
 enum { STEPS = 12, REACH = 6, LINE = 16 };
 
@@ -34,10 +34,10 @@ static struct rect words(const struct editor *editor)
 static bool covers_a_character(const struct editor *editor, struct rect card)
 {
     for (int i = 0; i <= STEPS * STEPS; i++) {
-        const double uv[2] = {i % STEPS / (double)STEPS, i / STEPS / (double)STEPS};
-        for (int character = 0; character < 2; character++) {
+        struct target target = {.number = {i % STEPS / (double)STEPS, i / STEPS / (double)STEPS}};
+        for (target.nth = 0; target.nth < 2; target.nth++) {
             float xy[2];
-            if (stage_character_point(editor->stage, character, uv, xy) && rect_contains(card, xy[0], xy[1]))
+            if (find_character(editor->stage, &editor->core, &target, xy) && rect_contains(card, xy[0], xy[1]))
                 return true;
         }
     }

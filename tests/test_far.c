@@ -79,7 +79,7 @@ SESSION_TEST(test_one_click_holds_what_swings_far, session_open_file(s, whole))
     const char *dragged = session_saved(s);
     session_hover(s, "warning(0)");
     session_frame(s);
-    assert_int_equal(s->editor->core.hover.kind, HOVER_WARNING);
+    assert_ptr_equal(s->editor->core.hover.thing, &thing_warning);
     assert_string_equal(s->editor->curves->fixes[0].text, "set limits from -1.3 to 1.3");
     session_click(s, "warning(0)");
     session_frame(s);

@@ -27,7 +27,7 @@ static void late_press(const char *target, const char *x, const char *taken)
     open_swinging(&s, x);
     session_point(&s, target);
     for (int i = 0; i < 15; i++) session_frame(&s);
-    assert_int_equal(s.editor->core.hover.kind, HOVER_NONE);
+    assert_null(s.editor->core.hover.thing);
     session_press(&s, BUTTON_LEFT, 1);
     assert_string_equal(s.editor->core.drag.label, taken);
     session_release(&s, BUTTON_LEFT);

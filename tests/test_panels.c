@@ -389,7 +389,7 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
         s->finger = finger;
         session_move(s, knot[0] + 14, knot[1]);
         session_frame(s);
-        assert_int_equal(s->editor->core.hover.kind == HOVER_KNOT, finger);
+        assert_int_equal(s->editor->core.hover.thing == &thing_knot, finger);
     }
     editor_resize(s->editor, 792, 390, 1);
     assert_true(l->inspector.x > 400);

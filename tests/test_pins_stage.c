@@ -174,13 +174,13 @@ SESSION_TEST(test_the_selected_mark_is_taken_first, open_tail(s))
             s->editor->core.pin = (struct pin_selection){.any = chosen >= 0, .id = pin_of(s, chosen > 0)->id};
             session_move(s, marks[m][0], marks[m][1]);
             session_frame(s);
-            assert_int_equal(s->editor->core.hover.kind, HOVER_PIN);
+            assert_ptr_equal(s->editor->core.hover.thing, &thing_pin_time);
             assert_int_equal(s->editor->core.hover.pin, pin_of(s, chosen >= 0 ? chosen : m)->id);
         }
     }
     session_move(s, marks[1][0] + 20, marks[1][1]);
     session_frame(s);
-    assert_int_not_equal(s->editor->core.hover.kind, HOVER_PIN);
+    assert_ptr_not_equal(s->editor->core.hover.thing, &thing_pin_time);
 }
 
 /// A pin that throws a rig far makes its curves high: they come into sight.
@@ -208,7 +208,7 @@ SESSION_TEST(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer, 
     const char *before = session_saved(s);
     session_point(s, "character(c,0.5,0.9)");
     session_frame(s);
-    assert_int_equal(s->editor->core.hover.kind, HOVER_POINT);
+    assert_ptr_equal(s->editor->core.hover.thing, &thing_point);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 25, 8, 4);
     session_release(s, BUTTON_LEFT);
@@ -226,7 +226,7 @@ SESSION_TEST(test_what_hardly_moves_does_not_light_up, panel_open_models(s, crea
     session_frame(s);
     session_point(s, "character(c,0.4,0.01)");
     session_frame(s);
-    assert_int_equal(s->editor->core.hover.kind, HOVER_NONE);
+    assert_null(s->editor->core.hover.thing);
 }
 
 /// Without a mouse: H pins what moves most, Tab leads to its numbers.

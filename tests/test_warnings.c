@@ -48,7 +48,7 @@ static void assert_remedied(struct session *s, const char *scene, enum warning_k
     const char *original = session_saved(s);
     session_point(s, "warning(0)");
     session_frame(s);
-    assert_int_equal(s->editor->core.hover.kind, HOVER_WARNING);
+    assert_ptr_equal(s->editor->core.hover.thing, &thing_warning);
     for (int i = 0; i < 90; i++) session_frame(s);
     assert_false(tooltip_is_shown(&s->editor->tooltip)); // it would cover what the warning says
     session_click(s, "warning(0)");

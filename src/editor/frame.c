@@ -203,7 +203,7 @@ static void update_hover(struct editor *editor)
     editor->status.hint = NULL;
     if (editor->core.drag.owner) return;
     float x = editor->core.pointer_x, y = editor->core.pointer_y;
-    editor->core.hover = (struct hover){.kind = HOVER_NONE};
+    editor->core.hover = (struct hover){.thing = NULL};
     if (dialogs_cover(editor->dialogs) || core_divider_at(&editor->core, x, y) != DIVIDER_NONE) return;
     const enum panel panel = core_panel_at(&editor->core, x, y);
     if (panel == PANEL_CURVES) editor->core.hover = curves_hover(editor->curves, &editor->core, x, y);
@@ -231,13 +231,31 @@ static void show_divider(struct editor *editor, enum divider divider)
                                : theme()->text_dim);
 }
 
+/// The status line's sentence on what the pointer does or is on; NULL: none.
+static const char *hint_of(const struct editor *editor)
+{
+    static const char *const picks[] = {
+        [BONE_FOLLOWED] = "Click the bone that the equilibrium should follow; Esc cancels",
+        [BONE_FIRST] = "Click the first bone of the chain; Esc cancels",
+        [BONE_LAST] = "Click the last bone of the chain; Esc cancels",
+    };
+    const struct core *core = &editor->core;
+    const struct hover *hover = &core->hover;
+    const char *widget = inspector_ui(editor->inspector)->hint;
+    if (widget || core->drag.hint) return widget ? widget : core->drag.hint;
+    if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
+    return hover->hint ? hover->hint : hover->thing ? hover->thing->hint : NULL;
+}
+
 /// For the control under the pointer, else for the focused one.
 static void show_tooltip(struct editor *editor)
 {
     struct core *core = &editor->core;
     const struct rect cursor = {core->pointer_x, core->pointer_y - 4, 14, 22};
     const struct ui *ui = inspector_ui(editor->inspector);
-    const char *text = ui->hint ? ui->hint : editor->status.hint ? editor->status.hint : transport_hint(core);
+    const struct thing *thing = core->hover.thing;
+    const char *control = thing && thing->is_control ? thing->hint : editor->status.hint;
+    const char *text = ui->hint ? ui->hint : control;
     const bool is_focus = !text && ui->focus;
     if (is_focus) text = ui->focus_hint;
     if (dialogs_cover(editor->dialogs) || core->drag.owner) text = NULL;
@@ -250,13 +268,11 @@ static void show_panels(struct editor *editor)
 {
     const struct presenter *presenter = &editor->core.presenter;
     const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
-    const char *hint = inspector_ui(editor->inspector)->hint;
     if (below) curves_show(editor->curves, &editor->core);
     if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
     if (side) inspector_show(editor->inspector, dialogs_cover(editor->dialogs));
     if (side) show_divider(editor, editor->core.layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
-    if (!hint) hint = editor->core.drag.hint;
-    if (below) transport_show(&editor->status, &editor->core, hint);
+    if (below) transport_show(&editor->status, &editor->core, hint_of(editor));
 }
 
 void editor_show(struct editor *editor)
@@ -275,14 +291,6 @@ void editor_show(struct editor *editor)
 
 enum mouse_cursor editor_cursor(const struct editor *editor)
 {
-    static const enum mouse_cursor of_hover[] = {
-        [HOVER_NONE] = CURSOR_ARROW, [HOVER_KNOT] = CURSOR_MOVE,        [HOVER_SLOPE] = CURSOR_MOVE,
-        [HOVER_CURVE] = CURSOR_HAND, [HOVER_RULER] = CURSOR_HORIZONTAL, [HOVER_JOINT] = CURSOR_HAND,
-        [HOVER_BONE] = CURSOR_HAND,  [HOVER_UNITS] = CURSOR_HAND,       [HOVER_SHEET] = CURSOR_HAND,
-        [HOVER_BODY] = CURSOR_MOVE,  [HOVER_WARNING] = CURSOR_HAND,     [HOVER_LIMIT] = CURSOR_VERTICAL,
-        [HOVER_POINT] = CURSOR_HAND, [HOVER_PIN] = CURSOR_MOVE,         [HOVER_ROW] = CURSOR_ARROW,
-        [HOVER_BOX] = CURSOR_MOVE,   [HOVER_FLOOR] = CURSOR_VERTICAL,
-    };
     static const enum mouse_cursor of_widget[] = {
         [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
     enum ui_over over;
@@ -293,7 +301,5 @@ enum mouse_cursor editor_cursor(const struct editor *editor)
     over = inspector_ui(editor->inspector)->over;
     if (over != UI_OVER_NOTHING) return of_widget[over];
     if (editor->status.hint) return CURSOR_HAND;
-    if (editor->core.hover.kind == HOVER_CURVE && editor->core.hover.spline == editor->core.active)
-        return CURSOR_ARROW;
-    return of_hover[editor->core.hover.kind];
+    return editor->core.hover.thing ? editor->core.hover.thing->cursor : CURSOR_ARROW;
 }

@@ -110,6 +110,7 @@ struct selection {
 };
 
 struct drag_owner;
+struct hover;
 struct core;
 
 /// The running drag, see drag.h.
@@ -145,37 +146,46 @@ struct originals {
     int count, capacity;
 };
 
-/// The item under the pointer, in curves and stage.
-enum hover_kind {
-    HOVER_NONE,
-    HOVER_KNOT,
-    HOVER_SLOPE,
-    HOVER_CURVE,
-    HOVER_RULER,
-    HOVER_UNITS,
-    HOVER_SHEET, ///< the dope sheet's triangle
-    HOVER_ROW,   ///< a row of the dope sheet, beside its marks
-    HOVER_WARNING,
-    HOVER_JOINT, ///< of a tail or chain
-    HOVER_BONE,  ///< of an imported character, in no chain
-    HOVER_BODY,
-    HOVER_LIMIT,
-    HOVER_BOX,   ///< a handle of the selection box
-    HOVER_POINT, ///< a point of a rig that can be pinned
-    HOVER_PIN,   ///< on the stage or the ruler
-    HOVER_FLOOR, ///< of a character
+/// A place that a replay names, as in "knot(sway,2)", and the part of the document it names.
+struct target {
+    char name[256];   ///< may hold anything
+    double number[2]; ///< follow the last commas
+    int spline;
+    const struct knot *knot;
+    int rig, nth; ///< index among all rigs; among its kind
+    const struct pin *pin;
 };
 
+/// What a target's name belongs to.
+enum target_of { OF_NOBODY, OF_ITSELF, OF_SPLINE, OF_KNOT, OF_RIG, OF_PIN };
+
+/// A kind of thing that the pointer meets or a replay names. Each is described beside its code; curves_things and stage_things list them.
+struct thing {
+    enum mouse_cursor cursor;
+    const char *hint; ///< in the status line
+    bool is_control;  ///< the hint is its tooltip, too
+    unsigned place;   ///< of enum place, for F1; 0: its panel
+    void (*press)(void *room, struct core *core, const struct hover *hover, const struct event *event);
+
+    const char *name; ///< in replays; NULL: none
+    enum target_of of;
+    enum rig_kind rig; ///< OF_RIG
+    int numbers;       ///< how many follow the name
+    bool (*find)(void *room, const struct core *core, const struct target *target, float xy[2]);
+    const char *missing; ///< why the subject has no such place
+};
+
+/// The thing under the pointer, in curves and stage.
 struct hover {
-    enum hover_kind kind;
+    const struct thing *thing; ///< NULL: none
+    const char *hint;          ///< replaces the thing's
     int spline;
     unsigned knot;
-    int handle; ///< HOVER_SLOPE: end, as in curves_handle(); HOVER_WARNING, HOVER_BOX: index; HOVER_LIMIT: 1 for the high one
-    int rig,
-        joint;       ///< HOVER_BODY, HOVER_JOINT: joint; HOVER_POINT: joint or vertex
-    unsigned pin;    ///< HOVER_PIN: id
+    int handle; ///< of a slope: end, as in curves_handle(); of a warning or box: index; of a limit: 1 for the high one
+    int rig, joint;  ///< of a point: joint or vertex
+    unsigned pin;    ///< id
     double fraction; ///< of the segment after the joint
-    int model, node; ///< HOVER_BONE, and HOVER_JOINT of a chain: the character's rig and the bone
+    int model, node; ///< of a bone or chain: the character's rig and the bone
     float x, y;      ///< a point on the tail
 };
 

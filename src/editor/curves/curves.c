@@ -1,5 +1,6 @@
 /// The curves panel: its life, hover, presses, box selection, and the active spline's limits.
 #include "base/need.h"
+#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
@@ -39,6 +40,8 @@ static const double ZOOM_STEP = 0.15; ///< exponent of e per notch of the wheel
 float nearest_knot(const struct curves *curves, const struct core *core, int of, float row, float x, float y,
                    float reach, struct hover *hover)
 {
+    static const char still[] =
+        "Comes to rest at the equilibrium; Shift+P gives it a value. Drag it in time (Ctrl: off frames)";
     const struct spline *spline = core->document->splines[of];
     float best = reach;
     for (int k = curves_knot_from(curves, core, spline, x - reach); k < spline->knot_count; k++) {
@@ -46,7 +49,8 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
         float at = curves_knot_x(curves, core, knot);
         if (at > x + reach) break;
         if (is_nearest(maths_hypotf(x - at, isnan(row) ? y - curves_knot_y(curves, core, of, knot) : 0), &best))
-            *hover = (struct hover){.kind = HOVER_KNOT, .spline = of, .knot = knot->id};
+            *hover = (struct hover){
+                .thing = &thing_knot, .hint = knot->still ? still : NULL, .spline = of, .knot = knot->id};
     }
     return best;
 }
@@ -82,7 +86,8 @@ static void nearest_handle(const struct curves *curves, const struct core *core,
             float xy[2];
             curves_handle(curves, core, knot, end, xy);
             if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
-                *hover = (struct hover){.kind = HOVER_SLOPE, .spline = core->active, .knot = knot->id, .handle = end};
+                *hover =
+                    (struct hover){.thing = &thing_slope, .spline = core->active, .knot = knot->id, .handle = end};
         }
     }
 }
@@ -96,7 +101,7 @@ static void nearest_warning(const struct curves *curves, const struct core *core
             maths_hypotf(x - xy[0], y - xy[1]) > WARNING_REACH) {
             continue;
         }
-        *hover = (struct hover){.kind = HOVER_WARNING, .handle = i};
+        *hover = (struct hover){.thing = &thing_warning, .handle = i};
     }
 }
 
@@ -112,7 +117,7 @@ static void nearest_curve(const struct curves *curves, const struct core *core, 
         float distance = fabsf(y - curves_y_of(curves, core, s, v.y + v.re));
         if (distance >= best) continue;
         best = distance;
-        *hover = (struct hover){.kind = HOVER_CURVE, .spline = s};
+        *hover = (struct hover){.thing = s == core->active ? &thing_active_curve : &thing_curve, .spline = s};
     }
 }
 
@@ -127,7 +132,7 @@ static void limits_hover(const struct curves *curves, const struct core *core, c
     for (int i = 0; i < 2; i++) {
         double value = spline->parameter[limit_of(i)].value;
         if (is_nearest(isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY, &best))
-            *hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = i};
+            *hover = (struct hover){.thing = &thing_limit, .spline = core->active, .handle = i};
     }
 }
 
@@ -135,86 +140,80 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
 {
     struct hover hover = ruler_pins_hover(curves, core, x, y);
     const struct spline *spline = core_active_spline(core);
-    if (hover.kind == HOVER_PIN) return hover;
-    if (rect_contains(core->layout.ruler, x, y)) hover.kind = HOVER_RULER;
-    if (rect_contains(ruler_corner(core), x, y)) hover.kind = HOVER_UNITS;
-    if (rect_contains(sheet_switch(core), x, y)) hover.kind = HOVER_SHEET;
+    if (hover.thing) return hover;
+    if (rect_contains(core->layout.ruler, x, y)) hover.thing = &thing_ruler;
+    if (rect_contains(ruler_corner(core), x, y)) hover.thing = &thing_units;
+    if (rect_contains(sheet_switch(core), x, y)) hover.thing = &thing_sheet;
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, x, y);
     if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
     bool seen = spline_list_seen(core) != NULL;
     if (seen) nearest_knot(curves, core, core->active, NAN, x, y, core_reach(core, CURVES_HIT_RADIUS), &hover);
-    if (seen && hover.kind == HOVER_NONE) nearest_handle(curves, core, spline, x, y, &hover);
-    if (hover.kind == HOVER_NONE) nearest_warning(curves, core, x, y, &hover);
-    if (hover.kind == HOVER_NONE) nearest_other_knot(curves, core, x, y, &hover);
-    if (hover.kind == HOVER_NONE) scale_box_hover(curves, core, x, y, &hover);
-    if (hover.kind == HOVER_NONE && seen) limits_hover(curves, core, spline, y, &hover);
-    if (hover.kind == HOVER_NONE) nearest_curve(curves, core, x, y, &hover);
+    if (seen && !hover.thing) nearest_handle(curves, core, spline, x, y, &hover);
+    if (!hover.thing) nearest_warning(curves, core, x, y, &hover);
+    if (!hover.thing) nearest_other_knot(curves, core, x, y, &hover);
+    if (!hover.thing) scale_box_hover(curves, core, x, y, &hover);
+    if (!hover.thing && seen) limits_hover(curves, core, spline, y, &hover);
+    if (!hover.thing) nearest_curve(curves, core, x, y, &hover);
     return hover;
 }
 
-/// Shift adds or removes the knot. Without Shift a drag moves all selected knots.
-static void press_knot(struct curves *curves, struct core *core, const struct hover *hover, const struct event *event)
+/// On a curve or beside all: a click chooses, a double-click inserts a knot, a drag starts a box.
+static void press_plot(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
-    unsigned id = hover->knot;
-    bool selected = selection_has(&core->selection, id);
-    core_turn_to(core, hover->spline);
-    core->limb = 0;
-    if (event->clicks == 2) {
-        const struct spline *spline = core->document->splines[hover->spline];
-        playback_seek(core, spline->knots[spline_find_id(spline, id)].frame);
-        return;
-    }
-    if (event->mods & MOD_SHIFT) {
-        selection_set(&core->selection, id, !selected);
-        selected_settle(core);
-        if (selected) return;
-    } else if (!selected) {
-        selection_clear(&core->selection);
-        selection_set(&core->selection, id, true);
-    }
-    drag_begin_knots(curves, core, id, event);
-    core->drag.lock_x = rect_contains(core->layout.sheet, event->x, event->y); // the dope sheet has only time
-    curves->knot_drag.collapse = selected && !(event->mods & MOD_SHIFT);
-}
-
-static void press_empty(struct curves *curves, struct core *core, const struct hover *hover,
-                        const struct event *event)
-{
-    if (event->clicks == 2 && hover->kind == HOVER_CURVE) {
+    struct curves *curves = room;
+    const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
+    if (event->clicks == 2 && hover->thing) {
         core_activate(core, hover->spline);
         core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
                              event->mods & MOD_SHIFT);
-        return;
-    }
-    if (event->clicks == 2) {
+    } else if (event->clicks == 2) {
         double value = core_round(curves_value(curves, core, event->y), 0.01 / curves_pixels_per_value(curves, core));
         core_insert_knot(core, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));
-        return;
+    } else {
+        if (hover->thing && !keeps) core_choose(core, hover->spline);
+        box_begin(curves, core, event);
     }
-    const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
-    if (hover->kind == HOVER_CURVE && !keeps) core_choose(core, hover->spline);
-    box_begin(curves, core, event);
 }
 
-static void scrub(void *room, struct core *core)
+static bool find_curve(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    const double frame = curves_frame(room, core, core->drag.x);
-    playback_seek(core, core->drag.snap ? round(frame) : frame);
+    return curves_in_plot(room, core, target->number[0], target->number[1], xy);
 }
+
+/// curve(sway,36,1): a frame and a value.
+const struct thing thing_curve = {.cursor = CURSOR_HAND,
+                                  .hint = "Click to edit this spline",
+                                  .press = press_plot,
+                                  .name = "curve",
+                                  .of = OF_SPLINE,
+                                  .numbers = 2,
+                                  .find = find_curve,
+                                  .missing = "that is not in the visible part of the curves"};
+
+const struct thing thing_active_curve = {
+    .hint = "Double-click to insert a knot on the curve, with Shift a pose; drag to select with a box",
+    .press = press_plot};
+
+/// The corner of the ruler.
+static void press_switch(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    (void)room, (void)event;
+    core_flip(core, hover->thing == &thing_units ? SWITCH_SECONDS : SWITCH_SHEET);
+}
+
+const struct thing thing_units = {.cursor = CURSOR_HAND,
+                                  .hint = "Click to switch between frames and seconds (U)",
+                                  .is_control = true,
+                                  .place = ON_TIME,
+                                  .press = press_switch};
+
+const struct thing thing_sheet = {.cursor = CURSOR_HAND,
+                                  .hint = "Click to open or close the dope sheet (F7)",
+                                  .is_control = true,
+                                  .place = ON_TIME,
+                                  .press = press_switch};
 
 static void pan(void *room, struct core *core) { curves_pan(room, core, core->drag.moved_x, core->drag.moved_y); }
-
-static void press_ruler(struct curves *curves, struct core *core, const struct event *event)
-{
-    static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .move = scrub};
-    if (event->mods & MOD_SHIFT) {
-        range_begin(curves, core, event);
-        return;
-    }
-    double frame = curves_frame(curves, core, event->x);
-    drag_begin(core, &owner, curves, NULL, event);
-    playback_seek(core, drag_snaps(core, event->mods) ? round(frame) : frame);
-}
 
 static void apply(void *room, struct core *core)
 {
@@ -233,15 +232,21 @@ static void apply(void *room, struct core *core)
     core_set_parameter(core, core->active, limit_of(drag->handle), value);
 }
 
-/// `handle`: 0 is the low limit, 1 the high one.
-static void limits_begin_drag(struct curves *curves, struct core *core, int handle, const struct event *event)
+static void press_limit(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply};
-    const struct spline *spline = core_active_spline(core);
-    drag_begin(core, &owner, curves, parameter_rows[limit_of(handle)].undo, event);
-    core->hover = (struct hover){.kind = HOVER_LIMIT, .spline = core->active, .handle = handle};
-    curves->limit_drag = (struct limit_drag){handle, spline->parameter[limit_of(handle)].value};
+    struct curves *curves = room;
+    const enum parameter limit = limit_of(hover->handle);
+    drag_begin(core, &owner, curves, parameter_rows[limit].undo, event);
+    core->hover = *hover;
+    curves->limit_drag = (struct limit_drag){hover->handle, core_active_spline(core)->parameter[limit].value};
 }
+
+const struct thing thing_limit = {
+    .cursor = CURSOR_VERTICAL, .hint = "Drag the limit; the curve stays on this side of it", .press = press_limit};
+
+const struct thing *const curves_things[] = {&thing_knot,    &thing_mark,  &thing_slope,    &thing_curve, &thing_box,
+                                             &thing_warning, &thing_ruler, &thing_pin_time, NULL};
 
 void curves_press(struct curves *curves, struct core *core, const struct event *event)
 {
@@ -253,41 +258,12 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
         return;
     }
     if (event->button != BUTTON_LEFT) return;
-    struct hover hover = curves_hover(curves, core, event->x, event->y);
-    if (hover.kind != HOVER_PIN && hover.kind != HOVER_RULER) pins_clear(core);
-    switch (hover.kind) {
-    case HOVER_PIN:
-        ruler_pins_begin(curves, core, &hover, event);
-        break;
-    case HOVER_RULER:
-        press_ruler(curves, core, event);
-        break;
-    case HOVER_WARNING:
-        warning_remedy(curves, core, hover.handle);
-        break;
-    case HOVER_UNITS:
-        core_flip(core, SWITCH_SECONDS);
-        break;
-    case HOVER_SHEET:
-        core_flip(core, SWITCH_SHEET);
-        break;
-    case HOVER_ROW:
-        sheet_press_row(curves, core, hover.spline, event);
-        break;
-    case HOVER_KNOT:
-        press_knot(curves, core, &hover, event);
-        break;
-    case HOVER_BOX:
-        scale_begin_handle(curves, core, hover.handle, event);
-        break;
-    case HOVER_LIMIT:
-        limits_begin_drag(curves, core, hover.handle, event);
-        break;
-    case HOVER_SLOPE:
-        drag_begin_slope(curves, core, hover.knot, hover.handle, event);
-        break;
-    default:
-        if (rect_contains(core->layout.plot, event->x, event->y)) press_empty(curves, core, &hover, event);
+    const struct hover hover = curves_hover(curves, core, event->x, event->y);
+    if (hover.thing != &thing_pin_time && hover.thing != &thing_ruler) pins_clear(core);
+    if (hover.thing) {
+        hover.thing->press(curves, core, &hover, event);
+    } else if (rect_contains(core->layout.plot, event->x, event->y)) {
+        press_plot(curves, core, &hover, event);
     }
 }
 
@@ -372,7 +348,7 @@ void limits_show(const struct curves *curves, struct core *core)
     for (int i = 0; i < 2; i++) {
         double value = spline->parameter[limit_of(i)].value;
         if (!isfinite(value)) continue;
-        const bool hot = core->hover.kind == HOVER_LIMIT && core->hover.handle == i;
+        const bool hot = core->hover.thing == &thing_limit && core->hover.handle == i;
         float y = curves_y(curves, core, value);
         const float line[2][2] = {{plot->x, y}, {plot->x + plot->w, y}};
         drawlist_dashed(&core->list, &line[0][0], 2, hot ? 2 : 1.25f, 10, 6,

@@ -6,12 +6,13 @@
 
 struct curves;
 
+/// The things that replays name; ends with NULL.
+extern const struct thing *const curves_things[];
+
 struct curves *curves_create(void);
 void curves_destroy(struct curves *curves);
 /// Lays out the dope sheet; the plot shrinks by its height.
 void sheet_update(struct curves *curves, struct core *core);
-/// Centre of a knot's mark on the dope sheet; false if it is not visible.
-bool curves_mark_point(const struct curves *curves, const struct core *core, int spline, int knot, float xy[2]);
 struct hover curves_hover(const struct curves *curves, const struct core *core, float x, float y);
 void curves_press(struct curves *curves, struct core *core, const struct event *event);
 void curves_wheel(struct curves *curves, struct core *core, const struct event *event);
@@ -19,9 +20,6 @@ void curves_wheel(struct curves *curves, struct core *core, const struct event *
 void curves_open(struct curves *curves);
 /// Whether the view is still moving.
 bool curves_wants_frames(const struct curves *curves);
-/// Position of a slope handle's end: before (0) or after (1) the knot.
-void curves_handle(const struct curves *curves, const struct core *core, const struct knot *knot, int end,
-                   float xy[2]);
 /// Draws the panel. The playhead comes last, so that nothing before it depends on the time.
 void curves_show(struct curves *curves, struct core *core);
 /// Keeps the picture in place when another spline than `before` becomes active.
@@ -29,14 +27,8 @@ void curves_activate(struct curves *curves, struct core *core, int before);
 void curves_remedy_first(struct curves *curves, struct core *core, int unused);
 /// Starts scaling the selected knots with the pointer, about the selection's middle or about the equilibrium; P changes the pivot.
 void curves_scale(struct curves *curves, struct core *core, int about_equilibrium);
-/// Position of a handle of the selection box: column and row −1 … 1, not both 0. false if it is not shown.
-bool curves_box_point(const struct curves *curves, const struct core *core, int column, int row, float xy[2]);
 /// Moves the selected knots by frames and by hundredths of the visible values. Repeated nudges are one undo step.
 void curves_nudge(const struct curves *curves, struct core *core, double frames, double hundredths);
-/// Frame to logical pixels, clamped to a few thousand around the plot.
-float curves_x(const struct curves *curves, const struct core *core, double frame);
-/// Value to logical pixels, clamped likewise.
-float curves_y(const struct curves *curves, const struct core *core, double value);
 void curves_frame_all(struct curves *curves, struct core *core);
 /// Shows the selected knots with a margin, or everything if none is selected.
 void curves_frame_selection(struct curves *curves, struct core *core);
@@ -49,9 +41,5 @@ void curves_advance(struct curves *curves, struct core *core, double dt);
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy);
 /// Zooms about a point of the panel; factors below 1 zoom in.
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor);
-/// Position of a pin's mark on the ruler; false if it is not visible.
-bool curves_pin_point(const struct curves *curves, const struct core *core, const struct pin *pin, float xy[2]);
-/// Position of a warning's marker; false if there is none.
-bool curves_warning(const struct curves *curves, const struct core *core, double number, float xy[2]);
 
 #endif

@@ -1,4 +1,5 @@
 /// Drags of knots and slopes. Each step starts again from the original knots. Ripple moves the later knots too.
+#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
@@ -155,27 +156,90 @@ static void end_knots(void *room, struct core *core, bool keep)
 
 static void show_knots(void *room, struct core *core) { scale_box_show(room, core, false); }
 
-void drag_begin_knots(struct curves *curves, struct core *core, unsigned knot, const struct event *event)
+/// Shift adds or removes the knot. Without Shift a drag moves all selected knots.
+static void press_knot(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     static const struct drag_owner owner = {
         .cursor = CURSOR_MOVE, .apply = apply_knots, .event = knots_event, .end = end_knots, .show = show_knots};
+    struct curves *curves = room;
+    unsigned id = hover->knot;
+    bool selected = selection_has(&core->selection, id);
+    core_turn_to(core, hover->spline);
+    core->limb = 0;
+    if (event->clicks == 2) {
+        const struct spline *spline = core->document->splines[hover->spline];
+        playback_seek(core, spline->knots[spline_find_id(spline, id)].frame);
+        return;
+    }
+    if (event->mods & MOD_SHIFT) {
+        selection_set(&core->selection, id, !selected);
+        selected_settle(core);
+        if (selected) return;
+    } else if (!selected) {
+        selection_clear(&core->selection);
+        selection_set(&core->selection, id, true);
+    }
     drag_begin(core, &owner, curves, NULL, event);
-    core->drag.knot = knot;
-    curves->knot_drag = (struct knot_drag){0};
+    core->drag.knot = id;
+    curves->knot_drag = (struct knot_drag){.collapse = selected && !(event->mods & MOD_SHIFT)};
     collect(curves, core);
+    core->drag.lock_x = rect_contains(core->layout.sheet, event->x, event->y); // the dope sheet has only time
 }
 
-void drag_begin_slope(struct curves *curves, struct core *core, unsigned knot, int handle, const struct event *event)
+bool curves_in_plot(const struct curves *curves, const struct core *core, double frame, double value, float xy[2])
+{
+    const struct rect *plot = &core->layout.plot;
+    xy[0] = curves_x(curves, core, frame);
+    xy[1] = curves_y(curves, core, value);
+    return xy[0] >= plot->x && xy[1] >= plot->y && xy[0] <= plot->x + plot->w && xy[1] <= plot->y + plot->h;
+}
+
+static bool find_knot(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const struct document *document = core->document;
+    return curves_in_plot(room, core, document_frame(document, document_sample(document, target->knot->frame)),
+                          core_knot_value(core, target->spline, target->knot), xy);
+}
+
+const struct thing thing_knot = {.cursor = CURSOR_MOVE,
+                                 .hint = "Drag it (X, Y: one axis, R: later ones too, Shift: fine, Ctrl: off frames)",
+                                 .place = ON_KNOT,
+                                 .press = press_knot,
+                                 .name = "knot",
+                                 .of = OF_KNOT,
+                                 .numbers = 1,
+                                 .find = find_knot,
+                                 .missing = "that knot is not in the visible part of the curves"};
+
+static void press_slope(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     static const struct drag_owner owner = {.cursor = CURSOR_MOVE, .apply = apply_slope, .end = end_knots};
     const struct spline *spline = core_active_spline(core);
+    struct curves *curves = room;
     assert(spline);
     drag_begin(core, &owner, curves, "Change slope", event);
-    core->drag.knot = knot;
-    curves->knot_drag = (struct knot_drag){.handle = handle};
+    core->drag.knot = hover->knot;
+    curves->knot_drag = (struct knot_drag){.handle = hover->handle};
     core->originals.count = 0;
-    originals_add(&core->originals, core->active, &spline->knots[spline_find_id(spline, knot)]);
+    originals_add(&core->originals, core->active, &spline->knots[spline_find_id(spline, hover->knot)]);
 }
+
+static bool find_slope(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    curves_handle(room, core, target->knot, target->number[1] > 0, xy);
+    return target->knot->has_slope;
+}
+
+/// handle(sway,2,1): a slope handle's end, 0 before and 1 after the knot.
+const struct thing thing_slope = {.cursor = CURSOR_MOVE,
+                                  .hint = "Drag to turn the slope, pull to make it firmer; T removes it",
+                                  .place = ON_KNOT,
+                                  .press = press_slope,
+                                  .name = "handle",
+                                  .of = OF_KNOT,
+                                  .numbers = 2,
+                                  .find = find_slope,
+                                  .missing = "that knot has no slope"};
 
 static const double GHOST_SECONDS = 1.2;
 

@@ -1,4 +1,5 @@
 /// Grids, numbers and the ruler, with the played range and a draggable mark for each pin.
+#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/core/pins.h"
 #include "editor/curves/state.h"
@@ -123,7 +124,7 @@ static void show_units(struct core *core)
     const char *text = core->curves.seconds ? "s" : "frame";
     float x = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
     drawlist_text(&core->list, x, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
-                  core->hover.kind == HOVER_UNITS ? theme()->text : theme()->text_dim, text);
+                  core->hover.thing == &thing_units ? theme()->text : theme()->text_dim, text);
 }
 
 /// Frames per unit of the ruler.
@@ -206,12 +207,42 @@ static void move(void *room, struct core *core)
     playback_say_range(core);
 }
 
-void range_begin(struct curves *curves, struct core *core, const struct event *event)
+static void scrub(void *room, struct core *core)
 {
-    static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .move = move, .end = end};
-    drag_begin(core, &owner, curves, NULL, event);
-    memcpy(curves->range_before, core->playback.range, sizeof curves->range_before);
+    const double frame = curves_frame(room, core, core->drag.x);
+    playback_seek(core, core->drag.snap ? round(frame) : frame);
 }
+
+/// Moves the playhead; with Shift chooses the played range.
+static void press_ruler(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    static const struct drag_owner scrubbing = {.cursor = CURSOR_HORIZONTAL, .move = scrub},
+                                   choosing = {.cursor = CURSOR_HORIZONTAL, .move = move, .end = end};
+    struct curves *curves = room;
+    const double frame = curves_frame(curves, core, event->x);
+    (void)hover;
+    drag_begin(core, event->mods & MOD_SHIFT ? &choosing : &scrubbing, curves, NULL, event);
+    memcpy(curves->range_before, core->playback.range, sizeof curves->range_before);
+    if (!(event->mods & MOD_SHIFT)) playback_seek(core, drag_snaps(core, event->mods) ? round(frame) : frame);
+}
+
+static bool find_ruler(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const struct rect *ruler = &core->layout.ruler;
+    xy[0] = curves_x(room, core, target->number[0]);
+    xy[1] = ruler->y + ruler->h / 2;
+    return rect_contains(*ruler, xy[0], xy[1]);
+}
+
+const struct thing thing_ruler = {
+    .cursor = CURSOR_HORIZONTAL,
+    .hint = "Drag to scrub; Shift+drag to play part of the range, Shift+click to play it all",
+    .place = ON_TIME,
+    .press = press_ruler,
+    .name = "ruler",
+    .numbers = 1,
+    .find = find_ruler,
+    .missing = "that frame is not on the visible part of the ruler"};
 
 static const float REACH = 6;                        ///< pixels at which a mark is hit
 static const float RADIUS = 4, ABOVE = 9, BELOW = 6; ///< pixels around a mark on the ruler's lower edge
@@ -226,7 +257,7 @@ static void place(const struct curves *curves, const struct core *core, const st
 struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
     const struct rect *ruler = &core->layout.ruler;
-    struct hover hover = {.kind = HOVER_NONE};
+    struct hover hover = {.thing = NULL};
     float best = REACH;
     const float edge = ruler->y + ruler->h;
     if (y < edge - ABOVE || y >= edge + BELOW || x < ruler->x || x >= ruler->x + ruler->w) return hover;
@@ -238,7 +269,7 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
         if (distance < REACH && core->pin.any && core->pin.id == pin->id) distance = -1;
         if (distance >= best) continue;
         best = distance;
-        hover = (struct hover){.kind = HOVER_PIN, .rig = at.rig, .joint = pin->point, .pin = pin->id};
+        hover = (struct hover){.thing = &thing_pin_time, .rig = at.rig, .joint = pin->point, .pin = pin->id};
     }
     return hover;
 }
@@ -265,8 +296,10 @@ static void apply(void *room, struct core *core)
     pins_tell(core, rig);
 }
 
-void ruler_pins_begin(struct curves *curves, struct core *core, const struct hover *hover, const struct event *event)
+/// Selects the pin, goes to its frame and starts dragging it.
+static void press_pin(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
+    struct curves *curves = room;
     static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .apply = apply};
     const struct document *document = core->document;
     const struct rig *rig = document->rigs[hover->rig];
@@ -285,7 +318,7 @@ void ruler_pins_show(const struct curves *curves, struct core *core)
     for (const struct pin *pin; (pin = pins_next(core->document, &at));) {
         const uint32_t color = pins_color(core->document, at.rig);
         const bool selected = core->pin.any && core->pin.id == pin->id;
-        const bool hot = core->hover.kind == HOVER_PIN && core->hover.pin == pin->id;
+        const bool hot = core->hover.thing == &thing_pin_time && core->hover.pin == pin->id;
         const float radius = RADIUS + (selected || hot ? 1 : 0);
         float xy[2];
         place(curves, core, pin, xy);
@@ -295,8 +328,20 @@ void ruler_pins_show(const struct curves *curves, struct core *core)
     }
 }
 
-bool curves_pin_point(const struct curves *curves, const struct core *core, const struct pin *pin, float xy[2])
+static bool find_pin(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    place(curves, core, pin, xy);
+    place(room, core, target->pin, xy);
     return rect_contains(core->layout.ruler, xy[0], xy[1]);
 }
+
+/// pintime(tail,0): a pin's mark on the ruler, counted by frame.
+const struct thing thing_pin_time = {
+    .cursor = CURSOR_MOVE,
+    .hint = "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, Alt+PgDn: by a frame",
+    .place = ON_PIN,
+    .press = press_pin,
+    .name = "pintime",
+    .of = OF_PIN,
+    .numbers = 1,
+    .find = find_pin,
+    .missing = "that pin is not on the visible part of the ruler"};

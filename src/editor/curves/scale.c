@@ -2,6 +2,7 @@
 ///
 /// A knot (t, v) goes to (p + a·(t − p), q + b·(v − q)) about the pivot (p, q); its slope is multiplied by b/a, so the curve's shape
 /// scales too. "About the equilibrium" takes q from the knot's own spline at the knot.
+#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
@@ -378,7 +379,7 @@ static void begin(struct curves *curves, struct core *core, enum pivot pivot, in
 {
     curves->scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
     core->message.text[0] = 0;
-    core->hover = (struct hover){.kind = HOVER_NONE};
+    core->hover = (struct hover){.thing = NULL};
     note_equilibria(curves, core);
     place_pivot(curves, core);
     core->drag.hint = curves->scaling.sentence;
@@ -399,14 +400,17 @@ void curves_scale(struct curves *curves, struct core *core, int about_equilibriu
     begin(curves, core, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
 }
 
-void scale_begin_handle(struct curves *curves, struct core *core, int handle, const struct event *event)
+/// Starts scaling by a handle: about the opposite side or, with Alt, about the equilibrium.
+static void press_box(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
+    struct curves *curves = room;
+    const int handle = hover->handle;
     core_collect(core, false);
     drag_begin(core, &owner, curves, "Scale knots", event);
     core->drag.lock_x = box_row(handle) == 0;
     core->drag.lock_y = box_column(handle) == 0;
     begin(curves, core, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
-    core->hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = handle};
+    core->hover = (struct hover){.thing = &thing_box, .spline = core->active, .handle = handle};
 }
 
 static const float PAD = 12;   ///< from the outermost knots: outside their own targets
@@ -452,12 +456,25 @@ static bool handle_place(const struct knot_box *box, int handle, float xy[2])
     return true;
 }
 
-bool curves_box_point(const struct curves *curves, const struct core *core, int column, int row, float xy[2])
+static bool find_box(void *room, const struct core *core, const struct target *target, float xy[2])
 {
     struct knot_box box;
-    const bool known = abs(column) <= 1 && abs(row) <= 1 && find_knot_box(curves, core, &box);
+    const int column = (int)target->number[0], row = (int)target->number[1];
+    const bool known = abs(column) <= 1 && abs(row) <= 1 && find_knot_box(room, core, &box);
     return known && handle_place(&box, 3 * (row + 1) + column + 1, xy);
 }
+
+/// box(1,0): a handle of the selection box, here the middle of its right edge; box(-1,-1) is the upper left corner.
+const struct thing thing_box = {
+    .cursor = CURSOR_MOVE,
+    .hint =
+        "Drag to scale the selected knots about the other side; with Alt about the equilibrium (P while you drag)",
+    .place = ON_KNOT,
+    .press = press_box,
+    .name = "box",
+    .numbers = 2,
+    .find = find_box,
+    .missing = "the selected knots have no such handle"};
 
 void scale_box_hover(const struct curves *curves, const struct core *core, float x, float y, struct hover *hover)
 {
@@ -467,13 +484,13 @@ void scale_box_hover(const struct curves *curves, const struct core *core, float
     for (int i = 0; i < BOX_HANDLES; i++) {
         if (!handle_place(&box, i, xy)) continue;
         if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
-            *hover = (struct hover){.kind = HOVER_BOX, .spline = core->active, .handle = i};
+            *hover = (struct hover){.thing = &thing_box, .spline = core->active, .handle = i};
     }
 }
 
 static void show_handle(struct core *core, int handle, const float xy[2])
 {
-    const bool hot = core->hover.kind == HOVER_BOX && core->hover.handle == handle;
+    const bool hot = core->hover.thing == &thing_box && core->hover.handle == handle;
     const float size = hot ? HANDLE + 3 : HANDLE;
     const struct rect r = {roundf(xy[0] - size / 2), roundf(xy[1] - size / 2), size, size};
     drawlist_rounded(&core->list, r, 1.5f, hot ? theme()->playhead : theme()->panel);

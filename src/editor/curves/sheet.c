@@ -1,4 +1,5 @@
 /// The dope sheet (F7): one row per spline between ruler and curves. Its knots are marks you drag in time.
+#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/selection.h"
@@ -84,17 +85,19 @@ struct rect sheet_switch(const struct core *core)
 struct hover sheet_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
     const int s = row_spline(curves, core, y);
-    struct hover hover = {.kind = s >= 0 ? HOVER_ROW : HOVER_NONE, .spline = s};
+    struct hover hover = {.thing = s >= 0 ? &thing_row : NULL, .spline = s};
     if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
     nearest_knot(curves, core, s, y, x, y, REACH, &hover);
     return hover;
 }
 
-void sheet_press_row(struct curves *curves, struct core *core, int spline, const struct event *event)
+/// Beside the marks: activates the spline; a double-click inserts a knot on its curve, a drag starts a box.
+static void press_row(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
+    struct curves *curves = room;
     const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
     const bool inside = rect_contains(core->layout.sheet, event->x, event->y);
-    if (!keeps || event->clicks == 2) core_choose(core, spline);
+    if (!keeps || event->clicks == 2) core_choose(core, hover->spline);
     if (!inside) return;
     if (event->clicks == 2) {
         core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
@@ -104,6 +107,11 @@ void sheet_press_row(struct curves *curves, struct core *core, int spline, const
     box_begin(curves, core, event);
     curves->knot_drag.in_sheet = true;
 }
+
+const struct thing thing_row = {
+    .hint = "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box",
+    .place = ON_TIME,
+    .press = press_row};
 
 float sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box)
 {
@@ -124,16 +132,24 @@ bool sheet_wheel(struct curves *curves, struct core *core, const struct event *e
     return true;
 }
 
-bool curves_mark_point(const struct curves *curves, const struct core *core, int spline, int knot, float xy[2])
+static bool find_mark(void *room, const struct core *core, const struct target *target, float xy[2])
 {
+    const struct curves *curves = room;
     for (int row = 0; row < curves->sheet.rows; row++) {
-        if (curves->sheet.spline[row] != spline) continue;
-        xy[0] = curves_knot_x(curves, core, &core->document->splines[spline]->knots[knot]);
+        if (curves->sheet.spline[row] != target->spline) continue;
+        xy[0] = curves_knot_x(curves, core, target->knot);
         xy[1] = row_y(core, row);
         return rect_contains(core->layout.sheet, xy[0], xy[1]);
     }
     return false;
 }
+
+/// mark(sway,2): a knot on the dope sheet.
+const struct thing thing_mark = {.name = "mark",
+                                 .of = OF_KNOT,
+                                 .numbers = 1,
+                                 .find = find_mark,
+                                 .missing = "the dope sheet does not show that knot"};
 
 /// Draws a row: a tint if it is active, a line from first to last mark, the marks, and the name.
 static void show_row(const struct curves *curves, struct core *core, int row)
@@ -143,7 +159,7 @@ static void show_row(const struct curves *curves, struct core *core, int row)
     if (s >= document->spline_count) return; // an undo in this frame removed it
     const struct spline *spline = document->splines[s];
     const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
-    const bool active = s == core->active, hot = core->hover.kind == HOVER_ROW && core->hover.spline == s;
+    const bool active = s == core->active, hot = core->hover.thing == &thing_row && core->hover.spline == s;
     const float y = row_y(core, row), left = sheet->x + sheet->w + 6;
     const uint32_t color = spline_list_color(document, s);
     const struct rect band = {sheet->x, y - ROW / 2.0f, sheet->w, ROW};
@@ -180,7 +196,7 @@ static void show_switch(struct core *core)
     const float right[] = {x - a + 1, y - a, x + a, y, x - a + 1, y + a},
                 down[] = {x - a, y - a + 1, x + a, y - a + 1, x, y + a};
     drawlist_convex(&core->list, core->curves.sheet ? down : right, 3,
-                    core->hover.kind == HOVER_SHEET ? theme()->text : theme()->text_dim);
+                    core->hover.thing == &thing_sheet ? theme()->text : theme()->text_dim);
 }
 
 void sheet_show(const struct curves *curves, struct core *core)

@@ -109,7 +109,7 @@ static void show_lines(struct curves *curves, struct core *core)
     uint32_t color = spline_list_color(core->document, core->active);
     if (cache->count < 2) return;
     for (int i = 0; i < cache->other_count; i++) {
-        const bool hot = core->hover.kind == HOVER_CURVE && core->hover.spline == cache->other_spline[i];
+        const bool hot = core->hover.thing == &thing_curve && core->hover.spline == cache->other_spline[i];
         show_line(core, &cache->others[i][0][0], cache->count, cache->other_band[i], 1.25f,
                   theme_fade(spline_list_color(core->document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
     }
@@ -160,7 +160,7 @@ static void show_handle(const struct curves *curves, struct core *core, const st
     drawlist_line(&core->list, &ends[0][0], 2, 1, theme_fade(color, 0.8f));
     for (int end = 0; end < 2; end++) {
         drawlist_disc(&core->list, ends[end], HANDLE_RADIUS, color);
-        if (core->hover.kind == HOVER_SLOPE && core->hover.knot == knot->id && core->hover.handle == end)
+        if (core->hover.thing == &thing_slope && core->hover.knot == knot->id && core->hover.handle == end)
             hover_ring(&core->list, ends[end][0], ends[end][1]);
     }
 }
@@ -200,7 +200,7 @@ static void show_tick(const struct curves *curves, struct core *core, const stru
 
 static bool is_hovered(const struct core *core, const struct knot *knot)
 {
-    return core->hover.kind == HOVER_KNOT && core->hover.knot == knot->id;
+    return core->hover.thing == &thing_knot && core->hover.knot == knot->id;
 }
 
 /// The next knot to draw where knots are crowded: a selected or hovered one, or the first at least `gap` pixels away.

@@ -146,6 +146,15 @@ struct curves {
     float scratch[2 * EDITOR_MAX_COLUMNS]; ///< points of a line while it is drawn
 };
 
+/// Frame to logical pixels, clamped to a few thousand around the plot.
+float curves_x(const struct curves *curves, const struct core *core, double frame);
+/// Value to logical pixels, clamped likewise.
+float curves_y(const struct curves *curves, const struct core *core, double value);
+/// A place in the plot; false if it is not visible.
+bool curves_in_plot(const struct curves *curves, const struct core *core, double frame, double value, float xy[2]);
+/// Position of a slope handle's end: before (0) or after (1) the knot.
+void curves_handle(const struct curves *curves, const struct core *core, const struct knot *knot, int end,
+                   float xy[2]);
 double curves_pixels_per_frame(const struct curves *curves, const struct core *core);
 double curves_pixels_per_value(const struct curves *curves, const struct core *core);
 double curves_frame(const struct curves *curves, const struct core *core, double x);
@@ -173,10 +182,8 @@ float curves_knot_x(const struct curves *curves, const struct core *core, const 
 /// Index of the first knot at or right of an x, or of the knot before that one; the number of knots if there is none.
 int curves_knot_from(const struct curves *curves, const struct core *core, const struct spline *spline, double x);
 
-/// Starts dragging the selected knots; `knot` is under the pointer.
-void drag_begin_knots(struct curves *curves, struct core *core, unsigned knot, const struct event *event);
-/// Starts dragging one end of a knot's slope handle.
-void drag_begin_slope(struct curves *curves, struct core *core, unsigned knot, int handle, const struct event *event);
+extern const struct thing thing_knot, thing_mark, thing_slope, thing_curve, thing_active_curve, thing_box,
+    thing_warning, thing_limit, thing_row, thing_ruler, thing_units, thing_sheet, thing_pin_time;
 
 void limits_show(const struct curves *curves, struct core *core);
 
@@ -194,33 +201,25 @@ static inline bool is_nearest(float distance, float *best)
 float nearest_knot(const struct curves *curves, const struct core *core, int of, float row, float x, float y,
                    float reach, struct hover *hover);
 
-/// The pin mark at a point of the ruler, or HOVER_NONE.
+/// The pin mark at a point of the ruler.
 struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y);
-/// Selects the pin, goes to its frame and starts dragging it.
-void ruler_pins_begin(struct curves *curves, struct core *core, const struct hover *hover, const struct event *event);
 void ruler_pins_show(const struct curves *curves, struct core *core);
 
 /// The dope sheet's rows with their names.
 struct rect sheet_area(const struct core *core);
 struct rect sheet_switch(const struct core *core);
 struct hover sheet_hover(const struct curves *curves, const struct core *core, float x, float y);
-/// A press beside the marks activates the spline, a double-click inserts a knot on its curve, a drag starts a box.
-void sheet_press_row(struct curves *curves, struct core *core, int spline, const struct event *event);
 /// The height of a spline's row if the box touches it, else NAN.
 float sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box);
 /// false if the wheel is not for scrolling.
 bool sheet_wheel(struct curves *curves, struct core *core, const struct event *event);
 void sheet_show(const struct curves *curves, struct core *core);
 
-/// Starts scaling by a handle: about the opposite side or, with Alt, about the equilibrium.
-void scale_begin_handle(struct curves *curves, struct core *core, int handle, const struct event *event);
 void scale_box_hover(const struct curves *curves, const struct core *core, float x, float y, struct hover *hover);
 /// Draws the box around several selected knots.
 void scale_box_show(const struct curves *curves, struct core *core, bool handles);
 /// Starts a box selection; Shift adds, Ctrl or Alt removes.
 void box_begin(struct curves *curves, struct core *core, const struct event *event);
-/// Starts choosing the played range.
-void range_begin(struct curves *curves, struct core *core, const struct event *event);
 
 /// Length in pixels: 12 more for ten times the stiffness.
 double handle_length(double stiffness);
@@ -240,8 +239,5 @@ bool warning_place(const struct curves *curves, const struct core *core, const s
 void warnings_show(const struct curves *curves, struct core *core);
 /// The text under the pointer and what a click does. Drawn last, above everything else; the fix is chosen here.
 void warnings_show_words(struct curves *curves, struct core *core);
-
-/// Fixes a warning in one undo step.
-void warning_remedy(struct curves *curves, struct core *core, int index);
 
 #endif

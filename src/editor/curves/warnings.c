@@ -235,23 +235,15 @@ static const struct fix *fix_of(struct curves *curves, const struct core *core, 
     return fix;
 }
 
-void curves_remedy_first(struct curves *curves, struct core *core, int unused)
-{
-    (void)unused;
-    warnings_update(curves, core);
-    if (curves->warnings.count > 0) {
-        warning_remedy(curves, core, 0);
-    } else {
-        core_message(core, false, "This spline has no warnings.");
-    }
-}
-
 static const char NO_REMEDY[] = "No fix helps here. Move the knots, or change the frequency.";
 
-void warning_remedy(struct curves *curves, struct core *core, int index)
+/// Fixes a warning in one undo step.
+static void press_warning(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
-    const struct warning warning = curves->warnings.list[index];
-    struct fix fix = *fix_of(curves, core, index);
+    struct curves *curves = room;
+    const struct warning warning = curves->warnings.list[hover->handle];
+    struct fix fix = *fix_of(curves, core, hover->handle);
+    (void)event;
     char text[FIX_TEXT + 8];
     core_activate(core, warning.spline);
     if (!core_active_spline(core) || !core_begin(core, cures[warning.kind].label, 0)) return;
@@ -259,6 +251,17 @@ void warning_remedy(struct curves *curves, struct core *core, int index)
     snprintf(text, sizeof text, "Done: %s.", fix.text);
     core_end(core, good);
     if (good || !fix.apply) core_message(core, false, "%s", good ? text : NO_REMEDY);
+}
+
+void curves_remedy_first(struct curves *curves, struct core *core, int unused)
+{
+    (void)unused;
+    warnings_update(curves, core);
+    if (curves->warnings.count > 0) {
+        press_warning(curves, core, &(struct hover){.handle = 0}, NULL);
+    } else {
+        core_message(core, false, "This spline has no warnings.");
+    }
 }
 
 static const float SIZE = 7, LIFT = 16,
@@ -276,17 +279,27 @@ bool warning_place(const struct curves *curves, const struct core *core, const s
     return xy[0] >= plot.x && xy[0] <= plot.x + plot.w;
 }
 
-bool curves_warning(const struct curves *curves, const struct core *core, double number, float xy[2])
+static bool find_warning(void *room, const struct core *core, const struct target *target, float xy[2])
 {
+    const struct curves *curves = room;
+    const double number = target->number[0];
     bool there = number >= 0 && number < curves->warnings.count;
     return there && warning_place(curves, core, &curves->warnings.list[(int)number], xy);
 }
+
+const struct thing thing_warning = {.cursor = CURSOR_HAND,
+                                    .hint = "Click to fix; Ctrl+Z undoes it",
+                                    .press = press_warning,
+                                    .name = "warning",
+                                    .numbers = 1,
+                                    .find = find_warning,
+                                    .missing = "that warning is not to be seen"};
 
 /// The warning under the pointer, or -1.
 static int hovered_warning(const struct curves *curves, const struct core *core)
 {
     const int index = core->hover.handle;
-    return core->hover.kind == HOVER_WARNING && index < curves->warnings.count ? index : -1;
+    return core->hover.thing == &thing_warning && index < curves->warnings.count ? index : -1;
 }
 
 static void show_marker(struct drawlist *list, const float xy[2], bool hovered)

@@ -134,33 +134,17 @@ static float scroll_of(const struct event *event, const struct page *page)
     }
 }
 
-static enum place place_of(const struct core *core)
-{
-    const enum panel panel = core_panel_at(core, core->pointer_x, core->pointer_y);
-    switch (core->hover.kind) {
-    case HOVER_KNOT:
-    case HOVER_SLOPE:
-    case HOVER_BOX:
-        return ON_KNOT;
-    case HOVER_PIN:
-        return ON_PIN;
-    case HOVER_RULER:
-    case HOVER_UNITS:
-    case HOVER_SHEET:
-    case HOVER_ROW:
-        return ON_TIME;
-    default:
-        return panel == PANEL_CURVES      ? ON_CURVES
-               : panel == PANEL_INSPECTOR ? ON_INSPECTOR
-               : panel == PANEL_STATUS    ? ON_TIME
-                                          : ON_STAGE;
-    }
-}
-
 void dialogs_help(struct dialogs *dialogs, const struct core *core)
 {
+    static const enum place places[] = {[PANEL_NONE] = ON_STAGE,
+                                        [PANEL_STAGE] = ON_STAGE,
+                                        [PANEL_CURVES] = ON_CURVES,
+                                        [PANEL_INSPECTOR] = ON_INSPECTOR,
+                                        [PANEL_STATUS] = ON_TIME};
+    const struct thing *thing = core->hover.thing;
+    const enum panel panel = core_panel_at(core, core->pointer_x, core->pointer_y);
     const bool open = !dialogs->help.open;
-    dialogs->help = (struct help){.open = open, .at = place_of(core)};
+    dialogs->help = (struct help){.open = open, .at = thing && thing->place ? thing->place : places[panel]};
     dialogs->palette.open = false;
     dialogs->welcome &= !open;
 }

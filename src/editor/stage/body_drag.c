@@ -2,6 +2,7 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
+#include "editor/stage/stage.h"
 #include "maths/maths.h"
 #include "model/fox.h"
 #include "model/reach.h"
@@ -362,7 +363,7 @@ struct hover body_hover(struct stage *stage, const struct core *core, double pos
     const struct stage_view *view = &stage->view;
     const struct posing posing = stage_posing_by_hand(stage);
     const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
-    struct hover hover = {.kind = HOVER_NONE};
+    struct hover hover = {.thing = NULL};
     float direction[3], nearest = INFINITY;
     camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
     for (int t = 0; t < stage->tail_count; t++) {
@@ -374,21 +375,28 @@ struct hover body_hover(struct stage *stage, const struct core *core, double pos
         const float distance = body_distance(stage, &pose, direction);
         if (distance >= nearest) continue;
         nearest = distance;
-        hover = (struct hover){.kind = HOVER_BODY, .rig = rig, .x = x, .y = y};
+        hover = (struct hover){.thing = &thing_body, .rig = rig, .x = x, .y = y};
     }
     return hover;
 }
 
-bool body_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2])
+/// A point where body_hover() finds the body; the likeliest are tried first.
+static bool find_body(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    static const float places[BODY_POINTS][3] = {
+    static const float places[][3] = {
         {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
-    if (tail >= stage->tail_count || stage->strands[tail].model < 0) return false;
-    const struct stage_model *fox = &stage->view.models[stage->strands[tail].model];
-    const mat4s moved = mat4_from(fox->pose->joints[point == BODY_HEAD ? LIMB_HEAD : LIMB_BODY]);
-    const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
-    const vec3s place = glms_mat4_mulv3(mat4_from(fox->root), at, 1.0f);
-    return stage_project_point(stage, core->layout.stage, place.raw, xy);
+    const struct stage *stage = room;
+    if (target->nth >= stage->tail_count || stage->strands[target->nth].model < 0) return false;
+    const struct stage_model *fox = &stage->view.models[stage->strands[target->nth].model];
+    for (int point = 0; point < 4; point++) {
+        const mat4s moved = mat4_from(fox->pose->joints[point == 1 ? LIMB_HEAD : LIMB_BODY]);
+        const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
+        const vec3s place = glms_mat4_mulv3(mat4_from(fox->root), at, 1.0f);
+        if (!stage_project_point(stage, core->layout.stage, place.raw, xy)) continue;
+        const struct hover hover = stage_hover(room, core, xy[0], xy[1]);
+        if (hover.thing == &thing_body && hover.rig == target->rig) return true;
+    }
+    return false;
 }
 
 /// One half of the ring, near or far.
@@ -402,7 +410,7 @@ void body_drag_show(struct stage *stage, struct core *core)
     const bool held = body_is_held(core);
     const int rig = held ? stage->body_drag.rig : core->hover.rig;
     struct stand stand;
-    if (!held && core->hover.kind != HOVER_BODY) return;
+    if (!held && core->hover.thing != &thing_body) return;
     if (!find_stand(stage, core, rig, &stand)) return;
     const uint32_t color = held ? theme()->accent : theme()->playhead;
     float point[RING_POINTS + 1][2];
@@ -471,8 +479,10 @@ static const struct drag_owner body_owner = {.cursor = CURSOR_MOVE, .move = move
 
 bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
 
-void body_drag_begin(struct stage *stage, struct core *core, int rig, const struct event *event)
+void press_body(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
+    struct stage *stage = room;
+    const int rig = hover->thing == &thing_bone ? hover->model : hover->rig;
     struct body_drag *hold = &stage->body_drag;
     const struct camera *camera = &stage->camera;
     struct stand stand = {.radius = 0};
@@ -491,3 +501,13 @@ void body_drag_begin(struct stage *stage, struct core *core, int rig, const stru
     const float sitting = stand.ground + FOX_BASE_HEIGHT * (float)tail->length / FOX_TAIL_LENGTH;
     hold->lowest = fmin(0, (double)(sitting - stand.base[1]));
 }
+
+const struct thing thing_body = {
+    .cursor = CURSOR_MOVE,
+    .hint = "Drag the body: the tail follows through (Ctrl lifts it, X, Y or Z locks an axis, R records)",
+    .press = press_body,
+    .name = "body",
+    .of = OF_RIG,
+    .rig = RIG_TAIL,
+    .find = find_body,
+    .missing = "no body of that tail is to be seen"};

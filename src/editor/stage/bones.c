@@ -127,9 +127,9 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
             is_better(&candidate, &best))
             best = candidate;
     }
-    if (best.bone < 0) return (struct hover){.kind = HOVER_NONE};
+    if (best.bone < 0) return (struct hover){.thing = NULL};
     const struct shown_bone *bone = &stage->bones[best.bone];
-    return (struct hover){.kind = bone->chain >= 0 ? HOVER_JOINT : HOVER_BONE,
+    return (struct hover){.thing = bone->chain >= 0 ? &thing_chain : &thing_bone,
                           .rig = bone->chain,
                           .joint = bone->joint,
                           .fraction = (double)best.fraction,
@@ -143,26 +143,45 @@ void bone_click(const struct stage *stage, struct core *core)
 {
     const struct hover *pressed = &stage->pressed;
     const struct document *document = core->document;
-    const bool on_chain = pressed->kind == HOVER_JOINT && pressed->rig < document->rig_count &&
-                          document->rigs[pressed->rig]->kind == RIG_CHAIN;
     const bool is_there = pressed->model < document->rig_count && document->rigs[pressed->model]->kind == RIG_MODEL;
-    if ((pressed->kind == HOVER_BONE || on_chain) && is_there) {
+    if ((pressed->thing == &thing_bone || pressed->thing == &thing_chain) && is_there) {
         bones_clicked(core, pressed->model, pressed->node);
     } else if (core->pick.use == BONE_SELECTED) {
         bones_clear(core);
     }
 }
 
-bool stage_bone_point(const struct stage *stage, const struct core *core, int model, int node, float xy[2])
+/// The middle of a bone; with "dog 2/" before its name, of that character.
+static bool find_bone(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    for (int b = 0; b < stage->bone_count; b++) {
-        const struct shown_bone *bone = &stage->bones[b];
-        const vec3s middle = glms_vec3_lerp(vec3_from(bone->ends[0]), vec3_from(bone->ends[1]), 0.5f);
-        if (bone->model == model && bone->part.node == node && !is_hidden(core, bone))
-            return stage_project_point(stage, core->layout.stage, middle.raw, xy);
+    const struct stage *stage = room;
+    const struct document *document = core->document;
+    for (int r = -1; (r = document_next_rig(document, RIG_MODEL, r)) >= 0;) {
+        const char *title = rig_title(document->rigs[r]);
+        const size_t length = strlen(title);
+        const bool is_its = strncmp(target->name, title, length) == 0 && target->name[length] == '/';
+        const struct imported *shown = bones_character(core, r);
+        const int node = shown ? gltf_find_node(&shown->gltf, target->name + (is_its ? length + 1 : 0)) : -1;
+        for (int b = 0; b < stage->bone_count && node >= 0; b++) {
+            const struct shown_bone *bone = &stage->bones[b];
+            const vec3s middle = glms_vec3_lerp(vec3_from(bone->ends[0]), vec3_from(bone->ends[1]), 0.5f);
+            if (bone->model != r || bone->part.node != node || is_hidden(core, bone)) continue;
+            if (stage_project_point(stage, core->layout.stage, middle.raw, xy)) return true;
+            break;
+        }
     }
     return false;
 }
+
+/// bone(tail_1): the first such bone of all characters; bone(dog 2/tail_1): that character's.
+const struct thing thing_bone = {
+    .cursor = CURSOR_HAND,
+    .hint = "Click to select this bone (Alt shows control bones too); drag to move the character",
+    .press = press_body,
+    .name = "bone",
+    .of = OF_ITSELF,
+    .find = find_bone,
+    .missing = "there is no such bone to be seen"};
 
 enum { LABEL_HEIGHT = 20, LABEL_PAD = 7, LABEL_AWAY = 14 };
 
@@ -183,7 +202,7 @@ static bool is_over(const struct stage *stage, const struct core *core, const st
 static int model_under(const struct stage *stage, const struct core *core)
 {
     const struct stage_view *view = &stage->view;
-    if (core->hover.kind == HOVER_BONE) return core->hover.model;
+    if (core->hover.thing == &thing_bone) return core->hover.model;
     if (core->brush.on || !rect_contains(view->viewport, core->pointer_x, core->pointer_y)) return -1;
     for (int rig = -1; (rig = document_next_rig(core->document, RIG_MODEL, rig)) >= 0;) {
         const struct gltf_pose *pose = models_pose(core->models, core->document, rig, POSE_SHOWN);
@@ -293,10 +312,9 @@ void bones_show(const struct stage *stage, struct core *core)
                               .model = model_under(stage, core),
                               .chosen = way_chosen(core),
                               .meant = {-1, -1, -1}};
-    const bool on_chain = hover->kind == HOVER_JOINT && core->document->rigs[hover->rig]->kind == RIG_CHAIN;
-    if (!core->drag.owner && hover->kind == HOVER_BONE)
+    if (!core->drag.owner && hover->thing == &thing_bone)
         showing.meant = way_from(core, hover->model, hover->node);
-    else if (!core->drag.owner && on_chain)
+    else if (!core->drag.owner && hover->thing == &thing_chain)
         showing.meant = (struct way){hover->model, hover->node, -1};
     show_all(stage, core, &showing);
     const struct way *meant = &showing.meant;

@@ -111,12 +111,15 @@ static int front_vertex(const struct figure *figure, const double uv[2])
     return found;
 }
 
-bool stage_character_point(const struct stage *stage, int character, const double uv[2], float xy[2])
+bool find_character(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    const struct stage_character *shown = stage_character_shown(stage, character);
+    const struct stage *stage = room;
+    const struct stage_character *shown = stage_character_shown(stage, target->nth);
     float point[3];
+    (void)core;
     if (!shown) return false;
-    stage_vertex(shown->figure, &shown->morph, shown->position, front_vertex(shown->figure, uv), point);
+    const int vertex = front_vertex(shown->figure, target->number);
+    stage_vertex(shown->figure, &shown->morph, shown->position, vertex, point);
     return stage_project_point(stage, stage->view.viewport, point, xy);
 }
 

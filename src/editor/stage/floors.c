@@ -45,7 +45,7 @@ static float distance_to(const float a[2], const float b[2], float x, float y)
 
 struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
-    struct hover hover = {.kind = HOVER_NONE};
+    struct hover hover = {.thing = NULL};
     float best = EDGE_REACH;
     if (core->brush.on || core->pick.use != BONE_SELECTED) return hover;
     for (int c = 0; c < stage->view.character_count; c++) {
@@ -56,7 +56,7 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
             const float distance = distance_to(floor.xy[floor.first], floor.xy[(floor.first + side) % 4], x, y);
             if (distance >= best) continue;
             best = distance;
-            hover = (struct hover){.kind = HOVER_FLOOR, .x = x, .y = y};
+            hover = (struct hover){.thing = &thing_floor, .x = x, .y = y};
             hover.rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig);
         }
     }
@@ -76,8 +76,9 @@ static void apply(void *room, struct core *core)
     edit_rig_set(core->document, drag->rig, &changed, &core->error);
 }
 
-void floors_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event)
+static void press_floor(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
+    struct stage *stage = room;
     static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply, .end = stage_click};
     const struct character_rig *rig = &core->document->rigs[hover->rig]->character;
     const float at[3] = {(float)rig->position[0], (float)rig->floor, (float)rig->position[2]};
@@ -87,6 +88,26 @@ void floors_begin(struct stage *stage, struct core *core, const struct hover *ho
     stage->floor_drag = (struct floor_drag){
         .rig = hover->rig, .start = rig->floor, .pixels_per_metre = rise * stage_pixels_per_metre(stage, core, at)};
 }
+
+/// The middle of a near edge.
+static bool find_floor(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const struct stage_character *shown = stage_character_shown(room, target->nth);
+    struct shown_floor floor = {0};
+    if (!shown || !floors_find(room, core, shown, &floor)) return false;
+    for (int k = 0; k < 2; k++) xy[k] = 0.5f * (floor.xy[floor.first][k] + floor.xy[(floor.first + 1) % 4][k]);
+    return true;
+}
+
+const struct thing thing_floor = {.cursor = CURSOR_VERTICAL,
+                                  .hint =
+                                      "Drag the floor up or down (Shift: fine); the whole character stays above it",
+                                  .press = press_floor,
+                                  .name = "floor",
+                                  .of = OF_RIG,
+                                  .rig = RIG_CHARACTER,
+                                  .find = find_floor,
+                                  .missing = "no floor of that character is to be seen"};
 
 static const float TOUCH = 2e-3f;     ///< of the character's height; closer counts as touching
 static const float MARK = 4, END = 2; ///< radii, pixels
@@ -178,16 +199,7 @@ void floors_show(const struct stage *stage, struct core *core)
         const struct character_rig *rig = floors_find(stage, core, shown, &floor);
         if (!rig) continue;
         const int index = document_find_rig(document, RIG_CHARACTER, shown->rig);
-        const bool is_hot = core->hover.kind == HOVER_FLOOR && core->hover.rig == index;
+        const bool is_hot = core->hover.thing == &thing_floor && core->hover.rig == index;
         show_floor(stage, core, shown, &floor, rig->floor, is_hot);
     }
-}
-
-bool stage_floor_point(const struct stage *stage, const struct core *core, int character, float xy[2])
-{
-    const struct stage_character *shown = stage_character_shown(stage, character);
-    struct shown_floor floor = {0};
-    if (!shown || !floors_find(stage, core, shown, &floor)) return false;
-    for (int k = 0; k < 2; k++) xy[k] = 0.5f * (floor.xy[floor.first][k] + floor.xy[(floor.first + 1) % 4][k]);
-    return true;
 }

@@ -24,6 +24,14 @@ struct stage_kind {
 RIG_KIND_LIST(STAGE_KIND)
 #undef STAGE_KIND
 
+/// The things of the stage. A press edits nothing until the pointer moves.
+extern const struct thing thing_tail, thing_chain, thing_bone, thing_body, thing_point, thing_pin, thing_floor;
+
+static inline bool is_strand(const struct hover *hover)
+{
+    return hover->thing == &thing_tail || hover->thing == &thing_chain;
+}
+
 /// Inputs of posing, in the editor's look.
 struct posing stage_posing(const struct core *core);
 /// Projects a point to the stage's rectangle `r`; false if it is behind the eye.
@@ -80,14 +88,17 @@ bool strand_pose(const struct stage *stage, const struct core *core, int rig, do
 /// Projects a point of a strand: `fraction` 0 … 1 of the way from joint to joint + 1. False if it is behind the eye.
 bool strand_project(const struct stage *stage, const struct core *core, const struct pose *strand, int joint,
                     double fraction, float xy[2]);
+/// Projects a point of a tail or chain, as last posed: `fraction` 0 … 1 of the way from joint to joint + 1.
+bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
+                   float xy[2]);
 /// Grab distance of a tail from its centre line, pixels.
 #define STRAND_REACH 16.0f
-/// Updates `hover` (HOVER_JOINT) and `nearest` (pixels) if a point of the strand is nearer.
+/// Updates `hover` (a tail) and `nearest` (pixels) if a point of the strand is nearer.
 void strand_nearer(const struct stage *stage, const struct core *core, int rig, const struct pose *strand,
                    const float p[2], float *nearest, struct hover *hover);
-/// The nearest point of a tail (HOVER_JOINT), or HOVER_NONE. Chains are found by their bones (bone_hover()).
+/// The nearest point of a tail. Chains are found by their bones (bone_hover()).
 struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y);
-/// The joint end nearest to a point of a tail or chain (HOVER_POINT); HOVER_NONE if it is behind the eye.
+/// The joint end nearest to a point of a tail or chain (a point); nothing if it is behind the eye.
 struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between);
 
 /// Whether the document has the point and, for a character, its model.
@@ -100,7 +111,7 @@ void bones_add(struct stage *stage, int model, const struct rig_pose *pose);
 /// Marks the bones of a chain.
 void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones);
 
-/// The bone at a point of the stage: HOVER_JOINT of its chain, else HOVER_BONE, or HOVER_NONE.
+/// The bone at a point of the stage, or its chain.
 struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y);
 /// A click where the pointer was pressed: selects the bone there, or none.
 void bone_click(const struct stage *stage, struct core *core);
@@ -116,22 +127,20 @@ struct shown_floor {
     int first; ///< corner nearest to the eye
 };
 
-/// The floor's edge at a point of the stage (HOVER_FLOOR), or HOVER_NONE.
+/// The floor's edge at a point of the stage.
 struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y);
 
-/// Starts to drag a floor. Edits nothing until the pointer moves.
-void floors_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event);
 /// Draws all floors: brighter if touched, in the warning colour if a character is below.
 void floors_show(const struct stage *stage, struct core *core);
 
-/// A marker (HOVER_PIN) at a point of the stage; else, if nothing else was `found`, a surface point to pin (HOVER_POINT); else HOVER_NONE.
+/// A marker at a point of the stage; else, if nothing else was `found`, a surface point to pin.
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y);
-
-/// Starts to drag the point or marker under the pointer. Edits nothing until it moves.
-void pins_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event);
 
 /// Draws markers, highlights, and the path of the held or selected point.
 void pins_show(struct stage *stage, struct core *core);
+
+/// Finds a point of a character's surface for a replay.
+bool find_character(void *room, const struct core *core, const struct target *target, float xy[2]);
 
 /// Frees its memory.
 void brush_free(struct painting *painting);
@@ -145,15 +154,12 @@ void brush_pose(struct stage *stage, struct core *core, bool covered);
 /// Draws the ring on the surface and, above the legend, the brush's mode and the paint at the pointer.
 void brush_show(struct stage *stage, struct core *core);
 
-/// The body at a point of the stage (HOVER_BODY), nearest to the eye, at a position in samples; or HOVER_NONE.
+/// The body at a point of the stage nearest to the eye, at a position in samples.
 struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y);
-/// Screen points of a body that are likely visible, the likeliest first; false if one is behind the eye.
-enum { BODY_HEAD = 1, BODY_POINTS = 4 };
-bool body_point(const struct stage *stage, const struct core *core, int tail, int point, float xy[2]);
 /// A rig's tail; NULL if it is none or gone.
 struct tail *tail_of(const struct document *document, int rig);
-/// Starts to drag a body over the ground or, with Ctrl, up and across. X, Y and Z lock an axis; R records.
-void body_drag_begin(struct stage *stage, struct core *core, int rig, const struct event *event);
+/// Starts to drag a body, or the character of a bone, over the ground or, with Ctrl, up and across. X, Y and Z lock an axis; R records.
+void press_body(void *room, struct core *core, const struct hover *hover, const struct event *event);
 bool body_is_held(const struct core *core);
 /// A ring on the ground around the held body, or the one under the pointer.
 void body_drag_show(struct stage *stage, struct core *core);
@@ -195,8 +201,6 @@ void record_keep(struct stage *stage, struct core *core);
 
 /// Whether the document has the tail or chain, and the joint.
 bool tail_drag_holds(const struct document *document, int rig, int joint);
-/// Starts to pull a tail or chain. Edits nothing until the pointer moves.
-void tail_drag_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event);
 
 /// The tail or chain that the active spline moves, else the first; -1 if none is visible.
 int overlay_rig(const struct stage *stage, const struct core *core);

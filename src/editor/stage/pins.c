@@ -1,6 +1,7 @@
 /// Pins on the stage: hover, drags parallel to the screen, keys and markers.
 #include "editor/core/pins.h"
 #include "editor/core/bones.h"
+#include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/stage/parts.h"
@@ -45,7 +46,7 @@ static int nearest_corner(const struct surface_spot *spot)
 static struct hover find_vertex(struct stage *stage, const struct core *core, float x, float y)
 {
     const struct stage_view *view = &stage->view;
-    struct hover hover = {.kind = HOVER_NONE};
+    struct hover hover = {.thing = NULL};
     float nearest = INFINITY;
     for (int c = 0; c < view->character_count; c++) {
         const struct stage_character *shown = &view->characters[c];
@@ -58,10 +59,10 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
         const float depth = camera_depth(view->view, view->eye, place);
         if (depth >= nearest) continue;
         nearest = depth;
-        hover.kind = HOVER_NONE;
+        hover.thing = NULL;
         if (share_of(shown, vertex) < LEAST_SHARE * LEAST_SHARE) continue;
         if (!stage_project_point(stage, view->viewport, place, xy)) continue;
-        hover = (struct hover){.kind = HOVER_POINT, .rig = rig, .joint = vertex, .x = xy[0], .y = xy[1]};
+        hover = (struct hover){.thing = &thing_point, .rig = rig, .joint = vertex, .x = xy[0], .y = xy[1]};
     }
     return hover;
 }
@@ -72,9 +73,9 @@ static struct hover surface_hover(struct stage *stage, const struct core *core, 
     struct pointed *pointed = &stage->pointed;
     const bool still = pointed->x == x && pointed->y == y;
     if (core->brush.on || core->characters.compare || core->pick.use != BONE_SELECTED)
-        return (struct hover){.kind = HOVER_NONE};
+        return (struct hover){.thing = NULL};
     if (still && pointed->hash == stage->view.hash) return pointed->hover;
-    if (still && core->playback.playing) return (struct hover){.kind = HOVER_NONE};
+    if (still && core->playback.playing) return (struct hover){.thing = NULL};
     *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, core, x, y)};
     return pointed->hover;
 }
@@ -98,7 +99,7 @@ static bool project(const struct stage *stage, const struct core *core, const do
 /// The marker under a point: the selected one, else the nearest.
 static struct hover marker_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
-    struct hover hover = {.kind = HOVER_NONE};
+    struct hover hover = {.thing = NULL};
     const float reach = core_reach(core, MARKER_REACH);
     float best = reach;
     struct pin_place place = PINS_START;
@@ -110,17 +111,17 @@ static struct hover marker_hover(const struct stage *stage, const struct core *c
         if (distance >= best) continue;
         best = distance;
         hover = (struct hover){
-            .kind = HOVER_PIN, .rig = place.rig, .joint = pin->point, .pin = pin->id, .x = xy[0], .y = xy[1]};
+            .thing = &thing_pin, .rig = place.rig, .joint = pin->point, .pin = pin->id, .x = xy[0], .y = xy[1]};
     }
     return hover;
 }
 
 struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y)
 {
-    if (core->brush.on || core->pick.use != BONE_SELECTED) return (struct hover){.kind = HOVER_NONE};
+    if (core->brush.on || core->pick.use != BONE_SELECTED) return (struct hover){.thing = NULL};
     const struct hover marker = marker_hover(stage, core, x, y);
-    if (marker.kind != HOVER_NONE) return marker;
-    return found->kind == HOVER_NONE ? surface_hover(stage, core, x, y) : (struct hover){.kind = HOVER_NONE};
+    if (marker.thing) return marker;
+    return !found->thing ? surface_hover(stage, core, x, y) : (struct hover){.thing = NULL};
 }
 
 /// The screen's directions in the world, and its scale at a place.
@@ -184,15 +185,16 @@ static void pins_show_axis(void *room, struct core *core)
     drawlist_dashed(&core->list, line[0], 2, 1, 6, 4, theme_fade(theme()->playhead, 0.7f));
 }
 
-void pins_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event)
+static void press_pin(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
+    struct stage *stage = room;
     static const struct drag_owner owner = {
         .cursor = CURSOR_HAND, .apply = apply, .event = take_event, .end = stage_click, .show = pins_show_axis};
     struct pin_drag *drag = &stage->pin_drag;
     const struct document *document = core->document;
-    drag_begin(core, &owner, stage, hover->kind == HOVER_PIN ? "Move pin" : "Pin", event);
+    drag_begin(core, &owner, stage, hover->thing == &thing_pin ? "Move pin" : "Pin", event);
     *drag = (struct pin_drag){.point = {hover->rig, hover->joint}, .axis = -1};
-    if (hover->kind == HOVER_PIN) {
+    if (hover->thing == &thing_pin) {
         const struct rig *rig = document->rigs[hover->rig];
         const struct pin *pin = &rig->pins[pins_find_id(rig, hover->pin)];
         pins_visit(core, pin);
@@ -207,6 +209,35 @@ void pins_begin(struct stage *stage, struct core *core, const struct hover *hove
     }
     pins_take_plane(stage, core, drag->start, drag);
 }
+
+static bool find_pin(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    return project(room, core, target->pin->to, xy);
+}
+
+/// pin(tail,0): a pin's marker, counted by frame.
+const struct thing thing_pin = {
+    .cursor = CURSOR_MOVE,
+    .hint = "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it",
+    .place = ON_PIN,
+    .press = press_pin,
+    .name = "pin",
+    .of = OF_PIN,
+    .numbers = 1,
+    .find = find_pin,
+    .missing = "that pin is not in sight"};
+
+/// character(up,0.5,0.8): a surface point where it is now. u runs across and v up the rest pose's box, seen from the front.
+const struct thing thing_point = {
+    .cursor = CURSOR_HAND,
+    .hint = "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is",
+    .press = press_pin,
+    .name = "character",
+    .of = OF_RIG,
+    .rig = RIG_CHARACTER,
+    .numbers = 2,
+    .find = find_character,
+    .missing = "that character is not to be seen"};
 
 static const double NUDGE = 0.01; ///< of the view's height
 
@@ -240,9 +271,9 @@ void stage_hold_point(struct stage *stage, struct core *core)
 {
     int rig;
     struct hover hover = core->hover;
-    if (hover.kind == HOVER_JOINT) hover = strand_end(stage, core, &hover);
+    if (is_strand(&hover)) hover = strand_end(stage, core, &hover);
     const struct pin *selected = pins_selected(core, &rig);
-    if (hover.kind == HOVER_POINT) {
+    if (hover.thing == &thing_point) {
         hold(core, (struct rig_point){hover.rig, hover.joint});
     } else if (selected) {
         const struct pin pin = *selected;
@@ -268,7 +299,7 @@ static void show_marker(const struct stage *stage, struct core *core, struct pin
     const struct pin_left *left = evaluation_pin(core->evaluation, document, place.rig, place.at);
     const bool here = document_sample(document, pin->frame) == document_sample(document, core_frame(core));
     const bool selected = core->pin.any && core->pin.id == pin->id;
-    const bool hot = core->hover.kind == HOVER_PIN && core->hover.pin == pin->id;
+    const bool hot = core->hover.thing == &thing_pin && core->hover.pin == pin->id;
     const float radius = here || selected || hot ? HERE : ELSEWHERE;
     const uint32_t color = theme_fade(pins_color(document, place.rig), here || selected || hot ? 1 : FAINT);
     float line[2][2];
@@ -288,7 +319,7 @@ static void show_marker(const struct stage *stage, struct core *core, struct pin
 static void show_lit(struct core *core)
 {
     const float xy[2] = {core->hover.x, core->hover.y};
-    if (core->hover.kind != HOVER_POINT || core->drag.owner) return;
+    if (core->hover.thing != &thing_point || core->drag.owner) return;
     drawlist_circle(&core->list, xy, LIT + 1.5f, 1.5f, theme_fade(theme()->panel, 0.6f));
     drawlist_circle(&core->list, xy, LIT, 1.5f, theme()->playhead);
     drawlist_disc(&core->list, xy, END, theme()->playhead);
@@ -303,11 +334,6 @@ void pins_show(struct stage *stage, struct core *core)
         path_show(stage, core, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
     for (const struct pin *pin; (pin = next_marker(core, &place));) show_marker(stage, core, place, pin);
     show_lit(core);
-}
-
-bool stage_pin_point(const struct stage *stage, const struct core *core, const struct pin *pin, float xy[2])
-{
-    return project(stage, core, pin->to, xy);
 }
 
 bool point_exists(const struct core *core, struct rig_point point)

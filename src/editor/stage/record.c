@@ -222,7 +222,7 @@ void record_show(struct stage *stage, struct core *core)
     const struct document *document = core->document;
     const bool is_held = body_is_held(core);
     const int rig = is_held ? stage->body_drag.rig : core->hover.rig;
-    const struct tail *shown = is_held || core->hover.kind == HOVER_BODY ? tail_of(document, rig) : NULL;
+    const struct tail *shown = is_held || core->hover.thing == &thing_body ? tail_of(document, rig) : NULL;
     bool moves = false;
     for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
     if (moves && !core->overlays.trail) path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});

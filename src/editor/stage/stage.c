@@ -42,43 +42,32 @@ static const double ZOOM_STEP = 0.12; ///< per wheel notch, as a power of e
 /// The one nearer on the screen; the first if the second is nothing.
 static struct hover nearer(struct hover a, struct hover b, float x, float y)
 {
-    if (b.kind == HOVER_NONE) return a;
-    return a.kind == HOVER_NONE || maths_hypotf(b.x - x, b.y - y) < maths_hypotf(a.x - x, a.y - y) ? b : a;
+    if (!b.thing) return a;
+    return !a.thing || maths_hypotf(b.x - x, b.y - y) < maths_hypotf(a.x - x, a.y - y) ? b : a;
 }
 
 struct hover stage_hover(struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover joint = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
     const bool pins = core->mods & MOD_CTRL && !core->brush.on && core->pick.use == BONE_SELECTED;
-    if (pins && joint.kind == HOVER_JOINT) joint = strand_end(stage, core, &joint);
+    if (pins && is_strand(&joint)) joint = strand_end(stage, core, &joint);
     struct hover found = joint;
-    if (found.kind == HOVER_NONE) found = floors_hover(stage, core, x, y);
-    if (found.kind == HOVER_NONE) found = body_hover(stage, core, core->playback.position, x, y);
+    if (!found.thing) found = floors_hover(stage, core, x, y);
+    if (!found.thing) found = body_hover(stage, core, core->playback.position, x, y);
     const struct hover pin = pins_hover(stage, core, &found, x, y);
-    return pin.kind == HOVER_NONE ? found : pin;
+    return !pin.thing ? found : pin;
 }
 
-bool stage_body_point(struct stage *stage, const struct core *core, int tail, float xy[2])
+static bool is_on_rig(const struct hover *hover)
 {
-    const int rig = document_find_rig(core->document, RIG_TAIL, tail);
-    for (int i = 0; i < BODY_POINTS; i++) {
-        if (!body_point(stage, core, tail, i, xy)) continue;
-        struct hover hover = stage_hover(stage, core, xy[0], xy[1]);
-        if (hover.kind == HOVER_BODY && hover.rig == rig) return true;
-    }
-    return false;
-}
-
-static bool is_on_rig(enum hover_kind kind)
-{
-    return kind == HOVER_JOINT || kind == HOVER_BODY || kind == HOVER_POINT;
+    return is_strand(hover) || hover->thing == &thing_body || hover->thing == &thing_point;
 }
 
 void stage_click(void *room, struct core *core, bool keep)
 {
     const struct stage *stage = room;
     if (core->drag.moved || core->drag.button != BUTTON_LEFT || !keep) return;
-    if (is_on_rig(stage->pressed.kind) && core->pick.use == BONE_SELECTED) core->clicked = stage->pressed.rig + 1;
+    if (is_on_rig(&stage->pressed) && core->pick.use == BONE_SELECTED) core->clicked = stage->pressed.rig + 1;
     bone_click(stage, core);
 }
 
@@ -114,10 +103,10 @@ static double position_ago(const struct core *core, double seconds)
                                                         : fmax(last - (first - position), first);
 }
 
-/// The tail, chain or body at a point, at an earlier position, or HOVER_NONE.
+/// The tail, chain or body at a point, at an earlier position, or nothing.
 static struct hover hover_at(struct stage *stage, const struct core *core, double position, float x, float y)
 {
-    struct hover joint = {.kind = HOVER_NONE};
+    struct hover joint = {.thing = NULL};
     float nearest = STRAND_REACH;
     for (int s = 0; s < stage->strand_count; s++) {
         const int rig = stage->strands[s].rig;
@@ -125,14 +114,15 @@ static struct hover hover_at(struct stage *stage, const struct core *core, doubl
         if (!strand_pose(stage, core, rig, position, NULL, &posed)) continue;
         strand_nearer(stage, core, rig, &posed.strand, (const float[2]){x, y}, &nearest, &joint);
     }
-    return joint.kind != HOVER_NONE ? joint : body_hover(stage, core, position, x, y);
+    if (joint.thing && core->document->rigs[joint.rig]->kind == RIG_CHAIN) joint.thing = &thing_chain;
+    return joint.thing ? joint : body_hover(stage, core, position, x, y);
 }
 
 /// The item at a point within the last MOMENT of playback: a press aims at what was just visible.
 static struct hover moment_ago(struct stage *stage, const struct core *core, float x, float y)
 {
-    struct hover hover = {.kind = HOVER_NONE};
-    for (double ago = STEP; core->playback.playing && ago <= MOMENT && hover.kind == HOVER_NONE; ago += STEP) {
+    struct hover hover = {.thing = NULL};
+    for (double ago = STEP; core->playback.playing && ago <= MOMENT && !hover.thing; ago += STEP) {
         hover = hover_at(stage, core, position_ago(core, ago), x, y);
     }
     return hover;
@@ -150,22 +140,40 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
     stage->pointed.hash = 0; // forces a new search, because everything may have moved
     struct hover hover = stage_hover(stage, core, event->x, event->y);
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
-    if (holds && hover.kind == HOVER_NONE) hover = moment_ago(stage, core, event->x, event->y);
+    if (holds && !hover.thing) hover = moment_ago(stage, core, event->x, event->y);
     stage->pressed = hover;
-    if (holds && is_on_rig(hover.kind)) core->limb = core->document->rigs[hover.rig]->id;
-    if (event->button == BUTTON_LEFT && hover.kind != HOVER_PIN) pins_clear(core);
-    if (holds && (hover.kind == HOVER_POINT || hover.kind == HOVER_PIN)) {
-        pins_begin(stage, core, &hover, event);
-    } else if (holds && hover.kind == HOVER_FLOOR) {
-        floors_begin(stage, core, &hover, event);
-    } else if (holds && (hover.kind == HOVER_BODY || hover.kind == HOVER_BONE)) {
-        body_drag_begin(stage, core, hover.kind == HOVER_BODY ? hover.rig : hover.model, event);
-    } else if (holds && hover.kind == HOVER_JOINT) {
-        tail_drag_begin(stage, core, &hover, event);
+    if (holds && is_on_rig(&hover)) core->limb = core->document->rigs[hover.rig]->id;
+    if (event->button == BUTTON_LEFT && hover.thing != &thing_pin) pins_clear(core);
+    if (holds && hover.thing) {
+        hover.thing->press(stage, core, &hover, event);
     } else {
         drag_begin(core, &orbiting, stage, NULL, event);
     }
 }
+
+static bool find_stage(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const struct rect *stage = &core->layout.stage;
+    (void)room;
+    xy[0] = stage->x + stage->w * (float)target->number[0];
+    xy[1] = stage->y + stage->h * (float)target->number[1];
+    return true;
+}
+
+static bool find_pointer(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    (void)room;
+    xy[0] = core->pointer_x + core->layout.stage.h * (float)target->number[0];
+    xy[1] = core->pointer_y + core->layout.stage.h * (float)target->number[1];
+    return true;
+}
+
+/// stage(0.5,0.5): shares of its size. pointer(0.1,0): relative to the pointer, in heights of the stage.
+static const struct thing somewhere = {.name = "stage", .numbers = 2, .find = find_stage},
+                          beside = {.name = "pointer", .numbers = 2, .find = find_pointer};
+
+const struct thing *const stage_things[] = {&thing_tail, &thing_chain, &thing_bone, &thing_body, &thing_point,
+                                            &thing_pin,  &thing_floor, &somewhere,  &beside,     NULL};
 
 void stage_wheel(struct stage *stage, struct core *core, const struct event *event)
 {
@@ -426,8 +434,7 @@ void stage_show(struct stage *stage, struct core *core)
     body_drag_show(stage, core);
     record_show(stage, core);
     bones_show(stage, core);
-    if (!core->drag.owner && core->hover.kind == HOVER_JOINT)
-        stage_ring(core, (float[2]){core->hover.x, core->hover.y});
+    if (!core->drag.owner && is_strand(&core->hover)) stage_ring(core, (float[2]){core->hover.x, core->hover.y});
     drag_show(stage, core);
     pins_show(stage, core);
     drawlist_set_clip(&core->list, clip);

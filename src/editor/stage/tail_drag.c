@@ -9,6 +9,7 @@
 /// So the least change of x that reaches the target is taken, and a direction in which the point hardly moves gives way. On a
 /// curved way there the change still stays within twice what the best direction needs.
 #include "base/names.h"
+#include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/pins.h"
@@ -289,8 +290,9 @@ static void show(void *room, struct core *core)
 static const struct drag_owner owner = {
     .cursor = CURSOR_HAND, .goes_on = true, .apply = apply, .end = end, .show = show};
 
-void tail_drag_begin(struct stage *stage, struct core *core, const struct hover *hover, const struct event *event)
+static void press_strand(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
+    struct stage *stage = room;
     const struct rig *rig = core->document->rigs[hover->rig];
     struct tail_drag *grab = &stage->tail_drag;
     struct rig_pose posed;
@@ -318,3 +320,34 @@ void tail_drag_begin(struct stage *stage, struct core *core, const struct hover 
     if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
     strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, grab->start);
 }
+
+/// A place along it: 0 is the first joint, 1 the tip.
+static bool find_along(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const int joints = bones_joints(core, target->rig);
+    const double along = fmin(fmax(target->number[0], 0), 1) * joints;
+    const int joint = (int)fmin(floor(along), joints - 1);
+    return stage_project(room, core, target->rig, joint, along - joint, xy);
+}
+
+/// tail(tail,0.9)
+const struct thing thing_tail = {.cursor = CURSOR_HAND,
+                                 .hint = "Drag the tail: it is held where you let go. Ctrl+drag or H pins a joint",
+                                 .press = press_strand,
+                                 .name = "tail",
+                                 .of = OF_RIG,
+                                 .rig = RIG_TAIL,
+                                 .numbers = 1,
+                                 .find = find_along,
+                                 .missing = "that tail is not to be seen"};
+
+const struct thing thing_chain = {
+    .cursor = CURSOR_HAND,
+    .hint = "Drag the chain: it is held where you let go. Ctrl+drag or H pins a joint, a click selects the bone",
+    .press = press_strand,
+    .name = "chain",
+    .of = OF_RIG,
+    .rig = RIG_CHAIN,
+    .numbers = 1,
+    .find = find_along,
+    .missing = "that chain is not to be seen"};

@@ -126,34 +126,34 @@ void strand_nearer(const struct stage *stage, const struct core *core, int rig, 
         float distance = maths_hypotf(p[0] - at[0], p[1] - at[1]);
         if (distance >= *nearest) continue;
         *nearest = distance;
-        *hover =
-            (struct hover){.kind = HOVER_JOINT, .rig = rig, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
+        *hover = (struct hover){
+            .thing = &thing_tail, .rig = rig, .joint = n, .fraction = fraction, .x = at[0], .y = at[1]};
     }
 }
 
 struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
-    struct hover hover = {.kind = HOVER_NONE};
+    struct hover hover = {.thing = NULL};
     float nearest = STRAND_REACH;
     for (int s = 0; s < stage->tail_count; s++) {
         const struct shown_strand *tail = &stage->strands[s];
         strand_nearer(stage, core, tail->rig, &tail->pose, (const float[2]){x, y}, &nearest, &hover);
     }
     // An edit in the same frame may have removed it.
-    if (!tail_drag_holds(core->document, hover.rig, hover.joint)) hover.kind = HOVER_NONE;
+    if (!tail_drag_holds(core->document, hover.rig, hover.joint)) hover.thing = NULL;
     return hover;
 }
 
 struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between)
 {
-    struct hover hover = {.kind = HOVER_POINT, .rig = between->rig};
+    struct hover hover = {.thing = &thing_point, .rig = between->rig};
     const struct shown_strand *strand = strand_of(stage, hover.rig);
     float xy[2];
     hover.joint = (int)round(between->joint + between->fraction) - 1;
     if (hover.joint < 0) hover.joint = 0;
     if (!strand || hover.joint + 1 >= strand->pose.count ||
         !strand_project(stage, core, &strand->pose, hover.joint + 1, 0, xy))
-        return (struct hover){.kind = HOVER_NONE};
+        return (struct hover){.thing = NULL};
     hover.x = xy[0];
     hover.y = xy[1];
     return hover;

@@ -152,62 +152,11 @@ static const char *lead_hint(const struct core *core)
                           "Drag a knot. Space plays, F1 shows all keys"},
     };
     const enum lead lead = rigs_lead(core);
+    if (core->bone.any)
+        return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc deselects it";
     if (lead == LEAD_NOTHING && document->spline_count == 0)
         return "A adds a tail, Ctrl+O opens a scene. F1 shows all keys";
     return hints[lead][rigs_have_knots(document)];
-}
-
-static const char *const hover_hints[] = {
-    [HOVER_KNOT] = "Drag it (X, Y: one axis, R: later ones too, Shift: fine, Ctrl: off frames)",
-    [HOVER_SLOPE] = "Drag to turn the slope, pull to make it firmer; T removes it",
-    [HOVER_CURVE] = "Click to edit this spline",
-    [HOVER_RULER] = "Drag to scrub; Shift+drag to play part of the range, Shift+click to play it all",
-    [HOVER_UNITS] = "Click to switch between frames and seconds (U)",
-    [HOVER_SHEET] = "Click to open or close the dope sheet (F7)",
-    [HOVER_ROW] = "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box",
-    [HOVER_WARNING] = "Click to fix; Ctrl+Z undoes it",
-    [HOVER_JOINT] = "Drag the tail: it is held where you let go. Ctrl+drag or H pins a joint",
-    [HOVER_BONE] = "Click to select this bone (Alt shows control bones too); drag to move the character",
-    [HOVER_BODY] = "Drag the body: the tail follows through (Ctrl lifts it, X, Y or Z locks an axis, R records)",
-    [HOVER_LIMIT] = "Drag the limit; the curve stays on this side of it",
-    [HOVER_BOX] =
-        "Drag to scale the selected knots about the other side; with Alt about the equilibrium (P while you drag)",
-    [HOVER_POINT] =
-        "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is",
-    [HOVER_PIN] = "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it",
-    [HOVER_FLOOR] = "Drag the floor up or down (Shift: fine); the whole character stays above it",
-};
-
-static const char *hover_hint(const struct core *core)
-{
-    static const char *const picks[] = {
-        [BONE_FOLLOWED] = "Click the bone that the equilibrium should follow; Esc cancels",
-        [BONE_FIRST] = "Click the first bone of the chain; Esc cancels",
-        [BONE_LAST] = "Click the last bone of the chain; Esc cancels",
-    };
-    const struct hover *hover = &core->hover;
-    if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
-    if (hover->kind == HOVER_KNOT) {
-        const struct spline *spline = core->document->splines[hover->spline];
-        const int k = spline_find_id(spline, hover->knot);
-        if (k >= 0 && spline->knots[k].still)
-            return "Comes to rest at the equilibrium; Shift+P gives it a value. Drag it in time (Ctrl: off frames)";
-    }
-    if (hover->kind == HOVER_CURVE && hover->spline == core->active)
-        return "Double-click to insert a knot on the curve, with Shift a pose; drag to select with a box";
-    if (hover->kind == HOVER_JOINT && core->document->rigs[hover->rig]->kind == RIG_CHAIN)
-        return "Drag the chain: it is held where you let go. Ctrl+drag or H pins a joint, a click selects the bone";
-    if (hover->kind == HOVER_PIN && core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_CURVES)
-        return "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, Alt+PgDn: by a frame";
-    if (hover->kind != HOVER_NONE) return hover_hints[hover->kind];
-    if (core->bone.any)
-        return "J makes a chain from this bone to its tip, Shift+J one that follows through; Esc deselects it";
-    return lead_hint(core);
-}
-
-const char *transport_hint(const struct core *core)
-{
-    return core->hover.kind == HOVER_UNITS ? hover_hints[HOVER_UNITS] : NULL;
 }
 
 static void paint_text(struct drawlist *list, struct rect r, enum font font, uint32_t color, const char *text)
@@ -305,7 +254,7 @@ void transport_show(struct ui *ui, struct core *core, const char *hint)
                    saved ? theme()->text_dim : theme()->text, title.text);
         x += title.width + GAP;
     }
-    const char *text = message->text[0] ? message->text : hint ? hint : ui->hint ? ui->hint : hover_hint(core);
+    const char *text = message->text[0] ? message->text : hint ? hint : ui->hint ? ui->hint : lead_hint(core);
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
     const struct rect middle = {x, bar.y, end - (roomy && figures[0] ? width + GAP : 0) - x, bar.h};
     if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);

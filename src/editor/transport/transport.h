@@ -11,9 +11,7 @@ void transport_event(struct ui *ui, struct core *core, const struct event *event
 bool transport_target(struct ui *ui, struct core *core, const char *name, float *x, float *y);
 /// The figures change at most twice a second, to save redraws.
 void transport_advance(struct core *core, double dt);
-/// A sentence on the ruler's unit under the pointer; NULL: none.
-const char *transport_hint(const struct core *core);
-/// Draws the status line. Without a message it shows `hint`, or if that is NULL a hint on the item under the pointer.
+/// Draws the status line. Without a message it shows `hint`, or if that is NULL one on the control under the pointer or on the scene.
 void transport_show(struct ui *ui, struct core *core, const char *hint);
 
 #endif
