@@ -50,18 +50,11 @@ void editor_leave(struct editor *editor, const struct request *request)
     dialogs_leave(editor->dialogs, &editor->core, request);
 }
 
-static void turn_wheel(struct editor *editor, const struct event *event)
-{
-    const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
-    if (panel == PANEL_CURVES) curves_wheel(editor->curves, &editor->core, event);
-    if (panel == PANEL_STATUS) transport_event(&editor->status, &editor->core, event);
-    if (panel == PANEL_STAGE) stage_wheel(editor->stage, &editor->core, event);
-}
-
 /// For events that no dialog, drag or inspector used.
 static void dispatch(struct editor *editor, const struct event *event)
 {
     struct request request = {.kind = event->kind == EVENT_CLOSE ? REQUEST_QUIT : REQUEST_OPEN};
+    const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
     switch (event->kind) {
     case EVENT_KEY:
     case EVENT_TEXT:
@@ -71,7 +64,9 @@ static void dispatch(struct editor *editor, const struct event *event)
         if (event->action == ACTION_PRESS) press(editor, event);
         break;
     case EVENT_WHEEL:
-        turn_wheel(editor, event);
+        if (panel == PANEL_CURVES) curves_wheel(editor->curves, &editor->core, event);
+        if (panel == PANEL_STATUS) transport_event(&editor->status, &editor->core, event);
+        if (panel == PANEL_STAGE) stage_wheel(editor->stage, &editor->core, event);
         break;
     case EVENT_PASTE:
         core_paste_knots(&editor->core, event->text);
@@ -88,59 +83,37 @@ static void dispatch(struct editor *editor, const struct event *event)
     }
 }
 
-/// Stores pointer and modifiers; a press dismisses an error.
-static void note(struct editor *editor, const struct event *event)
-{
-    bool has_pointer = event->kind == EVENT_POINTER || event->kind == EVENT_BUTTON || event->kind == EVENT_WHEEL;
-    if (has_pointer) {
-        editor->core.pointer_x = event->x;
-        editor->core.pointer_y = event->y;
-        editor->core.finger = event->finger;
-    }
-    if (has_pointer || event->kind == EVENT_KEY) editor->core.mods = event->mods;
-    bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
-    if (pressed && event->action == ACTION_PRESS && editor->core.message.is_error) {
-        editor->core.message.text[0] = 0;
-        editor->core.message.is_error = false;
-    }
-}
-
 void editor_let_go(struct editor *editor)
 {
     drag_end(&editor->core, true);
     inspector_let_go(editor->inspector);
 }
 
-/// Opens core's question. A new overlay ends any drag and releases held keys.
-static void ask(struct editor *editor)
-{
-    if (dialogs_ask(editor->dialogs, &editor->core)) inspector_let_go(editor->inspector);
-    if (!dialogs_cover(editor->dialogs)) return;
-    drag_end(&editor->core, true);
-    editor->core.held_key = 0;
-    editor->core.space_down = false;
-}
-
-/// Whether an event hides a tooltip.
-static bool is_interruption(const struct event *event)
-{
-    const bool pressed = (event->kind == EVENT_KEY || event->kind == EVENT_BUTTON) && event->action != ACTION_RELEASE;
-    return pressed || event->kind == EVENT_TEXT || event->kind == EVENT_WHEEL || event->kind == EVENT_SIZE;
-}
-
 /// Overlays get events first, then a running drag, then the inspector. A text field takes all keys except Ctrl chords and F keys; a focused
 /// slider arrows, Enter and digits; an open dialog all.
 void editor_event(struct editor *editor, const struct event *event)
 {
-    note(editor, event);
-    if (is_interruption(event)) tooltip_dismiss(&editor->tooltip);
+    struct core *core = &editor->core;
+    const bool is_key = event->kind == EVENT_KEY, is_button = event->kind == EVENT_BUTTON;
+    const bool has_pointer = event->kind == EVENT_POINTER || is_button || event->kind == EVENT_WHEEL;
+    if (has_pointer) {
+        core->pointer_x = event->x;
+        core->pointer_y = event->y;
+        core->finger = event->finger;
+    }
+    if (has_pointer || is_key) core->mods = event->mods;
+    if ((is_key || is_button) && event->action == ACTION_PRESS && core->message.is_error)
+        core->message = (struct message){.text = ""};
+    if (((is_key || is_button) && event->action != ACTION_RELEASE) || event->kind == EVENT_TEXT ||
+        event->kind == EVENT_WHEEL || event->kind == EVENT_SIZE)
+        tooltip_dismiss(&editor->tooltip);
     if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
     dialogs_note(editor->dialogs, event);
     if (event->kind == EVENT_TEXT && editor->press.opened) return;
     bool used = (!dialogs_are_asking(editor->dialogs) && keys_first(editor, event)) ||
-                dialogs_event(editor->dialogs, &editor->core, event) || drag_event(&editor->core, event) ||
-                (!inspector_ui(editor->inspector)->typing && presenter_event(&editor->core, event)) ||
-                (!editor->core.drag.owner && inspector_event(editor->inspector, event));
+                dialogs_event(editor->dialogs, core, event) || drag_event(core, event) ||
+                (!inspector_ui(editor->inspector)->typing && presenter_event(core, event)) ||
+                (!core->drag.owner && inspector_event(editor->inspector, event));
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
         editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
     }
@@ -148,7 +121,13 @@ void editor_event(struct editor *editor, const struct event *event)
     const struct command *chosen = dialogs_take_command(editor->dialogs);
     if (chosen) command_run(editor, chosen);
     editor_settle(editor);
-    ask(editor);
+
+    // A question or another new overlay ends any drag and releases held keys.
+    if (dialogs_ask(editor->dialogs, core)) inspector_let_go(editor->inspector);
+    if (!dialogs_cover(editor->dialogs)) return;
+    drag_end(core, true);
+    core->held_key = 0;
+    core->space_down = false;
 }
 
 void editor_advance(struct editor *editor, double dt)
@@ -194,21 +173,6 @@ void editor_pose_alone(struct editor *editor, double frame, float width, float h
     editor->core.plain = true;
     editor->core.playback.position = core_position(editor->core.document, frame);
     editor_pose(editor);
-}
-
-/// Every frame, because things move under the pointer.
-static void update_hover(struct editor *editor)
-{
-    editor->status.pointer_x = -1;
-    editor->status.hint = NULL;
-    if (editor->core.drag.owner) return;
-    float x = editor->core.pointer_x, y = editor->core.pointer_y;
-    editor->core.hover = (struct hover){.thing = NULL};
-    if (dialogs_cover(editor->dialogs) || core_divider_at(&editor->core, x, y) != DIVIDER_NONE) return;
-    const enum panel panel = core_panel_at(&editor->core, x, y);
-    if (panel == PANEL_CURVES) editor->core.hover = curves_hover(editor->curves, &editor->core, x, y);
-    if (panel == PANEL_STAGE) editor->core.hover = stage_hover(editor->stage, &editor->core, x, y);
-    if (panel == PANEL_STATUS) editor->status.pointer_x = x, editor->status.pointer_y = y;
 }
 
 static void show_divider(struct editor *editor, enum divider divider)
@@ -263,30 +227,42 @@ static void show_tooltip(struct editor *editor)
     tooltip_show(&editor->tooltip, core->layout.window, &core->list);
 }
 
-/// While presenting, only the panels that have not slid away.
-static void show_panels(struct editor *editor)
-{
-    const struct presenter *presenter = &editor->core.presenter;
-    const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
-    if (below) curves_show(editor->curves, &editor->core);
-    if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
-    if (side) inspector_show(editor->inspector, dialogs_cover(editor->dialogs));
-    if (side) show_divider(editor, editor->core.layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
-    if (below) transport_show(&editor->status, &editor->core, hint_of(editor));
-}
-
 void editor_show(struct editor *editor)
 {
-    drawlist_clear(&editor->core.list, editor->core.layout.window);
-    update_hover(editor);
-    stage_show(editor->stage, &editor->core);
-    dialogs_show_welcome(editor->dialogs, &editor->core, stage_figure(editor->stage, &editor->core));
-    stage_show_caption(&editor->core, dialogs_bottom(editor->dialogs, &editor->core));
-    show_panels(editor);
-    dialogs_show_input(editor->dialogs, &editor->core);
-    dialogs_show(editor->dialogs, &editor->core);
+    struct core *core = &editor->core;
+    const bool covered = dialogs_cover(editor->dialogs);
+    const float x = core->pointer_x, y = core->pointer_y;
+    drawlist_clear(&core->list, core->layout.window);
+
+    // Anew in every frame, because things move under the pointer.
+    editor->status.pointer_x = -1;
+    editor->status.hint = NULL;
+    if (!core->drag.owner) {
+        const bool is_beside = covered || core_divider_at(core, x, y) != DIVIDER_NONE;
+        const enum panel panel = is_beside ? PANEL_NONE : core_panel_at(core, x, y);
+        core->hover = (struct hover){.thing = NULL};
+        if (panel == PANEL_CURVES) core->hover = curves_hover(editor->curves, core, x, y);
+        if (panel == PANEL_STAGE) core->hover = stage_hover(editor->stage, core, x, y);
+        if (panel == PANEL_STATUS) editor->status.pointer_x = x, editor->status.pointer_y = y;
+    }
+
+    stage_show(editor->stage, core);
+    dialogs_show_welcome(editor->dialogs, core, stage_figure(editor->stage, core));
+    stage_show_caption(core, dialogs_bottom(editor->dialogs, core));
+
+    // While presenting, only the panels that have not slid away.
+    const struct presenter *presenter = &core->presenter;
+    const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
+    if (below) curves_show(editor->curves, core);
+    if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
+    if (side) inspector_show(editor->inspector, covered);
+    if (side) show_divider(editor, core->layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
+    if (below) transport_show(&editor->status, core, hint_of(editor));
+
+    dialogs_show_input(editor->dialogs, core);
+    dialogs_show(editor->dialogs, core);
     show_tooltip(editor);
-    editor->core.unshown = false;
+    core->unshown = false;
 }
 
 enum mouse_cursor editor_cursor(const struct editor *editor)

@@ -38,52 +38,6 @@ static const struct thing divider = {.name = "divider",
 
 static const struct thing *const editor_things[] = {&divider, &slider, &widget, NULL};
 
-/// Finds the spline of the name, and its knot if the thing needs one.
-static bool find_spline(const struct document *document, const struct thing *thing, struct target *target,
-                        struct error *error)
-{
-    const double k = target->number[0];
-    target->spline = document_find_spline(document, target->name);
-    if (target->spline < 0) return fail(error, ERROR_INPUT, "there is no spline \"%s\"", target->name);
-    const struct spline *spline = document->splines[target->spline];
-    if (thing->of == OF_SPLINE) return true;
-    if (!(k >= 0 && k < spline->knot_count))
-        return fail(error, ERROR_INPUT, "the spline \"%s\" has %d knots, no knot %g", spline->name,
-                    spline->knot_count, k);
-    target->knot = &spline->knots[(int)k];
-    return true;
-}
-
-/// Finds the rig of the thing's kind and name, or one with such a pin. An unnamed character goes by its model.
-static bool find_rig(const struct document *document, const struct thing *thing, struct target *target,
-                     struct error *error)
-{
-    const double n = target->number[0];
-    for (target->rig = target->nth = 0; target->rig < document->rig_count; target->rig++) {
-        const struct rig *rig = document->rigs[target->rig];
-        const bool is_named = strcmp(rig_title(rig), target->name) == 0;
-        if (thing->of == OF_RIG && rig->kind == thing->rig && is_named) return true;
-        if (thing->of == OF_PIN && is_named && n >= 0 && n < rig->pin_count) target->pin = &rig->pins[(int)n];
-        if (target->pin) return true;
-        target->nth += rig->kind == thing->rig;
-    }
-    if (thing->of == OF_PIN) return fail(error, ERROR_INPUT, "there is no pin %g of \"%s\"", n, target->name);
-    return fail(error, ERROR_INPUT, "there is no %s \"%s\"", rig_word(thing->rig), target->name);
-}
-
-/// Cuts the last ",number" off `text`; false if there is none.
-static bool cut_number(char *text, double *number)
-{
-    char *comma = strrchr(text, ',');
-    char *digits = comma ? comma + 1 : text;
-    char *end;
-    *number = strtod(digits, &end);
-    if (end == digits || *end || !isfinite(*number)) return false;
-    *digits = 0;
-    if (comma) *comma = 0;
-    return true;
-}
-
 /// Parses kind(name,number,…). Returns the kind's thing in a list, or NULL.
 static const struct thing *parse(const struct thing *const *things, const char *text, struct target *target)
 {
@@ -93,7 +47,10 @@ static const struct thing *parse(const struct thing *const *things, const char *
     *target = (struct target){.name = ""};
     memcpy(target->name, text + kind + 1, length - kind - 2);
     for (int n = (*things)->numbers - 1; n >= 0; n--) {
-        if (!cut_number(target->name, &target->number[n])) return NULL;
+        char *comma = strrchr(target->name, ','), *digits = comma ? comma + 1 : target->name, *end;
+        target->number[n] = strtod(digits, &end);
+        if (end == digits || *end || !isfinite(target->number[n])) return NULL;
+        *(comma ? comma : digits) = 0;
     }
     return ((*things)->of != OF_NOBODY) == (target->name[0] != 0) ? *things : NULL;
 }
@@ -109,9 +66,32 @@ bool editor_target(struct editor *editor, const char *text, float *x, float *y, 
     int list = -1;
     while (!thing && ++list < 3) thing = parse(lists[list], text, &target);
     if (!thing) return fail(error, ERROR_INPUT, "\"%s\" is no target such as knot(sway,2) or stage(0.5,0.5)", text);
-    if ((thing->of == OF_SPLINE || thing->of == OF_KNOT) && !find_spline(document, thing, &target, error))
-        return false;
-    if ((thing->of == OF_RIG || thing->of == OF_PIN) && !find_rig(document, thing, &target, error)) return false;
+    const double k = target.number[0];
+    if (thing->of == OF_SPLINE || thing->of == OF_KNOT) {
+        target.spline = document_find_spline(document, target.name);
+        if (target.spline < 0) return fail(error, ERROR_INPUT, "there is no spline \"%s\"", target.name);
+        const struct spline *spline = document->splines[target.spline];
+        if (thing->of == OF_KNOT && !(k >= 0 && k < spline->knot_count))
+            return fail(error, ERROR_INPUT, "the spline \"%s\" has %d knots, no knot %g", spline->name,
+                        spline->knot_count, k);
+        if (thing->of == OF_KNOT) target.knot = &spline->knots[(int)k];
+    }
+    bool found = thing->of != OF_RIG && thing->of != OF_PIN;
+    while (!found && target.rig < document->rig_count) {
+        const struct rig *rig = document->rigs[target.rig];
+        found = strcmp(rig_title(rig), target.name) == 0; // an unnamed character goes by its model
+        if (thing->of == OF_PIN) {
+            found &= k >= 0 && k < rig->pin_count;
+            if (found) target.pin = &rig->pins[(int)k];
+        } else {
+            found &= rig->kind == thing->rig;
+            target.nth += !found && rig->kind == thing->rig;
+        }
+        target.rig += !found;
+    }
+    if (!found && thing->of == OF_PIN)
+        return fail(error, ERROR_INPUT, "there is no pin %g of \"%s\"", k, target.name);
+    if (!found) return fail(error, ERROR_INPUT, "there is no %s \"%s\"", rig_word(thing->rig), target.name);
     if (!thing->find(rooms[list], &editor->core, &target, xy)) return fail(error, ERROR_INPUT, "%s", thing->missing);
     *x = xy[0];
     *y = xy[1];

@@ -34,7 +34,7 @@ void curves_open(struct curves *curves)
 
 bool curves_wants_frames(const struct curves *curves) { return curves->following.moves; }
 
-static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9;
+static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9, LIMIT_REACH = 5; ///< pixels
 static const double ZOOM_STEP = 0.15; ///< exponent of e per notch of the wheel
 
 float nearest_knot(const struct curves *curves, const struct core *core, int of, float row, float x, float y,
@@ -55,17 +55,6 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
     return best;
 }
 
-/// Knots of the other drawn curves.
-static void nearest_other_knot(const struct curves *curves, const struct core *core, float x, float y,
-                               struct hover *hover)
-{
-    float best = OTHER_REACH;
-    for (int i = 0; i < curves->cache.other_count; i++) {
-        const int spline = curves_other(curves, core->document, i);
-        if (spline >= 0) best = nearest_knot(curves, core, spline, NAN, x, y, best, hover);
-    }
-}
-
 /// A press that did not move deselects; `keep` false restores the former selection.
 static void end(void *room, struct core *core, bool keep)
 {
@@ -75,66 +64,7 @@ static void end(void *room, struct core *core, bool keep)
     if (keep) selected_settle(core);
 }
 
-static void nearest_handle(const struct curves *curves, const struct core *core, const struct spline *spline, float x,
-                           float y, struct hover *hover)
-{
-    float best = core_reach(core, CURVES_HIT_RADIUS);
-    for (int k = 0; k < spline->knot_count; k++) {
-        const struct knot *knot = &spline->knots[k];
-        if (!knot->has_slope || !selection_has(&core->selection, knot->id)) continue;
-        for (int end = 0; end < 2; end++) {
-            float xy[2];
-            curves_handle(curves, core, knot, end, xy);
-            if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
-                *hover =
-                    (struct hover){.thing = &thing_slope, .spline = core->active, .knot = knot->id, .handle = end};
-        }
-    }
-}
-
-static void nearest_warning(const struct curves *curves, const struct core *core, float x, float y,
-                            struct hover *hover)
-{
-    for (int i = 0; i < curves->warnings.count; i++) {
-        float xy[2];
-        if (!warning_place(curves, core, &curves->warnings.list[i], xy) ||
-            maths_hypotf(x - xy[0], y - xy[1]) > WARNING_REACH) {
-            continue;
-        }
-        *hover = (struct hover){.thing = &thing_warning, .handle = i};
-    }
-}
-
-/// The nearest curve directly above or below, the active one first.
-static void nearest_curve(const struct curves *curves, const struct core *core, float x, float y, struct hover *hover)
-{
-    double position = core_position(core->document, curves_frame(curves, core, x));
-    float best = CURVE_REACH;
-    for (int i = 0; i < core->document->spline_count; i++) {
-        int s = i == 0 ? core->active : i <= core->active ? i - 1 : i;
-        if (!spline_list_shows(core, s)) continue;
-        wiggly_value v = evaluation_at(core->evaluation, s, position);
-        float distance = fabsf(y - curves_y_of(curves, core, s, v.y + v.re));
-        if (distance >= best) continue;
-        best = distance;
-        *hover = (struct hover){.thing = s == core->active ? &thing_active_curve : &thing_curve, .spline = s};
-    }
-}
-
-static const float REACH = 5; ///< pixels
-
 static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PARAMETER_LOW; }
-
-static void limits_hover(const struct curves *curves, const struct core *core, const struct spline *spline, float y,
-                         struct hover *hover)
-{
-    float best = REACH;
-    for (int i = 0; i < 2; i++) {
-        double value = spline->parameter[limit_of(i)].value;
-        if (is_nearest(isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY, &best))
-            *hover = (struct hover){.thing = &thing_limit, .spline = core->active, .handle = i};
-    }
-}
 
 struct hover curves_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
@@ -146,14 +76,53 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     if (rect_contains(sheet_switch(core), x, y)) hover.thing = &thing_sheet;
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, x, y);
     if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
-    bool seen = spline_list_seen(core) != NULL;
-    if (seen) nearest_knot(curves, core, core->active, NAN, x, y, core_reach(core, CURVES_HIT_RADIUS), &hover);
-    if (seen && !hover.thing) nearest_handle(curves, core, spline, x, y, &hover);
-    if (!hover.thing) nearest_warning(curves, core, x, y, &hover);
-    if (!hover.thing) nearest_other_knot(curves, core, x, y, &hover);
+    const bool seen = spline_list_seen(core) != NULL;
+    float best = core_reach(core, CURVES_HIT_RADIUS), xy[2];
+    if (seen) nearest_knot(curves, core, core->active, NAN, x, y, best, &hover);
+    if (hover.thing) return hover;
+    for (int k = 0; k < spline->knot_count && seen; k++) {
+        const struct knot *knot = &spline->knots[k];
+        if (!knot->has_slope || !selection_has(&core->selection, knot->id)) continue;
+        for (int end = 0; end < 2; end++) {
+            curves_handle(curves, core, knot, end, xy);
+            if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
+                hover =
+                    (struct hover){.thing = &thing_slope, .spline = core->active, .knot = knot->id, .handle = end};
+        }
+    }
+    if (hover.thing) return hover;
+    for (int i = 0; i < curves->warnings.count; i++) {
+        if (warning_place(curves, core, &curves->warnings.list[i], xy) &&
+            maths_hypotf(x - xy[0], y - xy[1]) <= WARNING_REACH)
+            hover = (struct hover){.thing = &thing_warning, .handle = i};
+    }
+    if (hover.thing) return hover;
+    best = OTHER_REACH;
+    for (int i = 0; i < curves->cache.other_count; i++) {
+        const int other = curves_other(curves, core->document, i);
+        if (other >= 0) best = nearest_knot(curves, core, other, NAN, x, y, best, &hover);
+    }
     if (!hover.thing) scale_box_hover(curves, core, x, y, &hover);
-    if (!hover.thing && seen) limits_hover(curves, core, spline, y, &hover);
-    if (!hover.thing) nearest_curve(curves, core, x, y, &hover);
+    if (hover.thing) return hover;
+    best = LIMIT_REACH;
+    for (int i = 0; i < 2 && seen; i++) {
+        const double value = spline->parameter[limit_of(i)].value;
+        if (is_nearest(isfinite(value) ? fabsf(y - curves_y(curves, core, value)) : INFINITY, &best))
+            hover = (struct hover){.thing = &thing_limit, .spline = core->active, .handle = i};
+    }
+    if (hover.thing) return hover;
+    // The nearest curve directly above or below, the active one first.
+    const double position = core_position(core->document, curves_frame(curves, core, x));
+    best = CURVE_REACH;
+    for (int i = 0; i < core->document->spline_count; i++) {
+        const int s = i == 0 ? core->active : i <= core->active ? i - 1 : i;
+        if (!spline_list_shows(core, s)) continue;
+        const wiggly_value v = evaluation_at(core->evaluation, s, position);
+        const float distance = fabsf(y - curves_y_of(curves, core, s, v.y + v.re));
+        if (distance >= best) continue;
+        best = distance;
+        hover = (struct hover){.thing = s == core->active ? &thing_active_curve : &thing_curve, .spline = s};
+    }
     return hover;
 }
 

@@ -120,11 +120,9 @@ bool transport_target(struct ui *ui, struct core *core, const char *name, float 
     return found;
 }
 
-static const double REFRESH = 0.5; ///< seconds between updates of the performance figures
-static const double SOLVED = 5;    ///< µs; shorter times solved nothing
-
 void transport_advance(struct core *core, double dt)
 {
+    static const double REFRESH = 0.5; // seconds between updates of the performance figures
     struct status *status = &core->status;
     status->age += dt;
     if (status->shown.fps > 0 && status->age < REFRESH) return;
@@ -166,36 +164,32 @@ static void paint_text(struct drawlist *list, struct rect r, enum font font, uin
     drawlist_text_fit(list, r.x, y, r.w, font, size, color, text);
 }
 
-/// Frame and time, in a column of constant width; returns its right end.
-static float show_time(struct core *core, struct rect bar, float x)
+void transport_show(struct ui *ui, struct core *core, const char *hint)
 {
-    char text[64];
-    double frame = core_frame(core);
-    snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / core->document->fps);
-    float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-    paint_text(&core->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
-    return x + width;
-}
-
-/// The scene's name, with a dot for unsaved changes.
-struct title {
-    char text[256 + 8];
-    float width;
-};
-
-static struct title title_of(const struct core *core, bool saved, float room)
-{
-    struct title title;
-    snprintf(title.text, sizeof title.text, "%s%s", core->title, saved ? "" : " •");
-    title.width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, title.text), room);
-    return title;
-}
-
-/// Shows frames per second only while playing. At rest frames follow events, so their rate means nothing.
-static void figures_text(const struct core *core, char *text, size_t size)
-{
+    enum { GAP = 24, STATUS_MARGIN = 12 };
+    static const char unkept[] = "Autosave fails: save now (Ctrl+S)"; // no recovery file holds the unsaved work
+    static const double SOLVED = 5;                                   // µs; shorter times solved nothing
+    struct rect bar = core->layout.status;
+    const struct message *message = &core->message;
     const struct status *status = &core->status;
-    char stage[32] = "", fps[64] = "", solve[32] = "";
+    drawlist_rect(&core->list, bar, theme()->panel);
+    drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
+    ui_begin_draw(ui, bar, &core->list);
+    float x = build(ui, core);
+    ui_end(ui);
+    if (is_covered(core)) {
+        x = bar.x + STATUS_MARGIN;
+    } else { // frame and time, in a column of constant width
+        char text[64];
+        const double frame = core_frame(core);
+        snprintf(text, sizeof text, "%5.0f  %6.2f s", round(frame), frame / core->document->fps);
+        const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+        paint_text(&core->list, (struct rect){x, bar.y, width, bar.h}, FONT_NUMBER, theme()->text, text);
+        x += width + GAP;
+    }
+
+    // Frames per second only while playing: at rest frames follow events, so their rate means nothing.
+    char stage[32] = "", fps[64] = "", solve[32] = "", figures[160];
     if (core->playback.playing && status->shown.fps > 0)
         snprintf(fps, sizeof fps, "%.0f fps  %ld dropped", status->shown.fps, status->dropped);
     if (status->shown.solve_us >= SOLVED && core->evaluation)
@@ -203,60 +197,35 @@ static void figures_text(const struct core *core, char *text, size_t size)
                  evaluation_solver(core->evaluation));
     if (status->stage_scale > 0 && status->stage_scale < 1)
         snprintf(stage, sizeof stage, "stage at %.0f %%", 100 * (double)status->stage_scale);
-    snprintf(text, size, "%s%s%s%s%s", stage, stage[0] && (fps[0] || solve[0]) ? "  " : "", fps,
+    snprintf(figures, sizeof figures, "%s%s%s%s%s", stage, stage[0] && (fps[0] || solve[0]) ? "  " : "", fps,
              fps[0] && solve[0] ? "  " : "", solve);
-}
 
-enum { GAP = 24, STATUS_MARGIN = 12 };
-
-static const char unkept[] = "Autosave fails: save now (Ctrl+S)";
-
-/// The mark at the right end for unsaved work without a recovery file.
-static struct rect unkept_rect(struct rect bar)
-{
-    const float width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, unkept);
-    return (struct rect){bar.x + bar.w - STATUS_MARGIN - width, bar.y + 1, width, bar.h - 1};
-}
-
-/// In a narrow window the mark covers the controls.
-static void show_unkept(struct core *core, struct rect bar)
-{
-    const struct rect r = unkept_rect(bar);
-    if (!core->unkept) return;
-    drawlist_rect(&core->list, (struct rect){r.x - STATUS_MARGIN, r.y, r.w + 2 * STATUS_MARGIN, r.h}, theme()->panel);
-    paint_text(&core->list, (struct rect){r.x, bar.y, r.w, bar.h}, FONT_LABEL, theme()->error, unkept);
-}
-
-void transport_show(struct ui *ui, struct core *core, const char *hint)
-{
-    struct rect bar = core->layout.status;
-    const struct message *message = &core->message;
-    drawlist_rect(&core->list, bar, theme()->panel);
-    drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
-    ui_begin_draw(ui, bar, &core->list);
-    const float controls_end = build(ui, core);
-    ui_end(ui);
-    float x = is_covered(core) ? bar.x + STATUS_MARGIN : show_time(core, bar, controls_end) + GAP;
-    char figures[160];
-    figures_text(core, figures, sizeof figures);
-    const float end = core->unkept ? unkept_rect(bar).x - GAP : bar.x + bar.w - STATUS_MARGIN;
-    const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     // The message is never cut: figures and name give way to it, figures first.
+    const float mark = bar.x + bar.w - STATUS_MARGIN - font_width(FONT_LABEL, THEME_TEXT_NORMAL, unkept);
+    const float end = core->unkept ? mark - GAP : bar.x + bar.w - STATUS_MARGIN;
+    const float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, figures);
     const float needed = message->text[0] ? GAP + font_width(FONT_LABEL, THEME_TEXT_NORMAL, message->text) : 0;
     const bool saved = history_is_saved(core->history);
-    const struct title title = title_of(core, saved, fminf(bar.w / 5, fmaxf(end - x, 0)));
-    const bool roomy = x + title.width + needed + GAP + width <= end;
+    char title[sizeof core->title + 8]; // a dot for unsaved changes
+    snprintf(title, sizeof title, "%s%s", core->title, saved ? "" : " •");
+    const float title_width =
+        fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, title), fminf(bar.w / 5, fmaxf(end - x, 0)));
+    const bool roomy = x + title_width + needed + GAP + width <= end;
     if (roomy)
         paint_text(&core->list, (struct rect){end - width, bar.y, width, bar.h}, FONT_NUMBER, theme()->text_dim,
                    figures);
-    if (roomy || x + title.width + needed <= end) {
-        paint_text(&core->list, (struct rect){x, bar.y, title.width, bar.h}, FONT_LABEL,
-                   saved ? theme()->text_dim : theme()->text, title.text);
-        x += title.width + GAP;
+    if (roomy || x + title_width + needed <= end) {
+        paint_text(&core->list, (struct rect){x, bar.y, title_width, bar.h}, FONT_LABEL,
+                   saved ? theme()->text_dim : theme()->text, title);
+        x += title_width + GAP;
     }
     const char *text = message->text[0] ? message->text : hint ? hint : ui->hint ? ui->hint : lead_hint(core);
     uint32_t color = !message->text[0] ? theme()->text_dim : message->is_error ? theme()->error : theme()->text;
     const struct rect middle = {x, bar.y, end - (roomy && figures[0] ? width + GAP : 0) - x, bar.h};
     if (middle.w > 40) paint_text(&core->list, middle, FONT_LABEL, color, text);
-    show_unkept(core, bar);
+    if (!core->unkept) return; // in a narrow window the mark covers the controls
+    const struct rect r = {mark, bar.y, bar.x + bar.w - STATUS_MARGIN - mark, bar.h};
+    drawlist_rect(&core->list, (struct rect){r.x - STATUS_MARGIN, r.y + 1, r.w + 2 * STATUS_MARGIN, r.h - 1},
+                  theme()->panel);
+    paint_text(&core->list, r, FONT_LABEL, theme()->error, unkept);
 }
