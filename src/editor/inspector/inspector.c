@@ -28,14 +28,6 @@ enum {
     SWING = SPLINE << 1,
 };
 
-static unsigned what_there_is(const struct core *core)
-{
-    const struct spline *spline = core_active_spline(core);
-    unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
-    for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
-    return found;
-}
-
 static bool always(const struct core *core)
 {
     (void)core;
@@ -82,54 +74,47 @@ enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 3 /* of sections
 
 _Static_assert(SECTIONS <= (int)INSPECTOR_MAX_SECTIONS, "each has a flag in struct inspector");
 
-/// Scrolls just enough to show a section from `top` on.
-static void reveal(struct inspector *in, float top)
-{
-    const struct ui *ui = &in->ui;
-    struct ui_scroll *scroll = &in->scroll;
-    const float below = ui->y - (ui->scroll_area.y + ui->scroll_area.h), above = top - ui->scroll_area.y;
-    in->revealed = NULL;
-    if (below > 0) scroll->offset += fminf(below, above);
-    if (above < 0) scroll->offset += above;
-}
-
 /// Whether the scene has the section's subject and the user needs it now.
 static bool is_shown(const struct inspector *in, int i)
 {
     const struct section *section = &sections[i];
-    if (section->needs && !(section->needs & what_there_is(in->core))) return false;
-    return in->core->more || in->called[i] || (section->shown && section->shown(in->core));
-}
-
-/// The button that shows all sections, or fewer.
-static void build_more(struct inspector *in)
-{
-    const bool more = in->core->more;
-    const struct rect row = ui_row(&in->ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
-    ui_hint(&in->ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
-    if (ui_button(&in->ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
+    const struct core *core = in->core;
+    const struct spline *spline = core_active_spline(core);
+    unsigned found = !spline ? 0 : spline_mode(spline) == WIGGLY_CUBIC ? SPLINE : SPLINE | SWING;
+    for (int r = 0; r < core->document->rig_count; r++) found |= 1u << core->document->rigs[r]->kind;
+    if (section->needs && !(section->needs & found)) return false;
+    return core->more || in->called[i] || (section->shown && section->shown(core));
 }
 
 static void build_sections(struct inspector *in)
 {
+    struct ui *ui = &in->ui;
     inspector_find_rig(in);
     for (int i = 0; i < SECTIONS; i++) {
         const struct section *section = &sections[i];
         bool *flipped = &in->flipped[i];
-        if (i == FIRST) build_more(in); // at a fixed place
+        if (i == FIRST) { // at a fixed place
+            const bool more = in->core->more;
+            const struct rect row = ui_row(ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
+            ui_hint(ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
+            if (ui_button(ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
+        }
         if (!is_shown(in, i)) continue;
         bool closed = *flipped != section->closed;
-        const float top = in->ui.y;
-        bool open =
-            ui_section(&in->ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
+        const float top = ui->y;
+        bool open = ui_section(ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
         *flipped = closed != section->closed;
         in->called[i] &= open;
         if (!open) continue;
-        ui_push(&in->ui, (uint32_t)i);
+        ui_push(ui, (uint32_t)i);
         section->build(in);
-        ui_pop(&in->ui);
-        ui_space(&in->ui, 4);
-        if (in->revealed && strcmp(in->revealed, section->name) == 0) reveal(in, top);
+        ui_pop(ui);
+        ui_space(ui, 4);
+        if (!in->revealed || strcmp(in->revealed, section->name) != 0) continue;
+        in->revealed = NULL; // scroll just enough to show the section
+        const float below = ui->y - (ui->scroll_area.y + ui->scroll_area.h), above = top - ui->scroll_area.y;
+        if (below > 0) in->scroll.offset += fminf(below, above);
+        if (above < 0) in->scroll.offset += above;
     }
 }
 
@@ -222,23 +207,17 @@ static bool concerns(const struct inspector *in, const struct event *event)
     }
 }
 
-/// Ends hovering; a press also ends the keyboard focus.
-static void event_elsewhere(struct ui *ui, const struct event *event)
-{
-    if (event->kind == EVENT_SIZE) ui->popup.id = 0; // its anchor has moved
-    if (event->kind != EVENT_POINTER && event->kind != EVENT_BUTTON) return;
-    ui->pointer_x = event->x;
-    ui->pointer_y = event->y;
-    ui->hint = NULL;
-    if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
-}
-
 bool inspector_event(struct inspector *in, const struct event *event)
 {
     struct ui *ui = &in->ui;
     struct rect area = in->core->layout.inspector;
     if (!concerns(in, event)) {
-        event_elsewhere(ui, event);
+        if (event->kind == EVENT_SIZE) ui->popup.id = 0; // its anchor has moved
+        if (event->kind != EVENT_POINTER && event->kind != EVENT_BUTTON) return false;
+        ui->pointer_x = event->x;
+        ui->pointer_y = event->y;
+        ui->hint = NULL;
+        if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) ui->focus = 0;
         return false;
     }
     const bool press = event->action == ACTION_PRESS && (event->kind == EVENT_BUTTON || event->kind == EVENT_KEY);
@@ -258,21 +237,14 @@ bool inspector_event(struct inspector *in, const struct event *event)
     return used || (pointer && inside);
 }
 
-/// Scrolls to a newly selected bone.
-static void show_bone(struct inspector *in)
-{
-    const struct bone_selection *bone = &in->core->bone, *seen = &in->seen_bone;
-    const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
-    in->seen_bone = *bone;
-    if (same || !bone->any) return;
-    inspector_unfold(in, "section.model");
-}
-
 void inspector_show(struct inspector *in, bool covered)
 {
     struct rect area = in->core->layout.inspector;
     if (covered) in->ui.pointer_x = area.x - 1; // nothing here is under the pointer
-    show_bone(in);
+    const struct bone_selection *bone = &in->core->bone, *seen = &in->seen_bone;
+    const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
+    in->seen_bone = *bone;
+    if (!same && bone->any) inspector_unfold(in, "section.model");
     ui_begin_find(&in->ui, area, "", NULL); // measures, so that a shorter panel is not scrolled past its end
     build(in, area);
     ui_end(&in->ui);
