@@ -23,48 +23,28 @@ void ui_popup_close(struct ui *ui)
 
 bool ui_popup_is_open(const struct ui *ui, const char *name) { return ui->popup.id == ui_hash(name); }
 
-static bool is_beside(const struct ui *ui) { return ui->popup.room.w > 0; }
-
-/// Below the anchor, or above if there is more room; inside the panel or `room`.
-static struct rect place(const struct ui *ui, float width, float height)
-{
-    struct rect anchor = ui->popup.anchor, area = is_beside(ui) ? ui->popup.room : ui->area;
-    float below = area.y + area.h - (anchor.y + anchor.h), above = anchor.y - area.y;
-    bool up = height > below && above > below;
-    height = fminf(height, up ? above : below);
-    float x = fminf(anchor.x, area.x + area.w - width - POPUP_PAD);
-    return (struct rect){fmaxf(x, area.x), up ? anchor.y - height : anchor.y + anchor.h, width, height};
-}
-
 void ui_popup_begin(struct ui *ui, float width, float height)
 {
-    struct rect box = place(ui, width, height + 2 * POPUP_PAD);
+    // Below the anchor, or above if there is more room; inside the panel or `room`.
+    const bool is_beside = ui->popup.room.w > 0;
+    const struct rect anchor = ui->popup.anchor, area = is_beside ? ui->popup.room : ui->area;
+    const float below = area.y + area.h - (anchor.y + anchor.h), above = anchor.y - area.y;
+    height += 2 * POPUP_PAD;
+    const bool up = height > below && above > below;
+    height = fminf(height, up ? above : below);
+    const float x = fmaxf(fminf(anchor.x, area.x + area.w - width - POPUP_PAD), area.x);
+    const struct rect box = {x, up ? anchor.y - height : anchor.y + anchor.h, width, height};
     ui->blocked = false;
     ui->popup.built = true;
     ui->stop_count = 0; // Tab stays in the popup
-    if (is_beside(ui)) ui->clip = ui->popup.room;
-    if (is_beside(ui) && ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, ui->popup.room);
+    if (is_beside) ui->clip = ui->popup.room;
+    if (is_beside && ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, ui->popup.room);
     if (ui->pass == UI_PASS_DRAW) {
         drawlist_rounded(ui->list, rect_inset(box, -1), UI_RADIUS + 2, theme()->veil);
         drawlist_rounded(ui->list, box, UI_RADIUS + 1, theme()->raised);
         ui_outline(ui, box, UI_RADIUS + 1, false);
     }
     ui_scroll_begin(ui, &ui->popup.scroll, rect_inset(box, POPUP_PAD));
-}
-
-static void popup_key(struct ui *ui)
-{
-    const struct event *event = ui->event;
-    if (event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER)) {
-        ui_popup_close(ui); // the editor handles the key
-        return;
-    }
-    ui->used = true;
-    if (event->action == ACTION_RELEASE) return;
-    if (event->key == KEY_ESCAPE) ui_popup_close(ui);
-    if (event->key == KEY_UP || event->key == KEY_LEFT) ui_move_focus(ui, -1);
-    if (event->key == KEY_DOWN || event->key == KEY_RIGHT) ui_move_focus(ui, 1);
-    if (event->key == KEY_TAB) ui_move_focus(ui, event->mods & MOD_SHIFT ? -1 : 1);
 }
 
 void ui_popup_end(struct ui *ui)
@@ -81,8 +61,18 @@ void ui_popup_end(struct ui *ui)
     bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS;
     if (press) ui->used = true; // a press beside the popup's widgets is used up
     if (press && !rect_contains(box, event->x, event->y)) ui_popup_close(ui);
-    if (event->kind == EVENT_KEY) popup_key(ui);
     if (event->kind == EVENT_WHEEL || event->kind == EVENT_TEXT) ui->used = true;
+    if (event->kind != EVENT_KEY) return;
+    if (event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER)) {
+        ui_popup_close(ui); // the editor handles the key
+        return;
+    }
+    ui->used = true;
+    if (event->action == ACTION_RELEASE) return;
+    if (event->key == KEY_ESCAPE) ui_popup_close(ui);
+    if (event->key == KEY_UP || event->key == KEY_LEFT) ui_move_focus(ui, -1);
+    if (event->key == KEY_DOWN || event->key == KEY_RIGHT) ui_move_focus(ui, 1);
+    if (event->key == KEY_TAB) ui_move_focus(ui, event->mods & MOD_SHIFT ? -1 : 1);
 }
 
 void ui_dropdown(struct ui *ui, struct rect r, const char *name, int which, const char *text, uint32_t color)
@@ -153,33 +143,6 @@ static enum fit least_fit(const struct ui *ui, const struct ui_item *items, int 
     return ui_filter_least(best);
 }
 
-/// Typed text changes the filter and focuses the first matching row. Space picks that row.
-static void type_filter(struct ui *ui, const struct ui_item *items, int count)
-{
-    const struct event *event = ui->event;
-    if ((event->kind == EVENT_TEXT && event->codepoint == ' ') || !ui_filter_event(&ui->popup.filter, event)) return;
-    const enum fit least = least_fit(ui, items, count);
-    ui->used = true;
-    ui->popup.scroll.offset = 0;
-    for (int i = 0; i < count; i++) {
-        char row[UI_NAME_SIZE];
-        if (ui_filter_fit(&ui->popup.filter, items[i].label) < least) continue;
-        ui->focus = push_row(ui, i, &items[i], row);
-        ui_pop(ui);
-        ui_keep(ui, ui->focus);
-        return;
-    }
-}
-
-/// Shows the typed text or a hint above the rows.
-static void show_filter(struct ui *ui, struct rect area)
-{
-    const char *typed = ui->popup.filter.typed;
-    const struct rect r = {area.x + 12, ui->y, area.w - 24, UI_ROW};
-    ui_label(ui, r, *typed ? typed : "Type to search", *typed ? theme()->accent : theme()->text_dim);
-    ui_space(ui, UI_ROW);
-}
-
 int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, int count, int chosen)
 {
     int picked = -1;
@@ -188,7 +151,12 @@ int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, 
     const enum fit least = least_fit(ui, items, count);
     ui_popup_begin(ui, ui->popup.anchor.w, (float)(UI_ROW * ((is_long ? MAX_ROWS : count) + searches)));
     struct rect area = ui->scroll_area;
-    if (searches) show_filter(ui, area);
+    if (searches) { // the typed text or a hint, above the rows
+        const char *typed = ui->popup.filter.typed;
+        const struct rect r = {area.x + 12, ui->y, area.w - 24, UI_ROW};
+        ui_label(ui, r, *typed ? typed : "Type to search", *typed ? theme()->accent : theme()->text_dim);
+        ui_space(ui, UI_ROW);
+    }
     for (int i = 0; i < count; i++) {
         char row[UI_NAME_SIZE];
         if (ui_filter_fit(&ui->popup.filter, items[i].label) < least) continue;
@@ -199,7 +167,21 @@ int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, 
         if (ui_list_row(ui, r, row, items[i].label, items[i].color, i == chosen)) picked = i;
         ui_pop(ui);
     }
-    if (ui->pass == UI_PASS_EVENT && !ui->used) type_filter(ui, items, count);
+    // Typed text changes the filter and focuses the first matching row. Space picks that row.
+    const bool is_space = ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_TEXT && ui->event->codepoint == ' ';
+    if (ui->pass == UI_PASS_EVENT && !ui->used && !is_space && ui_filter_event(&ui->popup.filter, ui->event)) {
+        const enum fit now = least_fit(ui, items, count);
+        char row[UI_NAME_SIZE];
+        int i = 0;
+        while (i < count && ui_filter_fit(&ui->popup.filter, items[i].label) < now) i++;
+        ui->used = true;
+        ui->popup.scroll.offset = 0;
+        if (i < count) {
+            ui->focus = push_row(ui, i, &items[i], row);
+            ui_pop(ui);
+            ui_keep(ui, ui->focus);
+        }
+    }
     ui_popup_end(ui);
     if (picked >= 0) ui_popup_close(ui);
     return picked;

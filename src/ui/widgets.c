@@ -95,26 +95,24 @@ static bool is_shown(const struct ui *ui, uint32_t id)
     return false;
 }
 
-static void end_event(struct ui *ui)
-{
-    const struct event *event = ui->event;
-    if (!is_shown(ui, ui->focus)) ui->focus = 0;
-    if (!is_shown(ui, ui->held)) ui->held = 0;
-    if (!is_shown(ui, ui->typing)) ui->typing = 0;
-    if (ui->used || event->kind != EVENT_KEY || event->action == ACTION_RELEASE) return;
-    if (event->key == KEY_TAB && !(event->mods & (MOD_CTRL | MOD_ALT))) {
-        ui_move_focus(ui, event->mods & MOD_SHIFT ? -1 : 1);
-        ui->used = true;
-    } else if (event->key == KEY_ESCAPE && ui->focus) {
-        ui->focus = 0;
-        ui->used = true;
-    }
-}
-
 bool ui_end(struct ui *ui)
 {
     if (ui->popup.id && !ui->popup.built && ui->pass == UI_PASS_EVENT) ui_popup_close(ui); // its subject is gone
-    if (ui->pass == UI_PASS_EVENT) end_event(ui);
+    if (ui->pass == UI_PASS_EVENT) {
+        if (!is_shown(ui, ui->focus)) ui->focus = 0;
+        if (!is_shown(ui, ui->held)) ui->held = 0;
+        if (!is_shown(ui, ui->typing)) ui->typing = 0;
+    }
+    const struct event *event = ui->event;
+    if (event && !ui->used && event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
+        if (event->key == KEY_TAB && !(event->mods & (MOD_CTRL | MOD_ALT))) {
+            ui_move_focus(ui, event->mods & MOD_SHIFT ? -1 : 1);
+            ui->used = true;
+        } else if (event->key == KEY_ESCAPE && ui->focus) {
+            ui->focus = 0;
+            ui->used = true;
+        }
+    }
     if (ui->pass == UI_PASS_DRAW) drawlist_set_clip(ui->list, ui->list_clip);
     ui->event = NULL;
     ui->list = NULL;
@@ -160,31 +158,25 @@ void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view)
     if (ui->pass == UI_PASS_DRAW) drawlist_push_clip(ui->list, view);
 }
 
-/// Pixels by which the event scrolls: the wheel, or a drag beside the widgets.
-static float scrolled(struct ui *ui, struct rect view)
-{
-    const uint32_t held = ui_hash("scroll");
-    const struct event *event = ui->event;
-    if (ui_pressed(ui, view, BUTTON_LEFT)) ui_hold(ui, held);
-    if (ui->held == held && !ui->blocked) {
-        const float by = event->kind == EVENT_POINTER ? ui->press_y - event->y : 0;
-        ui_keep(ui, held);
-        ui_held_change(ui);
-        ui->press_y -= by;
-        return by;
-    }
-    if (event->kind != EVENT_WHEEL || ui->used || !ui_hovered(ui, view)) return 0;
-    ui->used = true;
-    return -2 * UI_ROW * event->dy;
-}
-
 void ui_scroll_end(struct ui *ui)
 {
     struct rect view = ui->scroll_area;
     struct ui_scroll *scroll = ui->scroll;
     scroll->content = ui->y + scroll->offset - view.y;
     float room = fmaxf(0, scroll->content - view.h);
-    const float by = ui->pass == UI_PASS_EVENT ? scrolled(ui, view) : 0;
+    const uint32_t held = ui_hash("scroll");
+    const struct event *event = ui->event;
+    float by = 0; // the event scrolls: the wheel, or a drag beside the widgets
+    if (ui_pressed(ui, view, BUTTON_LEFT)) ui_hold(ui, held);
+    if (ui->pass == UI_PASS_EVENT && ui->held == held && !ui->blocked) {
+        if (event->kind == EVENT_POINTER) by = ui->press_y - event->y;
+        ui_keep(ui, held);
+        ui_held_change(ui);
+        ui->press_y -= by;
+    } else if (ui->pass == UI_PASS_EVENT && event->kind == EVENT_WHEEL && !ui->used && ui_hovered(ui, view)) {
+        ui->used = true;
+        by = -2 * UI_ROW * event->dy;
+    }
     if (by != 0) scroll->offset = fmaxf(0, fminf(room, scroll->offset + by));
     if (ui->pass == UI_PASS_DRAW) {
         if (room > 0) {

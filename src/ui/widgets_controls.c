@@ -63,14 +63,6 @@ void ui_paragraph(struct ui *ui, const char *text, uint32_t color)
     }
 }
 
-/// A triangle pointing right if closed, down if open.
-static void paint_arrow(struct ui *ui, float x, float y, bool closed, uint32_t color)
-{
-    const float right[6] = {x + 1, y - 4, x + 5, y, x + 1, y + 4};
-    const float down[6] = {x - 1, y - 2, x + 7, y - 2, x + 3, y + 2};
-    drawlist_convex(ui->list, closed ? right : down, 3, color);
-}
-
 bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed)
 {
     ui_space(ui, 4);
@@ -83,7 +75,10 @@ bool ui_section(struct ui *ui, const char *name, const char *title, bool *closed
     if (ui->pass == UI_PASS_DRAW) {
         if (!first) drawlist_rect(ui->list, line, theme()->border);
         uint32_t color = ui_hovered(ui, r) ? theme()->text : theme()->text_dim;
-        paint_arrow(ui, r.x, r.y + r.h / 2, *closed, color);
+        const float x = r.x, y = r.y + r.h / 2; // a triangle
+        const float right[6] = {x + 1, y - 4, x + 5, y, x + 1, y + 4};
+        const float down[6] = {x - 1, y - 2, x + 7, y - 2, x + 3, y + 2};
+        drawlist_convex(ui->list, *closed ? right : down, 3, color);
         paint_label(ui, (struct rect){r.x + 14, r.y, r.w - 14, r.h}, FONT_LABEL_BOLD, title, color);
         ui_focus_ring(ui, id, (struct rect){r.x - 4, r.y + 3, r.w + 8, r.h - 6});
     }
@@ -157,30 +152,6 @@ bool ui_list_row(struct ui *ui, struct rect r, const char *name, const char *tex
     return pressed;
 }
 
-static void paint_segments(struct ui *ui, struct rect field, const struct ui_choice *choices, int count, int chosen)
-{
-    float w = field.w / (float)count;
-    drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
-    ui_outline(ui, field, UI_RADIUS, false);
-    for (int i = 0; i < count; i++) {
-        struct rect part = {field.x + w * (float)i, field.y, w, field.h};
-        bool hot = ui_hovered(ui, part);
-        if (i == chosen) {
-            drawlist_rounded(ui->list, rect_inset(part, 1), UI_RADIUS - 1, theme()->hover);
-            struct rect mark = {part.x + 8, part.y + part.h - 3, part.w - 16, 2};
-            drawlist_rect(ui->list, mark, theme()->accent);
-        }
-        paint_centred(ui, part, choices[i].label, i == chosen || hot ? theme()->text : theme()->text_dim);
-    }
-}
-
-static int segment_key(const struct ui *ui, int count, int chosen)
-{
-    if (ui->event->key == KEY_LEFT) return chosen > 0 ? chosen - 1 : 0;
-    if (ui->event->key == KEY_RIGHT) return chosen < count - 1 ? chosen + 1 : count - 1;
-    return -1;
-}
-
 bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui_choice *choices, int count,
                  int *index)
 {
@@ -200,9 +171,24 @@ bool ui_segments(struct ui *ui, struct rect r, const char *name, const struct ui
             ui->found = rect_contains(ui->clip, ui->found_x, ui->found_y) ? id : 0;
         }
     }
-    if (ui_focused_key(ui, id) && (next = segment_key(ui, count, before)) >= 0) ui->used = true;
+    if (ui_focused_key(ui, id) && (ui->event->key == KEY_LEFT || ui->event->key == KEY_RIGHT)) {
+        const bool left = ui->event->key == KEY_LEFT;
+        next = left ? (before > 0 ? before - 1 : 0) : before < count - 1 ? before + 1 : count - 1;
+        ui->used = true;
+    }
     if (ui->pass == UI_PASS_DRAW) {
-        paint_segments(ui, field, choices, count, before);
+        drawlist_rounded(ui->list, field, UI_RADIUS, theme()->raised);
+        ui_outline(ui, field, UI_RADIUS, false);
+        for (int i = 0; i < count; i++) {
+            const struct rect part = {field.x + w * (float)i, field.y, w, field.h};
+            const bool hot = ui_hovered(ui, part);
+            if (i == before) {
+                drawlist_rounded(ui->list, rect_inset(part, 1), UI_RADIUS - 1, theme()->hover);
+                const struct rect mark = {part.x + 8, part.y + part.h - 3, part.w - 16, 2};
+                drawlist_rect(ui->list, mark, theme()->accent);
+            }
+            paint_centred(ui, part, choices[i].label, i == before || hot ? theme()->text : theme()->text_dim);
+        }
         ui_focus_ring(ui, id, field);
     }
     if (next < 0 || next == before) return false;
@@ -214,39 +200,31 @@ enum { DRAG_THRESHOLD = 4 }; ///< pixels; a shorter way is a click
 
 bool ui_is_dragged(const struct ui *ui, const char *name) { return ui->held == ui_id(ui, name) && ui->moved; }
 
-static enum ui_row_event held_event(struct ui *ui)
-{
-    const struct event *event = ui->event;
-    bool release = event->kind == EVENT_BUTTON && event->action == ACTION_RELEASE && event->button == BUTTON_LEFT;
-    bool escape = event->kind == EVENT_KEY && event->key == KEY_ESCAPE;
-    bool dropped = release && ui->moved;
-    if (event->kind == EVENT_POINTER) ui->moved |= fabsf(event->y - ui->press_y) >= DRAG_THRESHOLD;
-    if (event->kind == EVENT_WHEEL) return UI_ROW_NONE;
-    ui->used = true;
-    if (release || escape) ui->held = 0;
-    return dropped ? UI_ROW_DROPPED : UI_ROW_NONE;
-}
-
-static enum ui_row_event row_event(struct ui *ui, struct rect r, uint32_t id)
-{
-    if (ui->pass != UI_PASS_EVENT || ui->used || ui->blocked) return UI_ROW_NONE;
-    if (ui->held == id) return held_event(ui);
-    if (ui_activated(ui, id)) return UI_ROW_PRESSED;
-    if (!ui_pressed(ui, r, BUTTON_LEFT)) return UI_ROW_NONE;
-    if (ui->event->clicks == 2) return UI_ROW_TWICE;
-    ui_hold(ui, id);
-    return UI_ROW_PRESSED;
-}
-
 enum ui_row_event ui_sort_row(struct ui *ui, struct rect row, struct rect label, const char *name, const char *text,
                               bool selected)
 {
     uint32_t id = ui_id(ui, name);
     ui_register(ui, id, label);
-    enum ui_row_event event = row_event(ui, label, id);
-    if (ui->pass != UI_PASS_DRAW) return event;
+    if (ui->pass == UI_PASS_EVENT && !ui->used && !ui->blocked && ui->held == id) {
+        const struct event *event = ui->event;
+        const bool release =
+            event->kind == EVENT_BUTTON && event->action == ACTION_RELEASE && event->button == BUTTON_LEFT;
+        const bool escape = event->kind == EVENT_KEY && event->key == KEY_ESCAPE;
+        if (event->kind == EVENT_POINTER) ui->moved |= fabsf(event->y - ui->press_y) >= DRAG_THRESHOLD;
+        if (event->kind == EVENT_WHEEL) return UI_ROW_NONE;
+        ui->used = true;
+        if (release || escape) ui->held = 0;
+        return release && ui->moved ? UI_ROW_DROPPED : UI_ROW_NONE;
+    }
+    if (ui_activated(ui, id)) return UI_ROW_PRESSED;
+    if (ui_pressed(ui, label, BUTTON_LEFT)) {
+        if (ui->event->clicks == 2) return UI_ROW_TWICE;
+        ui_hold(ui, id);
+        return UI_ROW_PRESSED;
+    }
+    if (ui->pass != UI_PASS_DRAW) return UI_ROW_NONE;
     const bool hot = ui_hovered(ui, row);
     paint_row(ui, id, row, selected, hot || ui_is_dragged(ui, name));
     ui_label(ui, label, text, selected || hot ? theme()->text : theme()->text_dim);
-    return event;
+    return UI_ROW_NONE;
 }

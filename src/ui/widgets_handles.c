@@ -61,36 +61,25 @@ static enum ui_change focused_event(struct ui *ui, struct ui_handle *handle)
     return UI_NUDGE;
 }
 
-static void press(struct ui *ui, struct rect area, const struct ui_handle *handles, int count)
-{
-    int at = nearest(handles, count, ui->event->x, ui->event->y);
-    if (at < 0 || !ui_pressed(ui, area, BUTTON_LEFT)) return;
-    ui_hold(ui, ui_id(ui, handles[at].name));
-    ui->handle_x = handles[at].x;
-    ui->handle_y = handles[at].y;
-}
-
-static void show(struct ui *ui, struct rect area, const struct ui_handle *handles, int count)
-{
-    int hot = ui_hovered(ui, area) && !ui->held ? nearest(handles, count, ui->pointer_x, ui->pointer_y) : -1;
-    for (int i = 0; i < count; i++) {
-        struct rect around = {handles[i].x - 8, handles[i].y - 8, 16, 16};
-        bool held = ui->held == ui_id(ui, handles[i].name);
-        if (held || i == hot) {
-            ui->over = UI_OVER_NUMBER;
-            drawlist_rounded_line(ui->list, around, 8, 1.5f, held ? theme()->accent : theme()->text_dim);
-        }
-        if (i == hot || ui->focus == ui_id(ui, handles[i].name)) ui_hint(ui, around, handles[i].hint);
-        ui_focus_ring(ui, ui_id(ui, handles[i].name), around);
-    }
-}
-
 enum ui_change ui_handles(struct ui *ui, struct rect area, struct ui_handle *handles, int count, int *which)
 {
     for (int i = 0; i < count; i++) {
         ui_register(ui, ui_id(ui, handles[i].name), (struct rect){handles[i].x - 1, handles[i].y - 1, 2, 2});
     }
-    if (ui->pass == UI_PASS_DRAW) show(ui, area, handles, count);
+    const int hot = ui->pass == UI_PASS_DRAW && ui_hovered(ui, area) && !ui->held
+                        ? nearest(handles, count, ui->pointer_x, ui->pointer_y)
+                        : -1;
+    for (int i = 0; i < count && ui->pass == UI_PASS_DRAW; i++) {
+        const uint32_t id = ui_id(ui, handles[i].name);
+        const struct rect around = {handles[i].x - 8, handles[i].y - 8, 16, 16};
+        const bool held = ui->held == id;
+        if (held || i == hot) {
+            ui->over = UI_OVER_NUMBER;
+            drawlist_rounded_line(ui->list, around, 8, 1.5f, held ? theme()->accent : theme()->text_dim);
+        }
+        if (i == hot || ui->focus == id) ui_hint(ui, around, handles[i].hint);
+        ui_focus_ring(ui, id, around);
+    }
     if (ui->pass != UI_PASS_EVENT || ui->used) return UI_NONE;
     for (*which = 0; *which < count; ++*which) {
         struct ui_handle *handle = &handles[*which];
@@ -98,6 +87,10 @@ enum ui_change ui_handles(struct ui *ui, struct rect area, struct ui_handle *han
         enum ui_change change = focused_event(ui, handle);
         if (change != UI_NONE) return change;
     }
-    press(ui, area, handles, count);
+    const int at = nearest(handles, count, ui->event->x, ui->event->y);
+    if (at < 0 || !ui_pressed(ui, area, BUTTON_LEFT)) return UI_NONE;
+    ui_hold(ui, ui_id(ui, handles[at].name));
+    ui->handle_x = handles[at].x;
+    ui->handle_y = handles[at].y;
     return UI_NONE;
 }

@@ -90,40 +90,28 @@ static const struct drag_owner orbiting = {.cursor = CURSOR_ARROW, .move = orbit
 
 static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; per STEP a tail moves less than its grab distance
 
-/// The playback position some seconds ago, wrapped at the start of the played range.
-static double position_ago(const struct core *core, double seconds)
+/// The tail, chain or body at a point within the last MOMENT of playback: a press aims at what was just visible.
+static struct hover moment_ago(struct stage *stage, const struct core *core, float x, float y)
 {
     const struct document *document = core->document;
+    struct hover hover = {.thing = NULL};
     double range[2];
     playback_range(core, range);
     const double first = core_position(document, range[0]), last = core_position(document, range[1]);
-    const double back = seconds * document->fps * document->substeps * core->playback.speed;
-    const double position = core->playback.position - back;
-    return position >= first || !core->playback.looping ? fmax(position, first)
-                                                        : fmax(last - (first - position), first);
-}
-
-/// The tail, chain or body at a point, at an earlier position, or nothing.
-static struct hover hover_at(struct stage *stage, const struct core *core, double position, float x, float y)
-{
-    struct hover joint = {.thing = NULL};
-    float nearest = STRAND_REACH;
-    for (int s = 0; s < stage->strand_count; s++) {
-        const int rig = stage->strands[s].rig;
-        struct rig_pose posed;
-        if (!strand_pose(stage, core, rig, position, NULL, &posed)) continue;
-        strand_nearer(stage, core, rig, &posed.strand, (const float[2]){x, y}, &nearest, &joint);
-    }
-    if (joint.thing && core->document->rigs[joint.rig]->kind == RIG_CHAIN) joint.thing = &thing_chain;
-    return joint.thing ? joint : body_hover(stage, core, position, x, y);
-}
-
-/// The item at a point within the last MOMENT of playback: a press aims at what was just visible.
-static struct hover moment_ago(struct stage *stage, const struct core *core, float x, float y)
-{
-    struct hover hover = {.thing = NULL};
     for (double ago = STEP; core->playback.playing && ago <= MOMENT && !hover.thing; ago += STEP) {
-        hover = hover_at(stage, core, position_ago(core, ago), x, y);
+        float nearest = STRAND_REACH;
+        const double back = ago * document->fps * document->substeps * core->playback.speed;
+        double position = core->playback.position - back;
+        if (position < first && core->playback.looping) position = last - (first - position);
+        position = fmax(position, first);
+        for (int s = 0; s < stage->strand_count; s++) {
+            const int rig = stage->strands[s].rig;
+            struct rig_pose posed;
+            if (!strand_pose(stage, core, rig, position, NULL, &posed)) continue;
+            strand_nearer(stage, core, rig, &posed.strand, (const float[2]){x, y}, &nearest, &hover);
+        }
+        if (hover.thing && document->rigs[hover.rig]->kind == RIG_CHAIN) hover.thing = &thing_chain;
+        if (!hover.thing) hover = body_hover(stage, core, position, x, y);
     }
     return hover;
 }
@@ -283,29 +271,11 @@ static bool add_motion(const struct stage *stage, const struct core *core, int r
     return any;
 }
 
-/// Remembers where the motion is in the picture, from the stage's middle in stage heights.
-static void note_figure(struct stage *stage, struct rect place, const float lo[3], const float hi[3])
-{
-    const struct rect unit = {-0.5f * place.w / place.h, -0.5f, place.w / place.h, 1};
-    struct stage_view *view = &stage->view;
-    camera_matrices(&stage->camera, unit.w, view->view, view->projection, view->eye);
-    stage_project_box(stage, unit, lo, hi, &stage->figure);
-}
-
 struct rect stage_figure(const struct stage *stage, const struct core *core)
 {
     const struct rect *place = &core->layout.stage, *figure = &stage->figure;
     return (struct rect){place->x + place->w / 2 + figure->x * place->h, place->y + (figure->y + 0.5f) * place->h,
                          figure->w * place->h, figure->h * place->h};
-}
-
-/// Initial azimuth for imported characters, taken from the first.
-static float azimuth_of_models(const struct core *core)
-{
-    const int rig = document_next_rig(core->document, RIG_MODEL, -1);
-    const struct imported *imported = models_imported(core->models, core->document, rig);
-    float back[2];
-    return imported && imported_back(imported, back) ? maths_atan2f(-back[1], back[0]) - FROM_BEHIND : AZIMUTH_OF_ONE;
 }
 
 void stage_fit(struct stage *stage, const struct core *core)
@@ -321,8 +291,13 @@ void stage_fit(struct stage *stage, const struct core *core)
     stage->camera = camera_default();
     if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])
         stage->camera.azimuth = core->characters.compare ? AZIMUTH_OF_PAIR : AZIMUTH_OF_ONE;
-    else if (seen[RIG_MODEL] && !seen[RIG_TAIL])
-        stage->camera.azimuth = azimuth_of_models(core);
+    else if (seen[RIG_MODEL] && !seen[RIG_TAIL]) { // as the first one stands
+        const int rig = document_next_rig(document, RIG_MODEL, -1);
+        const struct imported *first = models_imported(core->models, document, rig);
+        float back[2];
+        stage->camera.azimuth =
+            first && imported_back(first, back) ? maths_atan2f(-back[1], back[0]) - FROM_BEHIND : AZIMUTH_OF_ONE;
+    }
     camera_lamp(&stage->camera, stage->view.key_from); // fixed while the camera orbits
     stage->figure = (struct rect){0};
     if (!any) return;
@@ -330,7 +305,12 @@ void stage_fit(struct stage *stage, const struct core *core)
     const struct rect place = core->layout.stage;
     const float caption = core->plain ? 0 : caption_height(place, document);
     camera_fit(&stage->camera, lo, hi, place.w / place.h, caption / place.h);
-    note_figure(stage, place, lo, hi);
+
+    // Where the motion is in the picture, from the stage's middle in stage heights.
+    const struct rect unit = {-0.5f * place.w / place.h, -0.5f, place.w / place.h, 1};
+    struct stage_view *view = &stage->view;
+    camera_matrices(&stage->camera, unit.w, view->view, view->projection, view->eye);
+    stage_project_box(stage, unit, lo, hi, &stage->figure);
 }
 
 static const float AROUND = 0.15f; ///< of its largest side: room about what is framed
@@ -361,15 +341,6 @@ void stage_frame(struct stage *stage, const struct core *core)
     stage->camera.floor = floor;
 }
 
-static uint64_t view_hash(const struct stage_view *view)
-{
-    uint64_t hash = stage_scenery_hash(view);
-    for (int kind = 0; kind < RIG_KINDS; kind++) {
-        if (kinds[kind]->hash) hash = kinds[kind]->hash(hash, view);
-    }
-    return hash_bytes(hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
-}
-
 void stage_orbit(struct stage *stage, float across, float up) { camera_orbit(&stage->camera, across, up); }
 
 void stage_approach(struct stage *stage, float factor) { camera_zoom(&stage->camera, factor); }
@@ -393,7 +364,11 @@ void stage_pose(struct stage *stage, struct core *core, bool covered)
     view->colors = theme()->stage;
     camera_reshape(&stage->camera, view->viewport.w / view->viewport.h);
     camera_matrices(&stage->camera, view->viewport.w / view->viewport.h, view->view, view->projection, view->eye);
-    view->hash = view_hash(view);
+    view->hash = stage_scenery_hash(view);
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        if (kinds[kind]->hash) view->hash = kinds[kind]->hash(view->hash, view);
+    }
+    view->hash = hash_bytes(view->hash, view->blobs, (size_t)view->blob_count * sizeof view->blobs[0]);
     skin_reserve(stage);
     brush_pose(stage, core, covered);
 }
@@ -403,22 +378,16 @@ void stage_ring(struct core *core, const float xy[2])
     drawlist_circle(&core->list, xy, 6.5f, 1.5f, theme()->playhead);
 }
 
-/// The text of an empty stage, or NULL.
-static const char *empty_text(const struct stage *stage, const struct core *core)
-{
-    const struct stage_view *view = &stage->view;
-    if (stage->tail_count > 0 || view->character_count > 0 || view->model_count > 0) return NULL;
-    if (document_character(core->document, 0) || document_find_rig(core->document, RIG_MODEL, 0) >= 0)
-        return "wiggly could not read this scene's character. Its curves are below.";
-    return core->active < 0 ? "This scene is empty." : "This scene has no tail. Its curves are below.";
-}
-
 void stage_show(struct stage *stage, struct core *core)
 {
     const struct stage_view *view = &stage->view;
     struct rect clip = drawlist_push_clip(&core->list, view->viewport);
-    const char *text = empty_text(stage, core);
-    if (text) {
+    if (stage->tail_count == 0 && view->character_count == 0 && view->model_count == 0) {
+        const bool is_missing =
+            document_character(core->document, 0) || document_find_rig(core->document, RIG_MODEL, 0) >= 0;
+        const char *text = is_missing         ? "wiggly could not read this scene's character. Its curves are below."
+                           : core->active < 0 ? "This scene is empty."
+                                              : "This scene has no tail. Its curves are below.";
         float room = view->viewport.w - 16, width = font_width(FONT_LABEL, THEME_TEXT_NORMAL, text);
         float x = view->viewport.x + 8 + fmaxf(room - width, 0) / 2;
         drawlist_text_fit(&core->list, x, view->viewport.y + view->viewport.h / 2, room, FONT_LABEL,
