@@ -24,15 +24,6 @@ static int list_rows(const struct core *core, int first, int *splines, int most)
     return count;
 }
 
-/// The active spline's row, or -1.
-static int active_row(const struct core *core)
-{
-    int row = 0;
-    if (!spline_list_shows(core, core->active)) return -1;
-    for (int s = 0; s < core->active; s++) row += spline_list_shows(core, s);
-    return row;
-}
-
 void sheet_update(struct curves *curves, struct core *core)
 {
     struct dope_sheet *sheet = &curves->sheet;
@@ -41,9 +32,11 @@ void sheet_update(struct curves *curves, struct core *core)
     int rows = total < MOST_ROWS ? total : MOST_ROWS;
     if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
     if (sheet->active != core->active_id) { // scroll its row into view
-        const int active = active_row(core);
-        if (active >= 0 && active < sheet->first) sheet->first = active;
-        if (active >= sheet->first + rows) sheet->first = active - rows + 1;
+        const bool is_shown = spline_list_shows(core, core->active);
+        int active = 0;
+        for (int s = 0; s < core->active; s++) active += spline_list_shows(core, s);
+        if (is_shown && active < sheet->first) sheet->first = active;
+        if (is_shown && active >= sheet->first + rows) sheet->first = active - rows + 1;
         sheet->active = core->active_id;
     }
     if (sheet->first > total - rows) sheet->first = total - rows;
@@ -61,15 +54,6 @@ static float row_y(const struct core *core, int row)
     return core->layout.sheet.y + PAD + ((float)row + 0.5f) * ROW;
 }
 
-/// The spline of the row at height `y`, or -1.
-static int row_spline(const struct curves *curves, const struct core *core, float y)
-{
-    const int row = (int)floorf((y - core->layout.sheet.y - PAD) / ROW);
-    const int at = row < 0 ? 0 : row >= curves->sheet.rows ? curves->sheet.rows - 1 : row;
-    const int spline = at >= 0 ? curves->sheet.spline[at] : -1;
-    return spline < core->document->spline_count ? spline : -1;
-}
-
 struct rect sheet_area(const struct core *core)
 {
     const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
@@ -84,7 +68,10 @@ struct rect sheet_switch(const struct core *core)
 
 struct hover sheet_hover(const struct curves *curves, const struct core *core, float x, float y)
 {
-    const int s = row_spline(curves, core, y);
+    const int row = (int)floorf((y - core->layout.sheet.y - PAD) / ROW);
+    const int at = row < 0 ? 0 : row >= curves->sheet.rows ? curves->sheet.rows - 1 : row;
+    const int spline = at >= 0 ? curves->sheet.spline[at] : -1;
+    const int s = spline < core->document->spline_count ? spline : -1;
     struct hover hover = {.thing = s >= 0 ? &thing_row : NULL, .spline = s};
     if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
     nearest_knot(curves, core, s, y, x, y, REACH, &hover);
@@ -177,34 +164,23 @@ static void show_row(const struct curves *curves, struct core *core, int row)
                       theme_readable(color, theme()->panel, 4.5f), spline->name);
 }
 
-/// Marks that more rows lie above or below.
-static void show_more(const struct curves *curves, struct core *core)
+void sheet_show(const struct curves *curves, struct core *core)
 {
-    const struct dope_sheet *sheet = &curves->sheet;
     const struct rect *area = &core->layout.sheet;
-    if (sheet->total <= sheet->rows) return;
-    const float track = area->h - 2 * PAD, length = track * (float)sheet->rows / (float)sheet->total;
-    const float y = area->y + PAD + track * (float)sheet->first / (float)sheet->total;
-    drawlist_rounded(&core->list, (struct rect){area->x - 7, y, 3, length}, 1.5f, theme()->control);
-}
-
-/// The triangle in the ruler's corner points down while the sheet is open.
-static void show_switch(struct core *core)
-{
+    // The triangle in the ruler's corner points down while the sheet is open.
     const struct rect r = sheet_switch(core);
     const float x = r.x + 8, y = r.y + r.h / 2, a = 3.5f;
     const float right[] = {x - a + 1, y - a, x + a, y, x - a + 1, y + a},
                 down[] = {x - a, y - a + 1, x + a, y - a + 1, x, y + a};
     drawlist_convex(&core->list, core->curves.sheet ? down : right, 3,
                     core->hover.thing == &thing_sheet ? theme()->text : theme()->text_dim);
-}
-
-void sheet_show(const struct curves *curves, struct core *core)
-{
-    const struct rect *area = &core->layout.sheet;
-    show_switch(core);
     if (area->h <= 0) return;
-    for (int row = 0; row < curves->sheet.rows; row++) show_row(curves, core, row);
-    show_more(curves, core);
+    const struct dope_sheet *sheet = &curves->sheet;
+    for (int row = 0; row < sheet->rows; row++) show_row(curves, core, row);
+    if (sheet->total > sheet->rows) { // more rows lie above or below
+        const float track = area->h - 2 * PAD, length = track * (float)sheet->rows / (float)sheet->total;
+        const float top = area->y + PAD + track * (float)sheet->first / (float)sheet->total;
+        drawlist_rounded(&core->list, (struct rect){area->x - 7, top, 3, length}, 1.5f, theme()->control);
+    }
     drawlist_rect(&core->list, (struct rect){area->x, area->y + area->h - 1, area->w, 1}, theme()->border);
 }

@@ -36,13 +36,6 @@ static const struct character_rig *floors_find(const struct stage *stage, const 
     return rig;
 }
 
-/// Distance of a point from a line segment on the screen.
-static float distance_to(const float a[2], const float b[2], float x, float y)
-{
-    const float along = segment_nearest(a, b, (const float[2]){x, y});
-    return maths_hypotf(a[0] + along * (b[0] - a[0]) - x, a[1] + along * (b[1] - a[1]) - y);
-}
-
 struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y)
 {
     struct hover hover = {.thing = NULL};
@@ -53,7 +46,9 @@ struct hover floors_hover(const struct stage *stage, const struct core *core, fl
         struct shown_floor floor = {0};
         if (!floors_find(stage, core, shown, &floor)) continue;
         for (int side = 1; side < 4; side += 2) { // edges behind the character would block its surface
-            const float distance = distance_to(floor.xy[floor.first], floor.xy[(floor.first + side) % 4], x, y);
+            const float *a = floor.xy[floor.first], *b = floor.xy[(floor.first + side) % 4];
+            const float along = segment_nearest(a, b, (const float[2]){x, y});
+            const float distance = maths_hypotf(a[0] + along * (b[0] - a[0]) - x, a[1] + along * (b[1] - a[1]) - y);
             if (distance >= best) continue;
             best = distance;
             hover = (struct hover){.thing = &thing_floor, .x = x, .y = y};
@@ -114,70 +109,17 @@ static const float MARK = 4, END = 2; ///< radii, pixels
 static const float FAR_SIDE = 0.35f,
                    FAR_PART = 0.4f; ///< edges behind the character: opacity, and visible share
 
-/// Place of the lowest vertex, as posed.
-static void find_lowest(const struct stage_character *shown, float place[3])
+static void show_floor(const struct stage *stage, struct core *core, const struct stage_character *shown,
+                       const struct shown_floor *floor, double height, bool is_hot)
 {
-    float lowest = INFINITY;
+    float lowest = INFINITY, low[3];
     int found = 0;
     for (int v = 0; v < shown->figure->character.vertex_count; v++) {
         float at[3];
         morph_vertex(shown->figure, &shown->morph, v, at, NULL);
         if (at[1] < lowest) lowest = at[1], found = v;
     }
-    stage_vertex(shown->figure, &shown->morph, shown->position, found, place);
-}
-
-/// Marks the point on the floor at the lowest vertex, with a line if the vertex is below.
-static void show_mark(const struct stage *stage, struct core *core, const float low[3], float height, uint32_t color)
-{
-    const float on[3] = {low[0], height, low[2]};
-    float line[2][2];
-    if (!stage_project_point(stage, core->layout.stage, on, line[0]) ||
-        !stage_project_point(stage, core->layout.stage, low, line[1]))
-        return;
-    if (low[1] < height) drawlist_line(&core->list, line[0], 2, 1.25f, color);
-    drawlist_disc(&core->list, line[0], MARK, color);
-    drawlist_disc(&core->list, line[1], END, color);
-}
-
-/// The height, at the rightmost corner.
-static void show_height(struct core *core, const struct shown_floor *floor, double height, float below,
-                        uint32_t color)
-{
-    char text[80];
-    int right = 0;
-    for (int i = 1; i < 4; i++) {
-        if (floor->xy[i][0] > floor->xy[right][0]) right = i;
-    }
-    int length = snprintf(text, sizeof text, "floor %.3g m", height + 0.0);
-    if (below > 0) snprintf(text + length, sizeof text - (size_t)length, ", %.2g m below", (double)below);
-    const struct rect r = core->layout.stage;
-    const float width = font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
-    const float x = fmaxf(fminf(floor->xy[right][0] + 8, r.x + r.w - width - 8), r.x + 8);
-    const float y = floor->xy[right][1] + 4;
-    stage_note(core, x, y, FONT_LABEL, color, text);
-}
-
-/// The edges at the nearest corner and the start of the others, so that no line crosses the character.
-static void show_edges(struct core *core, const struct shown_floor *floor, float width, uint32_t color)
-{
-    for (int side = 1; side < 4; side += 2) {
-        const float *corner = floor->xy[(floor->first + side) % 4], *far = floor->xy[(floor->first + 2) % 4];
-        const float *near = floor->xy[floor->first];
-        const float line[3][2] = {
-            {near[0], near[1]},
-            {corner[0], corner[1]},
-            {corner[0] + FAR_PART * (far[0] - corner[0]), corner[1] + FAR_PART * (far[1] - corner[1])}};
-        drawlist_line(&core->list, line[0], 2, width, color);
-        drawlist_line(&core->list, line[1], 2, width, theme_fade(color, FAR_SIDE));
-    }
-}
-
-static void show_floor(const struct stage *stage, struct core *core, const struct stage_character *shown,
-                       const struct shown_floor *floor, double height, bool is_hot)
-{
-    float low[3];
-    find_lowest(shown, low);
+    stage_vertex(shown->figure, &shown->morph, shown->position, found, low);
     const float near_enough = TOUCH * (shown->figure->hi[1] - shown->figure->lo[1]);
     const float below = (float)height - low[1];
     const bool is_missed = below > near_enough, is_touched = below > -near_enough;
@@ -185,9 +127,40 @@ static void show_floor(const struct stage *stage, struct core *core, const struc
                            : is_hot     ? theme()->playhead
                            : is_touched ? theme()->accent
                                         : theme()->text_dim;
-    show_edges(core, floor, is_hot ? 2.25f : 1.5f, color);
-    if (is_touched) show_mark(stage, core, low, (float)height, color);
-    show_height(core, floor, height, is_missed ? below : 0, is_missed ? color : theme()->text_dim);
+
+    // The edges at the nearest corner and the start of the others, so that no line crosses the character.
+    for (int side = 1; side < 4; side += 2) {
+        const float *corner = floor->xy[(floor->first + side) % 4], *far = floor->xy[(floor->first + 2) % 4];
+        const float *near = floor->xy[floor->first];
+        const float line[3][2] = {
+            {near[0], near[1]},
+            {corner[0], corner[1]},
+            {corner[0] + FAR_PART * (far[0] - corner[0]), corner[1] + FAR_PART * (far[1] - corner[1])}};
+        drawlist_line(&core->list, line[0], 2, is_hot ? 2.25f : 1.5f, color);
+        drawlist_line(&core->list, line[1], 2, is_hot ? 2.25f : 1.5f, theme_fade(color, FAR_SIDE));
+    }
+
+    // The point on the floor at the lowest vertex, with a line if the vertex is below.
+    const float on[3] = {low[0], (float)height, low[2]};
+    const struct rect r = core->layout.stage;
+    float line[2][2];
+    if (is_touched && stage_project_point(stage, r, on, line[0]) && stage_project_point(stage, r, low, line[1])) {
+        if (low[1] < (float)height) drawlist_line(&core->list, line[0], 2, 1.25f, color);
+        drawlist_disc(&core->list, line[0], MARK, color);
+        drawlist_disc(&core->list, line[1], END, color);
+    }
+
+    // The height, at the rightmost corner.
+    char text[80];
+    int right = 0;
+    for (int i = 1; i < 4; i++) {
+        if (floor->xy[i][0] > floor->xy[right][0]) right = i;
+    }
+    const int length = snprintf(text, sizeof text, "floor %.3g m", height + 0.0);
+    if (is_missed) snprintf(text + length, sizeof text - (size_t)length, ", %.2g m below", (double)below);
+    const float width = font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
+    const float x = fmaxf(fminf(floor->xy[right][0] + 8, r.x + r.w - width - 8), r.x + 8);
+    stage_note(core, x, floor->xy[right][1] + 4, FONT_LABEL, is_missed ? color : theme()->text_dim, text);
 }
 
 void floors_show(const struct stage *stage, struct core *core)

@@ -32,16 +32,6 @@ static float share_of(const struct stage_character *shown, int vertex)
     return most > 0 ? own / most : 0;
 }
 
-/// The triangle's corner nearest to the point.
-static int nearest_corner(const struct surface_spot *spot)
-{
-    int best = 0;
-    for (int c = 1; c < 3; c++) {
-        if (spot->weight[c] > spot->weight[best]) best = c;
-    }
-    return (int)spot->corner[best];
-}
-
 /// The surface vertex under a point; of several characters the one nearest to the eye.
 static struct hover find_vertex(struct stage *stage, const struct core *core, float x, float y)
 {
@@ -53,7 +43,12 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
         struct surface_spot spot;
         float xy[2];
         if (!skin_pose(stage, shown->rig) || !skin_spot(stage, shown->figure, x, y, &spot)) continue;
-        const int rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig), vertex = nearest_corner(&spot);
+        int corner = 0;
+        for (int k = 1; k < 3; k++) {
+            if (spot.weight[k] > spot.weight[corner]) corner = k;
+        }
+        const int rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig),
+                  vertex = (int)spot.corner[corner];
         if (!point_exists(core, (struct rig_point){rig, vertex})) continue; // an edit in the same frame removed it
         const float *place = stage->skin.posed[vertex];
         const float depth = camera_depth(view->view, view->eye, place);
@@ -65,19 +60,6 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
         hover = (struct hover){.thing = &thing_point, .rig = rig, .joint = vertex, .x = xy[0], .y = xy[1]};
     }
     return hover;
-}
-
-/// The same, cached while pointer and picture stay. Playback under a still pointer highlights nothing.
-static struct hover surface_hover(struct stage *stage, const struct core *core, float x, float y)
-{
-    struct pointed *pointed = &stage->pointed;
-    const bool still = pointed->x == x && pointed->y == y;
-    if (core->brush.on || core->characters.compare || core->pick.use != BONE_SELECTED)
-        return (struct hover){.thing = NULL};
-    if (still && pointed->hash == stage->view.hash) return pointed->hover;
-    if (still && core->playback.playing) return (struct hover){.thing = NULL};
-    *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, core, x, y)};
-    return pointed->hover;
 }
 
 /// The next pin with a marker. Characters of a pair stand aside, so their pins have none.
@@ -96,12 +78,14 @@ static bool project(const struct stage *stage, const struct core *core, const do
     return stage_project_point(stage, core->layout.stage, at, xy);
 }
 
-/// The marker under a point: the selected one, else the nearest.
-static struct hover marker_hover(const struct stage *stage, const struct core *core, float x, float y)
+struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y)
 {
     struct hover hover = {.thing = NULL};
     const float reach = core_reach(core, MARKER_REACH);
     float best = reach;
+    if (core->brush.on || core->pick.use != BONE_SELECTED) return hover;
+
+    // The marker under the point: the selected one, else the nearest.
     struct pin_place place = PINS_START;
     for (const struct pin *pin; (pin = next_marker(core, &place));) {
         float xy[2];
@@ -113,15 +97,14 @@ static struct hover marker_hover(const struct stage *stage, const struct core *c
         hover = (struct hover){
             .thing = &thing_pin, .rig = place.rig, .joint = pin->point, .pin = pin->id, .x = xy[0], .y = xy[1]};
     }
-    return hover;
-}
+    if (hover.thing || found->thing || core->characters.compare) return hover;
 
-struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y)
-{
-    if (core->brush.on || core->pick.use != BONE_SELECTED) return (struct hover){.thing = NULL};
-    const struct hover marker = marker_hover(stage, core, x, y);
-    if (marker.thing) return marker;
-    return !found->thing ? surface_hover(stage, core, x, y) : (struct hover){.thing = NULL};
+    // A vertex, cached while pointer and picture stay. Playback under a still pointer highlights nothing.
+    struct pointed *pointed = &stage->pointed;
+    const bool still = pointed->x == x && pointed->y == y, same = still && pointed->hash == stage->view.hash;
+    if (still && !same && core->playback.playing) return hover;
+    if (!same) *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, core, x, y)};
+    return pointed->hover;
 }
 
 /// The screen's directions in the world, and its scale at a place.
@@ -283,14 +266,6 @@ void stage_hold_point(struct stage *stage, struct core *core)
     }
 }
 
-/// A marker's frame number, to its right.
-static void show_frame(struct core *core, const float xy[2], double frame)
-{
-    char text[32];
-    snprintf(text, sizeof text, "%.6g", frame);
-    stage_note(core, xy[0] + RING + 8, xy[1] + 4, FONT_NUMBER, theme()->text, text);
-}
-
 /// The target, and a line to the point at the pin's frame if known.
 static void show_marker(const struct stage *stage, struct core *core, struct pin_place place, const struct pin *pin)
 {
@@ -311,18 +286,11 @@ static void show_marker(const struct stage *stage, struct core *core, struct pin
     }
     drawlist_disc(list, line[0], radius + 1.5f, theme_fade(theme()->panel, here || selected ? 0.8f : 0.4f));
     drawlist_disc(list, line[0], radius, color);
-    if (selected || hot) drawlist_circle(list, line[0], RING, 1.5f, theme()->playhead);
-    if (selected || hot) show_frame(core, line[0], pin->frame);
-}
-
-/// Highlights the target of a press.
-static void show_lit(struct core *core)
-{
-    const float xy[2] = {core->hover.x, core->hover.y};
-    if (core->hover.thing != &thing_point || core->drag.owner) return;
-    drawlist_circle(&core->list, xy, LIT + 1.5f, 1.5f, theme_fade(theme()->panel, 0.6f));
-    drawlist_circle(&core->list, xy, LIT, 1.5f, theme()->playhead);
-    drawlist_disc(&core->list, xy, END, theme()->playhead);
+    if (!selected && !hot) return;
+    char text[32];
+    snprintf(text, sizeof text, "%.6g", pin->frame);
+    drawlist_circle(list, line[0], RING, 1.5f, theme()->playhead);
+    stage_note(core, line[0][0] + RING + 8, line[0][1] + 4, FONT_NUMBER, theme()->text, text);
 }
 
 void pins_show(struct stage *stage, struct core *core)
@@ -333,7 +301,11 @@ void pins_show(struct stage *stage, struct core *core)
     if (selected && point_exists(core, (struct rig_point){rig, selected->point}))
         path_show(stage, core, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
     for (const struct pin *pin; (pin = next_marker(core, &place));) show_marker(stage, core, place, pin);
-    show_lit(core);
+    if (core->hover.thing != &thing_point || core->drag.owner) return;
+    const float xy[2] = {core->hover.x, core->hover.y}; // the target of a press
+    drawlist_circle(&core->list, xy, LIT + 1.5f, 1.5f, theme_fade(theme()->panel, 0.6f));
+    drawlist_circle(&core->list, xy, LIT, 1.5f, theme()->playhead);
+    drawlist_disc(&core->list, xy, END, theme()->playhead);
 }
 
 bool point_exists(const struct core *core, struct rig_point point)
