@@ -72,13 +72,6 @@ function run(settings, law, many, keys, settles, start) {
     return latest
   }
 
-  /** Both of property i, and where it rests. */
-  function valueAndSpeed(time, i) {
-    const state = stateAt(time)
-    setWeights(law, time - times[gap], span(gap))
-    return [sum(state, i, weight.value), sum(state, i, weight.speed), state[i * members]]
-  }
-
   const spring = {
     get duration() { return (duration ??= settled()) },
     at: (time, out) => show(time, 0, out),
@@ -111,9 +104,16 @@ function run(settings, law, many, keys, settles, start) {
       const [from, to] = range === undefined ? [0, 1] : numbers('linear: range', range, 2)
       if (from === to) fail(RangeError, `linear: range: expected two different numbers, got ${from} twice`)
       if (!(spring.duration < Infinity)) fail(RangeError, 'linear: without damping there is no end')
-      const end = spring.duration, goals = read(Infinity, 0, [])
-      const curve = (i) => ({ law, times, values: values.map((one) => one[i]), at: (time) => valueAndSpeed(time, i) })
-      const texts = goals.map((goal, i) => easing(curve(i), end, goal, error, range ?? [values[0][i], goal]))
+      const goals = read(Infinity, 0, []), begin = Math.max(0, times[0])
+      const edges = [begin, ...times.flatMap((time, g) => [time, Math.max(time, time + span(g) - law.windUp)]).slice(0, -1), spring.duration]
+      const texts = goals.map((goal, i) => {
+        const valueAndSpeed = (time) => {
+          const state = stateAt(time)
+          setWeights(law, time - times[gap], span(gap))
+          return [sum(state, i, weight.value), sum(state, i, weight.speed)]
+        }
+        return easing(valueAndSpeed, law.turn && Math.sqrt(law.k), edges, goal, error, range ?? [values[0][i], goal])
+      })
       return many ? texts : texts[0]
     },
   }

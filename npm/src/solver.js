@@ -58,58 +58,64 @@ const free = new Float64Array(6)
 /** How o moves. */
 const smooth = (t) => (t > 0 ? t * t * t * (10 + t * (6 * t - 15)) : 0)
 
-/** The wind-up of n samples, h seconds each: C, D, R and what o and q do for a move by 1, a value and a slope per sample. */
-function makeTable(law, n, h) {
+/** Of each sample of a wind-up: C, D, R and what o and q do for a move by 1, a value and a slope each. */
+const C = 0, D = 2, R = 4, moved = 6, row = 8
+
+/** The wind-up of n samples, h seconds each. */
+function makeRows(law, n, h) {
   const last = Math.ceil(n - 1e-9), first = last + Math.floor(0.5 - n + 1e-9), off = first - last + n // the first sample is `off` after the start
   const nu = law.apart * h, twice = 2 * Math.cos(nu), fall = Math.exp(-2 * law.decay * h)
-  const [C, D, R, moved] = [0, 0, 0, 0].map(() => new Float64Array(2 * last + 2))
+  const rows = new Float64Array(row * (last + 1)), push = new Float64Array(2 * last)
 
-  // How far each push moves z at the key, ψ, and the row that ends the sum, τ; with their covariance.
-  const push = new Float64Array(2 * last)
-  let psi = 1, before = 0, variance = 1, knot = 0, both = 0, row = 0.5 / fall
+  // How far each push moves z at the key, ψ, and the end of the sum, τ; with their covariance.
+  let psi = 1, before = 0, tau = 1, following = 0, variance = 1, knot = 0, both = 0, end = 0.5 / fall
   for (let i = last - 1; i >= first; i--) {
-    const tau = (twice / 2) * psi - before, q = variance * (i === first ? Math.min(1, off + 0.5) : 1)
+    following = tau
+    tau = (twice / 2) * psi - before
+    const q = variance * (i === first ? Math.min(1, off + 0.5) : 1), after = psi
     knot += q * psi * psi
     both += q * psi * tau
-    row += q * tau * tau
+    end += q * tau * tau
     push[2 * i] = q * psi
     push[2 * i + 1] = q * tau
     variance *= fall
-    ;[psi, before] = [twice * psi - before, psi]
+    psi = twice * psi - before
+    before = after
   }
 
   // Free motion, also where the window begins between two samples.
-  const m = 2 * Math.max(0, off), begin = Math.cos(nu * off)
+  const m = 2 * Math.max(0, off), begin = Math.cos(nu * off), share = both / end, own = knot - both * share
   const next = (1 - m) * Math.cos(nu * (off + 1)) + m * (twice * begin - Math.cos(nu * (off - 1)))
-  const fill = (values, start, following, ofPsi, ofTau) => {
-    values[2 * first] = start
-    for (let i = first; i < last; i++) {
-      const drifts = i > first ? twice * values[2 * i] - values[2 * i - 2] : following
-      values[2 * i + 2] = drifts + ofPsi * push[2 * i] + ofTau * push[2 * i + 1]
+  const fill = (column, start, second, ofPsi, ofTau) => {
+    let old = twice * start - second, z = start
+    for (let i = first, at = row * first + column; i <= last; i++, at += row) {
+      rows[at] = z
+      if (i === last) break
+      const young = twice * z - old + ofPsi * push[2 * i] + ofTau * push[2 * i + 1]
+      rows[at + 1] = i > 0 ? (young - old) / (2 * h) : 0
+      old = z
+      z = young
     }
   }
-  for (const [values, start, following] of [[C, begin, next], [D, 0, nu > 0 ? Math.sin(nu) / law.apart : h]]) {
-    fill(values, start, following, 0, 0)
-    fill(values, start, following, 0, (values[2 * last - 2] - (twice / 2) * values[2 * last]) / row)
-  }
-  const share = both / row, own = knot - both * share
+  const turned = nu > 0 ? Math.sin(nu) / law.apart : h
+  fill(C, begin, next, 0, (begin * following - next * tau) / end)
+  fill(D, 0, turned, 0, (-turned * tau) / end)
   fill(R, 0, 0, 1 / own, -share / own)
-  C[0] = D[1] = 1
-  for (const values of [C, D, R]) for (let i = 1; i < last; i++) values[2 * i + 1] = (values[2 * i + 2] - values[2 * i - 2]) / (2 * h)
+  rows[C] = rows[D + 1] = 1
 
   // o is linear between samples; q′ jumps against its bends.
-  const step = swing(law, h, free)
+  const [stay, go, pull, slow] = swing(law, h, free)
   let q = 0, speed = 0, slope = 0, place = 0
-  for (let i = 0; i <= last; i++) {
-    moved[2 * i] = place + q
-    moved[2 * i + 1] = speed + slope
-    if (i === last) break
-    const to = smooth((i + 1 - last + n) / n), rise = (to - place) / h
-    speed -= rise - slope
-    ;[q, speed] = [step[0] * q + step[1] * speed, step[2] * q + step[3] * speed]
-    ;[place, slope] = [to, rise]
+  for (let i = 0, at = moved; i <= last; i++, at += row) {
+    rows[at] = place + q
+    rows[at + 1] = speed + slope
+    const to = smooth((i + 1 - last + n) / n), rise = (to - place) / h, jumped = speed - (rise - slope), were = q
+    q = stay * were + go * jumped
+    speed = pull * were + slow * jumped
+    place = to
+    slope = rise
   }
-  return { C, D, R, moved }
+  return rows
 }
 
 /** The wind-up table of a gap. A few are kept; those of long gaps are all the same. */
@@ -122,11 +128,12 @@ function tableOf(law, span) {
     n = Math.max(law.least, Math.ceil(span / h - 1e-9))
     h = span / n
   }
-  const table = { key, h, last: Math.ceil(n - 1e-9), ...makeTable(law, n, h) }
+  const rows = makeRows(law, n, h)
   if (law.isRefined) { // the error is of second order: that of half the step is a quarter
-    const half = makeTable(law, 2 * n, h / 2)
-    for (const name of ['C', 'D', 'R', 'moved']) table[name].forEach((value, i, all) => { all[i] = (4 * half[name][2 * i - (i % 2)] - value) / 3 })
+    const half = makeRows(law, 2 * n, h / 2)
+    for (let i = 0; i < rows.length; i++) rows[i] = (4 * half[2 * i - (i % row)] - rows[i]) / 3
   }
+  const table = { key, h, last: Math.ceil(n - 1e-9), rows }
   tables.push(table)
   return table
 }
@@ -134,18 +141,18 @@ function tableOf(law, span) {
 /** Where the numbers of a state count: for the value, for the speed; then those of the pushes for Im w and its speed, and how much of its move o has made. */
 export const weight = { value: new Float64Array(members), speed: new Float64Array(members), pushed: 0, pushedSpeed: 0, moved: 0 }
 
-/** A cubic between two samples: value and speed to the weights of a number. */
-function setBetween(values, i, u, h, m) {
-  const a = values[2 * i], slope = h * values[2 * i + 1], end = h * values[2 * i + 3], step = values[2 * i + 2] - a
+/** A cubic from a row to the next: value and speed to the weights of a number. */
+function setBetween(rows, at, u, h, m) {
+  const a = rows[at], slope = h * rows[at + 1], end = h * rows[at + row + 1], step = rows[at + row] - a
   const square = 3 * step - 2 * slope - end, cube = slope + end - 2 * step
   weight.value[m] = a + u * (slope + u * (square + u * cube))
   weight.speed[m] = (slope + u * (2 * square + u * 3 * cube)) / h
 }
 
 /** Such a cubic times what is left of w, for both of its parts. */
-function setTurning(values, i, u, h, first) {
+function setTurning(rows, at, u, h, first) {
   const { value, speed } = weight
-  setBetween(values, i, u, h, 6)
+  setBetween(rows, at, u, h, 6)
   const z = value[6], slope = speed[6]
   for (let m = 0; m < 2; m++) {
     speed[first + m] = speed[4 + m] * z + value[4 + m] * slope
@@ -171,16 +178,16 @@ export function setWeights(law, t, span) {
   value[1] = speed[1] = weight.pushed = weight.pushedSpeed = weight.moved = 0
   for (let m = 6; m < members; m++) value[m] = speed[m] = 0
   if (!(at >= 0)) return
-  const { h, last } = table, i = Math.min(last - 1, Math.floor(at)), u = at - i
-  setTurning(table.D, i, u, h, 7)
-  setTurning(table.C, i, u, h, 4)
-  setBetween(table.moved, i, u, h, 1)
-  setBetween(table.R, i, u, h, 6)
-  const rest = Math.exp(decay * (span - t)), cosine = rest * Math.cos(turn * (t - span)), sine = rest * Math.sin(turn * (t - span)), R = value[6], slope = speed[6]
-  value[6] = cosine * R
-  speed[6] = cosine * slope - (decay * cosine + turn * sine) * R
-  weight.pushed = sine * R
-  weight.pushedSpeed = sine * slope - (decay * sine - turn * cosine) * R
+  const { h, last, rows } = table, i = Math.min(last - 1, Math.floor(at)), u = at - i
+  setTurning(rows, row * i + D, u, h, 7)
+  setTurning(rows, row * i + C, u, h, 4)
+  setBetween(rows, row * i + moved, u, h, 1)
+  setBetween(rows, row * i + R, u, h, 6)
+  const rest = Math.exp(decay * (span - t)), cosine = rest * Math.cos(turn * (t - span)), sine = rest * Math.sin(turn * (t - span)), z = value[6], slope = speed[6]
+  value[6] = cosine * z
+  speed[6] = cosine * slope - (decay * cosine + turn * sine) * z
+  weight.pushed = sine * z
+  weight.pushedSpeed = sine * slope - (decay * sine - turn * cosine) * z
   weight.moved = smooth(1 + (t - span) / Math.min(span, law.windUp))
 }
 
@@ -192,15 +199,15 @@ export function setWeights(law, t, span) {
  * @param {boolean} settles whether o moves there
  */
 export function solveGap(law, state, span, values, settles) {
-  const { C, D, moved, last } = tableOf(law, span), reach = C[2 * last], more = D[2 * last], next = []
+  const { rows, last } = tableOf(law, span), end = row * last, next = []
   const [fromQ, fromV, speedQ, speedV, x, y] = swing(law, span, free)
   for (let i = 0, at = 0; i < values.length; i++, at += members) {
     const o = state[at], q = state[at + 2], v = state[at + 3], re = state[at + 4], im = state[at + 5]
-    const rests = settles ? values[i] : o, move = rests - o, to = fromQ * q + fromV * v + move * (moved[2 * last] - 1)
-    const comes = reach * re + more * state[at + 7], turned = reach * im + more * state[at + 8], arrives = x * comes - y * turned, wanted = values[i] - rests - to
+    const rests = settles ? values[i] : o, move = rests - o, to = fromQ * q + fromV * v + move * (rows[end + moved] - 1)
+    const comes = rows[end + C] * re + rows[end + D] * state[at + 7], turned = rows[end + C] * im + rows[end + D] * state[at + 8], arrives = x * comes - y * turned, wanted = values[i] - rests - to
     state[at + 1] = move
     state[at + 6] = wanted - arrives
-    next.push(rests, 0, to, speedQ * q + speedV * v + move * moved[2 * last + 1], wanted, y * comes + x * turned, 0, 0, 0)
+    next.push(rests, 0, to, speedQ * q + speedV * v + move * rows[end + moved + 1], wanted, y * comes + x * turned, 0, 0, 0)
   }
   return next
 }

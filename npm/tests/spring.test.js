@@ -189,7 +189,7 @@ test('linear() is never off by more than its error, from 0 to its end', () => {
   for (const [options, range] of [
     [example], [{ ...example, keys: [[1, 5], [1.4, 2], [3, 5]] }, [0, 10]], [{ keys, frequency: 8, damping: 0.05 }], [{ keys: [[5, 0], [6, 1]] }], [{ keys: [[-2, 3], [-0.1, 1], [1, 4]] }],
     [{ keys, damping: 0.001 }], [{ keys, damping: 1 }], [{ keys, damping: 30 }], [{ from: 0, to: 1, velocity: 900, damping: 8 }], [{ from: 0, to: 1, velocity: -50, bounce: 0.6 }], [{ keys, windUp: 3, settles: false }, [-1, 1]],
-    ...[...springs(12)].map((options) => [options, [-100, 100]]),
+    ...[...springs(40)].map((options) => [options, [-100, 100]]),
   ]) {
     const s = spring(options), [from, to] = range ?? [s.at(-Infinity), s.at(Infinity)]
     for (const error of [0.02, 0.005, 0.0001]) {
