@@ -5,13 +5,15 @@ import { members, setWeights, solveGap, weight } from './solver.js'
 /**
  * A spring from a state at its first key on.
  * @param {boolean[]} settles of the keys after that
+ * @param firstLaw up to the second key
  */
-function run(settings, law, many, keys, settles, start) {
+function run(settings, law, many, keys, settles, start, firstLaw = law) {
   const times = keys.map(([time]) => time), values = keys.map(([, value]) => value)
   const last = times.length - 1, size = values[0].length, states = [start], alone = [0]
   const { d, k, decay, turn, root } = law
   let gap = 0, duration
 
+  const lawOf = (g) => (g ? law : firstLaw)
   const span = (g) => (g < last ? times[g + 1] - times[g] : Infinity)
 
   /** The state of the key before a time, with what follows from it. */
@@ -24,7 +26,7 @@ function run(settings, law, many, keys, settles, start) {
         else above = middle
       }
     }
-    for (let g = states.length - 1; g < Math.min(last, gap + 1); g++) states.push(solveGap(law, states[g], span(g), values[g + 1], settles[g]))
+    for (let g = states.length - 1; g < Math.min(last, gap + 1); g++) states.push(solveGap(lawOf(g), states[g], span(g), values[g + 1], settles[g]))
     return states[gap]
   }
 
@@ -38,7 +40,7 @@ function run(settings, law, many, keys, settles, start) {
   function read(time, moving, out) {
     const state = stateAt(time), t = time - times[gap], weights = moving ? weight.speed : weight.value
     if (t < Infinity && (moving ? t >= 0 : t > 0)) {
-      setWeights(law, t, span(gap))
+      setWeights(lawOf(gap), t, span(gap))
       for (let i = 0; i < size; i++) out[i] = sum(state, i, weights)
     } else for (let i = 0; i < size; i++) out[i] = t !== t ? NaN : moving ? 0 : t === Infinity ? state[i * members] : values[gap][i]
     return out
@@ -85,9 +87,12 @@ function run(settings, law, many, keys, settles, start) {
       const keys = onwards ? readKeys(goal, 0, size) : [], to = onwards ? null : numbers('retarget: to', goal, size)
       const here = read(time, 0, []), speeds = read(time, 1, []), at = stateAt(time), t = Math.max(0, time - times[gap]), state = []
       const goes = onwards && t < Infinity, [next] = keys // w goes on, or else all is q
-      // So do its pushes, unless the next key is less than a quarter of a period away: again and again, they would then add up.
-      const windsOn = goes && next[0] <= after.windUp * (1 + 1e-9) && next[0] * Math.sqrt(after.k) > Math.PI / 2
-      if (goes) setWeights(law, t, span(gap))
+      // So do its pushes, unless the next key is less than a quarter of a period away: again and again, they would then add up. A wind-up
+      // that has begun is not put off: a little of one again and again would drive a spring without damping ever farther.
+      const { windUp, count } = after, hasBegun = t > span(gap) - lawOf(gap).windUp && t <= windUp / 2
+      const windsOn = goes && next[0] <= windUp * (hasBegun ? 1.5 : 1 + 1e-9) && next[0] * Math.sqrt(after.k) > Math.PI / 2
+      const longer = windsOn && next[0] > windUp ? { ...after, windUp: next[0], count: Math.ceil((count * next[0]) / windUp), tables: [] } : after
+      if (goes) setWeights(lawOf(gap), t, span(gap))
       const { value, speed, pushed, pushedSpeed, moved } = weight
       for (let i = 0; i < size; i++) {
         const [o, move, , , re, im, added, more, moreIm] = at.slice(i * members), rests = to ? to[i] : goes ? o + moved * move : o
@@ -96,7 +101,7 @@ function run(settings, law, many, keys, settles, start) {
         const [dx, dy] = windsOn ? parts(speed, pushedSpeed) : [byPole, after.turn * x - after.decay * y]
         state.push(rests, 0, here[i] - rests - x, speeds[i] - dx, x, y, 0, dx - byPole, dy - (after.turn * x - after.decay * y))
       }
-      return run(options, after, many, [[0, here], ...keys], readSettles(options.settles, keys.length), state)
+      return run(options, after, many, [[0, here], ...keys], readSettles(options.settles, keys.length), state, longer)
     },
 
     linear(error = 0.005, range) {
@@ -105,11 +110,11 @@ function run(settings, law, many, keys, settles, start) {
       if (from === to) fail(RangeError, `linear: range: expected two different numbers, got ${from} twice`)
       if (!(spring.duration < Infinity)) fail(RangeError, 'linear: without damping there is no end')
       const goals = read(Infinity, 0, []), begin = Math.max(0, times[0])
-      const edges = [begin, ...times.flatMap((time, g) => [time, Math.max(time, time + span(g) - law.windUp)]).slice(0, -1), spring.duration]
+      const edges = [begin, ...times.flatMap((time, g) => [time, Math.max(time, time + span(g) - lawOf(g).windUp)]).slice(0, -1), spring.duration]
       const texts = goals.map((goal, i) => {
         const valueAndSpeed = (time) => {
           const state = stateAt(time)
-          setWeights(law, time - times[gap], span(gap))
+          setWeights(lawOf(gap), time - times[gap], span(gap))
           return [sum(state, i, weight.value), sum(state, i, weight.speed)]
         }
         return easing(valueAndSpeed, law.turn && Math.sqrt(law.k), edges, goal, error, range ?? [values[0][i], goal])
