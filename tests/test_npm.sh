@@ -36,7 +36,6 @@ done
 
 examples=$place/examples
 mkdir -p "$examples" && cp npm/examples/* "$examples"
-sed -i 's|https://esm.sh/wiggly|../wiggly/index.js|' "$examples/waapi.html"
 npm_has "$examples" examples || exit $cases_failed
 ln -sfn ../../wiggly "$examples/node_modules/wiggly"
 bundle() { (cd "$examples" && node node_modules/esbuild/bin/esbuild "$@" --bundle --log-level=warning); }
