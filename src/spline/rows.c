@@ -322,7 +322,7 @@ static void set_tail(system_rows *rows, const problem *p)
     rows->jet_to = rows->count - 1;
     if (rows->count > 1) rows->fixed[rows->count - 1] |= JET_TWICE;
     if (rows->count == 1) rows->jet_to = -1;
-    if (!rows->is_complex) return;
+    if (p->desc->mode != WIGGLY_COMPLEX) return;
     poles own = poles_at(p->desc, p->latest, 0);
     speed_form ahead = poles_speed(&own, p->desc->step, false);
     rows->tail = poles_tail(poles_passive(&own), &ahead, p->desc->step);
@@ -337,12 +337,29 @@ double problem_noise(const problem *p)
            (p->response.error < INFINITY ? p->response.error : 0);
 }
 
+/// Whether Im x can be other than 0: not where both poles are conjugate or real all the way and no pose asks for it.
+static bool turns(wiggly_solver *solver, const problem *p)
+{
+    const wiggly_desc *desc = p->desc;
+    if (desc->mode != WIGGLY_COMPLEX) return false;
+    if (p->pulls) return true;
+    for (int n = 0; n < desc->knot_count; n++) {
+        if (desc->knots[n].has_phase && problem_knot_im(p, &desc->knots[n]) != 0) return true;
+    }
+    const bool constant = poles_are_constant(desc);
+    for (int k = 0; k < (constant ? 1 : problem_rows(p)); k++) {
+        const poles at = constant ? problem_filter(solver, p)->at : poles_at(desc, p->first + k, 0);
+        if (at.s[0].im != -at.s[1].im) return true;
+    }
+    return false;
+}
+
 void problem_set_rows(wiggly_solver *solver, const problem *p)
 {
     system_rows *rows = &solver->rows;
     rows->loop = p->start == WIGGLY_LOOP;
     rows->fast = false;
-    rows->is_complex = p->desc->mode == WIGGLY_COMPLEX;
+    rows->is_complex = turns(solver, p);
     rows->count = problem_rows(p);
     rows->jet_from = rows->loop ? 0 : 1;
     rows->jet_to = rows->loop ? rows->count - 1 : rows->count - 2;

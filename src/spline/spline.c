@@ -28,7 +28,7 @@ static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
     double *re = curve->re + p->first, *im = curve->im + p->first;
     for (int k = 0; k < rows->count; k++) {
         re[k] = rows->x[2 * k];
-        if (rows->is_complex) im[k] = rows->x[2 * k + 1];
+        if (p->desc->mode == WIGGLY_COMPLEX) im[k] = rows->x[2 * k + 1];
     }
     problem_settle(solver, p, curve->re, curve->im);
 }
