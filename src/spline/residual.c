@@ -132,59 +132,19 @@ ALWAYS_INLINE double pull_jets(const system_rows *rows, const bool is_constant, 
     return root * root;
 }
 
-/// Σ over the jets of what their coefficients' rounding pulls: |j| (Δm √D of the difference + Δp √D of the sample before), or a root of both.
-/// The products are summed in lanes, so that all processors sum them in one order.
-WIDEST static double sum_pulls(const double *restrict jet, const double *restrict spread, coefficient_loss loss,
-                               int count)
-{
-    enum { LANES = 8 };
-    const double of_step = 2 * loss.m * loss.m, of_x = 2 * loss.p * loss.p;
-    double sum[LANES] = {0}, all = 0;
-    int i = 0;
-    for (; i + LANES <= count; i += LANES) {
-        for (int n = 0; n < LANES; n++) {
-            const double *j = jet + 2 * (i + n), *d = spread + 2 * (i + n);
-            sum[n] += sqrt((j[0] * j[0] + j[1] * j[1]) * (of_step * d[1] + of_x * d[-2]));
-        }
-    }
-    for (; i < count; i++) {
-        const double *j = jet + 2 * i, *d = spread + 2 * i;
-        all += sqrt((j[0] * j[0] + j[1] * j[1]) * (of_step * d[1] + of_x * d[-2]));
-    }
-    for (int n = 0; n < LANES; n++) all += sum[n];
-    return all;
-}
-
-/// The same if the rounding varies.
-WIDEST static double sum_varying(const double *restrict jet, const double *restrict spread,
-                                 const double *restrict loss_m, const double *restrict loss_p, int count)
-{
-    enum { LANES = 8 };
-    double sum[LANES] = {0}, all = 0;
-    int i = 0;
-    for (; i + LANES <= count; i += LANES) {
-        for (int n = 0; n < LANES; n++) {
-            const double *j = jet + 2 * (i + n), *d = spread + 2 * (i + n), m = loss_m[i + n], p = loss_p[i + n];
-            sum[n] += sqrt(2 * (j[0] * j[0] + j[1] * j[1]) * (m * m * d[1] + p * p * d[-2]));
-        }
-    }
-    for (; i < count; i++) {
-        const double *j = jet + 2 * i, *d = spread + 2 * i, m = loss_m[i], p = loss_p[i];
-        all += sqrt(2 * (j[0] * j[0] + j[1] * j[1]) * (m * m * d[1] + p * p * d[-2]));
-    }
-    for (int n = 0; n < LANES; n++) all += sum[n];
-    return all;
-}
-
-static double pulls_of(const system_rows *rows, const double *spread)
+/// The square of what the jets' coefficients' rounding pulls at most, a unit of energy: Σ w (Δm √D of the difference + Δp √D of the sample before)².
+static double pull_of_jets(const system_rows *rows, const double *spread)
 {
     const int last = rows->count - 1;
-    const coefficient_loss own =
-        rows->is_constant ? rows->own_loss : (coefficient_loss){rows->loss_m[0], rows->loss_p[0]};
-    const double first[4] = {rows->loop ? spread[2 * last] : 0, 0, spread[0], spread[1]};
-    const double of_first = sum_pulls(rows->jet, first + 2, own, 1);
-    if (rows->is_constant) return of_first + sum_pulls(rows->jet + 2, spread + 2, own, last);
-    return of_first + sum_varying(rows->jet + 2, spread + 2, rows->loss_m + 1, rows->loss_p + 1, last);
+    double sum = 0;
+    for (int i = rows->jet_from; i <= rows->jet_to; i++) {
+        const coefficient_loss loss =
+            rows->is_constant ? rows->own_loss : (coefficient_loss){rows->loss_m[i], rows->loss_p[i]};
+        const double *d = spread + 2 * i, before = i > 0 ? d[-2] : rows->loop ? spread[2 * last] : 0;
+        const double weight = (rows->is_constant ? 1 : rows->jet_weight[i]) * (rows->fixed[i] & JET_TWICE ? 2 : 1);
+        sum += weight * (loss.m * loss.m * d[1] + loss.p * loss.p * before);
+    }
+    return 2 * sum;
 }
 
 static inline void pull(const system_rows *rows, int k, cplx c, cplx j)
@@ -210,10 +170,10 @@ static void adjust(const system_rows *rows)
 }
 
 /// The jets' gradient if poles fade within a sample: a and b themselves are small then, and differences would cost their digits.
-static row_errors pull_each(const system_rows *rows, const double *spread, double *energy)
+static double pull_each(const system_rows *rows, double *energy)
 {
     const int n = rows->count;
-    row_errors errors = {0};
+    double misses = 0;
     memset(rows->gradient, 0, sizeof *rows->gradient * 2 * (size_t)n);
     *energy = 0;
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
@@ -232,13 +192,10 @@ static row_errors pull_each(const system_rows *rows, const double *spread, doubl
         const double lm = rows->is_constant ? rows->own_loss.m : rows->loss_m[i];
         const double lp = rows->is_constant ? rows->own_loss.p : rows->loss_p[i];
         const double off = lm * cplx_size(cplx_sub(x, back)) + lp * cplx_size(back);
-        errors.misses += row.weight * (off * off);
+        misses += row.weight * (off * off);
         *energy += row.weight * cplx_norm(r);
-        if (!spread) continue;
-        errors.pulls +=
-            cplx_size(j) * (lm * sqrt(spread[2 * i + 1]) + (before >= 0 ? lp * sqrt(spread[2 * before]) : 0));
     }
-    return errors;
+    return misses;
 }
 
 /// Re(c x_j).
@@ -382,23 +339,20 @@ static void add_known(const system_rows *rows, const band_matrix *m, row_errors 
 
 static void find_gradient(const system_rows *rows, const band_matrix *m, row_errors *errors)
 {
-    const double *spread = errors ? m->spread : NULL;
-    double energy;
-    row_errors jets;
+    double energy, misses;
     if (rows->fast) {
-        jets = pull_each(rows, spread, &energy);
+        misses = pull_each(rows, &energy);
     } else {
-        jets.misses = rows->is_constant  ? rows->is_complex ? pull_jets(rows, true, true, &energy)
-                                                            : pull_jets(rows, true, false, &energy)
-                       : rows->is_complex ? pull_jets(rows, false, true, &energy)
-                                         : pull_jets(rows, false, false, &energy);
-        jets.pulls = spread ? pulls_of(rows, spread) : 0;
+        misses = rows->is_constant  ? rows->is_complex ? pull_jets(rows, true, true, &energy)
+                                                       : pull_jets(rows, true, false, &energy)
+                 : rows->is_complex ? pull_jets(rows, false, true, &energy)
+                                    : pull_jets(rows, false, false, &energy);
         adjust(rows);
     }
     if (errors) {
         const double of_weight = 16 * DBL_EPSILON;
-        *errors = (row_errors){.misses = jets.misses + rows->drive_error + of_weight * of_weight * energy,
-                               .pulls = jets.pulls};
+        *errors = (row_errors){.misses = misses + rows->drive_error + of_weight * of_weight * energy,
+                               .pulls = sqrt(energy * pull_of_jets(rows, m->spread))};
         if (!rows->loop && rows->jet_to == rows->count - 1) {
             const jet_row row = system_jet(rows, rows->count - 1);
             const double off = rows->tail_loss;
