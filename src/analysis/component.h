@@ -1,5 +1,5 @@
-/// One complex coordinate of a motion: its time series R and normal coordinate Ñ with S ≈ Re(R Ñ), and a wiggly spline that repeats
-/// it.
+/// One complex coordinate of a motion: its time series R and normal coordinate Ñ with S ≈ Re(R Ñ) (eq. 28), and a wiggly spline that
+/// repeats it.
 #ifndef ANALYSIS_COMPONENT_H
 #define ANALYSIS_COMPONENT_H
 

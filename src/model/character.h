@@ -1,7 +1,7 @@
 /// A character: a rest mesh and the complex normal coordinates that it oscillates in (the paper's section 7.2), and its file.
 ///
 /// creature.glb is plain glTF 2.0. Each coordinate is two morph targets, NAME.re = Re Ñ and NAME.im = −Im Ñ, so that with
-/// the weights Re z and Im z of z = A e^{jφ} x the deformation is Re(z Ñ) (equations 29 and 30) in a viewer that takes negative weights.
+/// the weights Re z and Im z of z = A e^{jφ} x the deformation is Re(z Ñ) (eq. 29, eq. 30) in a viewer that takes negative weights.
 /// Targets may turn normals too, to first order. First come all vertices of the mesh at rest in their order, then copies of those that have
 /// several texture coordinates; each material is a primitive, and all share the vertices. The mesh's
 /// extras say {"targetNames": […], "wiggly": {"coordinates": [{"name", "frequency", "damping", …}]}}; "scale" there says by how

@@ -38,7 +38,7 @@ static void turn_of(const struct drive *drive, double turn[2])
     turn[1] = -drive->amplitude * maths_sin(lag);
 }
 
-/// Adds z Ñ of a coordinate at a vertex.
+/// Adds z Ñ of a coordinate at a vertex (eq. 29, with more of them eq. 30).
 static void add_product(const struct coordinate *coordinate, int vertex, const double z[2], pin_pull c)
 {
     for (int k = 0; k < 3; k++) {

@@ -83,7 +83,7 @@ double channel_moves(const struct channel *channel, wiggly_value value, int n, e
 struct model_source models_source(struct models *models);
 
 /// Poses a soft character: its complex normal coordinates, each turned and scaled by its own drive (the paper's
-/// section 7.2, eq. 29 and 30).
+/// section 7.2, eq. 29, eq. 30).
 ///
 ///     D(j) = Re(Σ_k z_k Ñ_{k,j}),   z_k = A_k (y + e^{−j·lag_k} x)
 ///

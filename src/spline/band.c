@@ -1,4 +1,4 @@
-/// L D Lᵀ of the band, from both ends at once (eq. 6 and its normal equations).
+/// L D Lᵀ of the band, from both ends at once (of eq. 6, eq. 22 and their kin).
 //
 // A = Rᵀ W R couples a sample with two neighbours on each side:
 //

@@ -95,7 +95,7 @@ static void add_product(double *block, double w, cplx to, cplx from)
     block[2] -= w * (to.im * from.re), block[3] += w * (to.im * from.im);
 }
 
-/// Equation 9.
+/// The slopes (eq. 9).
 static void slope_rows(const system_rows *rows, band_matrix *m)
 {
     for (int r = 0; r < rows->slope_count; r++) {
