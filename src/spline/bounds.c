@@ -54,33 +54,41 @@ static void solve(void *user, double *force)
     }
 }
 
-/// λ with the pushing bounds as equalities. It is right if none of them pulls and no other bound is violated.
+/// λ with the pushing bounds as equalities. It is right if none of them pulls and no other bound is violated; else, as nearly equal bounds are
+/// hard to tell apart, the worst of these is exchanged.
 static bool finish(void *user)
 {
     wiggly_group *g = user;
     const int m = g->search.count, n = g->rows.count;
     double *lambda = g->lambda + g->rows.fixed;
     const double *want = g->want + g->rows.fixed;
-    int count = 0;
-    bool right = true;
-    for (int i = 0; i < m; i++) {
-        if (one_sided_holds(&g->search, i) > 0) g->pressing[count++] = i;
+    for (int i = 0; i < m; i++) g->presses[i] = one_sided_holds(&g->search, i) > 0;
+    for (int exchanges = 0; exchanges <= m; exchanges++) {
+        int count = 0, worst = -1;
+        double most = g->slack;
+        for (int i = 0; i < m; i++) {
+            if (g->presses[i]) g->pressing[count++] = i;
+        }
+        for (int i = 0; i < count; i++) {
+            g->product[i] = want[g->pressing[i]];
+            for (int j = 0; j <= i; j++) g->square[count * i + j] = reduced_row(g, g->pressing[i])[g->pressing[j]];
+        }
+        symmetric_reduce(count, count, g->square);
+        symmetric_solve(count, g->square, g->product);
+        memset(lambda, 0, sizeof *lambda * (size_t)m);
+        for (int i = 0; i < count; i++) lambda[g->pressing[i]] = g->product[i];
+        symmetric_multiply(m, n, reduced_row(g, 0), lambda, g->product);
+        for (int i = 0; i < m; i++) {
+            const double miss = g->presses[i] ? -lambda[i] : want[i] - g->product[i];
+            if (g->scale[i] > 0 && miss / g->scale[i] > most) most = miss / g->scale[i], worst = i;
+        }
+        if (worst < 0) {
+            for (int i = 0; i < m; i++) lambda[i] = fmax(lambda[i], 0);
+            return true;
+        }
+        g->presses[worst] = !g->presses[worst];
     }
-    for (int i = 0; i < count; i++) {
-        g->product[i] = want[g->pressing[i]];
-        for (int j = 0; j <= i; j++) g->square[count * i + j] = reduced_row(g, g->pressing[i])[g->pressing[j]];
-    }
-    symmetric_reduce(count, count, g->square);
-    symmetric_solve(count, g->square, g->product);
-    memset(lambda, 0, sizeof *lambda * (size_t)m);
-    for (int i = 0; i < count; i++) {
-        const int at = g->pressing[i];
-        right = right && g->product[i] >= -g->slack * g->scale[at];
-        lambda[at] = fmax(g->product[i], 0);
-    }
-    symmetric_multiply(m, n, reduced_row(g, 0), lambda, g->product);
-    for (int i = 0; i < m; i++) right = right && want[i] - g->product[i] <= g->slack * g->scale[i];
-    return right;
+    return false;
 }
 
 bool bounds_find_pushes(wiggly_group *g, double near_enough)

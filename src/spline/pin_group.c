@@ -21,6 +21,7 @@ static void lay_out_bounds(struct wiggly_group *at, arena *a, size_t rows, size_
     at->scale = arena_take(a, bounds, sizeof(double));
     at->product = arena_take(a, bounds, sizeof(double));
     at->pressing = arena_take(a, bounds, sizeof(int));
+    at->presses = arena_take(a, bounds, sizeof(bool));
     one_sided_limit *limit = &at->search.limit[0];
     double **const of_search[] = {&at->search.value, &at->search.is_open, &at->search.move, &at->search.lack,
                                   &limit->gap,       &limit->push,        &limit->by_gap,   &limit->by_push};

@@ -69,6 +69,7 @@ struct wiggly_group {
     double *square;  ///< scratch of the search for bounds that press: bounds × bounds
     double *root, *product, *scale;
     int *pressing;
+    bool *presses;
     double slack; ///< tolerance of bounds
     double unit;  ///< a power of two that all values are multiplied by
     one_sided search;
