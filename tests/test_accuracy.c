@@ -42,9 +42,10 @@ static double lapack_error(const wiggly_desc *desc, const double *expected)
         const int k = u / w, part = u % w;
         const band_block block = band_block_at(m, k);
         double *column = band + (size_t)u * (size_t)(kd + 1);
-        rows->gradient[u] = rows->gradient[2 * k + part];
+        const bool fixed = rows->fixed[k] & (part ? FIXED_IM : FIXED_RE);
+        rows->gradient[u] = fixed ? 0 : rows->gradient[2 * k + part];
         column[0] = 1;
-        if (rows->fixed[k] & (part ? FIXED_IM : FIXED_RE)) continue;
+        if (fixed) continue;
         column[0] = block.d[2 * part];
         for (int by = 0; by < 3 && k + by < rows->count; by++) {
             const double *a = by == 1 ? block.e : block.f;

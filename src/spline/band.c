@@ -13,7 +13,7 @@
 //
 //     z_j ← z_j − l_j z;      y = z / pivot;      x = y − Σ l_j x_j.
 //
-// What is known is not eliminated: it takes the place of z, with a_j for l_j, where its turn comes.
+// What is known is not eliminated: 1/pivot is 0 there, so are all its l, and the solution.
 // The pivots are scalars: a 2×2 block with an explicit inverse keeps half of the digits only. Of A⁻¹ the diagonal follows on the way back
 // (Takahashi): with l = a / pivot, Z_kj = −Σ l_i Z_ij and Z_kk = 1/pivot − Σ l_j Z_kj need only Z of the next two samples.
 #include "spline/band.h"
@@ -31,7 +31,7 @@ typedef int64_t masks __attribute__((vector_size(16), aligned(8), may_alias));
 static const double of_squares = 80 * DBL_EPSILON;
 
 /// A step of the factor: l of Im x_k on Re x_k, 1/pivot of both, l of both on the next samples (u, v) and on those after them (f, g), and y of
-/// a solve under way. Where one is known its l are a.
+/// a solve under way.
 typedef struct record2 {
     twin l, ia, id, u[2], v[2], f[2], g[2], y[2];
 } record2;
@@ -151,12 +151,6 @@ ALWAYS_INLINE unsigned unusual(const bool is_complex, unsigned up, unsigned down
     return (up & (fixed | BAND_OWN)) | (down & (fixed | BAND_BESIDE));
 }
 
-static void set_masks(unsigned up, unsigned down, masks *re, masks *im)
-{
-    *re = (masks){up & FIXED_RE ? 0 : -1, down & FIXED_RE ? 0 : -1};
-    *im = (masks){up & FIXED_IM ? 0 : -1, down & FIXED_IM ? 0 : -1};
-}
-
 /// Blocks one by one.
 static void load_each(const band_matrix *m, int up, int down, step_blocks *s)
 {
@@ -168,8 +162,10 @@ static void load_each(const band_matrix *m, int up, int down, step_blocks *s)
         s->u[i] = (twin){a->e[2 * i], e[i]}, s->v[i] = (twin){a->e[2 * i + 1], e[2 + i]};
         s->f[i] = (twin){a->f[2 * i], f[i]}, s->g[i] = (twin){a->f[2 * i + 1], f[2 + i]};
     }
-    s->is_known = (m->marks[up] | m->marks[down]) & (FIXED_RE | FIXED_IM);
-    set_masks(m->marks[up], m->marks[down], &s->re, &s->im);
+    const unsigned above = m->marks[up], below = m->marks[down];
+    s->is_known = (above | below) & (FIXED_RE | FIXED_IM);
+    s->re = (masks){above & FIXED_RE ? 0 : -1, below & FIXED_RE ? 0 : -1};
+    s->im = (masks){above & FIXED_IM ? 0 : -1, below & FIXED_IM ? 0 : -1};
 }
 
 ALWAYS_INLINE void set_complex(twin *re, twin *im, twin r, twin i) { re[0] = r, re[1] = i, im[0] = -i, im[1] = r; }
@@ -231,18 +227,17 @@ typedef struct seam_taken {
 
 /// Takes what was eliminated before from the seam's columns, then eliminates them. `pair` are both pivots' l on the next samples, times the
 /// pivots.
-ALWAYS_INLINE void eliminate_seam(const band_matrix *m, int step, int up, int down, const step_blocks *s,
-                                  const record2 *r, const twin pair[4][2], twin (*kept_seam)[4], seam_taken *t)
+ALWAYS_INLINE void eliminate_seam(const band_matrix *m, int step, int up, int down, const record2 *r,
+                                  const twin pair[4][2], twin (*kept_seam)[4], seam_taken *t)
 {
     twin h[2][4] = {{{0}}}, of[2][4] = {{{0}}};
     if (step < 2) load_seam(m, up, down, h);
-    const twin l = kept(r->l, s->re);
     for (int c = 0; c < 4; c++) {
         const twin re = h[0][c] - t->near[0][c];
-        const twin im = (h[1][c] - t->near[1][c]) - l * re;
+        const twin im = (h[1][c] - t->near[1][c]) - r->l * re;
         const twin by_re = re * r->ia, by_im = im * r->id;
         of[0][c] = re, of[1][c] = im;
-        kept_seam[0][c] = chosen(by_re, re, s->re), kept_seam[1][c] = chosen(by_im, im, s->im);
+        kept_seam[0][c] = by_re, kept_seam[1][c] = by_im;
         for (int i = 0; i < 2; i++) {
             t->near[i][c] = t->far[i][c] + (pair[0][i] * by_re + pair[1][i] * by_im);
             t->far[i][c] = pair[2][i] * by_re + pair[3][i] * by_im;
@@ -277,13 +272,6 @@ ALWAYS_INLINE void factor_complex(const step_blocks *s, taken *t, record2 *r, ma
     r->ia = ia, r->id = id;
     r->l = l, r->u[0] = p0, r->u[1] = p1, r->f[0] = x0, r->f[1] = x1;
     r->v[0] = q0, r->v[1] = q1, r->g[0] = z0, r->g[1] = z1;
-    if (s->is_known) {
-        r->l = chosen(l, b, s->re);
-        r->u[0] = chosen(p0, u0, s->re), r->u[1] = chosen(p1, u1, s->re);
-        r->f[0] = chosen(x0, f0, s->re), r->f[1] = chosen(x1, f1, s->re);
-        r->v[0] = chosen(q0, w0, s->im), r->v[1] = chosen(q1, w1, s->im);
-        r->g[0] = chosen(z0, g0, s->im), r->g[1] = chosen(z1, g1, s->im);
-    }
     pair[0][0] = u0, pair[0][1] = u1, pair[1][0] = w0, pair[1][1] = w1;
     pair[2][0] = f0, pair[2][1] = f1, pair[3][0] = g0, pair[3][1] = g1;
     t->near[0] = t->far[0] + (u0 * p0 + w0 * q0);
@@ -302,22 +290,22 @@ ALWAYS_INLINE void factor_real(const step_blocks *s, taken *t, record1 *r, masks
     const twin one = both(1), a = chosen(s->a - t->near[0], one, s->re), u = s->u[0] - t->across[0], f = s->f[0];
     const twin ia = kept(one / a, s->re), p = u * ia, x = f * ia;
     *good &= (a > both(0)) & (a < both(INFINITY));
-    r->ia = ia, r->u = chosen(p, u, s->re), r->f = chosen(x, f, s->re);
+    r->ia = ia, r->u = p, r->f = x;
     pair[0] = u, pair[1] = f;
     t->near[0] = t->far[0] + u * p;
     t->across[0] = f * p;
     t->far[0] = f * x;
 }
 
-ALWAYS_INLINE void eliminate_seam_real(const band_matrix *m, int step, int up, int down, const step_blocks *s,
-                                       const record1 *r, const twin pair[2], twin *kept_seam, seam_taken *t)
+ALWAYS_INLINE void eliminate_seam_real(const band_matrix *m, int step, int up, int down, const record1 *r,
+                                       const twin pair[2], twin *kept_seam, seam_taken *t)
 {
     twin h[2][4] = {{{0}}}, of[2];
     if (step < 2) load_seam(m, up, down, h);
     for (int c = 0; c < 2; c++) {
         const twin re = h[0][2 * c] - t->near[0][c], by = re * r->ia;
         of[c] = re;
-        kept_seam[c] = chosen(by, re, s->re);
+        kept_seam[c] = by;
         t->near[0][c] = t->far[0][c] + pair[0] * by;
         t->far[0][c] = pair[1] * by;
         for (int k = 0; k <= c; k++) t->corner[c][k] += by * of[k];
@@ -419,26 +407,6 @@ typedef struct passed {
     twin near[2], far[2], corner[4], energy;
 } passed;
 
-/// One step of the way forward; what is known stays.
-ALWAYS_INLINE void forward_complex(record2 *r, twin re, twin im, const masks *free_re, const masks *free_im,
-                                   passed *p, twin z[2])
-{
-    twin a = re - p->near[0];
-    if (free_re) a = chosen(a, re, *free_re);
-    twin b = (im - p->near[1]) - r->l * a;
-    if (free_im) b = chosen(b, im, *free_im);
-    twin y = a * r->ia, x = b * r->id;
-    p->energy += a * y + b * x;
-    if (free_re) y = chosen(y, re, *free_re);
-    if (free_im) x = chosen(x, im, *free_im);
-    r->y[0] = y, r->y[1] = x;
-    z[0] = a, z[1] = b;
-    for (int i = 0; i < 2; i++) {
-        p->near[i] = p->far[i] + (r->u[i] * a + r->v[i] * b);
-        p->far[i] = r->f[i] * a + r->g[i] * b;
-    }
-}
-
 ALWAYS_INLINE twin load_two(const double *x, int up, int down) { return (twin){x[2 * up], x[2 * down]}; }
 
 /// A step of the way forward in complex mode.
@@ -447,33 +415,25 @@ ALWAYS_INLINE void forward(band_matrix *m, const bool is_cyclic, int step, const
     const int up = step, down = band_interior(m) - 1 - step;
     record2 *r = (record2 *)(void *)m->record + step;
     const twin(*const seam)[4] = (twin(*)[4])(void *)m->seam + 2 * step;
-    const twin re = load_two(x, up, down), im = load_two(x + 1, up, down);
-    twin z[2];
-    if ((m->marks[up] | m->marks[down]) & (FIXED_RE | FIXED_IM)) {
-        masks on_re, on_im;
-        set_masks(m->marks[up], m->marks[down], &on_re, &on_im);
-        forward_complex(r, re, im, &on_re, &on_im, p, z);
-    } else {
-        forward_complex(r, re, im, NULL, NULL, p, z);
+    const twin a = load_two(x, up, down) - p->near[0];
+    const twin b = (load_two(x + 1, up, down) - p->near[1]) - r->l * a;
+    r->y[0] = a * r->ia, r->y[1] = b * r->id;
+    p->energy += a * r->y[0] + b * r->y[1];
+    for (int i = 0; i < 2; i++) {
+        p->near[i] = p->far[i] + (r->u[i] * a + r->v[i] * b);
+        p->far[i] = r->f[i] * a + r->g[i] * b;
     }
-    for (int c = 0; is_cyclic && c < 4; c++) p->corner[c] += seam[0][c] * z[0] + seam[1][c] * z[1];
+    for (int c = 0; is_cyclic && c < 4; c++) p->corner[c] += seam[0][c] * a + seam[1][c] * b;
 }
 
 /// The same outside it.
 ALWAYS_INLINE void forward_real(band_matrix *m, const bool is_cyclic, int step, const double *x, passed *p)
 {
-    const int up = step, down = band_interior(m) - 1 - step;
     record1 *r = (record1 *)(void *)m->record + step;
     const twin(*const seam)[2] = (twin(*)[2])(void *)m->seam + step;
-    const twin re = load_two(x, up, down);
-    twin z = re - p->near[0];
+    const twin z = load_two(x, step, band_interior(m) - 1 - step) - p->near[0];
     r->y = z * r->ia;
     p->energy += z * r->y;
-    if ((m->marks[up] | m->marks[down]) & FIXED_RE) {
-        masks on_re, on_im;
-        set_masks(m->marks[up], m->marks[down], &on_re, &on_im);
-        z = chosen(z, re, on_re), r->y = chosen(r->y, re, on_re);
-    }
     for (int c = 0; is_cyclic && c < 2; c++) p->corner[c] += (*seam)[c] * z;
     p->near[0] = p->far[0] + r->u * z;
     p->far[0] = r->f * z;
@@ -497,14 +457,14 @@ ALWAYS_INLINE bool factor(band_matrix *m, const bool is_complex, const bool is_c
             twin pair[4][2];
             factor_complex(&s, &t, to, &good, pair);
             if (is_cyclic)
-                eliminate_seam(m, r, r, n - 1 - r, &s, to, pair, (twin(*)[4])(void *)m->seam + 2 * r, &of_seam);
+                eliminate_seam(m, r, r, n - 1 - r, to, pair, (twin(*)[4])(void *)m->seam + 2 * r, &of_seam);
             if (x) forward(m, is_cyclic, r, x, p);
         } else {
             record1 *to = (record1 *)(void *)m->record + r;
             twin pair[2];
             factor_real(&s, &t, to, &good, pair);
             if (is_cyclic)
-                eliminate_seam_real(m, r, r, n - 1 - r, &s, to, pair, (twin *)(void *)m->seam + 2 * r, &of_seam);
+                eliminate_seam_real(m, r, r, n - 1 - r, to, pair, (twin *)(void *)m->seam + 2 * r, &of_seam);
             if (x) forward_real(m, is_cyclic, r, x, p);
         }
     }
@@ -540,12 +500,6 @@ static void solve_dense(const band_matrix *m, const passed *p, double *x, double
               seam = middle * parts;
     double z[BAND_DENSE], y[BAND_DENSE];
     for (int j = 0; j < n; j++) z[j] = x[2 * dense_sample(m, j / parts) + j % parts];
-    double known[BAND_DENSE];
-    for (int j = 0; j < n; j++) {
-        const bool fixed = m->marks[dense_sample(m, j / parts)] & (j % parts ? FIXED_IM : FIXED_RE);
-        known[j] = fixed ? z[j] : 0;
-        if (fixed) z[j] = 0;
-    }
     for (int lane = 0; lane < 2 && band_steps(m) > 0; lane++) {
         const int near = lane ? middle - 1 : 0, far = lane ? middle - 2 : 1;
         for (int part = 0; part < parts; part++) {
@@ -555,7 +509,7 @@ static void solve_dense(const band_matrix *m, const passed *p, double *x, double
     }
     for (int c = 0; m->cyclic && c < 2 * parts; c++) z[seam + c] -= p->corner[c][0] + p->corner[c][1];
     for (int j = 0; j < n; j++) {
-        y[j] = m->dense_inverse[j] * z[j] + known[j];
+        y[j] = m->dense_inverse[j] * z[j];
         *energy += z[j] * y[j];
         for (int i = j + 1; i < n; i++) z[i] -= m->dense[i][j] * y[j];
     }
@@ -674,28 +628,10 @@ ALWAYS_INLINE void store_spread(band_matrix *m, int up, int down, twin d, twin s
     m->spread[2 * down] = d[1], m->spread[2 * down + 1] = step[1];
 }
 
-/// A step whose known unknowns have no l.
-static record2 without_known(band_matrix *m, int step, twin seam[2][4])
-{
-    const int down = band_interior(m) - 1 - step;
-    record2 r = ((record2 *)(void *)m->record)[step];
-    masks re, im;
-    set_masks(m->marks[step], m->marks[down], &re, &im);
-    r.l = kept(r.l, re);
-    for (int i = 0; i < 2; i++) {
-        r.u[i] = kept(r.u[i], re), r.f[i] = kept(r.f[i], re);
-        r.v[i] = kept(r.v[i], im), r.g[i] = kept(r.g[i], im);
-    }
-    twin(*const from)[4] = (twin(*)[4])(void *)m->seam + 2 * step;
-    for (int c = 0; m->cyclic && c < 4; c++) seam[0][c] = kept(from[0][c], re), seam[1][c] = kept(from[1][c], im);
-    return r;
-}
-
 /// The way back in complex mode; with `spread` finds A⁻¹'s diagonal on it. Returns the energy.
 ALWAYS_INLINE double back(band_matrix *m, double *x, const passed *p, const bool is_cyclic, const bool spread)
 {
     const int n = band_interior(m), steps = band_steps(m);
-    const unsigned fixed = FIXED_RE | FIXED_IM;
     const record2 *record = (const record2 *)(const void *)m->record;
     twin(*seam)[4] = (twin(*)[4])(void *)m->seam;
     double energy = p->energy[0] + p->energy[1];
@@ -710,12 +646,8 @@ ALWAYS_INLINE double back(band_matrix *m, double *x, const passed *p, const bool
     }
     for (int c = 0; is_cyclic && c < 4; c++) on_seam[c] = both(x[2 * n + c]);
     for (int r = steps - 1; r >= 0; r--) {
-        record2 own;
-        twin own_seam[2][4];
         const record2 *s = record + r;
         twin(*columns)[4] = seam + 2 * r;
-        if ((m->marks[r] | m->marks[n - 1 - r]) & fixed)
-            own = without_known(m, r, own_seam), s = &own, columns = own_seam;
         twin im = (s->g[0] * after[0] + s->g[1] * after[1]) + (s->v[0] * next[0] + s->v[1] * next[1]);
         twin re = (s->f[0] * after[0] + s->f[1] * after[1]) + (s->u[0] * next[0] + s->u[1] * next[1]);
         for (int c = 0; is_cyclic && c < 4; c++) re += columns[0][c] * on_seam[c], im += columns[1][c] * on_seam[c];
@@ -746,23 +678,15 @@ ALWAYS_INLINE double back_real(band_matrix *m, double *x, const passed *p, const
     if (steps > 0) next = load_two(x, steps, n - 1 - steps), after = load_two(x, steps + 1, n - 2 - steps);
     for (int c = 0; is_cyclic && c < 2; c++) on_seam[c] = both(x[2 * (n + c)]);
     for (int r = steps - 1; r >= 0; r--) {
-        record1 s = record[r];
-        twin columns[2] = {{0}};
-        for (int c = 0; is_cyclic && c < 2; c++) columns[c] = seam[r][c];
-        if ((m->marks[r] | m->marks[n - 1 - r]) & FIXED_RE) {
-            masks re, im;
-            set_masks(m->marks[r], m->marks[n - 1 - r], &re, &im);
-            s.u = kept(s.u, re), s.f = kept(s.f, re);
-            for (int c = 0; is_cyclic && c < 2; c++) columns[c] = kept(columns[c], re);
-        }
-        twin sum = s.f * after + s.u * next;
-        for (int c = 0; is_cyclic && c < 2; c++) sum += columns[c] * on_seam[c];
+        const record1 *s = record + r;
+        twin sum = s->f * after + s->u * next;
+        for (int c = 0; is_cyclic && c < 2; c++) sum += seam[r][c] * on_seam[c];
         after = next;
-        next = s.y - sum;
+        next = s->y - sum;
         x[2 * r] = next[0], x[2 * (n - 1 - r)] = next[1];
         if (spread) {
             twin d, step;
-            widen_real(&s, columns, is_cyclic, &w, &d, &step);
+            widen_real(s, seam[r], is_cyclic, &w, &d, &step);
             store_spread(m, r, n - 1 - r, d, step);
         }
     }

@@ -67,8 +67,7 @@ band_block *band_own(band_matrix *band, int k);
 /// Factors. False: a pivot is not positive.
 bool band_factor(band_matrix *band);
 
-/// Solves in place: `x` has known values at known unknowns, else the right side; re, im of each sample. Returns b·A⁻¹b, if all known values
-/// are 0.
+/// Solves in place: `x` is the right side, re, im of each sample, then the solution, 0 where a value is known. Returns b·A⁻¹b.
 double band_solve(band_matrix *band, double *x);
 
 /// The same, and finds `spread`, `largest` and `rounding` on the way.

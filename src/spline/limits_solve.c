@@ -76,7 +76,7 @@ static void find_forces(const system_rows *rows, const double *re, const double 
 {
     for (int k = 0; k < rows->count; k++)
         rows->x[2 * k] = re[k], rows->x[2 * k + 1] = im && rows->is_complex ? im[k] : 0;
-    system_forces(rows);
+    system_gradient(rows, NULL, NULL);
 }
 
 /// Re e of a part of the tail; returns Σ pull · free[1] over the held samples in units of E, -1 if there is no room.

@@ -22,8 +22,6 @@ static const double most_squared = 0.02, most = 0.5;
 static const double settled = 1e-3;
 /// Share of x at which a bound's first term asks for another correction.
 static const double enough = 1e-10;
-/// The same under pulls: pins and bounds compare what splines do to the last digit.
-static const double exact = 1e-22;
 
 /// x + by; returns the largest magnitude of a part, NaN if there is one.
 WIDEST static double add_change(double *restrict x, const double *restrict by, int count)
@@ -55,22 +53,29 @@ static void solve(band_matrix *m, double *x)
     }
 }
 
+/// Puts a solution that the gradient's memory holds into x.
+static void put_solution(const system_rows *rows)
+{
+    for (int k = 0; k < rows->count; k++) {
+        if (!(rows->fixed[k] & FIXED_RE)) rows->x[2 * k] = rows->gradient[2 * k];
+        if (rows->is_complex && !(rows->fixed[k] & FIXED_IM)) rows->x[2 * k + 1] = rows->gradient[2 * k + 1];
+    }
+}
+
 /// x from the known values alone.
 static void solve_first(wiggly_solver *solver)
 {
     const system_rows *rows = &solver->rows;
     band_matrix *m = &solver->band;
-    if (!m->by_rows) {
-        system_right_side(rows);
-        solve(m, rows->x);
-        return;
+    if (m->by_rows) {
+        memset(rows->gradient, 0, sizeof *rows->gradient * 2 * (size_t)rows->count);
+        put_solution(rows);
+        system_gradient(rows, NULL, NULL);
+    } else {
+        system_right_side(rows, m);
     }
-    for (int i = 0; i < 2 * rows->count; i++) {
-        if (!(rows->fixed[i / 2] & (i % 2 ? FIXED_IM : FIXED_RE))) rows->x[i] = 0;
-    }
-    system_gradient(rows, NULL, NULL);
     solve(m, rows->gradient);
-    add_change(rows->x, rows->gradient, 2 * rows->count);
+    put_solution(rows);
 }
 
 /// Corrects x and bounds its error.
@@ -92,8 +97,9 @@ static minimum finish(wiggly_solver *solver)
         result.largest = add_change(rows->x, rows->gradient, 2 * rows->count);
         result.sweeps = n + 1;
         result.error = m->largest * (left + sqrt(errors.misses) + errors.pulls);
-        const double least = rows->pulls ? exact : enough;
-        if (m->largest * change <= settled * result.largest && m->largest * left <= least * result.largest) break;
+        // pins and bounds compare what splines do under pulls to the last digit
+        const double small = rows->pulls ? DBL_EPSILON : settled;
+        if (m->largest * change <= small * result.largest && m->largest * left <= enough * result.largest) break;
     }
     result.solved = result.largest < INFINITY;
     result.lost = !rows->fast && !(m->rounding < most); // jets of different weights cost digits, too
@@ -117,8 +123,9 @@ minimum solver_minimise(wiggly_solver *solver)
     if (rows->count <= solver->longest_squared) {
         m->is_kept = is_kept && band_is_kept(m);
         if (m->is_kept) return solver_find(solver);
-        system_right_side(rows);
-        if (band_factor_solve(m, rows->x)) {
+        system_right_side(rows, m);
+        if (band_factor_solve(m, rows->gradient)) {
+            put_solution(rows);
             band_keep(m);
             return finish(solver);
         }

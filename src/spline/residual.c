@@ -337,14 +337,14 @@ static void add_known(const system_rows *rows, const band_matrix *m, row_errors 
     }
 }
 
-static void find_gradient(const system_rows *rows, const band_matrix *m, row_errors *errors)
+void system_gradient(const system_rows *rows, const band_matrix *m, row_errors *errors)
 {
     double energy, misses;
     if (rows->fast) {
         misses = pull_each(rows, &energy);
     } else {
-        misses = rows->is_constant  ? rows->is_complex ? pull_jets(rows, true, true, &energy)
-                                                       : pull_jets(rows, true, false, &energy)
+        misses = rows->is_constant
+                     ? rows->is_complex ? pull_jets(rows, true, true, &energy) : pull_jets(rows, true, false, &energy)
                  : rows->is_complex ? pull_jets(rows, false, true, &energy)
                                     : pull_jets(rows, false, false, &energy);
         adjust(rows);
@@ -366,59 +366,44 @@ static void find_gradient(const system_rows *rows, const band_matrix *m, row_err
     add_imaginary(rows);
 }
 
-/// Fixed unknowns have no gradient.
-static void hold_fixed(const system_rows *rows)
-{
-    for (int k = 0; k < rows->count; k++) {
-        if (rows->fixed[k] & FIXED_RE) rows->gradient[2 * k] = 0;
-        if (rows->fixed[k] & FIXED_IM) rows->gradient[2 * k + 1] = 0;
-    }
-}
-
-void system_forces(const system_rows *rows) { find_gradient(rows, NULL, NULL); }
-
-void system_gradient(const system_rows *rows, const band_matrix *matrix, row_errors *errors)
-{
-    find_gradient(rows, matrix, errors);
-    hold_fixed(rows);
-}
-
-/// Adds to an unknown of x; what is known stays.
 static void load(const system_rows *rows, int k, cplx by)
 {
-    if (k < 0) return;
-    if (!(rows->fixed[k] & FIXED_RE)) rows->x[2 * k] += by.re;
-    if (!(rows->fixed[k] & FIXED_IM)) rows->x[2 * k + 1] += by.im;
+    if (k >= 0) rows->gradient[2 * k] += by.re, rows->gradient[2 * k + 1] += by.im;
 }
 
-void system_right_side(const system_rows *rows)
+void system_right_side(const system_rows *rows, const band_matrix *m)
 {
     const int n = rows->count;
-    double *x = rows->x;
-    if (rows->driven) {
-        double *known = rows->jet + 2 * n; // the second half of it
-        memcpy(known, x, sizeof *x * 2 * (size_t)n);
-        memset(x, 0, sizeof *x * 2 * (size_t)n);
-        system_forces(rows);
-        for (int k = 0; k < n; k++) {
-            for (int part = 0; part < 2; part++) {
-                const bool is_known = rows->fixed[k] & (part ? FIXED_IM : FIXED_RE);
-                x[2 * k + part] = (is_known ? known : rows->gradient)[2 * k + part];
-            }
-        }
-        return;
-    }
-    for (int k = 0; k < n; k++) {
-        if (!(rows->fixed[k] & FIXED_RE)) x[2 * k] = 0;
-        if (!(rows->fixed[k] & FIXED_IM)) x[2 * k + 1] = 0;
-    }
-    for (int i = 0; rows->pulls && i < rows->pulls->count; i++)
-        load(rows, rows->pulls->sample[i] - rows->first, rows->pulls->pull[i]);
+    memset(rows->gradient, 0, sizeof *rows->gradient * 2 * (size_t)n);
+    add_pulls(rows);
     for (int r = 0; r < rows->slope_count; r++) {
         const stencil s = system_slope_stencil(rows, &rows->slopes[r]);
         const double force = rows->slopes[r].weight * rows->slopes[r].target;
         const int at[3] = {s.before, s.at, s.after};
         for (int i = 0; i < 3; i++) load(rows, at[i], cplx_scale(force, cplx_conj(s.c[i])));
+    }
+    for (int i = rows->jet_from; i <= rows->jet_to && rows->driven; i++) {
+        const jet_row row = system_jet(rows, i);
+        const cplx j = cplx_scale(-row.weight, rows->drive[i]);
+        load(rows, i > 0 ? i - 1 : rows->loop ? n - 1 : -1, cplx_mul(cplx_conj(row.before), j));
+        load(rows, i, cplx_mul(cplx_conj(row.own), j));
+        load(rows, i < n - 1 ? i + 1 : rows->loop ? 0 : -1, j);
+    }
+    for (int k = 0; k < n; k++) {
+        if (!(rows->fixed[k] & FIXED_RE)) continue; // Im x is known of poses alone, or 0
+        const double re = rows->x[2 * k], im = rows->fixed[k] & FIXED_IM ? rows->x[2 * k + 1] : 0;
+        const band_block own = band_block_at(m, k);
+        rows->gradient[2 * k] -= own.d[1] * im, rows->gradient[2 * k + 1] -= own.d[1] * re;
+        for (int by = 1; by <= 2; by++) {
+            const int after = k + by < n ? k + by : rows->loop ? k + by - n : -1;
+            const int before = k >= by ? k - by : rows->loop ? k - by + n : -1;
+            const double *c = by == 1 ? own.e : own.f;
+            load(rows, after, (cplx){-(c[0] * re + c[1] * im), -(c[2] * re + c[3] * im)});
+            if (before < 0) continue;
+            const band_block block = band_block_at(m, before);
+            c = by == 1 ? block.e : block.f;
+            load(rows, before, (cplx){-(c[0] * re + c[2] * im), -(c[1] * re + c[3] * im)});
+        }
     }
 }
 

@@ -63,7 +63,7 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
                   {&rows->im_weight, 1},
                   {&rows->x, 2},
                   {&rows->gradient, 2},
-                  {&rows->jet, 4},
+                  {&rows->jet, 2},
                   {&at->y, 1},
                   {&at->offset, 1},
                   {&at->response.total, 1},

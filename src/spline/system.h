@@ -60,7 +60,7 @@ typedef struct system_rows {
     double tail_loss;          ///< rounding of that
     double *x;                 ///< 2M: re, im
     double *gradient;          ///< like x
-    double *jet;               ///< scratch, 4M
+    double *jet;               ///< scratch, 2M
 } system_rows;
 
 /// A row's coefficients on the existing ones of the samples j − 1, j and j + 1: `before` and `after` are their numbers or -1.
@@ -95,14 +95,12 @@ typedef struct row_errors {
     double pulls;  ///< Σ_j √D_j (|ΔR|ᵀ W |r|)_j
 } row_errors;
 
-/// gradient = −½ ∇(E·h³) at x, 0 at fixed unknowns, through the unsquared rows; `errors` as to the matrix's spread, or NULL.
+/// gradient = −½ ∇(E·h³) at x through the unsquared rows; `errors` as to the matrix's spread, or NULL. At a fixed unknown it is the opposite of
+/// the force that holds it.
 void system_gradient(const system_rows *rows, const band_matrix *matrix, row_errors *errors);
 
-/// The rows' pull at x, at fixed unknowns, too: the force that holds them is its opposite.
-void system_forces(const system_rows *rows);
-
-/// The gradient at x = 0, known values, too: x becomes known values and, at the unknowns, that.
-void system_right_side(const system_rows *rows);
+/// The same where all unknowns are 0, by the squared matrix; what it leaves at fixed ones means nothing.
+void system_right_side(const system_rows *rows, const band_matrix *matrix);
 
 /// Sets all known values, targets and drives to 0: the solution is then the response to pulls.
 void system_forget_known(system_rows *rows);

@@ -81,9 +81,10 @@ static void fill_band(struct work *w)
         const band_block block = band_block_at(m, k);
         const double *const from[3] = {block.d, block.e, block.f};
         double *column = w->band + (size_t)unknown * (size_t)(kd + 1);
-        w->right[unknown] = rows->gradient[2 * k + part];
+        w->right[unknown] = 0;
         column[0] = 1;
         if (is_known(rows, k, part)) continue;
+        w->right[unknown] = rows->gradient[2 * k + part];
         for (int by = 0; by < 3 && k + by < m->count; by++) {
             for (int row = by ? 0 : part; row < width; row++) {
                 const double value = by ? from[by][2 * row + part] : from[0][row + part];
