@@ -370,25 +370,30 @@ static cplx start_of(const wiggly_solver *solver, const problem *p)
     return fade > 0 ? as_posed(p, knot->sample, swings) : to.w;
 }
 
-/// Im w after going once round a loop; or what is left of w there if all knots ask for 0.
-static double go_round(const wiggly_solver *solver, const problem *p, cplx w, bool asks)
+/// Im w after going once round a loop, or what is left of w there if all knots ask for 0; and its error.
+static double go_round(const wiggly_solver *solver, const problem *p, cplx w, bool asks, double *error)
 {
+    *error = 0;
     for (int n = 0; n < p->desc->knot_count; n++) {
         goal to = goal_of(solver, p, knot_of(solver, p, n + 1));
         if (!asks) to.w = (cplx){0, 0}, to.slope = 0;
+        *error = error_at_end(&solver->wind.gap[n], w, *error, &to);
         w = arrive(solver, p, &solver->wind.gap[n], w, &to);
     }
     return w.im;
 }
 
-/// Im w at a loop's first knot, so that the loop closes: exactly the phase with which it comes back, unless nothing decides that.
-static cplx close_round(const wiggly_solver *solver, const problem *p)
+/// w at a loop's first knot, so that the loop closes: Im w is exactly the phase with which it comes back, unless nothing decides that.
+static cplx close_round(const wiggly_solver *solver, const problem *p, double *error)
 {
     goal to = goal_of(solver, p, knot_of(solver, p, 0));
     if (to.is_whole) return to.w;
-    const double a = go_round(solver, p, (cplx){to.w.re, 0}, true), b = go_round(solver, p, (cplx){0, 1}, false);
-    const cplx closed = {to.w.re, a * (1 - b) / ((1 - b) * (1 - b) + 1e-4 * b * b)};
-    return as_posed(p, p->earliest, closed);
+    double of_a, of_b;
+    const double a = go_round(solver, p, (cplx){to.w.re, 0}, true, &of_a);
+    const double b = go_round(solver, p, (cplx){0, 1}, false, &of_b);
+    const double whole = (1 - b) * (1 - b) + 1e-4 * b * b, turn = a * (1 - b) / whole;
+    *error = (of_a * fabs(1 - b) + of_b * (fabs(a) + 2 * fabs(turn) * (fabs(1 - b) + 1e-4 * fabs(b)))) / whole;
+    return as_posed(p, p->earliest, (cplx){to.w.re, turn});
 }
 
 void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *curve, minimum *result)
@@ -405,9 +410,10 @@ void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *c
         .first = rests ? 0 : p->earliest, .gaps = knots - (loops || rests ? 0 : 1), .skipped = rests ? 0 : 1};
     set_gaps(solver, p, &c);
     double off = 0;
-    cplx w = loops ? close_round(solver, p) : rests ? (cplx){0, 0} : start_of(solver, p);
+    cplx w = loops ? close_round(solver, p, &off) : rests ? (cplx){0, 0} : start_of(solver, p);
     const cplx first = w;
     re[c.first] = w.re, im[c.first] = w.im;
+    result->error = off;
     for (int n = 0; n < c.gaps; n++) {
         const wind_gap *g = &solver->wind.gap[n];
         const goal to = goal_of(solver, p, knot_of(solver, p, n + c.skipped));
