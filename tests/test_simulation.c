@@ -1,7 +1,7 @@
 /// The parts of the simulation, each against its textbook definition: singular values, stress, stiffness, linear systems.
 #include "beam.h"
 #include "near.h"
-#include "simulation/blocks.h"
+#include "simulation/body.h"
 #include "simulation/linear.h"
 #include <lapacke.h>
 

@@ -4,9 +4,98 @@
 #ifndef SIMULATION_BODY_H
 #define SIMULATION_BODY_H
 
-#include "simulation/blocks.h"
-#include "simulation/element.h"
+#include "base/pool.h"
+#include "simulation/linear.h"
 #include <stdbool.h>
+
+// Eigenvalues of small dense symmetric matrices, singular values of 3×3 ones.
+
+/// Cyclic Jacobi. `a` (n × n, symmetric) is destroyed; values ascend; vectors[k·n …] is the k-th eigenvector, of length
+/// 1. Meant for n up to a few hundred.
+void eigen_symmetric(int n, double *a, double *values, double *vectors);
+
+/// F = U diag(σ) Vᵀ with rotations U and V and σ₀ ≥ σ₁ ≥ |σ₂|. If det F < 0, σ₂ is negative, so that an inverted tetrahedron turns
+/// back along the direction of least effort (Irving, Teran and Fedkiw 2004, section 3).
+struct svd {
+    double u[3][3], sigma[3], v[3][3]; ///< u[row][column]
+};
+
+/// Any finite F, singular ones included.
+void svd3(const double f[3][3], struct svd *svd);
+
+// --- one linear tetrahedron
+//
+// Positions are interpolated linearly, x(X) = Σ_a x_a N_a(X), so the deformation gradient is constant, F = Σ_a x_a ⊗ b_a
+// with b_a = ∇N_a. With F = U Σ Vᵀ and the diagonal stress P̂(Σ) the first Piola stress is P = U P̂ Vᵀ, and
+// the force on node a is f_a = −w P b_a (Irving, Teran, Fedkiw 2004, section 4), w being the rest volume of the material in it.
+
+// A soft elastic solid, isotropic: compressible neo-Hookean with clamped principal stretches.
+//
+//   ψ(σ) = Σ [ μ/2 (σᵢ² − 1) − μ L(σᵢ) ] + λ/2 (Σ L(σᵢ))²        energy per rest volume, J/m³
+//   L(σ) = ln σ for σ ≥ c,   ln c + (σ − c)/c below                c = MATERIAL_CLAMP
+//
+// Below c the logarithm continues as its tangent, so L'(σ) = 1/max(σ, c): the stress of Irving, Teran and Fedkiw (2004),
+// which clamps the stretch where it would blow up, but derived from an energy, as a line search needs.
+// It is finite for every stretch, negative ones included, and always pushes an inverted element back. At rest the
+// material is the linear one of Young's modulus and Poisson's ratio.
+
+#define MATERIAL_CLAMP 0.6
+
+/// Lamé's constants, Pa.
+struct material {
+    double mu, lambda;
+};
+
+/// young > 0 in Pa, 0 ≤ poisson < 0.5.
+struct material material_from(double young, double poisson);
+
+/// ψ, J/m³.
+double material_energy(const struct material *material, const double sigma[3]);
+
+/// ∂ψ/∂σᵢ: the diagonal of the first Piola stress in principal axes, Pa.
+void material_stress(const struct material *material, const double sigma[3], double stress[3]);
+
+struct element {
+    int node[4];
+    double gradient[4][3]; ///< b_a, 1/m
+    double volume;         ///< m³ of material at rest: the whole tetrahedron's, or the part that the solid fills
+    double stiffness;      ///< as a multiple of the material's
+};
+
+/// Sets the gradients and the volume of the tetrahedron with these nodes at rest, times `fraction`; stiffness 1. False if it
+/// is flat.
+bool element_init(struct element *element, const int node[4], const double (*rest)[3], double fraction);
+
+// --- sparse symmetric matrices of 3×3 blocks
+//
+// One block row per node, both triangles stored; solved by conjugate gradients, preconditioned by the inverses of the diagonal blocks.
+//
+// No factorisation: in a time step the matrix is κM + K, and κM keeps the condition number low. Some twenty products with a
+// matrix that fits the cache are faster than a factorisation with its fill-in (times in README.md), and need no library.
+
+struct blocks {
+    int rows;
+    int *start;         ///< rows + 1
+    int *column;        ///< ascending in each row
+    double (*block)[9]; ///< row by row
+    int *diagonal;      ///< per row: index of block (i, i)
+};
+
+/// y = A x, one vector of three per row.
+void blocks_multiply(const struct blocks *blocks, const double (*x)[3], double (*y)[3]);
+
+/// Scratch for any number of solves: four vectors and the preconditioner.
+struct conjugate {
+    double (*r)[3], (*z)[3], (*p)[3], (*q)[3];
+    double (*inverse)[9]; ///< of the diagonal blocks
+};
+
+/// Solves A x = b for a definite A from the guess x, until the residual in the preconditioner's norm has fallen by
+/// `tolerance` relative to that of x = 0. Returns the iterations taken, at most `limit`.
+int conjugate_solve(struct conjugate *conjugate, const struct blocks *a, const double (*b)[3], double (*x)[3],
+                    double tolerance, int limit);
+
+// --- the body
 
 struct body {
     struct pool pool; ///< has all below

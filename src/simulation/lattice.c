@@ -1,15 +1,279 @@
-/// Builds the lattice and embeds the surface in it.
+/// Cuts a solid into elements by the tetrahedra of a lattice, and embeds the surface in them.
 #include "simulation/lattice.h"
 #include "base/need.h"
 #include "base/progress.h"
-#include "simulation/element.h"
-#include "simulation/linear.h"
+#include "simulation/body.h"
 #include <math.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// Cutting takes some 13 bytes per voxel. A very thin sheet or needle would need more voxels, and gets fewer tetrahedra instead.
+// --- the solid cut into elements by the tetrahedra of the lattice
+
+enum { VOXELS_A_CELL = 8 };
+
+/// One element for each connected piece of the solid in each tetrahedron.
+struct tiling {
+    struct voxels voxels;
+    int *element;   ///< per voxel: its element, or −1 outside
+    int count;      ///< of elements
+    int kept;       ///< of those that are not left out
+    int *filled;    ///< per element: how many voxels
+    int (*key)[4];  ///< per element: which points of the lattice its nodes are at
+    int (*node)[4]; ///< per element: its nodes; equal numbers are the same node
+    int *part;      ///< per element: an element of the connected part it belongs to; −1: left out
+};
+
+static int union_root(int *parent, int i)
+{
+    while (parent[i] != i) {
+        parent[i] = parent[parent[i]];
+        i = parent[i];
+    }
+    return i;
+}
+
+static void union_join(int *parent, int i, int j)
+{
+    i = union_root(parent, i);
+    j = union_root(parent, j);
+    if (i < j) {
+        parent[j] = i;
+    } else {
+        parent[i] = j;
+    }
+}
+
+/// Half of a voxel's 26 neighbours, so that each pair is visited once.
+static const int neighbours[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1, 1}, {1, -1, -1},
+                                      {1, -1, 0}, {1, -1, 1}, {1, 0, -1}, {1, 0, 0}, {1, 0, 1},
+                                      {1, 1, -1}, {1, 1, 0},  {1, 1, 1}};
+
+/// Cubes along a side of the surface's box, with a margin.
+static double cells_along(double side, double cell) { return ceil(side / cell) + 2; }
+
+/// How many voxels a tiling with cubes of edge `cell` has; as a double, because it may exceed any integer.
+static double tiling_voxels(const struct solid *solid, double cell)
+{
+    double lo[3], hi[3], count = 1;
+    surface_bounds(&solid->shape, lo, hi);
+    for (int c = 0; c < 3; c++) count *= cells_along(hi[c] - lo[c] + solid->thickness, cell) * VOXELS_A_CELL;
+    return count;
+}
+
+/// Number of a point of the lattice, given in half cells from the origin.
+static int point_key(const struct voxels *voxels, const int p[3])
+{
+    int ny = voxels->size[1] / VOXELS_A_CELL * 2 + 1, nz = voxels->size[2] / VOXELS_A_CELL * 2 + 1;
+    return (p[0] * ny + p[1]) * nz + p[2];
+}
+
+/// Where a point of the lattice is, m.
+static void tiling_point(const struct tiling *tiling, int key, double position[3])
+{
+    const struct voxels *v = &tiling->voxels;
+    int ny = v->size[1] / VOXELS_A_CELL * 2 + 1, nz = v->size[2] / VOXELS_A_CELL * 2 + 1;
+    const int p[3] = {key / (ny * nz), key / nz % ny, key % nz};
+    for (int c = 0; c < 3; c++) position[c] = v->origin[c] + p[c] * v->spacing * VOXELS_A_CELL / 2;
+}
+
+/// The tetrahedron that holds a voxel's centre: from the cube's centre towards the nearest face, then towards that face's nearest
+/// edge. `key` names its nodes: the two cubes' centres and the edge's ends.
+static void tetrahedron_at(const struct voxels *voxels, int index, int key[4])
+{
+    const int *size = voxels->size,
+              voxel[3] = {index / (size[1] * size[2]), index / size[2] % size[1], index % size[2]};
+    int from_centre[3], centre[3], order[3] = {0, 1, 2}, steps = 0;
+    for (int c = 0; c < 3; c++) {
+        from_centre[c] = 2 * (voxel[c] % VOXELS_A_CELL) - (VOXELS_A_CELL - 1);
+        steps += (abs(from_centre[c]) + 1) / 2;
+        centre[c] = 2 * (voxel[c] / VOXELS_A_CELL) + 1;
+    }
+    // Voxels on a diagonal go to either side in turn, so that no axis gets all of them.
+    if (steps % 2 == 1) order[0] = 2, order[2] = 0;
+    for (int pass = 0; pass < 3; pass++) { // farthest axis first
+        int i = pass % 2, swap = order[i];
+        if (abs(from_centre[order[i]]) >= abs(from_centre[order[i + 1]])) continue;
+        order[i] = order[i + 1];
+        order[i + 1] = swap;
+    }
+    int k = order[0], u = order[1], w = order[2], toward = from_centre[k] > 0 ? 1 : -1;
+    int other[3] = {centre[0], centre[1], centre[2]}, end[3] = {centre[0], centre[1], centre[2]};
+    other[k] += 2 * toward;
+    end[k] += toward;
+    end[u] += from_centre[u] > 0 ? 1 : -1;
+    end[w] -= 1;
+    // The lower cube's centre first, so that both halves of a tetrahedron give it the same name.
+    key[0] = point_key(voxels, toward > 0 ? centre : other);
+    key[1] = point_key(voxels, toward > 0 ? other : centre);
+    key[2] = point_key(voxels, end);
+    end[w] += 2;
+    key[3] = point_key(voxels, end);
+}
+
+/// Calls `visit` for each pair of neighbouring voxels inside. None is at the grid's border.
+static void visit_neighbours(struct tiling *t, int *voxel_set, const uint64_t *tetrahedron,
+                             void (*visit)(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b))
+{
+    const int *size = t->voxels.size;
+    int count = (int)voxels_count(&t->voxels), offset[13];
+    for (int n = 0; n < 13; n++) {
+        offset[n] = (neighbours[n][0] * size[1] + neighbours[n][1]) * size[2] + neighbours[n][2];
+    }
+    for (int i = 0; i < count; i++) {
+        if (!t->voxels.inside[i]) continue;
+        for (int n = 0; n < 13; n++) {
+            if (t->voxels.inside[i + offset[n]]) visit(t, voxel_set, tetrahedron, i, i + offset[n]);
+        }
+    }
+}
+
+static void join_voxels(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b)
+{
+    (void)t;
+    if (tetrahedron[a] == tetrahedron[b]) union_join(set, a, b);
+}
+
+/// Joins nodes of touching elements that are at the same point.
+static void join_nodes(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b)
+{
+    (void)tetrahedron;
+    int e = t->element[a], f = t->element[b];
+    if (e == f) return;
+    for (int k = 0; k < 16; k++) {
+        if (t->key[e][k / 4] == t->key[f][k % 4]) union_join(set, 4 * e + k / 4, 4 * f + k % 4);
+    }
+}
+
+struct face {
+    int node[3], element;
+};
+
+static int compare_faces(const void *a, const void *b)
+{
+    const struct face *x = a, *y = b;
+    return memcmp(x->node, y->node, sizeof x->node);
+}
+
+/// Puts elements that share a face into one part.
+static void find_parts(struct tiling *t)
+{
+    size_t count = (size_t)t->count * 4;
+    struct face *faces = need_zeroed(count + 1, sizeof *faces);
+    for (int e = 0; e < t->count; e++) {
+        t->part[e] = e;
+        for (int a = 0; a < 4; a++) { // the nodes of the face opposite node a, ascending
+            struct face *face = &faces[4 * e + a];
+            face->element = e;
+            for (int k = 0; k < 3; k++) face->node[k] = t->node[e][(a + 1 + k) % 4];
+            for (int pass = 0; pass < 3; pass++) {
+                int i = pass % 2, swap = face->node[i];
+                if (swap <= face->node[i + 1]) continue;
+                face->node[i] = face->node[i + 1];
+                face->node[i + 1] = swap;
+            }
+        }
+    }
+    qsort(faces, count, sizeof *faces, compare_faces);
+    for (size_t i = 1; i < count; i++) {
+        if (compare_faces(&faces[i - 1], &faces[i]) == 0) {
+            union_join(t->part, faces[i - 1].element, faces[i].element);
+        }
+    }
+    free(faces);
+}
+
+/// Drops parts smaller than a hundredth of the whole, but never the largest.
+static void drop_crumbs(struct tiling *t)
+{
+    int *voxels = need_zeroed((size_t)t->count + 1, sizeof *voxels), total = 0, largest = 0;
+    for (int e = 0; e < t->count; e++) {
+        t->part[e] = union_root(t->part, e);
+        voxels[t->part[e]] += t->filled[e];
+        total += t->filled[e];
+    }
+    for (int e = 0; e < t->count; e++) largest = voxels[e] > largest ? voxels[e] : largest;
+    for (int e = 0; e < t->count; e++) {
+        int size = voxels[t->part[e]];
+        bool crumb = size < largest && size < total / 100;
+        if (crumb) t->part[e] = -1;
+        t->kept += !crumb;
+    }
+    free(voxels);
+    int count = (int)voxels_count(&t->voxels);
+    for (int i = 0; i < count; i++) {
+        if (t->element[i] >= 0 && t->part[t->element[i]] < 0) t->element[i] = -1;
+    }
+}
+
+/// Cuts the solid with cubes of edge `cell`; tiling_voxels() of it must fit_count an int. Voxels lie over the surface's box and margin, centred, so that a symmetric solid is cut symmetrically; then moved up or down by at
+/// most a quarter of a cell, so that a layer of nodes lies at `layer`.
+static void tiling_create(struct tiling *t, const struct solid *solid, double cell, double layer)
+{
+    struct voxels *v = &t->voxels;
+    double lo[3], hi[3];
+    *t = (struct tiling){.voxels.spacing = cell / VOXELS_A_CELL};
+    surface_bounds(&solid->shape, lo, hi);
+    for (int c = 0; c < 3; c++) {
+        int cells = (int)cells_along(hi[c] - lo[c] + solid->thickness, cell);
+        v->size[c] = cells * VOXELS_A_CELL;
+        v->origin[c] = (lo[c] + hi[c] - cells * cell) / 2;
+    }
+    if (isfinite(layer)) v->origin[1] += remainder(layer - v->origin[1], cell / 2);
+    voxels_fill(v, solid);
+
+    // Each voxel's tetrahedron as one number, from its face's centre and twice its edge's.
+    const int count = (int)voxels_count(v);
+    int *set = need_zeroed((size_t)count, sizeof *set), key[4];
+    uint64_t *tetrahedron = need_zeroed((size_t)count, sizeof *tetrahedron);
+    for (int i = 0; i < count; i++) {
+        set[i] = i;
+        if (!v->inside[i]) continue;
+        tetrahedron_at(v, i, key);
+        tetrahedron[i] = (uint64_t)(key[2] + key[3]) << 32 | (uint32_t)(key[0] + key[1]);
+    }
+    visit_neighbours(t, set, tetrahedron, join_voxels);
+
+    // Each set of voxels is an element, with nodes and a size.
+    t->element = need((size_t)count, sizeof *t->element);
+    memset(t->element, 0xFF, (size_t)count * sizeof *t->element); // −1
+    for (int i = 0; i < count; i++) {
+        if (v->inside[i]) t->element[i] = union_root(set, i) == i ? t->count++ : t->element[set[i]];
+    }
+    const size_t room = (size_t)t->count + 1;
+    t->filled = need_zeroed(room, sizeof *t->filled);
+    t->key = need_zeroed(room, sizeof *t->key);
+    t->node = need_zeroed(room, sizeof *t->node);
+    t->part = need_zeroed(room, sizeof *t->part);
+    for (int i = 0; i < count; i++) {
+        const int e = t->element[i];
+        if (e >= 0 && t->filled[e]++ == 0) tetrahedron_at(v, i, t->key[e]);
+    }
+    int *nodes = need_zeroed(4 * room, sizeof *nodes);
+    for (int i = 0; i < 4 * t->count; i++) nodes[i] = i;
+    visit_neighbours(t, nodes, tetrahedron, join_nodes);
+    for (int i = 0; i < 4 * t->count; i++) t->node[i / 4][i % 4] = union_root(nodes, i);
+    free(nodes);
+    free(set);
+    free(tetrahedron);
+    find_parts(t);
+    drop_crumbs(t);
+}
+
+static void tiling_free(struct tiling *t)
+{
+    voxels_free(&t->voxels);
+    free(t->element);
+    free(t->filled);
+    free(t->key);
+    free(t->node);
+    free(t->part);
+    *t = (struct tiling){0};
+}
+
+// --- lattice
+
 static const double voxels_max = 3e7;
 
 enum { TELLING = 1 << 13 }; ///< vertices between two progress reports
@@ -41,7 +305,7 @@ static double coarse_enough(const struct solid *solid, double cell)
 }
 
 /// Tries cubes of several sizes until the number of tetrahedra is within 3 % or stops improving; a cube has about twelve.
-static void fit(struct tiling *best, const struct solid *solid, int target, double layer, double *best_cell)
+static void fit_count(struct tiling *best, const struct solid *solid, int target, double layer, double *best_cell)
 {
     enum { TRIES = 8 };
     double cell = cbrt(12 * solid_volume(solid) / target), nearest = INFINITY;
@@ -97,31 +361,6 @@ static void fit_volume(struct tiling *best, const struct solid *solid, double la
     }
 }
 
-/// Numbers the kept nodes, elements and parts consecutively. index[e] is the new number of element e.
-static void number(struct lattice *lattice, const struct tiling *t, int *index, int *node_number)
-{
-    size_t n = (size_t)t->kept;
-    lattice->node = pool_take(&lattice->pool, 4 * n + 1, sizeof *lattice->node);
-    lattice->tet = pool_take(&lattice->pool, n + 1, sizeof *lattice->tet);
-    lattice->fraction = pool_take(&lattice->pool, n + 1, sizeof *lattice->fraction);
-    lattice->part = pool_take(&lattice->pool, n + 1, sizeof *lattice->part);
-    const double whole = VOXELS_A_CELL * VOXELS_A_CELL * VOXELS_A_CELL / 12.0; // a tetrahedron's volume in voxels
-    for (int e = 0; e < t->count; e++) {
-        if (t->part[e] < 0) continue;
-        int k = index[e] = lattice->tet_count++;
-        lattice->fraction[k] = t->filled[e] / whole;
-        lattice->part[k] = t->part[e] == e ? lattice->part_count++ : lattice->part[index[t->part[e]]];
-        for (int a = 0; a < 4; a++) {
-            int *known = &node_number[t->node[e][a]];
-            if (*known < 0) {
-                *known = lattice->node_count++;
-                tiling_point(t, t->key[e][a], lattice->node[*known]);
-            }
-            lattice->tet[k][a] = *known;
-        }
-    }
-}
-
 enum { LEVELS = 26 }; ///< of halving the longest side; there are fewer than 2²⁵ voxels
 
 /// Which blocks of 2, 4, 8 … voxels hold some of the lattice: level l has those of 2ˡ.
@@ -155,11 +394,6 @@ static void pyramid_create(struct pyramid *p, const struct tiling *t)
             }
         }
     }
-}
-
-static void pyramid_free(struct pyramid *p)
-{
-    for (int l = 1; l <= p->top; l++) free(p->any[l]);
 }
 
 /// A search for the voxel of the lattice nearest to a point given in voxels.
@@ -209,120 +443,104 @@ static void search(struct nearest *n, int level, const int block[3])
     n->found = index;
 }
 
-static int nearest_inside(const struct pyramid *p, const double at[3])
+/// Numbers what is kept of the tiling consecutively. Places each vertex in the element of the nearest voxel, starting half a voxel
+/// under the surface: not in the next limb's.
+static void build_lattice(struct lattice *lattice, const struct tiling *t, const struct surface *surface,
+                          const struct solid *solid)
 {
-    struct nearest n = {.pyramid = p, .at = {at[0], at[1], at[2]}, .distance = INFINITY, .found = -1};
-    for (int c = 0; c < 3; c++) n.middle[c] = (int)fmax(0, fmin(p->size[0][c] - 1, floor(at[c])));
-    search(&n, p->top, (const int[3]){0, 0, 0});
-    return n.found;
-}
-
-/// Barycentric coordinates of a point.
-static void locate(const struct lattice *lattice, int tet, const float point[3], double weight[4])
-{
-    struct element element;
-    const int *node = lattice->tet[tet];
-    double away[3];
-    element_init(&element, node, (const double(*)[3])lattice->node, 1);
-    for (int c = 0; c < 3; c++) away[c] = (double)point[c] - lattice->node[node[0]][c];
-    for (int a = 0; a < 4; a++) weight[a] = (a == 0) + vec3_dot(element.gradient[a], away);
-}
-
-/// Each vertex's normal, not normalised; 0 if its triangles are left out.
-static double (*normals_of(const struct surface *surface))[3]
-{
-    double(*normal)[3] = need_zeroed((size_t)surface->vertex_count + 1, sizeof *normal);
-    for (int i = 0; i < surface->index_count; i++) {
-        double across[3], middle[3];
-        triangle_measure(surface, i / 3, across, middle);
-        for (int c = 0; c < 3; c++) normal[surface->indices[i]][c] += across[c];
+    const double whole = VOXELS_A_CELL * VOXELS_A_CELL * VOXELS_A_CELL / 12.0; // a tetrahedron's volume in voxels
+    const size_t kept = (size_t)t->kept, count = (size_t)surface->vertex_count;
+    int *index = need_zeroed((size_t)t->count + 1, sizeof *index); // per element: its new number
+    int *node_number = need((size_t)t->count * 4 + 1, sizeof *node_number);
+    memset(node_number, 0xFF, (size_t)t->count * 4 * sizeof *node_number); // −1
+    lattice->node = pool_take(&lattice->pool, 4 * kept + 1, sizeof *lattice->node);
+    lattice->tet = pool_take(&lattice->pool, kept + 1, sizeof *lattice->tet);
+    lattice->fraction = pool_take(&lattice->pool, kept + 1, sizeof *lattice->fraction);
+    lattice->part = pool_take(&lattice->pool, kept + 1, sizeof *lattice->part);
+    for (int e = 0; e < t->count; e++) {
+        if (t->part[e] < 0) continue;
+        int k = index[e] = lattice->tet_count++;
+        lattice->fraction[k] = t->filled[e] / whole;
+        lattice->part[k] = t->part[e] == e ? lattice->part_count++ : lattice->part[index[t->part[e]]];
+        for (int a = 0; a < 4; a++) {
+            int *known = &node_number[t->node[e][a]];
+            if (*known < 0) {
+                *known = lattice->node_count++;
+                tiling_point(t, t->key[e][a], lattice->node[*known]);
+            }
+            lattice->tet[k][a] = *known;
+        }
     }
-    return normal;
-}
+    free(node_number);
 
-/// Places each vertex in the element of the nearest voxel, starting half a voxel under the surface: not in the next limb's.
-static void embed(struct lattice *lattice, const struct tiling *t, const int *index, const struct surface *surface,
-                  const struct solid *solid)
-{
-    size_t count = (size_t)surface->vertex_count;
+    double(*normal)[3] = need_zeroed(count + 1, sizeof *normal); // not normalised; 0 if its triangles are left out
+    for (int i = 0; i < solid->shape.index_count; i++) {
+        double across[3], middle[3];
+        triangle_measure(&solid->shape, i / 3, across, middle);
+        for (int c = 0; c < 3; c++) normal[solid->shape.indices[i]][c] += across[c];
+    }
     lattice->vertex_count = surface->vertex_count;
     lattice->host = pool_take(&lattice->pool, count + 1, sizeof *lattice->host);
     lattice->weight = pool_take(&lattice->pool, count + 1, sizeof *lattice->weight);
-    double(*normal)[3] = normals_of(&solid->shape);
     uint8_t *used = surface_used_vertices(surface);
     struct pyramid pyramid;
     pyramid_create(&pyramid, t);
     for (int i = 0; i < surface->vertex_count; i++) {
-        double at[3], length = vec3_length(normal[i]);
+        const double length = vec3_length(normal[i]);
+        struct nearest n = {.pyramid = &pyramid, .distance = INFINITY, .found = -1};
         lattice->host[i] = -1;
         if (i % TELLING == 0) stage_tell("placing the vertices", i, surface->vertex_count);
         if (!used[i]) continue;
         for (int c = 0; c < 3; c++) {
             double inward = length > 0 ? 0.5 * normal[i][c] / length : 0;
-            at[c] = ((double)surface->position[i][c] - t->voxels.origin[c]) / t->voxels.spacing - inward;
+            n.at[c] = ((double)surface->position[i][c] - t->voxels.origin[c]) / t->voxels.spacing - inward;
+            n.middle[c] = (int)fmax(0, fmin(t->voxels.size[c] - 1, floor(n.at[c])));
         }
-        lattice->host[i] = index[t->element[nearest_inside(&pyramid, at)]];
-        locate(lattice, lattice->host[i], surface->position[i], lattice->weight[i]);
+        search(&n, pyramid.top, (const int[3]){0, 0, 0});
+        lattice->host[i] = index[t->element[n.found]];
+
+        const int *node = lattice->tet[lattice->host[i]]; // its barycentric coordinates there
+        struct element element;
+        double away[3];
+        element_init(&element, node, (const double(*)[3])lattice->node, 1);
+        for (int c = 0; c < 3; c++) away[c] = (double)surface->position[i][c] - lattice->node[node[0]][c];
+        for (int a = 0; a < 4; a++) lattice->weight[i][a] = (a == 0) + vec3_dot(element.gradient[a], away);
     }
     stage_tell("placing the vertices", surface->vertex_count, surface->vertex_count);
-    pyramid_free(&pyramid);
+    for (int level = 1; level <= pyramid.top; level++) free(pyramid.any[level]);
     free(normal);
     free(used);
-}
-
-static void build(struct lattice *lattice, const struct tiling *t, const struct surface *surface,
-                  const struct solid *solid)
-{
-    int *index = need_zeroed((size_t)t->count + 1, sizeof *index);
-    int *node_number = need((size_t)t->count * 4 + 1, sizeof *node_number);
-    memset(node_number, 0xFF, (size_t)t->count * 4 * sizeof *node_number); // −1
-    number(lattice, t, index, node_number);
-    embed(lattice, t, index, surface, solid);
     free(index);
-    free(node_number);
-}
-
-/// The lattice of a solid with some volume.
-static bool lattice_of(struct lattice *lattice, const struct surface *surface, const struct solid *solid, int target,
-                       double layer, const char *name, struct error *error)
-{
-    struct tiling tiling;
-    fit(&tiling, solid, target, layer, &lattice->cell);
-    if (tiling.kept == 0) {
-        tiling_free(&tiling);
-        return fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);
-    }
-    // Where parts overlap, the mesh's volume counts the overlap twice.
-    const double thickness = sheet_thickness(solid, &tiling.voxels);
-    const bool exact = !solid->open && !tiling.voxels.overlaps && thickness == solid->thickness;
-    if (exact) fit_volume(&tiling, solid, layer, &lattice->cell);
-    if (thickness > 0)
-        snprintf(lattice->repair, sizeof lattice->repair, "a sheet %.3g m thick%s", thickness,
-                 exact ? "" : ", as thin as so few tetrahedra can be");
-    build(lattice, &tiling, surface, solid);
-    tiling_free(&tiling);
-    return true;
-}
-
-/// Offers a thickness for a surface without a clear inside.
-static bool check_inside(const struct solid *solid, bool closes, const char *name, struct error *error)
-{
-    static const double SURE = 0.85, LEAST = 0.65;
-    const double certainty = solid_volume(solid) > 0 ? solid_certainty(solid) : 0, fitting = sqrt(solid->area) / 25;
-    if (certainty >= (closes ? LEAST : SURE)) return true;
-    return fail(error, ERROR_INPUT, "%s: the mesh has no clear inside: --thickness %.1g makes it a sheet of %.1g m%s",
-                name, fitting, fitting, certainty >= LEAST ? ", --thickness 0 closes its openings" : "");
 }
 
 bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
                     double thickness, const char *name, struct error *error)
 {
+    static const double SURE = 0.85, LEAST = 0.65;
     struct solid solid;
+    struct tiling tiling = {0};
     *lattice = (struct lattice){0};
     solid_create(&solid, surface, fmax(0, thickness));
     solid_describe(&solid, lattice->repair);
-    bool good = check_inside(&solid, thickness >= 0, name, error) &&
-                lattice_of(lattice, surface, &solid, target, layer, name, error);
+    const double certainty = solid_volume(&solid) > 0 ? solid_certainty(&solid) : 0, fitting = sqrt(solid.area) / 25;
+    bool good =
+        certainty >= (thickness >= 0 ? LEAST : SURE) ||
+        fail(error, ERROR_INPUT, "%s: the mesh has no clear inside: --thickness %.1g makes it a sheet of %.1g m%s",
+             name, fitting, fitting, certainty >= LEAST ? ", --thickness 0 closes its openings" : "");
+    if (good) fit_count(&tiling, &solid, target, layer, &lattice->cell);
+    if (good && tiling.kept == 0)
+        good = fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);
+    if (good) {
+        // Where parts overlap, the mesh's volume counts the overlap twice.
+        const double thick = sheet_thickness(&solid, &tiling.voxels);
+        const bool exact = !solid.open && !tiling.voxels.overlaps && thick == solid.thickness;
+        if (exact) fit_volume(&tiling, &solid, layer, &lattice->cell);
+        if (thick > 0)
+            snprintf(lattice->repair, sizeof lattice->repair, "a sheet %.3g m thick%s", thick,
+                     exact ? "" : ", as thin as so few tetrahedra can be");
+        build_lattice(lattice, &tiling, surface, &solid);
+    }
+    tiling_free(&tiling);
     solid_free(&solid);
     return good;
 }
@@ -346,25 +564,6 @@ void lattice_embed(const struct lattice *lattice, const double (*x)[3], float (*
     }
 }
 
-/// One round of spreading: a node without a number takes the mean of the known ones in its elements. Returns how many remain.
-static int spread_further(const struct lattice *lattice, double *node, double *sum, double *share)
-{
-    int missing = 0;
-    for (int e = 0; e < lattice->tet_count; e++) {
-        for (int k = 0; k < 16; k++) {
-            int from = lattice->tet[e][k / 4], to = lattice->tet[e][k % 4];
-            if (isnan(node[from]) || !isnan(node[to])) continue;
-            sum[to] += node[from];
-            share[to] += 1;
-        }
-    }
-    for (int i = 0; i < lattice->node_count; i++) {
-        if (isnan(node[i]) && share[i] > 0) node[i] = sum[i] / share[i];
-        missing += isnan(node[i]);
-    }
-    return missing;
-}
-
 void lattice_spread(const struct lattice *lattice, const double *vertex, double *node)
 {
     double *sum = need_zeroed((size_t)lattice->node_count + 1, sizeof *sum);
@@ -383,7 +582,19 @@ void lattice_spread(const struct lattice *lattice, const double *vertex, double 
     }
     for (int before = missing + 1; missing > 0 && missing < before;) {
         before = missing;
-        missing = spread_further(lattice, node, sum, share);
+        missing = 0; // a node without a number takes the mean of the known ones in its elements
+        for (int e = 0; e < lattice->tet_count; e++) {
+            for (int k = 0; k < 16; k++) {
+                int from = lattice->tet[e][k / 4], to = lattice->tet[e][k % 4];
+                if (isnan(node[from]) || !isnan(node[to])) continue;
+                sum[to] += node[from];
+                share[to] += 1;
+            }
+        }
+        for (int i = 0; i < lattice->node_count; i++) {
+            if (isnan(node[i]) && share[i] > 0) node[i] = sum[i] / share[i];
+            missing += isnan(node[i]);
+        }
     }
     for (int i = 0; i < lattice->node_count; i++) node[i] = isnan(node[i]) ? 0 : node[i]; // a part without vertices
     free(sum);

@@ -18,33 +18,6 @@
 #include "simulation/solid.h"
 #include <stdbool.h>
 
-// The solid cut into elements by the tetrahedra of the lattice.
-
-enum { VOXELS_A_CELL = 8 };
-
-/// One element for each connected piece of the solid in each tetrahedron.
-struct tiling {
-    struct voxels voxels;
-    int *element;   ///< per voxel: its element, or −1 outside
-    int count;      ///< of elements
-    int kept;       ///< of those that are not left out
-    int *filled;    ///< per element: how many voxels
-    int (*key)[4];  ///< per element: which points of the lattice its nodes are at
-    int (*node)[4]; ///< per element: its nodes; equal numbers are the same node
-    int *part;      ///< per element: an element of the connected part it belongs to; −1: left out
-};
-
-/// How many voxels a tiling with cubes of edge `cell` has; as a double, because it may exceed any integer.
-double tiling_voxels(const struct solid *solid, double cell);
-
-/// Cuts the solid with cubes of edge `cell`; tiling_voxels() of it must fit an int. A layer of nodes lies at the height
-/// `layer` (y), unless that is NAN.
-void tiling_create(struct tiling *tiling, const struct solid *solid, double cell, double layer);
-void tiling_free(struct tiling *tiling);
-
-/// Where a point of the lattice is, m.
-void tiling_point(const struct tiling *tiling, int key, double position[3]);
-
 struct lattice {
     struct pool pool; ///< has all below
     double cell;      ///< edge of the cubes, m

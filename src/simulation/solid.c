@@ -1,4 +1,4 @@
-/// Turns a surface's triangles to face outwards, and finds where it is open.
+/// Turns a surface's triangles to face outwards, finds where it is open, and fills it with voxels.
 #include "simulation/solid.h"
 #include "base/need.h"
 #include "base/progress.h"
@@ -8,6 +8,138 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+void triangle_measure(const struct surface *surface, int triangle, double normal[3], double middle[3])
+{
+    double p[3][3], edge[2][3];
+    triangle_corners(surface, triangle, p);
+    for (int c = 0; c < 3; c++) {
+        for (int k = 0; k < 2; k++) edge[k][c] = p[k + 1][c] - p[0][c];
+        middle[c] = p[0][c] + p[1][c] + p[2][c];
+    }
+    vec3_cross(edge[0], edge[1], normal);
+}
+
+// --- winding numbers: a tree of triangles, and sums over it
+
+enum { LEAF = 8, DEPTH_MAX = 64 };
+
+// At this many radii a node counts as a dipole: the sum is then off by less than 0.01.
+static const double FAR = 4;
+
+/// A triangle's area vector and centre.
+static void weigh_triangle(const struct surface *surface, int triangle, double area[3], double middle[3])
+{
+    triangle_measure(surface, triangle, area, middle);
+    for (int c = 0; c < 3; c++) {
+        area[c] /= 2;
+        middle[c] /= 3;
+    }
+}
+
+/// Measures a node, and halves the box of the centres for its children; if all are in one half, halves the list.
+static int build_node(struct winding *w, int first, int count, int depth)
+{
+    const int number = w->node_count++;
+    struct winding_node *node = &w->nodes[number];
+    double lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY}, total = 0;
+    *node = (struct winding_node){.first = first, .count = count};
+    for (int i = first; i < first + count; i++) {
+        double area[3], middle[3];
+        weigh_triangle(w->surface, w->order[i], area, middle);
+        const double size = fmax(vec3_length(area), 1e-300);
+        total += size;
+        for (int c = 0; c < 3; c++) {
+            node->area[c] += area[c];
+            node->middle[c] += size * middle[c];
+            lo[c] = fmin(lo[c], middle[c]);
+            hi[c] = fmax(hi[c], middle[c]);
+        }
+    }
+    for (int c = 0; c < 3; c++) node->middle[c] /= total;
+    for (int i = first; i < first + count; i++) {
+        double p[3][3];
+        triangle_corners(w->surface, w->order[i], p);
+        for (int k = 0; k < 3; k++) {
+            const double away[3] = {p[k][0] - node->middle[0], p[k][1] - node->middle[1], p[k][2] - node->middle[2]};
+            node->radius = fmax(node->radius, vec3_length(away));
+        }
+    }
+    if (count <= LEAF || depth + 1 >= DEPTH_MAX) return number;
+    int axis = 0;
+    for (int c = 1; c < 3; c++) axis = hi[c] - lo[c] > hi[axis] - lo[axis] ? c : axis;
+    const double at = (lo[axis] + hi[axis]) / 2;
+    int below = 0;
+    for (int i = first; i < first + count; i++) { // centres below go to the front
+        double area[3], middle[3];
+        weigh_triangle(w->surface, w->order[i], area, middle);
+        if (!(middle[axis] < at)) continue;
+        const int swap = w->order[i];
+        w->order[i] = w->order[first + below];
+        w->order[first + below++] = swap;
+    }
+    if (below == 0 || below == count) below = count / 2;
+    build_node(w, first, below, depth + 1);
+    w->nodes[number].second = build_node(w, first + below, count - below, depth + 1);
+    return number;
+}
+
+void winding_create(struct winding *winding, const struct surface *surface)
+{
+    const int triangles = surface->index_count / 3;
+    *winding = (struct winding){.surface = surface};
+    winding->order = need((size_t)triangles + 1, sizeof *winding->order);
+    winding->nodes = need(2 * (size_t)triangles + 1, sizeof *winding->nodes);
+    for (int i = 0; i < triangles; i++) winding->order[i] = i;
+    if (triangles > 0) build_node(winding, 0, triangles, 0);
+}
+
+void winding_free(struct winding *winding)
+{
+    free(winding->order);
+    free(winding->nodes);
+    *winding = (struct winding){0};
+}
+
+/// Half the solid angle of a triangle (van Oosterom and Strackee).
+static double half_angle(const struct surface *surface, int triangle, const double point[3])
+{
+    double p[3][3], length[3], across[3];
+    triangle_corners(surface, triangle, p);
+    for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < 3; c++) p[k][c] -= point[c];
+        length[k] = vec3_length(p[k]);
+    }
+    vec3_cross(p[1], p[2], across);
+    return atan2(vec3_dot(p[0], across), length[0] * length[1] * length[2] + vec3_dot(p[0], p[1]) * length[2] +
+                                             vec3_dot(p[1], p[2]) * length[0] + vec3_dot(p[2], p[0]) * length[1]);
+}
+
+double winding_at(const struct winding *winding, const double point[3])
+{
+    const double pi = 3.14159265358979323846;
+    double angle = 0; // half the solid angle
+    int waiting[DEPTH_MAX + 2], count = 0;
+    if (winding->node_count > 0) waiting[count++] = 0;
+    while (count > 0) {
+        const int number = waiting[--count];
+        const struct winding_node *node = &winding->nodes[number];
+        const double to[3] = {node->middle[0] - point[0], node->middle[1] - point[1], node->middle[2] - point[2]};
+        const double square = vec3_dot(to, to);
+        if (square > FAR * FAR * node->radius * node->radius) {
+            angle += vec3_dot(to, node->area) / (2 * square * sqrt(square));
+        } else if (node->second) {
+            waiting[count++] = node->second;
+            waiting[count++] = number + 1;
+        } else {
+            for (int i = node->first; i < node->first + node->count; i++)
+                angle += half_angle(winding->surface, winding->order[i], point);
+        }
+    }
+    return angle / (2 * pi);
+}
+
+// --- repair
 
 enum { RAYS = 64, RAYS_MIN = 8 };
 
@@ -25,23 +157,10 @@ struct repair {
     uint32_t *name;    ///< per vertex: one number for all vertices at the same place
     struct edge *edge; ///< sorted by ends
     int edge_count;
-    int *next;       ///< per triangle and corner: the triangle across that edge if exactly two share it, else −1
+    int *next; ///< per triangle: its neighbours across edges that exactly two share, as join() writes them, then −1
     uint8_t *turned; ///< per triangle
     int *patch;      ///< triangles, patch by patch
 };
-
-static void weld(const struct surface *surface, uint32_t *name)
-{
-    struct spot *spots = need((size_t)surface->vertex_count, sizeof *spots);
-    spots_sort((const float(*)[3])surface->position, surface->vertex_count, spots);
-    for (int i = 0, first = 0; i < surface->vertex_count; i++) {
-        if (!spots_meet(&spots[first], &spots[i])) first = i;
-        name[spots[i].vertex] = (uint32_t)first;
-    }
-    free(spots);
-}
-
-// --- triangles with the same corners
 
 struct corners {
     uint32_t name[3]; ///< ascending
@@ -90,24 +209,11 @@ static void leave_out(struct repair *r, int *duplicates)
     free(dropped);
 }
 
-// --- edges
-
 static int compare_edges(const void *a, const void *b)
 {
     const struct edge *x = a, *y = b;
     if (x->ends != y->ends) return x->ends < y->ends ? -1 : 1;
     return x->triangle - y->triangle;
-}
-
-static void list_edges(struct repair *r)
-{
-    const struct surface *s = r->shape;
-    r->edge_count = s->index_count;
-    for (int i = 0; i < s->index_count; i++) {
-        const uint64_t from = r->name[s->indices[i]], to = r->name[s->indices[i % 3 == 2 ? i - 2 : i + 1]];
-        r->edge[i] = from < to ? (struct edge){from << 32 | to, i / 3, 1} : (struct edge){to << 32 | from, i / 3, -1};
-    }
-    qsort(r->edge, (size_t)r->edge_count, sizeof *r->edge, compare_edges);
 }
 
 /// The first edge after those with the same ends as edge i.
@@ -118,20 +224,7 @@ static int end_of_group(const struct repair *r, int i)
     return i;
 }
 
-static int count_open(const struct repair *r)
-{
-    int open = 0;
-    for (int i = 0, end; i < r->edge_count; i = end) {
-        int sum = 0;
-        end = end_of_group(r, i);
-        for (int k = i; k < end; k++) sum += r->edge[k].direction * (r->turned[r->edge[k].triangle] ? -1 : 1);
-        open += sum != 0;
-    }
-    return open;
-}
-
-// --- patches
-
+/// Lists a neighbour of a triangle: twice its number, plus 1 if their sides disagree.
 static void join(struct repair *r, int triangle, int other, bool agree)
 {
     for (int k = 0; k < 3; k++) {
@@ -142,66 +235,9 @@ static void join(struct repair *r, int triangle, int other, bool agree)
     }
 }
 
-/// Lists the neighbours of each triangle: twice their number, plus 1 if their sides disagree.
-static void join_neighbours(struct repair *r)
-{
-    memset(r->next, 0xFF, (size_t)r->edge_count * sizeof *r->next); // −1
-    for (int i = 0, end; i < r->edge_count; i = end) {
-        end = end_of_group(r, i);
-        if (end - i != 2) continue;
-        const struct edge *a = &r->edge[i], *b = a + 1;
-        join(r, a->triangle, b->triangle, a->direction != b->direction);
-        join(r, b->triangle, a->triangle, a->direction != b->direction);
-    }
-}
-
-/// Turns the triangles connected with the first one of a patch to agree with it; returns how many there are.
-static int spread(struct repair *r, uint8_t *reached, int first)
-{
-    int count = 1;
-    reached[r->patch[first]] = 1;
-    for (int i = first; i < first + count; i++) {
-        const int t = r->patch[i];
-        for (int k = 0; k < 3; k++) {
-            const int other = r->next[3 * t + k] / 2, disagree = r->next[3 * t + k] % 2;
-            if (r->next[3 * t + k] < 0 || reached[other]) continue;
-            reached[other] = 1;
-            r->turned[other] = r->turned[t] ^ (uint8_t)disagree;
-            r->patch[first + count++] = other;
-        }
-    }
-    return count;
-}
-
 static void turn_patch(struct repair *r, int first, int count)
 {
     for (int i = first; i < first + count; i++) r->turned[r->patch[i]] ^= 1;
-}
-
-/// A patch turned like most of its area in the file.
-struct settled {
-    double area;   ///< twice it
-    double volume; ///< between the patch and its centre: positive if it bulges the way its triangles face
-};
-
-static struct settled settle_patch(struct repair *r, int first, int count)
-{
-    struct settled patch = {0};
-    double middle[3] = {0}, turned = 0, normal[3], at[3];
-    for (int i = first; i < first + count; i++) {
-        triangle_measure(r->shape, r->patch[i], normal, at);
-        const double area = vec3_length(normal);
-        patch.area += area;
-        turned += r->turned[r->patch[i]] ? area : 0;
-        for (int c = 0; c < 3; c++) middle[c] += area * at[c] / 3;
-    }
-    if (turned > patch.area / 2) turn_patch(r, first, count);
-    for (int i = first; patch.area > 0 && i < first + count; i++) {
-        triangle_measure(r->shape, r->patch[i], normal, at);
-        for (int c = 0; c < 3; c++) at[c] = at[c] / 3 - middle[c] / patch.area;
-        patch.volume += vec3_dot(normal, at) / 6 * (r->turned[r->patch[i]] ? -1 : 1);
-    }
-    return patch;
 }
 
 static double whole_area(const struct surface *s)
@@ -276,11 +312,41 @@ static void turn_patches(struct repair *r)
     int left = (int)(TESTS_TOGETHER / (triangles + 40000));
     for (int start = 0, first = 0; start < triangles; start++) {
         if (reached[start]) continue;
+
+        // The triangles connected with the patch's first one are turned to agree with it.
+        int count = 1;
         r->patch[first] = start;
-        const int count = spread(r, reached, first);
-        const struct settled patch = settle_patch(r, first, count);
+        reached[start] = 1;
+        for (int i = first; i < first + count; i++) {
+            const int t = r->patch[i];
+            for (int k = 0; k < 3; k++) {
+                const int other = r->next[3 * t + k] / 2, disagree = r->next[3 * t + k] % 2;
+                if (r->next[3 * t + k] < 0 || reached[other]) continue;
+                reached[other] = 1;
+                r->turned[other] = r->turned[t] ^ (uint8_t)disagree;
+                r->patch[first + count++] = other;
+            }
+        }
+
+        // Then the patch faces as most of its area does in the file.
+        double area = 0, turned = 0, volume = 0, middle[3] = {0}, normal[3], at[3];
+        for (int i = first; i < first + count; i++) {
+            triangle_measure(r->shape, r->patch[i], normal, at);
+            const double size = vec3_length(normal); // twice the area
+            area += size;
+            turned += r->turned[r->patch[i]] ? size : 0;
+            for (int c = 0; c < 3; c++) middle[c] += size * at[c] / 3;
+        }
+        if (turned > area / 2) turn_patch(r, first, count);
+
+        // The volume between it and its centre is positive if it bulges the way its triangles face.
+        for (int i = first; area > 0 && i < first + count; i++) {
+            triangle_measure(r->shape, r->patch[i], normal, at);
+            for (int c = 0; c < 3; c++) at[c] = at[c] / 3 - middle[c] / area;
+            volume += vec3_dot(normal, at) / 6 * (r->turned[r->patch[i]] ? -1 : 1);
+        }
         const int rays = left / 8 < RAYS ? left / 8 : RAYS;
-        if (patch.volume < 0 && patch.area > LEAST_AREA * whole && rays >= RAYS_MIN) {
+        if (volume < 0 && area > LEAST_AREA * whole && rays >= RAYS_MIN) {
             left -= rays;
             if (faces_inwards(r, first, count, rays)) turn_patch(r, first, count);
         }
@@ -289,40 +355,8 @@ static void turn_patches(struct repair *r)
     free(reached);
 }
 
-static int apply_turns(struct repair *r)
-{
-    int turned = 0;
-    for (int t = 0; t < r->shape->index_count / 3; t++) {
-        uint32_t *corner = r->shape->indices + 3 * t, swap = corner[1];
-        if (!r->turned[t]) continue;
-        corner[1] = corner[2];
-        corner[2] = swap;
-        turned++;
-    }
-    return turned;
-}
-
 /// Reports progress; the parts of the repair take about equally long.
-static void tell(long parts) { stage_tell("mending the mesh", parts, 5); }
-
-static void repair(struct solid *solid, struct repair *r)
-{
-    tell(0);
-    weld(&solid->shape, r->name);
-    tell(1);
-    leave_out(r, &solid->duplicates);
-    tell(2);
-    list_edges(r);
-    join_neighbours(r);
-    tell(3);
-    turn_patches(r);
-    solid->open = solid->thickness > 0 ? 0 : count_open(r);
-    solid->turned = apply_turns(r);
-    tell(4);
-    solid->area = whole_area(&solid->shape) / 2;
-    if (solid->open > 0) winding_create(&solid->winding, &solid->shape);
-    tell(5);
-}
+static void tell_repair(long parts) { stage_tell("mending the mesh", parts, 5); }
 
 void solid_create(struct solid *solid, const struct surface *surface, double thickness)
 {
@@ -336,7 +370,53 @@ void solid_create(struct solid *solid, const struct surface *surface, double thi
                        .turned = need_zeroed(indices, sizeof *r.turned),
                        .patch = need(indices, sizeof *r.patch)};
     memcpy(solid->shape.indices, surface->indices, (indices - 1) * sizeof *surface->indices);
-    repair(solid, &r);
+
+    tell_repair(0); // vertices at the same place get one name
+    struct spot *spots = need((size_t)surface->vertex_count, sizeof *spots);
+    spots_sort((const float(*)[3])surface->position, surface->vertex_count, spots);
+    for (int i = 0, first = 0; i < surface->vertex_count; i++) {
+        if (!spots_meet(&spots[first], &spots[i])) first = i;
+        r.name[spots[i].vertex] = (uint32_t)first;
+    }
+    free(spots);
+    tell_repair(1);
+    leave_out(&r, &solid->duplicates);
+
+    tell_repair(2); // edges with the same ends lie together; two triangles that share one are neighbours
+    uint32_t *corner = solid->shape.indices;
+    r.edge_count = solid->shape.index_count;
+    for (int i = 0; i < r.edge_count; i++) {
+        const uint64_t from = r.name[corner[i]], to = r.name[corner[i % 3 == 2 ? i - 2 : i + 1]];
+        r.edge[i] = from < to ? (struct edge){from << 32 | to, i / 3, 1} : (struct edge){to << 32 | from, i / 3, -1};
+    }
+    qsort(r.edge, (size_t)r.edge_count, sizeof *r.edge, compare_edges);
+    memset(r.next, 0xFF, (size_t)r.edge_count * sizeof *r.next); // −1
+    for (int i = 0, end; i < r.edge_count; i = end) {
+        end = end_of_group(&r, i);
+        if (end - i != 2) continue;
+        const struct edge *a = &r.edge[i], *b = a + 1;
+        join(&r, a->triangle, b->triangle, a->direction != b->direction);
+        join(&r, b->triangle, a->triangle, a->direction != b->direction);
+    }
+    tell_repair(3);
+    turn_patches(&r);
+    for (int i = 0, end; !(thickness > 0) && i < r.edge_count; i = end) { // a closed surface runs each edge both ways
+        int sum = 0;
+        end = end_of_group(&r, i);
+        for (int k = i; k < end; k++) sum += r.edge[k].direction * (r.turned[r.edge[k].triangle] ? -1 : 1);
+        solid->open += sum != 0;
+    }
+    for (int i = 0; i < solid->shape.index_count; i += 3) {
+        if (!r.turned[i / 3]) continue;
+        const uint32_t swap = corner[i + 1];
+        corner[i + 1] = corner[i + 2];
+        corner[i + 2] = swap;
+        solid->turned++;
+    }
+    tell_repair(4);
+    solid->area = whole_area(&solid->shape) / 2;
+    if (solid->open > 0) winding_create(&solid->winding, &solid->shape);
+    tell_repair(5);
     free(r.name);
     free(r.edge);
     free(r.next);
@@ -390,4 +470,277 @@ void solid_describe(const struct solid *solid, char text[160])
     if (solid->open > 0)
         snprintf(text + at, (size_t)(160 - at),
                  "%sopen at %d edges: inside is where its winding number exceeds a half", then, solid->open);
+}
+
+// --- voxels: winding numbers along columns
+//
+// A column of voxel centres along z is a ray; each triangle that it passes through changes the winding number by one.
+// In the (x, y) plane all coordinates are rounded to a grid of 2⁻²⁴ of the largest side, so that the test of a point against an
+// edge is exact in 64-bit integers. A point on an edge counts as moved by (ε, ε²). So no ray slips between two triangles or hits
+// both, and the winding number returns to 0 in every column.
+
+enum { TELLING = 3 << 16 }; ///< corners between two progress reports
+
+struct crossing {
+    int column; ///< i·size[1] + j
+    int turn;   ///< +1 or −1
+    double z;   ///< in voxels from the origin
+};
+
+struct crossings {
+    struct crossing *items;
+    size_t count, capacity;
+};
+
+struct point {
+    int64_t x, y;
+};
+
+/// Twice the signed area_of of (a, b, p): positive where p is on the left.
+static int64_t area_of(struct point a, struct point b, struct point p)
+{
+    return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);
+}
+
+/// Whether p, moved by (ε, ε²), is on the left of a → b.
+static bool left_of(struct point a, struct point b, struct point p)
+{
+    int64_t side = area_of(a, b, p);
+    if (side != 0) return side > 0;
+    return a.y != b.y ? b.y < a.y : b.x > a.x;
+}
+
+/// How the rounded plane lies over the voxels.
+struct raster {
+    const struct voxels *voxels;
+    double scale; ///< grid steps a metre
+};
+
+static struct point rounded(const struct raster *raster, double x, double y)
+{
+    const double *origin = raster->voxels->origin;
+    return (struct point){llround((x - origin[0]) * raster->scale), llround((y - origin[1]) * raster->scale)};
+}
+
+/// Records where columns pass through a triangle.
+static void rasterise(const struct raster *raster, const struct surface *surface, const uint32_t index[3],
+                      struct crossings *list)
+{
+    const struct voxels *v = raster->voxels;
+    struct point p[3];
+    double z[3];
+    int lo[2] = {v->size[0], v->size[1]}, hi[2] = {-1, -1};
+    for (int k = 0; k < 3; k++) {
+        const float *at = surface->position[index[k]];
+        p[k] = rounded(raster, (double)at[0], (double)at[1]);
+        z[k] = (double)at[2];
+        for (int c = 0; c < 2; c++) {
+            double place = ((double)at[c] - v->origin[c]) / v->spacing - 0.5; // the margin covers rounding
+            lo[c] = (int)fmax(0, fmin(lo[c], floor(place - 0.01)));
+            hi[c] = (int)fmin(v->size[c] - 1, fmax(hi[c], ceil(place + 0.01)));
+        }
+    }
+    if (area_of(p[0], p[1], p[2]) == 0) return; // edge-on or degenerate: no ray passes through
+    for (int i = lo[0]; i <= hi[0]; i++) {
+        for (int j = lo[1]; j <= hi[1]; j++) {
+            const double x = v->origin[0] + (i + 0.5) * v->spacing, y = v->origin[1] + (j + 0.5) * v->spacing;
+            const struct point at = rounded(raster, x, y);
+            const int lefts = left_of(p[0], p[1], at) + left_of(p[1], p[2], at) + left_of(p[2], p[0], at);
+            if (lefts != 0 && lefts != 3) continue; // the column passes by
+            double sum = 0, height = 0;
+            for (int k = 0; k < 3; k++) {
+                const double weight = (double)area_of(p[(k + 1) % 3], p[(k + 2) % 3], at);
+                sum += weight;
+                height += weight * z[k];
+            }
+            height /= sum;
+            if (list->count == list->capacity) {
+                list->capacity = list->capacity ? 2 * list->capacity : 4096;
+                list->items = need_more(list->items, list->capacity, sizeof *list->items);
+            }
+            list->items[list->count++] =
+                (struct crossing){i * v->size[1] + j, lefts ? 1 : -1, (height - v->origin[2]) / v->spacing};
+        }
+    }
+}
+
+static int compare_crossings(const void *a, const void *b)
+{
+    const struct crossing *x = a, *y = b;
+    if (x->column != y->column) return x->column < y->column ? -1 : 1;
+    return x->z < y->z ? -1 : x->z > y->z;
+}
+
+/// One column of an open surface. The winding number w changes by one at each triangle crossed; w − `crossed` changes smoothly, so
+/// that few samples are enough.
+struct column {
+    struct voxels *voxels;
+    const struct winding *winding;
+    int i, j;
+    int *crossed; ///< per voxel: times the column has entered below, less times it has left
+};
+
+static double smooth_at(const struct column *c, int k)
+{
+    const struct voxels *v = c->voxels;
+    const int at[3] = {c->i, c->j, k};
+    double point[3];
+    for (int a = 0; a < 3; a++) point[a] = v->origin[a] + (at[a] + 0.5) * v->spacing;
+    return winding_at(c->winding, point) - c->crossed[k];
+}
+
+/// Marks the voxels from k up to `end` (exclusive). Between them the smooth part goes linearly from `from` to `to`.
+static void fill_smooth(const struct column *c, int k, double from, int end, double to)
+{
+    uint8_t *inside = c->voxels->inside + (size_t)(c->i * c->voxels->size[1] + c->j) * (size_t)c->voxels->size[2];
+    for (int n = k; n < end; n++) inside[n] = from + (to - from) * (n - k) / (end - k) + c->crossed[n] > 0.5;
+}
+
+/// The same, halving the range until the smooth part is linear.
+static void fill_between(const struct column *c, int k, double from, int end, double to)
+{
+    static const double CURVED = 0.02;
+    const int middle = (k + end) / 2;
+    if (middle == k) {
+        fill_smooth(c, k, from, end, to);
+        return;
+    }
+    const double there = smooth_at(c, middle), line = from + (to - from) * (middle - k) / (end - k);
+    const bool straight = fabs(there - line) < CURVED;
+    void (*const half)(const struct column *, int, double, int, double) = straight ? fill_smooth : fill_between;
+    half(c, k, from, middle, there);
+    half(c, middle, there, end, to);
+}
+
+/// Outside the surface's box everything is outside.
+static void fill_open(struct voxels *v, const struct solid *solid, const struct crossings *list)
+{
+    enum { STEP = 16 };
+    int lo[3], hi[3];
+    double least[3], most[3];
+    struct column c = {.voxels = v, .winding = &solid->winding};
+    c.crossed = need((size_t)v->size[2], sizeof *c.crossed);
+    surface_bounds(&solid->shape, least, most);
+    for (int a = 0; a < 3; a++) { // without the grid's border
+        lo[a] = (int)fmax(1, floor((least[a] - v->origin[a]) / v->spacing));
+        hi[a] = (int)fmin(v->size[a] - 1, ceil((most[a] - v->origin[a]) / v->spacing));
+    }
+    size_t next = 0;
+    for (c.i = lo[0]; c.i < hi[0]; c.i++) {
+        stage_tell("looking for the inside of the open mesh", c.i - lo[0], hi[0] - lo[0]);
+        for (c.j = lo[1]; c.j < hi[1]; c.j++) {
+            const int column = c.i * v->size[1] + c.j;
+            int sum = 0;
+            while (next < list->count && list->items[next].column < column) next++;
+            for (int k = 0; k < v->size[2]; k++) {
+                for (; next < list->count && list->items[next].column == column && list->items[next].z < k + 0.5;
+                     next++)
+                    sum -= list->items[next].turn; // a triangle that faces up ends the inside
+                c.crossed[k] = sum;
+            }
+            double from = smooth_at(&c, lo[2]);
+            for (int k = lo[2]; k < hi[2]; k += STEP) {
+                const int end = k + STEP < hi[2] ? k + STEP : hi[2];
+                const double to = smooth_at(&c, end);
+                fill_between(&c, k, from, end, to);
+                from = to;
+            }
+        }
+    }
+    stage_tell("looking for the inside of the open mesh", 1, 1);
+    free(c.crossed);
+}
+
+/// Squared distance of a point from a triangle: from its plane if it lies above it, else from its nearest edge.
+static double distance_squared(const double corner[3][3], const double at[3])
+{
+    double edge[3][3], away[3][3], normal[3], across[3], nearest = INFINITY;
+    for (int k = 0; k < 9; k++) {
+        edge[k / 3][k % 3] = corner[(k / 3 + 1) % 3][k % 3] - corner[k / 3][k % 3];
+        away[k / 3][k % 3] = at[k % 3] - corner[k / 3][k % 3];
+    }
+    vec3_cross(edge[0], edge[1], normal);
+    const double size = vec3_dot(normal, normal), height = vec3_dot(normal, away[0]);
+    bool above = size > 0;
+    for (int k = 0; k < 3; k++) {
+        const double length = fmax(vec3_dot(edge[k], edge[k]), 1e-300);
+        const double along = fmin(1, fmax(0, vec3_dot(edge[k], away[k]) / length));
+        vec3_cross(edge[k], away[k], across);
+        above = above && vec3_dot(across, normal) >= 0;
+        for (int c = 0; c < 3; c++) away[k][c] -= along * edge[k][c];
+        nearest = fmin(nearest, vec3_dot(away[k], away[k]));
+    }
+    return above ? height * height / size : nearest;
+}
+
+static void fill_sheet(struct voxels *v, const struct solid *solid)
+{
+    const double reach = (1 + 1e-6) * sheet_thickness(solid, v) / 2;
+    const int triangles = solid->shape.index_count / 3;
+    for (int t = 0; t < triangles; t++) {
+        double corner[3][3], at[3];
+        int lo[3], hi[3];
+        if (t % TELLING == 0) stage_tell("cutting the mesh into tetrahedra", t, triangles);
+        triangle_corners(&solid->shape, t, corner);
+        for (int c = 0; c < 3; c++) {
+            const double low = fmin(corner[0][c], fmin(corner[1][c], corner[2][c])) - reach - v->origin[c];
+            const double high = fmax(corner[0][c], fmax(corner[1][c], corner[2][c])) + reach - v->origin[c];
+            lo[c] = (int)ceil(low / v->spacing - 0.5);
+            hi[c] = (int)floor(high / v->spacing - 0.5);
+        }
+        for (int i = lo[0]; i <= hi[0]; i++) {
+            at[0] = v->origin[0] + (i + 0.5) * v->spacing;
+            for (int j = lo[1]; j <= hi[1]; j++) {
+                uint8_t *inside = v->inside + (size_t)(i * v->size[1] + j) * (size_t)v->size[2];
+                at[1] = v->origin[1] + (j + 0.5) * v->spacing;
+                for (int k = lo[2]; k <= hi[2]; k++) {
+                    if (inside[k]) continue;
+                    at[2] = v->origin[2] + (k + 0.5) * v->spacing;
+                    inside[k] = distance_squared((const double(*)[3])corner, at) <= reach * reach;
+                }
+            }
+        }
+    }
+}
+
+void voxels_fill(struct voxels *voxels, const struct solid *solid)
+{
+    const struct surface *surface = &solid->shape;
+    struct crossings list = {0};
+    voxels->inside = need_zeroed(voxels_count(voxels), 1);
+    if (solid->thickness > 0) {
+        fill_sheet(voxels, solid);
+        return;
+    }
+    struct raster raster = {.voxels = voxels};
+    raster.scale = (1 << 24) / (voxels->spacing * fmax(voxels->size[0], voxels->size[1]));
+    for (int i = 0; i < surface->index_count; i += 3) {
+        if (i % TELLING == 0) stage_tell("cutting the mesh into tetrahedra", i, surface->index_count);
+        rasterise(&raster, surface, surface->indices + i, &list);
+    }
+    stage_tell("cutting the mesh into tetrahedra", surface->index_count, surface->index_count);
+    if (list.count) qsort(list.items, list.count, sizeof *list.items, compare_crossings);
+    if (solid->open) fill_open(voxels, solid, &list);
+
+    int winding = 0;
+    for (size_t i = 0; !solid->open && i + 1 < list.count; i++) {
+        const struct crossing *here = &list.items[i], *next = here + 1;
+        winding += here->turn;
+        voxels->overlaps |= abs(winding) > 1 && next->column == here->column && next->z > here->z;
+        if (next->column != here->column) {
+            winding = 0;
+        } else if (winding != 0) {
+            const int first = (int)fmax(0, ceil(here->z - 0.5)),
+                      end = (int)fmin(voxels->size[2], ceil(next->z - 0.5));
+            uint8_t *column = voxels->inside + (size_t)here->column * (size_t)voxels->size[2];
+            if (end > first) memset(column + first, 1, (size_t)(end - first));
+        }
+    }
+    free(list.items);
+}
+
+void voxels_free(struct voxels *voxels)
+{
+    free(voxels->inside);
+    voxels->inside = NULL;
 }
