@@ -332,7 +332,7 @@ FUZZED := $(wildcard src/base/*.c src/maths/*.c src/spline/*.c src/scene/*.c src
     $(addprefix src/app/,replay.c settings.c) $(addprefix src/timing/,readlog.c columns.c) \
     $(wildcard src/rig/*.c src/export/*.c) src/draw/skirt.c src/draw/posed.c src/commands/companion.c \
     $(addprefix src/simulation/,\
-    drive.c region.c lattice.c solid.c body.c)
+    integrator.c soft.c lattice.c solid.c body.c)
 fuzzers: $(FUZZERS:%=$(B)/%)
 $(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
 	$(Q)rm -f $@ && ar rcs $@ $^

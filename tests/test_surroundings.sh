@@ -171,7 +171,7 @@ rm "$scratch/large.bin"
 listed() { grep -oE '^[A-Z0-9_]+' tests/limits.txt | LC_ALL=C sort -u; }
 limits() {
     grep -rhoE '\b[A-Z0-9_]*_?(MAX|LIMIT|LARGEST|MOST)(_[A-Z0-9_]+)? = [0-9A-Z(]|#define [A-Z_]*(MAX|MOST|LIMIT)[A-Z_]* ' \
-        src/{scene,base,model,export,app,commands} src/analysis/analysis.h src/simulation/{drive,region}.c include/wiggly |
+        src/{scene,base,model,export,app,commands} src/analysis/analysis.h src/simulation/{integrator,soft}.c include/wiggly |
         sed 's/#define //; s/ =.*//; s/ $//' | grep -vE '^(DRAG|HOVER|PARAMETER|WIGGLY_ERROR)_LIMIT$' | LC_ALL=C sort -u
 }
 unlisted=$(comm -13 <(listed) <(limits))

@@ -11,7 +11,7 @@
 #include "commands/options.h"
 #include "commands/progress.h"
 #include "model/character.h"
-#include "simulation/region.h"
+#include "simulation/soft.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

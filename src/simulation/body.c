@@ -289,21 +289,6 @@ static double element_force(const struct element *element, const struct material
     return element->volume * element->stiffness * material_energy(material, svd->sigma);
 }
 
-/// Entry (i, k) is Σ_jl (∂P_ij/∂F_kl) p_j q_l in principal axes; all other entries of ∂P/∂F are zero.
-static void contract(const struct principal_stiffness *c, const double p[3], const double q[3], double out[3][3])
-{
-    for (int i = 0; i < 3; i++) {
-        for (int k = 0; k < 3; k++) out[i][k] = c->stretch[i][k] * p[i] * q[k];
-    }
-    for (int n = 0; n < 3; n++) {
-        int i = axis_pairs[n][0], j = axis_pairs[n][1];
-        out[i][i] += c->straight[n] * p[j] * q[j];
-        out[j][j] += c->straight[n] * p[i] * q[i];
-        out[i][j] += c->across[n] * p[j] * q[i];
-        out[j][i] += c->across[n] * p[i] * q[j];
-    }
-}
-
 /// The 3×3 blocks −∂f_a/∂x_b (N/m), made semidefinite; block[a][b] row by row.
 static void element_stiffness(const struct element *element, const struct material *material, const struct svd *svd,
                               double block[4][4][9])
@@ -315,7 +300,18 @@ static void element_stiffness(const struct element *element, const struct materi
     principal_gradients(element, svd, g);
     for (int a = 0; a < 4; a++) {
         for (int b = a; b < 4; b++) {
-            contract(&stiffness, g[a], g[b], principal);
+            // Entry (i, k) is Σ_jl (∂P_ij/∂F_kl) p_j q_l in principal axes; all other entries of ∂P/∂F are zero.
+            const double *p = g[a], *q = g[b];
+            for (int i = 0; i < 9; i++)
+                principal[i / 3][i % 3] = stiffness.stretch[i / 3][i % 3] * p[i / 3] * q[i % 3];
+            for (int n = 0; n < 3; n++) {
+                const int i = axis_pairs[n][0], j = axis_pairs[n][1];
+                principal[i][i] += stiffness.straight[n] * p[j] * q[j];
+                principal[j][j] += stiffness.straight[n] * p[i] * q[i];
+                principal[i][j] += stiffness.across[n] * p[j] * q[i];
+                principal[j][i] += stiffness.across[n] * p[i] * q[j];
+            }
+
             for (int i = 0; i < 9; i++) { // block = factor · U m Uᵀ
                 const double *m = principal[i / 3], *u = svd->u[i % 3];
                 turned[i / 3][i % 3] = factor * (m[0] * u[0] + m[1] * u[1] + m[2] * u[2]);
@@ -335,36 +331,6 @@ static int compare_pairs(const void *a, const void *b)
 {
     const uint64_t x = *(const uint64_t *)a, y = *(const uint64_t *)b;
     return x < y ? -1 : x > y;
-}
-
-/// The pattern of a mesh, in memory of `pool`: a block for each pair of nodes that share an element.
-static void blocks_create(struct blocks *blocks, int nodes, const struct element *elements, int count,
-                          struct pool *pool)
-{
-    *blocks = (struct blocks){.rows = nodes};
-    uint64_t *pairs = need((size_t)count * 16 + 1, sizeof *pairs); // (row, column) of all elements, sorted
-    size_t all = 0, kept = 0;
-    for (int e = 0; e < count; e++) {
-        for (int k = 0; k < 16; k++) {
-            pairs[all++] = (uint64_t)elements[e].node[k / 4] << 32 | (uint32_t)elements[e].node[k % 4];
-        }
-    }
-    qsort(pairs, all, sizeof *pairs, compare_pairs);
-    for (size_t i = 0; i < all; i++) {
-        if (i == 0 || pairs[i] != pairs[i - 1]) pairs[kept++] = pairs[i];
-    }
-
-    blocks->start = pool_take(pool, (size_t)nodes + 1, sizeof *blocks->start);
-    blocks->column = pool_take(pool, kept + 1, sizeof *blocks->column);
-    blocks->block = pool_take(pool, kept + 1, sizeof *blocks->block);
-    blocks->diagonal = pool_take(pool, (size_t)nodes, sizeof *blocks->diagonal);
-    for (size_t i = 0; i < kept; i++) {
-        int row = (int)(pairs[i] >> 32), column = (int)(uint32_t)pairs[i];
-        blocks->start[row + 1] = (int)i + 1;
-        blocks->column[i] = column;
-        if (row == column) blocks->diagonal[row] = (int)i;
-    }
-    free(pairs);
 }
 
 /// Index of the block (row, column), which must be in the pattern.
@@ -479,11 +445,36 @@ bool body_create(struct body *body, const double (*rest)[3], int node_count, con
         good = element_init(element, tets[e], rest, fraction ? fraction[e] : 1);
         for (int a = 0; good && a < 4; a++) body->mass[tets[e][a]] += density * element->volume / 4;
     }
-    if (good)
-        blocks_create(&body->stiffness, node_count, body->elements, element_count, &body->pool);
-    else
+    if (!good) {
         body_free(body);
-    return good;
+        return false;
+    }
+
+    // The matrix has a block for each pair of nodes that share an element: the pairs (row, column), sorted, each once.
+    struct blocks *blocks = &body->stiffness;
+    uint64_t *pairs = need(elements * 16 + 1, sizeof *pairs);
+    size_t all = 0, kept = 0;
+    for (size_t e = 0; e < elements; e++) {
+        const int *node = body->elements[e].node;
+        for (int k = 0; k < 16; k++) pairs[all++] = (uint64_t)node[k / 4] << 32 | (uint32_t)node[k % 4];
+    }
+    qsort(pairs, all, sizeof *pairs, compare_pairs);
+    for (size_t i = 0; i < all; i++) {
+        if (i == 0 || pairs[i] != pairs[i - 1]) pairs[kept++] = pairs[i];
+    }
+    blocks->rows = node_count;
+    blocks->start = pool_take(&body->pool, nodes + 1, sizeof *blocks->start);
+    blocks->column = pool_take(&body->pool, kept + 1, sizeof *blocks->column);
+    blocks->block = pool_take(&body->pool, kept + 1, sizeof *blocks->block);
+    blocks->diagonal = pool_take(&body->pool, nodes, sizeof *blocks->diagonal);
+    for (size_t i = 0; i < kept; i++) {
+        int row = (int)(pairs[i] >> 32), column = (int)(uint32_t)pairs[i];
+        blocks->start[row + 1] = (int)i + 1;
+        blocks->column[i] = column;
+        if (row == column) blocks->diagonal[row] = (int)i;
+    }
+    free(pairs);
+    return true;
 }
 
 void body_free(struct body *body)
@@ -569,22 +560,6 @@ struct lanczos {
     double *values, *vectors; ///< of `small`
 };
 
-/// out = M^½ (K + sM)⁻¹ M^½ in
-static void apply_inverse(struct lanczos *l, const double (*in)[3], double (*out)[3])
-{
-    const double *mass = l->body->mass;
-    for (int i = 0; i < l->node_count; i++) {
-        for (int c = 0; c < 3; c++) {
-            l->left[i][c] = sqrt(mass[i]) * in[i][c];
-            out[i][c] = 0;
-        }
-    }
-    conjugate_solve(&l->body->scratch, &l->body->stiffness, (const double(*)[3])l->left, out, 1e-11, GRADIENTS_MAX);
-    for (int i = 0; i < l->node_count; i++) {
-        for (int c = 0; c < 3; c++) out[i][c] *= sqrt(mass[i]);
-    }
-}
-
 static double dot(const double (*a)[3], const double (*b)[3], int count)
 {
     double sum = 0;
@@ -639,7 +614,21 @@ static void build_basis(struct lanczos *l)
         double *parts = l->values; // unused until the end
         stage_tell("finding the modes", k, m);
         memset(parts, 0, (size_t)m * sizeof *parts);
-        apply_inverse(l, (const double(*)[3])(l->basis + (size_t)k * n), next);
+
+        const double *mass = l->body->mass;
+        const double(*last)[3] = (const double(*)[3])(l->basis + (size_t)k * n);
+        for (size_t i = 0; i < n; i++) { // next = M^½ (K + sM)⁻¹ M^½ last
+            for (int c = 0; c < 3; c++) {
+                l->left[i][c] = sqrt(mass[i]) * last[i][c];
+                next[i][c] = 0;
+            }
+        }
+        conjugate_solve(&l->body->scratch, &l->body->stiffness, (const double(*)[3])l->left, next, 1e-11,
+                        GRADIENTS_MAX);
+        for (size_t i = 0; i < n; i++) {
+            for (int c = 0; c < 3; c++) next[i][c] *= sqrt(mass[i]);
+        }
+
         double length = orthonormalise(l, next, k + 1, parts);
         l->done = k + 1;
         l->small[k * m + k] = parts[k];

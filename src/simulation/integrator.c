@@ -1,11 +1,230 @@
-/// Generalised-α steps, one Newton solve each.
+/// Generalised-α steps, one Newton solve each, and the loads: a base that moves, a floor.
 #include "simulation/integrator.h"
+#include "base/file.h"
 #include "base/need.h"
-#include "simulation/linear.h"
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { NEWTON_MAX = 60, GRADIENTS_MAX = 2000 };
+// --- the base's displacement over time
+
+enum { FILE_LIMIT = 1 << 26, BURST_PERIODS = 3, SWELL_PERIODS = 2 };
+
+/// The largest number in a track, and the shortest step in seconds. Within them no acceleration overflows.
+static const double TRACK_LIMIT = 1e9, TRACK_STEP = 1e-9;
+
+/// 0 … 1 with vanishing first and second derivatives at both ends.
+static double swell(double x)
+{
+    x = fmax(0, fmin(1, x));
+    return x * x * x * (10 + x * (6 * x - 15));
+}
+
+/// The natural cubic spline; beyond its ends it is a straight line.
+static double track_at(const struct drive *d, double t, int derivative)
+{
+    int low = 0, high = d->count - 1;
+    while (high - low > 1) {
+        int middle = (low + high) / 2;
+        if (d->time[middle] <= t)
+            low = middle;
+        else
+            high = middle;
+    }
+    double width = d->time[high] - d->time[low];
+    double b = fmax(0, fmin(1, (t - d->time[low]) / width)), a = 1 - b;
+    if (derivative == 2)
+        return t < d->time[0] || t > d->time[d->count - 1] ? 0 : a * d->curvature[low] + b * d->curvature[high];
+    double bend = (a * a * a - a) * d->curvature[low] + (b * b * b - b) * d->curvature[high];
+    return a * d->value[low] + b * d->value[high] + bend * width * width / 6;
+}
+
+double drive_place(const struct drive *d, double t)
+{
+    t = fmax(t, 0);
+    const double periods = d->frequency * t, wave = sin(2 * M_PI * periods);
+    switch (d->kind) {
+    case DRIVE_NONE:
+        return 0;
+    case DRIVE_SINE:
+        return d->size * swell(periods / SWELL_PERIODS) * wave;
+    case DRIVE_BURST:
+        if (periods >= BURST_PERIODS) return 0;
+        return d->size * pow(sin(M_PI * periods / BURST_PERIODS), 4) * wave;
+    case DRIVE_SWEEP: {
+        const double octaves = 2, rate = octaves * M_LN2 / d->seconds, part = t / d->seconds; // an exponential chirp
+        const double phase = 2 * M_PI * d->frequency / 2 * expm1(rate * t) / rate;
+        return d->size * swell(10 * part) * swell(10 * (1 - part)) * sin(phase);
+    }
+    case DRIVE_TRACK:
+        return d->size * (track_at(d, t, 0) - d->value[0]);
+    }
+    return 0;
+}
+
+double drive_acceleration(const struct drive *d, double t)
+{
+    if (d->kind == DRIVE_NONE) return 0;
+    if (d->kind == DRIVE_TRACK) return d->size * track_at(d, t, 2);
+    const double h = 1e-3 / (2 * M_PI * d->frequency); // balances truncation and rounding, each about 1e-7
+    return (drive_place(d, t + h) - 2 * drive_place(d, t) + drive_place(d, t - h)) / (h * h);
+}
+
+double drive_end(const struct drive *d)
+{
+    if (d->kind == DRIVE_BURST) return BURST_PERIODS / d->frequency;
+    return d->kind == DRIVE_TRACK ? d->time[d->count - 1] : INFINITY;
+}
+
+static bool read_track_lines(struct drive *d, char *text, const char *path, struct error *error)
+{
+    int number = 0;
+    for (char *line = text, *next; line; line = next) {
+        next = strchr(line, '\n');
+        if (next) *next++ = '\0';
+        number++;
+        double time, value;
+        int end = 0;
+        if (!line[strspn(line, " \t\r")]) continue;
+        bool good = sscanf(line, "%lf , %lf %n", &time, &value, &end) == 2 && !line[end] &&
+                    fabs(time) <= TRACK_LIMIT && fabs(value) <= TRACK_LIMIT;
+        if (!good && d->count == 0 && !strpbrk(line, "0123456789")) continue; // the headings
+        if (!good) {
+            return fail(error, ERROR_INPUT,
+                        "%s:%d: expected two numbers up to 1e9, \"seconds,displacement\", got '%.24s'", path, number,
+                        line);
+        }
+        if (d->count > 0 && !(time - d->time[d->count - 1] >= TRACK_STEP)) {
+            return fail(error, ERROR_INPUT, "%s:%d: expected a time a nanosecond or more after %g, got %g", path,
+                        number, d->time[d->count - 1], time);
+        }
+        d->time[d->count] = time;
+        d->value[d->count++] = value;
+    }
+    if (d->count >= 2) return true;
+    return fail(error, ERROR_INPUT, "%s: expected two lines \"seconds,displacement\" or more, got %d", path,
+                d->count);
+}
+
+bool drive_read_track(struct drive *d, const char *path, struct error *error)
+{
+    char *text;
+    size_t size, lines = 1;
+    if (!file_read_text(path, FILE_LIMIT, &text, &size, error)) return false;
+    for (size_t i = 0; i < size; i++) lines += text[i] == '\n';
+    d->kind = DRIVE_TRACK;
+    d->time = need_zeroed(lines, sizeof *d->time);
+    d->value = need_zeroed(lines, sizeof *d->value);
+    d->curvature = need_zeroed(lines, sizeof *d->curvature);
+    const bool good = read_track_lines(d, text, path, error);
+
+    // Second derivatives of the natural cubic spline, by the usual tridiagonal elimination.
+    const double *t = d->time, *y = d->value;
+    double *above = need_zeroed(lines, sizeof *above);
+    for (int i = 1; good && i < d->count - 1; i++) {
+        double before = t[i] - t[i - 1], after = t[i + 1] - t[i];
+        double right = 6 * ((y[i + 1] - y[i]) / after - (y[i] - y[i - 1]) / before);
+        double pivot = 2 * (before + after) - before * above[i - 1];
+        above[i] = after / pivot;
+        d->curvature[i] = (right - before * d->curvature[i - 1]) / pivot;
+    }
+    for (int i = d->count - 2; good && i > 0; i--) d->curvature[i] -= above[i] * d->curvature[i + 1];
+    free(above);
+    free(text);
+    return good;
+}
+
+void drive_free(struct drive *d)
+{
+    free(d->time);
+    free(d->value);
+    free(d->curvature);
+    *d = (struct drive){0};
+}
+
+// --- springs under the vertices
+
+void floor_create(struct floor *f, const struct lattice *lattice, const struct surface *surface, double height,
+                  double young, double density)
+{
+    const double stiffer = 10; // than a layer of cells: the floor gives way a tenth as much as the feet
+    size_t count = (size_t)surface->vertex_count + 1;
+    *f = (struct floor){.lattice = lattice, .height = height};
+    f->spring = pool_take(&f->pool, count, sizeof *f->spring);
+    f->damper = pool_take(&f->pool, count, sizeof *f->damper);
+    f->origin = pool_take(&f->pool, count, sizeof *f->origin);
+    f->touched = pool_take(&f->pool, count, sizeof *f->touched);
+    f->damped = pool_take(&f->pool, count, sizeof *f->damped);
+    f->pushed = pool_take(&f->pool, count, sizeof *f->pushed);
+    for (int i = 0; i < surface->index_count; i++) { // a vertex gets a third of the area of each of its triangles
+        double normal[3], middle[3];
+        triangle_measure(surface, i / 3, normal, middle);
+        f->spring[surface->indices[i]] += vec3_length(normal) / 6;
+    }
+    for (int i = 0; i < surface->vertex_count; i++) {
+        f->damper[i] = f->spring[i] * sqrt(young * density);
+        f->spring[i] *= stiffer * young / lattice->cell;
+    }
+}
+
+void floor_free(struct floor *f)
+{
+    pool_free(&f->pool);
+    *f = (struct floor){0};
+}
+
+static double depth_of(const struct floor *f, int vertex, double risen, const double (*x)[3])
+{
+    const struct lattice *l = f->lattice;
+    const int *node = l->tet[l->host[vertex]];
+    double depth = f->height + risen;
+    for (int a = 0; a < 4; a++) depth -= l->weight[vertex][a] * x[node[a]][1];
+    return depth;
+}
+
+/// Adds the springs' forces on the nodes at the positions x to `force`; the floor is `risen` m higher. Returns the energy, J.
+static double floor_push(struct floor *f, double risen, const double (*x)[3], double (*force)[3])
+{
+    const struct lattice *l = f->lattice;
+    double energy = 0;
+    f->drag = 0;
+    for (int i = 0; i < l->vertex_count; i++) {
+        f->touched[i] = f->pushed[i] = false;
+        if (l->host[i] < 0 || !(f->spring[i] > 0)) continue;
+        const int *node = l->tet[l->host[i]];
+        const double depth = depth_of(f, i, risen, x), below = fmax(depth, 0);
+        const double drag = f->damped[i] ? f->damper[i] * f->rate : 0, sunk = depth - f->origin[i];
+        const double push = f->spring[i] * below + drag * sunk, spring = 0.5 * f->spring[i] * below * below;
+        f->touched[i] = depth > 0;
+        f->pushed[i] = push > 0;
+        energy += spring;
+        // Where the damper would pull, the potential stays at its minimum.
+        const double origin = fmax(f->origin[i], 0), both = drag * f->spring[i] / (drag + f->spring[i]);
+        f->drag += push > 0 ? 0.5 * drag * sunk * sunk : 0.5 * both * origin * origin - spring;
+        for (int a = 0; push > 0 && a < 4; a++) force[node[a]][1] += l->weight[i][a] * push;
+    }
+    return energy;
+}
+
+/// Adds −∂f/∂x at the last floor_push() to the body's stiffness.
+static void floor_stiffness(const struct floor *f, struct body *body)
+{
+    const struct lattice *l = f->lattice;
+    for (int i = 0; i < l->vertex_count; i++) {
+        if (!f->pushed[i]) continue;
+        const int *place = body->place[l->host[i]];
+        const double stiffness = (f->touched[i] ? f->spring[i] : 0) + (f->damped[i] ? f->damper[i] * f->rate : 0);
+        for (int k = 0; k < 16; k++) {
+            if (place[k] < 0) continue;
+            body->stiffness.block[place[k]][4] += stiffness * l->weight[i][k / 4] * l->weight[i][k % 4];
+        }
+    }
+}
+
+// --- steps
+
+enum { NEWTON_STEPS = 60, GRADIENT_STEPS = 2000 };
 
 // A looser tolerance costs more Newton iterations, each with an assembly; a tighter one saves none.
 static const double linear_tolerance = 1e-3;
@@ -54,14 +273,6 @@ static double loads_forces(const struct loads *loads, const struct body *body, d
     }
     if (loads->floor) energy += floor_push(loads->floor, floor_rise(loads, time), x, force);
     return energy;
-}
-
-/// Prepares the floor for a step that ends at `time`. Nodes at y then move at `rate` (y − q).
-static void loads_aim(const struct loads *loads, double time, double step, double rate, const double (*q)[3])
-{
-    if (!loads->floor) return;
-    const double risen = floor_rise(loads, time);
-    floor_aim(loads->floor, rate, q, risen, (risen - floor_rise(loads, time - step)) / step);
 }
 
 /// A step in the form of Newmark's: x + h v + h² (k a + β a'), v + h ((1 − γ) a + γ a'), with a' from the balance of forces at
@@ -127,7 +338,8 @@ void integrator_free(struct integrator *integrator)
 }
 
 /// Forces of strain and loads at the positions x, 0 at pinned nodes. Returns the strain energy; the loads' goes to `potential`.
-static double add_up(struct integrator *m, double time, const double (*x)[3], double (*force)[3], double *potential)
+static double sum_forces(struct integrator *m, double time, const double (*x)[3], double (*force)[3],
+                         double *potential)
 {
     double energy = body_forces(m->body, x, force);
     *potential = loads_forces(&m->loads, m->body, time, x, force);
@@ -142,7 +354,7 @@ static double add_up(struct integrator *m, double time, const double (*x)[3], do
 static double evaluate(struct integrator *m, const struct scheme *scheme, const double (*y)[3])
 {
     struct integrator_work *w = m->work;
-    double potential, energy = add_up(m, m->time + m->step, y, w->force, &potential);
+    double potential, energy = sum_forces(m, m->time + m->step, y, w->force, &potential);
     energy += potential + (m->loads.floor ? m->loads.floor->drag : 0);
     for (int i = 0; i < m->body->node_count; i++) {
         for (int c = 0; c < 3; c++) w->moved[i][c] = y[i][c] - w->origin[i][c];
@@ -164,23 +376,6 @@ static double evaluate(struct integrator *m, const struct scheme *scheme, const 
     return energy;
 }
 
-/// The body's matrix becomes κ M + r C + K(y), with y from the last evaluate().
-static void assemble(struct integrator *m, const struct scheme *scheme)
-{
-    struct blocks *a = &m->body->stiffness;
-    const double factor = scheme->rate * m->stiffness_damping;
-    body_stiffness(m->body);
-    if (m->loads.floor) floor_stiffness(m->loads.floor, m->body);
-    int count = a->start[a->rows];
-    for (int k = 0; factor > 0 && k < count; k++) {
-        for (int i = 0; i < 9; i++) a->block[k][i] += factor * m->work->lagged.block[k][i];
-    }
-    for (int i = 0; i < a->rows; i++) {
-        double inertia = m->body->mass[i] * (scheme->inertia + scheme->rate * m->mass_damping);
-        for (int d = 0; d < 9; d += 4) a->block[a->diagonal[i]][d] += inertia;
-    }
-}
-
 /// dᵀ∇ of the potential for the Newton step d: negative if it leads down.
 static double slope_along(const struct integrator *m)
 {
@@ -192,15 +387,15 @@ static double slope_along(const struct integrator *m)
 /// Line search along the Newton step, until the potential has fallen enough: by Armijo's condition or, where rounding hides the
 /// fall, by the slope (Hager and Zhang 2005, approximate Wolfe condition). Returns the largest move of a node, 0 if no step leads
 /// down. A step below the tolerance is taken unchecked.
-static double search(struct integrator *m, const struct scheme *scheme, double *energy)
+static double line_search(struct integrator *m, const struct scheme *scheme, double *energy)
 {
-    enum { HALVINGS_MAX = 30 };
+    enum { HALVINGS = 30 };
     const double enough = 1e-4, rounding = 1e-6;
     struct integrator_work *w = m->work;
     double *y = vec3_flat(w->y), *direction = vec3_flat(w->direction);
     double largest = 0, before = *energy, slope = slope_along(m), part = 1, taken = 0;
     for (int i = 0; i < m->body->node_count; i++) largest = fmax(largest, vec3_length(w->direction[i]));
-    for (int halving = 0; halving < HALVINGS_MAX; halving++, part /= 2) {
+    for (int halving = 0; halving < HALVINGS; halving++, part /= 2) {
         for (int i = 0; i < 3 * m->body->node_count; i++) y[i] += (part - taken) * direction[i];
         if (largest <= m->tolerance) return largest;
         taken = part;
@@ -218,45 +413,32 @@ static double search(struct integrator *m, const struct scheme *scheme, double *
 static void minimise(struct integrator *m, const struct scheme *scheme)
 {
     struct integrator_work *w = m->work;
+    struct blocks *a = &m->body->stiffness;
     const size_t bytes = (size_t)m->body->node_count * sizeof *w->direction;
     double energy = evaluate(m, scheme, (const double(*)[3])w->y);
-    for (int iteration = 0; iteration < NEWTON_MAX && isfinite(energy); iteration++) {
-        assemble(m, scheme);
-        memset(w->direction, 0, bytes);
-        m->gradients += conjugate_solve(&m->body->scratch, &m->body->stiffness, (const double(*)[3])w->downhill,
-                                        w->direction, linear_tolerance, GRADIENTS_MAX);
-        m->newton++;
-        if (!(search(m, scheme, &energy) > m->tolerance)) return;
-    }
-}
-
-/// Forces, energy and the stiffness for damping; at the first step also the accelerations M⁻¹(f − C v).
-static void begin(struct integrator *m)
-{
-    struct integrator_work *w = m->work;
-    double energy = add_up(m, m->time, (const double(*)[3])m->x, w->start, &w->potential) +
-                    body_kinetic(m->body, (const double(*)[3])m->v);
-    if (m->loads.floor) floor_start(m->loads.floor);
-    w->scale = m->loads.drive ? fmax(w->scale, energy) : energy;
-    energy += w->potential;
-    w->least = w->started && !m->loads.drive ? fmin(w->least, energy) : energy;
-    if (m->stiffness_damping > 0) {
+    for (int iteration = 0; iteration < NEWTON_STEPS && isfinite(energy); iteration++) {
+        // The body's matrix becomes κ M + r C + K(y), with y from the last evaluate().
+        const double damping = scheme->rate * m->stiffness_damping;
+        const double inertia = scheme->inertia + scheme->rate * m->mass_damping;
         body_stiffness(m->body);
-        memcpy(w->lagged.block, m->body->stiffness.block,
-               (size_t)w->lagged.start[w->lagged.rows] * sizeof *w->lagged.block);
-        blocks_multiply(&w->lagged, (const double(*)[3])m->v, w->drag);
-    }
-    for (int i = 0; !w->started && i < m->body->node_count; i++) {
-        for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
-            double drag = m->stiffness_damping > 0 ? m->stiffness_damping * w->drag[i][c] : 0;
-            w->a[i][c] = (w->start[i][c] - drag) / m->body->mass[i] - m->mass_damping * m->v[i][c];
+        if (m->loads.floor) floor_stiffness(m->loads.floor, m->body);
+        for (int k = 0; damping > 0 && k < a->start[a->rows]; k++) {
+            for (int i = 0; i < 9; i++) a->block[k][i] += damping * w->lagged.block[k][i];
         }
+        for (int i = 0; i < a->rows; i++) {
+            for (int d = 0; d < 9; d += 4) a->block[a->diagonal[i]][d] += m->body->mass[i] * inertia;
+        }
+
+        memset(w->direction, 0, bytes);
+        m->gradients += conjugate_solve(&m->body->scratch, a, (const double(*)[3])w->downhill, w->direction,
+                                        linear_tolerance, GRADIENT_STEPS);
+        m->newton++;
+        if (!(line_search(m, scheme, &energy) > m->tolerance)) return;
     }
-    w->started = true;
 }
 
 /// t, q and a first guess at y.
-static void aim(struct integrator *m, const struct scheme *s)
+static void set_targets(struct integrator *m, const struct scheme *s)
 {
     struct integrator_work *w = m->work;
     const double h = m->step, kept = 1 / (1 - s->af);
@@ -273,11 +455,21 @@ static void aim(struct integrator *m, const struct scheme *s)
             w->moved[i][c] = w->origin[i][c] + (kept - 1) * v / s->rate; // exactly the velocity at the step's end
         }
     }
-    loads_aim(&m->loads, m->time + h, h, s->rate, (const double(*)[3])w->moved);
+
+    // A floor that rises, and the speed of a vertex over it at the step's end.
+    struct floor *floor = m->loads.floor;
+    if (!floor) return;
+    const double end = m->time + h, risen = floor_rise(&m->loads, end);
+    const double speed = (risen - floor_rise(&m->loads, end - h)) / h;
+    floor->rate = s->rate;
+    for (int i = 0; i < floor->lattice->vertex_count; i++) {
+        if (!floor->damped[i]) continue;
+        floor->origin[i] = depth_of(floor, i, risen, (const double(*)[3])w->moved) - speed / s->rate;
+    }
 }
 
 /// Newmark's acceleration and velocity at the step's end.
-static void after(const struct integrator *m, const struct scheme *s, int i, int c, double *a, double *v)
+static void newmark(const struct integrator *m, const struct scheme *s, int i, int c, double *a, double *v)
 {
     const double h = m->step, before = m->work->a[i][c];
     double ahead = m->work->y[i][c] - m->x[i][c] - h * m->v[i][c];
@@ -287,14 +479,14 @@ static void after(const struct integrator *m, const struct scheme *s, int i, int
 
 /// How far the energy at the step's end exceeds its bound, J. A drive does the work ∂Φ/∂t on the body, here by the trapezoidal
 /// rule: the mean change of Φ at the start's positions and at the end's.
-static double surplus(struct integrator *m, const struct scheme *s)
+static double energy_surplus(struct integrator *m, const struct scheme *s)
 {
     struct integrator_work *w = m->work;
     double end, a, v, work = 0;
-    double energy = add_up(m, m->time + m->step, (const double(*)[3])w->y, w->force, &end);
+    double energy = sum_forces(m, m->time + m->step, (const double(*)[3])w->y, w->force, &end);
     for (int i = 0; i < m->body->node_count; i++) {
         for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
-            after(m, s, i, c, &a, &v);
+            newmark(m, s, i, c, &a, &v);
             energy += 0.5 * m->body->mass[i] * v * v;
         }
     }
@@ -306,36 +498,19 @@ static double surplus(struct integrator *m, const struct scheme *s)
     return energy + end - work - w->least - growth_allowed * w->scale;
 }
 
-/// Makes the step's end the new state. False if it is not finite.
-static bool finish(struct integrator *m, const struct scheme *s)
-{
-    double sum = 0, a, v;
-    for (int i = 0; i < m->body->node_count; i++) {
-        for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
-            after(m, s, i, c, &a, &v);
-            m->work->a[i][c] = a;
-            m->v[i][c] = v;
-            m->x[i][c] = m->work->y[i][c];
-            sum += m->x[i][c] + v;
-        }
-    }
-    m->time += m->step;
-    return isfinite(sum);
-}
-
 bool integrator_settle(struct integrator *m)
 {
-    enum { STEPS_MAX = 200 };
+    enum { SETTLE_STEPS = 200 };
     const double step = m->step;
     const size_t bytes = (size_t)m->body->node_count * sizeof *m->x;
     double moved = INFINITY;
     m->step = 10; // s: so long that inertia hardly matters
     m->time = -m->step;
     const struct scheme scheme = backward_euler(m->step);
-    for (int i = 0; i < STEPS_MAX && moved > m->tolerance; i++) {
+    for (int i = 0; i < SETTLE_STEPS && moved > m->tolerance; i++) {
         memset(m->v, 0, bytes);
         memset(m->work->a, 0, bytes);
-        aim(m, &scheme);
+        set_targets(m, &scheme);
         minimise(m, &scheme);
         moved = 0;
         for (int k = 0; k < 3 * m->body->node_count; k++) {
@@ -350,15 +525,51 @@ bool integrator_settle(struct integrator *m)
 
 bool integrator_step(struct integrator *m)
 {
+    struct integrator_work *w = m->work;
     struct scheme scheme = generalised_alpha(m->step);
-    begin(m);
-    aim(m, &scheme);
+
+    // Forces, energy and the stiffness for damping; at the first step also the accelerations M⁻¹(f − C v).
+    double energy = sum_forces(m, m->time, (const double(*)[3])m->x, w->start, &w->potential) +
+                    body_kinetic(m->body, (const double(*)[3])m->v);
+    struct floor *floor = m->loads.floor;
+    if (floor) memcpy(floor->damped, floor->touched, (size_t)floor->lattice->vertex_count * sizeof *floor->damped);
+    w->scale = m->loads.drive ? fmax(w->scale, energy) : energy;
+    energy += w->potential;
+    w->least = w->started && !m->loads.drive ? fmin(w->least, energy) : energy;
+    if (m->stiffness_damping > 0) {
+        body_stiffness(m->body);
+        memcpy(w->lagged.block, m->body->stiffness.block,
+               (size_t)w->lagged.start[w->lagged.rows] * sizeof *w->lagged.block);
+        blocks_multiply(&w->lagged, (const double(*)[3])m->v, w->drag);
+    }
+    for (int i = 0; !w->started && i < m->body->node_count; i++) {
+        for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
+            double drag = m->stiffness_damping > 0 ? m->stiffness_damping * w->drag[i][c] : 0;
+            w->a[i][c] = (w->start[i][c] - drag) / m->body->mass[i] - m->mass_damping * m->v[i][c];
+        }
+    }
+    w->started = true;
+
+    set_targets(m, &scheme);
     minimise(m, &scheme);
-    if (!(surplus(m, &scheme) <= 0)) { // also true if it is not finite
+    if (!(energy_surplus(m, &scheme) <= 0)) { // also true if it is not finite
         scheme = backward_euler(m->step);
-        aim(m, &scheme);
+        set_targets(m, &scheme);
         minimise(m, &scheme);
         m->calmed++;
     }
-    return finish(m, &scheme);
+
+    double sum = 0;
+    for (int i = 0; i < m->body->node_count; i++) {
+        for (int c = 0; c < 3 && !m->body->pinned[i]; c++) {
+            double a, v;
+            newmark(m, &scheme, i, c, &a, &v);
+            w->a[i][c] = a;
+            m->v[i][c] = v;
+            m->x[i][c] = w->y[i][c];
+            sum += m->x[i][c] + v;
+        }
+    }
+    m->time += m->step;
+    return isfinite(sum);
 }

@@ -13,9 +13,76 @@
 #ifndef SIMULATION_INTEGRATOR_H
 #define SIMULATION_INTEGRATOR_H
 
-#include "simulation/drive.h"
-#include "simulation/floor.h"
+#include "base/error.h"
+#include "simulation/body.h"
+#include "simulation/lattice.h"
 #include <stdbool.h>
+
+enum drive_kind {
+    DRIVE_NONE,
+    DRIVE_SINE,  ///< one frequency, swelling over its first two periods
+    DRIVE_BURST, ///< three periods under a smooth window, then stillness
+    DRIVE_SWEEP, ///< from half the frequency to twice it, swelling and fading for a tenth of the time each
+    DRIVE_TRACK, ///< a track from a file
+};
+
+/// How the base of a shaken body moves: a displacement over time along one direction.
+struct drive {
+    enum drive_kind kind;
+    double direction[3]; ///< of length 1
+    double size;         ///< the largest displacement, m; for a track, the factor it is multiplied by
+    double frequency;    ///< Hz
+    double seconds;      ///< length of the whole motion; a sweep takes this long
+    int count;           ///< of the track's samples
+    double *time;        ///< s, ascending
+    double *value;
+    double *curvature; ///< second derivatives of the natural cubic spline at the samples
+};
+
+/// Reads a track, one "seconds,displacement" a line; headings and blank lines are skipped. Sets kind and samples.
+bool drive_read_track(struct drive *drive, const char *path, struct error *error);
+void drive_free(struct drive *drive);
+
+/// Displacement from the start along the direction, m. All kinds have continuous velocities.
+double drive_place(const struct drive *drive, double time);
+
+/// Its second derivative, m/s².
+double drive_acceleration(const struct drive *drive, double time);
+
+/// The second at which the drive ends; infinite if it never ends.
+double drive_end(const struct drive *drive);
+
+/// A smooth floor under the surface: each vertex below it is pushed up by a spring.
+///
+/// The springs are part of the potential that a time step minimises, so a stiff floor needs no shorter steps. Each spring belongs
+/// to a vertex, is weighted by the area around it, and acts on the nodes of that vertex's tetrahedron: its stiffness
+/// w_a w_b k y yᵀ fits the pattern of the body's matrix. There is no friction.
+///
+/// A vertex that was below at the step's start is also damped, by the impedance √(E ρ) of its area: a floor of the same material
+/// would absorb a wave like this. Without it, a vertex that lands lightly bounces with every step. With depth d at the step's end
+/// the push is
+///
+///   max(0, k max(d, 0) + c r (d − q)),    r (d − q) the speed by which it sinks
+///
+/// It grows with d, so it has a convex potential, and it never pulls.
+struct floor {
+    struct pool pool; ///< has all below
+    const struct lattice *lattice;
+    double height;  ///< y, m
+    double *spring; ///< k per vertex, N/m
+    double *damper; ///< c per vertex, N s/m
+    bool *touched;  ///< per vertex: below the floor at the last forces
+    bool *damped;   ///< per vertex: below the floor at the step's start
+    bool *pushed;   ///< per vertex: pushed at the last forces
+    double *origin; ///< q per vertex, m
+    double rate;    ///< r, 1/s
+    double drag;    ///< J: how far the last forces' potential exceeds the springs' energy
+};
+
+/// A floor under the lattice's surface, as stiff as ten times the body's material, a cell thick.
+void floor_create(struct floor *floor, const struct lattice *lattice, const struct surface *surface, double height,
+                  double young, double density);
+void floor_free(struct floor *floor);
 
 /// External loads: gravity, a moving base, a floor. All zero: none.
 ///

@@ -53,29 +53,11 @@ static const int neighbours[13][3] = {{0, 0, 1},  {0, 1, -1}, {0, 1, 0},  {0, 1,
 /// Cubes along a side of the surface's box, with a margin.
 static double cells_along(double side, double cell) { return ceil(side / cell) + 2; }
 
-/// How many voxels a tiling with cubes of edge `cell` has; as a double, because it may exceed any integer.
-static double tiling_voxels(const struct solid *solid, double cell)
-{
-    double lo[3], hi[3], count = 1;
-    surface_bounds(&solid->shape, lo, hi);
-    for (int c = 0; c < 3; c++) count *= cells_along(hi[c] - lo[c] + solid->thickness, cell) * VOXELS_A_CELL;
-    return count;
-}
-
 /// Number of a point of the lattice, given in half cells from the origin.
 static int point_key(const struct voxels *voxels, const int p[3])
 {
     int ny = voxels->size[1] / VOXELS_A_CELL * 2 + 1, nz = voxels->size[2] / VOXELS_A_CELL * 2 + 1;
     return (p[0] * ny + p[1]) * nz + p[2];
-}
-
-/// Where a point of the lattice is, m.
-static void tiling_point(const struct tiling *tiling, int key, double position[3])
-{
-    const struct voxels *v = &tiling->voxels;
-    int ny = v->size[1] / VOXELS_A_CELL * 2 + 1, nz = v->size[2] / VOXELS_A_CELL * 2 + 1;
-    const int p[3] = {key / (ny * nz), key / nz % ny, key % nz};
-    for (int c = 0; c < 3; c++) position[c] = v->origin[c] + p[c] * v->spacing * VOXELS_A_CELL / 2;
 }
 
 /// The tetrahedron that holds a voxel's centre: from the cube's centre towards the nearest face, then towards that face's nearest
@@ -112,40 +94,6 @@ static void tetrahedron_at(const struct voxels *voxels, int index, int key[4])
     key[3] = point_key(voxels, end);
 }
 
-/// Calls `visit` for each pair of neighbouring voxels inside. None is at the grid's border.
-static void visit_neighbours(struct tiling *t, int *voxel_set, const uint64_t *tetrahedron,
-                             void (*visit)(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b))
-{
-    const int *size = t->voxels.size;
-    int count = (int)voxels_count(&t->voxels), offset[13];
-    for (int n = 0; n < 13; n++) {
-        offset[n] = (neighbours[n][0] * size[1] + neighbours[n][1]) * size[2] + neighbours[n][2];
-    }
-    for (int i = 0; i < count; i++) {
-        if (!t->voxels.inside[i]) continue;
-        for (int n = 0; n < 13; n++) {
-            if (t->voxels.inside[i + offset[n]]) visit(t, voxel_set, tetrahedron, i, i + offset[n]);
-        }
-    }
-}
-
-static void join_voxels(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b)
-{
-    (void)t;
-    if (tetrahedron[a] == tetrahedron[b]) union_join(set, a, b);
-}
-
-/// Joins nodes of touching elements that are at the same point.
-static void join_nodes(struct tiling *t, int *set, const uint64_t *tetrahedron, int a, int b)
-{
-    (void)tetrahedron;
-    int e = t->element[a], f = t->element[b];
-    if (e == f) return;
-    for (int k = 0; k < 16; k++) {
-        if (t->key[e][k / 4] == t->key[f][k % 4]) union_join(set, 4 * e + k / 4, 4 * f + k % 4);
-    }
-}
-
 struct face {
     int node[3], element;
 };
@@ -156,7 +104,7 @@ static int compare_faces(const void *a, const void *b)
     return memcmp(x->node, y->node, sizeof x->node);
 }
 
-/// Puts elements that share a face into one part.
+/// Puts elements that share a face into one part. Drops parts smaller than a hundredth of the whole, but never the largest.
 static void find_parts(struct tiling *t)
 {
     size_t count = (size_t)t->count * 4;
@@ -182,11 +130,7 @@ static void find_parts(struct tiling *t)
         }
     }
     free(faces);
-}
 
-/// Drops parts smaller than a hundredth of the whole, but never the largest.
-static void drop_crumbs(struct tiling *t)
-{
     int *voxels = need_zeroed((size_t)t->count + 1, sizeof *voxels), total = 0, largest = 0;
     for (int e = 0; e < t->count; e++) {
         t->part[e] = union_root(t->part, e);
@@ -201,14 +145,15 @@ static void drop_crumbs(struct tiling *t)
         t->kept += !crumb;
     }
     free(voxels);
-    int count = (int)voxels_count(&t->voxels);
-    for (int i = 0; i < count; i++) {
+    int voxel_count = (int)voxels_count(&t->voxels);
+    for (int i = 0; i < voxel_count; i++) {
         if (t->element[i] >= 0 && t->part[t->element[i]] < 0) t->element[i] = -1;
     }
 }
 
-/// Cuts the solid with cubes of edge `cell`; tiling_voxels() of it must fit_count an int. Voxels lie over the surface's box and margin, centred, so that a symmetric solid is cut symmetrically; then moved up or down by at
-/// most a quarter of a cell, so that a layer of nodes lies at `layer`.
+/// Cuts the solid with cubes of edge `cell`, which coarse_enough() allows. Voxels lie over the surface's box and margin, centred, so
+/// that a symmetric solid is cut symmetrically; then moved up or down by at most a quarter of a cell, so that a layer of nodes lies
+/// at the height `layer` (y), unless that is NAN.
 static void tiling_create(struct tiling *t, const struct solid *solid, double cell, double layer)
 {
     struct voxels *v = &t->voxels;
@@ -233,7 +178,16 @@ static void tiling_create(struct tiling *t, const struct solid *solid, double ce
         tetrahedron_at(v, i, key);
         tetrahedron[i] = (uint64_t)(key[2] + key[3]) << 32 | (uint32_t)(key[0] + key[1]);
     }
-    visit_neighbours(t, set, tetrahedron, join_voxels);
+    int offset[13]; // from a voxel to its neighbours; no voxel inside is at the grid's border
+    for (int n = 0; n < 13; n++) {
+        offset[n] = (neighbours[n][0] * v->size[1] + neighbours[n][1]) * v->size[2] + neighbours[n][2];
+    }
+    for (int i = 0; i < count; i++) {
+        for (int n = 0; v->inside[i] && n < 13; n++) {
+            const int other = i + offset[n];
+            if (v->inside[other] && tetrahedron[i] == tetrahedron[other]) union_join(set, i, other);
+        }
+    }
 
     // Each set of voxels is an element, with nodes and a size.
     t->element = need((size_t)count, sizeof *t->element);
@@ -250,15 +204,23 @@ static void tiling_create(struct tiling *t, const struct solid *solid, double ce
         const int e = t->element[i];
         if (e >= 0 && t->filled[e]++ == 0) tetrahedron_at(v, i, t->key[e]);
     }
+
+    // Nodes of touching elements at the same point are one.
     int *nodes = need_zeroed(4 * room, sizeof *nodes);
     for (int i = 0; i < 4 * t->count; i++) nodes[i] = i;
-    visit_neighbours(t, nodes, tetrahedron, join_nodes);
+    for (int i = 0; i < count; i++) {
+        for (int n = 0; v->inside[i] && n < 13; n++) {
+            const int other = i + offset[n], e = t->element[i], f = t->element[other];
+            for (int k = 0; f >= 0 && e != f && k < 16; k++) {
+                if (t->key[e][k / 4] == t->key[f][k % 4]) union_join(nodes, 4 * e + k / 4, 4 * f + k % 4);
+            }
+        }
+    }
     for (int i = 0; i < 4 * t->count; i++) t->node[i / 4][i % 4] = union_root(nodes, i);
     free(nodes);
     free(set);
     free(tetrahedron);
     find_parts(t);
-    drop_crumbs(t);
 }
 
 static void tiling_free(struct tiling *t)
@@ -300,8 +262,13 @@ static double solid_volume(const struct solid *solid)
 /// The smallest cube edge, at least `cell`, that keeps the voxels within bounds.
 static double coarse_enough(const struct solid *solid, double cell)
 {
-    while (tiling_voxels(solid, cell) > voxels_max) cell *= 1.1;
-    return cell;
+    double lo[3], hi[3];
+    surface_bounds(&solid->shape, lo, hi);
+    for (;; cell *= 1.1) {
+        double voxels = 1; // exceeds any integer for some
+        for (int c = 0; c < 3; c++) voxels *= cells_along(hi[c] - lo[c] + solid->thickness, cell) * VOXELS_A_CELL;
+        if (!(voxels > voxels_max)) return cell;
+    }
 }
 
 /// Tries cubes of several sizes until the number of tetrahedra is within 3 % or stops improving; a cube has about twelve.
@@ -450,6 +417,8 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
 {
     const double whole = VOXELS_A_CELL * VOXELS_A_CELL * VOXELS_A_CELL / 12.0; // a tetrahedron's volume in voxels
     const size_t kept = (size_t)t->kept, count = (size_t)surface->vertex_count;
+    const struct voxels *v = &t->voxels;
+    const int ny = v->size[1] / VOXELS_A_CELL * 2 + 1, nz = v->size[2] / VOXELS_A_CELL * 2 + 1;
     int *index = need_zeroed((size_t)t->count + 1, sizeof *index); // per element: its new number
     int *node_number = need((size_t)t->count * 4 + 1, sizeof *node_number);
     memset(node_number, 0xFF, (size_t)t->count * 4 * sizeof *node_number); // −1
@@ -466,7 +435,10 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
             int *known = &node_number[t->node[e][a]];
             if (*known < 0) {
                 *known = lattice->node_count++;
-                tiling_point(t, t->key[e][a], lattice->node[*known]);
+                const int key = t->key[e][a],
+                          p[3] = {key / (ny * nz), key / nz % ny, key % nz}; // as point_key() makes it
+                for (int c = 0; c < 3; c++)
+                    lattice->node[*known][c] = v->origin[c] + p[c] * v->spacing * VOXELS_A_CELL / 2;
             }
             lattice->tet[k][a] = *known;
         }
@@ -493,8 +465,8 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
         if (!used[i]) continue;
         for (int c = 0; c < 3; c++) {
             double inward = length > 0 ? 0.5 * normal[i][c] / length : 0;
-            n.at[c] = ((double)surface->position[i][c] - t->voxels.origin[c]) / t->voxels.spacing - inward;
-            n.middle[c] = (int)fmax(0, fmin(t->voxels.size[c] - 1, floor(n.at[c])));
+            n.at[c] = ((double)surface->position[i][c] - v->origin[c]) / v->spacing - inward;
+            n.middle[c] = (int)fmax(0, fmin(v->size[c] - 1, floor(n.at[c])));
         }
         search(&n, pyramid.top, (const int[3]){0, 0, 0});
         lattice->host[i] = index[t->element[n.found]];

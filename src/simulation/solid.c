@@ -496,7 +496,7 @@ struct point {
     int64_t x, y;
 };
 
-/// Twice the signed area_of of (a, b, p): positive where p is on the left.
+/// Twice the signed area of (a, b, p): positive where p is on the left.
 static int64_t area_of(struct point a, struct point b, struct point p)
 {
     return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x);

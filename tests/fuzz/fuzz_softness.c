@@ -1,6 +1,6 @@
 /// Maps of softness in .npy, over the corners of an octahedron: no element gets stiffer than the material, none limp.
 #include "fuzz.h"
-#include "simulation/region.h"
+#include "simulation/soft.h"
 #include <math.h>
 #include <stdlib.h>
 

@@ -1,6 +1,6 @@
 /// Tracks that drive a simulated body's base: what is read is smooth and finite.
 #include "fuzz.h"
-#include "simulation/drive.h"
+#include "simulation/integrator.h"
 #include <math.h>
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
