@@ -1,6 +1,6 @@
 /// The analysis against an independent computation (tests/analysis/reference.py) and against what was planted in the data.
 #include "analysis/analysis.h"
-#include "analysis/slabs.h"
+#include "analysis/rigid.h"
 #include "analysis/spectrum.h"
 #include "planted.h"
 #include "with_lapack.h"

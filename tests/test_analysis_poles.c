@@ -1,6 +1,5 @@
 /// The analysis by poles on planted oscillations: frequency, damping and shape, whatever the frame rate and noise.
 #include "analysis/analysis.h"
-#include "analysis/component.h"
 #include "planted.h"
 #include "with_lapack.h"
 

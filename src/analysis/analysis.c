@@ -1,13 +1,155 @@
-/// The whole analysis of one motion: G, its poles or principal components, their shapes.
+/// The whole analysis of one motion: G, its poles or principal components, their shapes and splines.
 #include "analysis/analysis.h"
 #include "analysis/basis.h"
-#include "analysis/poles.h"
-#include "analysis/slabs.h"
 #include "analysis/spectrum.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+// --- components: the gauge, frequency, damping and lags
+
+static const double tail_share = 0.05; ///< share of the motion beyond each end of the range of lags
+
+double component_error(const struct component *c, const double complex *series)
+{
+    const struct series_metric *m = &c->metric;
+    double left = m->power;
+    for (int t = 0; t < c->frames; t++) {
+        double complex x = series[t];
+        left += (creal(x * conj(x)) * m->norm + creal(x * x * m->square)) / 2 - 2 * creal(x * m->pull[t]);
+    }
+    return sqrt(fmax(left, 0) / m->power);
+}
+
+/// Ñ ← g Ñ and R ← R / g.
+static void change_gauge(struct component *c, double complex g)
+{
+    for (int n = 0; n < 3 * c->vertices; n++) c->shape[n / 3][n % 3] *= g;
+    for (int t = 0; t < c->frames; t++) {
+        c->series[t] /= g;
+        c->metric.pull[t] *= g;
+    }
+    c->metric.norm *= creal(g * conj(g));
+    c->metric.square *= g * g;
+}
+
+static double complex along(const struct component *c, int vertex)
+{
+    const double complex *n = c->shape[vertex];
+    return n[0] * c->direction[0] + n[1] * c->direction[1] + n[2] * c->direction[2];
+}
+
+/// Turns Ñ, and R the other way, so that Σ (ñ·d)² is real and positive and Re Σ ñ·d ≥ 0. `direction` is d, of any length; NULL
+/// means the direction with the most motion, its largest number positive.
+static void component_turn(struct component *c, const double direction[3])
+{
+    enum { STEPS = 60 };
+    double length =
+        direction ? sqrt(direction[0] * direction[0] + direction[1] * direction[1] + direction[2] * direction[2]) : 0;
+    double complex squares = 0, sum = 0;
+    if (length > 0) {
+        for (int i = 0; i < 3; i++) c->direction[i] = direction[i] / length;
+    } else {
+        // The direction with the most motion: the largest eigenvector of M = Re Σ ñ ñᴴ, by the power method, v ← M v / |M v|.
+        double moment[3][3] = {{0}}, largest = 0, *d = c->direction;
+        for (int v = 0; v < c->vertices; v++) {
+            for (int n = 0; n < 9; n++) moment[n / 3][n % 3] += creal(c->shape[v][n / 3] * conj(c->shape[v][n % 3]));
+        }
+        int axis = moment[1][1] > moment[0][0] ? 1 : 0;
+        if (moment[2][2] > moment[axis][axis]) axis = 2;
+        for (int i = 0; i < 3; i++) d[i] = i == axis;
+        for (int step = 0; step < STEPS; step++) {
+            double next[3], square = 0;
+            for (int i = 0; i < 3; i++) {
+                next[i] = moment[i][0] * d[0] + moment[i][1] * d[1] + moment[i][2] * d[2];
+                square += next[i] * next[i];
+            }
+            if (!(square > 0)) break;
+            for (int i = 0; i < 3; i++) d[i] = next[i] / sqrt(square);
+        }
+        for (int i = 0; i < 3; i++) {
+            if (fabs(d[i]) > fabs(largest)) largest = d[i];
+        }
+        for (int i = 0; i < 3; i++) d[i] = copysign(1, largest) * d[i];
+    }
+    for (int v = 0; v < c->vertices; v++) {
+        double complex n = along(c, v);
+        squares += n * n;
+        sum += n;
+    }
+    double complex turn = cexp(-I * carg(squares) / 2);
+    if (creal(sum * turn) < 0) turn = -turn;
+    change_gauge(c, turn);
+}
+
+/// Weighted sums for the slopes of lines fitted to two sequences over the same frames.
+struct slopes {
+    double weight, t, tt, y[2], ty[2];
+};
+
+static double slope(const struct slopes *s, int i)
+{
+    double spread = s->weight * s->tt - s->t * s->t;
+    return spread > 0 ? (s->weight * s->ty[i] - s->t * s->y[i]) / spread : 0;
+}
+
+void component_fit(struct component *c, double fps)
+{
+    struct slopes sums = {0};
+    double phase = carg(c->series[0]);
+    for (int t = 0; t < c->frames; t++) {
+        double size = cabs(c->series[t]);
+        if (t > 0) phase += carg(c->series[t] * conj(c->series[t - 1]));
+        if (!(size > 0)) continue;
+        const double weight = size * size, time = t / fps, y[2] = {log(size), phase};
+        sums.weight += weight;
+        sums.t += weight * time;
+        sums.tt += weight * time * time;
+        for (int i = 0; i < 2; i++) {
+            sums.y[i] += weight * y[i];
+            sums.ty[i] += weight * time * y[i];
+        }
+    }
+    double decay = fmax(-slope(&sums, 0), 0), turning = fabs(slope(&sums, 1)), natural = hypot(decay, turning);
+    c->frequency = natural / (2 * M_PI);
+    c->damping = natural > 0 ? decay / natural : 0;
+}
+
+struct share {
+    double lag, weight;
+};
+
+static int compare_lags(const void *a, const void *b)
+{
+    const struct share *x = a, *y = b;
+    return (x->lag > y->lag) - (x->lag < y->lag);
+}
+
+void component_lags(struct component *c)
+{
+    struct share *shares = need((size_t)c->vertices, sizeof *shares);
+    double total = 0, sum = 0;
+    c->reach = 0;
+    for (int v = 0; v < c->vertices; v++) {
+        double complex n = along(c, v);
+        double size = 0;
+        for (int k = 0; k < 3; k++) size += creal(c->shape[v][k] * conj(c->shape[v][k]));
+        c->reach = fmax(c->reach, sqrt(size));
+        shares[v] = (struct share){-carg(n) * 180 / M_PI, creal(n * conj(n))};
+        total += shares[v].weight;
+    }
+    qsort(shares, (size_t)c->vertices, sizeof *shares, compare_lags);
+    c->first_lag = c->last_lag = 0;
+    for (int v = 0; v < c->vertices; v++) {
+        if (sum <= tail_share * total) c->first_lag = shares[v].lag;
+        if (sum < (1 - tail_share) * total) c->last_lag = shares[v].lag;
+        sum += shares[v].weight;
+    }
+    free(shares);
+}
+
+// --- the analysis
 
 static const double cancelling = 2;     ///< times the motion's power: a larger component only cancels another
 static const double fast_from = 0.8;    ///< of half the frame rate
@@ -25,7 +167,8 @@ struct work {
     double power; ///< trace of `gram`
     struct pole poles[SUBSPACE_POLES_MAX];
     int pole_count;
-    double *middle;  ///< see middle_create(); NULL by CPCA, which has the mean
+    double *
+        middle; ///< weights of the frames, for the position that vertices swing about; NULL by CPCA, which has the mean
     double *weights; ///< rows over the frames: Re Ñ and Im Ñ of each component
 };
 
@@ -56,22 +199,17 @@ static bool fail_frames(struct error *error, const struct motion *motion)
     return fail(error, ERROR_ENVIRONMENT, "%s: not enough memory for %d frames", motion->path, motion->frames);
 }
 
-/// G of the frames from the plan's first on.
-static const double *cut_gram(struct work *w)
-{
-    size_t first = (size_t)w->plan->first, n = (size_t)w->motion->frames, left = n - first;
-    if (first == 0) return w->gram;
-    w->free = need(left * left, sizeof *w->free);
-    for (size_t t = 0; t < left; t++)
-        memcpy(w->free + t * left, w->gram + (t + first) * n + first, left * sizeof *w->free);
-    return w->free;
-}
-
 /// Finds the poles of the undriven frames, and removes from G the position that vertices swing about; that by CPCA is the mean.
 static bool find_poles(struct work *w, struct basis *basis, struct error *error)
 {
-    int first = w->plan->first, frames = w->motion->frames - first;
-    const double *gram = cut_gram(w);
+    const int first = w->plan->first, frames = w->motion->frames - first;
+    const size_t from = (size_t)first, n = (size_t)w->motion->frames, after = n - from;
+    if (first > 0) {
+        w->free = need(after * after, sizeof *w->free);
+        for (size_t t = 0; t < after; t++)
+            memcpy(w->free + t * after, w->gram + (t + from) * n + from, after * sizeof *w->free);
+    }
+    const double *gram = first > 0 ? w->free : w->gram;
     const double least = first > 0 ? least_gain_afterwards : least_gain;
     w->power = trace(gram, frames);
     if (!(w->power > 0)) return fail(error, ERROR_INPUT, "%s: expected a motion, but nothing moves", w->motion->path);
@@ -83,8 +221,20 @@ static bool find_poles(struct work *w, struct basis *basis, struct error *error)
     if (found < 0) return fail_frames(error, w->motion);
     w->pole_count = exponentials_choose(w->poles, found, TIME_SERIES_MAX, least, gram, basis);
     if (w->plan->method == ANALYSIS_POLES) {
-        w->middle = middle_create(basis, first);
-        middle_remove(w->middle, w->motion->frames, w->gram);
+        // The middle's weights are those of the ones, with which the basis begins.
+        double *all = need((size_t)basis->count * after, sizeof *all);
+        w->middle = need_zeroed(n, sizeof *w->middle);
+        basis_weights(basis, all);
+        memcpy(w->middle + first, all, after * sizeof *w->middle);
+        free(all);
+
+        // G becomes that of S′ = (1 − 1 wᵀ) S: with g = G w, G − 1 gᵀ − g 1ᵀ + (wᵀ g) 1 1ᵀ, both halves at once, so that it stays
+        // symmetric.
+        double *product = need(n, sizeof *product);
+        for (size_t t = 0; t < n; t++) product[t] = basis_dot(w->gram + t * n, w->middle, w->motion->frames);
+        const double twice = basis_dot(w->middle, product, w->motion->frames);
+        for (size_t i = 0; i < n * n; i++) w->gram[i] += twice - product[i % n] - product[i / n];
+        free(product);
     }
     w->power = trace(w->gram, w->motion->frames);
     return true;
@@ -105,54 +255,25 @@ static void create_components(struct analysis *a, const struct work *w, int coun
     }
 }
 
-/// One component per principal component of the analytic signal.
-static bool find_principal(struct analysis *a, struct work *w)
+/// One component per pole.
+static void find_swinging(struct analysis *a, struct work *w)
 {
-    int frames = w->motion->frames, count = w->plan->modes < frames ? w->plan->modes : frames;
-    struct spectrum spectrum;
-    create_components(a, w, count);
-    if (!spectrum_create(&spectrum, w->lapack, w->gram, frames)) return false;
-    for (int k = 0; k < count; k++) {
-        struct component *c = &a->components[k];
-        for (int t = 0; t < frames; t++) c->series[t] = spectrum.vectors[(size_t)k * (size_t)frames + (size_t)t];
-        c->explained = spectrum.values[k] / spectrum.total;
-        spectrum_weights(&spectrum, k, w->weights + 2 * (size_t)k * (size_t)frames);
-    }
-    spectrum_free(&spectrum);
-    return true;
-}
-
-/// The last component so large that others must cancel it; -1: none.
-static int find_cancelled(const struct time_series *series, double power)
-{
-    int k = series->count - 1;
-    while (k >= 0 && series->part[k] <= cancelling * power) k--;
-    return k;
-}
-
-/// Fits time series to the first poles, dropping those that others cancel.
-static void find_series(struct analysis *a, struct work *w, struct time_series *series)
-{
-    for (;;) {
-        int count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
+    const int frames = w->motion->frames;
+    struct time_series series;
+    int count;
+    for (;;) { // without the last component so large that others must cancel it
         double complex z[TIME_SERIES_MAX];
+        count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
         for (int k = 0; k < count; k++) z[k] = w->poles[k].z;
-        time_series_create(series, w->lapack, w->gram, w->motion->frames, w->plan->first, z, count);
-        int cancelled = find_cancelled(series, w->power);
-        if (cancelled < 0 || count == 1) return;
-        time_series_free(series);
+        time_series_create(&series, w->lapack, w->gram, frames, w->plan->first, z, count);
+        int cancelled = count - 1;
+        while (cancelled >= 0 && series.part[cancelled] <= cancelling * w->power) cancelled--;
+        if (cancelled < 0 || count == 1) break;
+        time_series_free(&series);
         for (int k = cancelled; k + 1 < w->pole_count; k++) w->poles[k] = w->poles[k + 1];
         w->pole_count--;
         a->cancelled++;
     }
-}
-
-/// One component per pole.
-static void find_swinging(struct analysis *a, struct work *w)
-{
-    struct time_series series;
-    find_series(a, w, &series);
-    int frames = w->motion->frames, count = series.count;
     create_components(a, w, count);
     const double complex *z = series.pole;
     for (int k = 0; k < count; k++) {
@@ -165,20 +286,6 @@ static void find_swinging(struct analysis *a, struct work *w)
     }
     for (size_t i = 0; i < 2 * (size_t)count * (size_t)frames; i++) w->weights[i] = series.weights[i];
     time_series_free(&series);
-}
-
-/// From the weights of Ñ: the numbers that give the error of any time series on the whole motion.
-static void fill_metric(struct component *c, const struct work *w, const double *weights)
-{
-    size_t n = (size_t)c->frames;
-    struct series_metric *m = &c->metric;
-    for (size_t t = 0; t < n; t++) {
-        m->pull[t] = 0;
-        for (size_t s = 0; s < n; s++) m->pull[t] += w->gram[t * n + s] * (weights[s] + I * weights[n + s]);
-        m->norm += creal(m->pull[t] * (weights[t] - I * weights[n + t]));
-        m->square += m->pull[t] * (weights[t] + I * weights[n + t]);
-    }
-    m->power = w->power;
 }
 
 /// The motion of component l along Ñ_k in every frame, Re(R_l Ñ_l)·Ñ_k = (R_l Ñ_l·Ñ_k + R̄_l conj(Ñ_l)·Ñ_k) / 2. Returns Σ_t of
@@ -229,34 +336,6 @@ static void share_motion(struct analysis *a, const struct work *w)
     free(along);
 }
 
-/// Ñ of every component, in a second pass over the motion.
-static bool form_shapes(struct analysis *a, struct work *w, struct error *error)
-{
-    size_t frames = (size_t)w->motion->frames, columns = 3 * (size_t)w->motion->vertices, count = (size_t)a->count;
-    double *combined = need(2 * count * columns, sizeof *combined);
-    for (size_t k = 0; k < count; k++) fill_metric(&a->components[k], w, w->weights + 2 * k * frames);
-    share_motion(a, w);
-    if (w->middle) middle_adapt(w->middle, w->motion->frames, w->weights, 2 * a->count);
-    bool done = slabs_combine(w->lapack, w->motion, w->plan->base, w->weights, 2 * a->count, combined, error);
-    for (size_t k = 0; done && k < count; k++) {
-        const double *re = combined + 2 * k * columns, *im = re + columns;
-        for (size_t n = 0; n < columns; n++) a->components[k].shape[n / 3][n % 3] = re[n] + I * im[n];
-    }
-    free(combined);
-    return done;
-}
-
-static void finish(struct analysis *a, const struct work *w)
-{
-    for (int k = 0; k < a->count; k++) {
-        struct component *c = &a->components[k];
-        component_scale(c);
-        component_turn(c, w->plan->direction);
-        if (w->plan->method == ANALYSIS_CPCA) component_fit(c, w->plan->fps);
-        component_lags(c);
-    }
-}
-
 static bool find_components(struct analysis *a, struct work *w, struct error *error)
 {
     int frames = w->motion->frames;
@@ -275,16 +354,63 @@ static bool find_components(struct analysis *a, struct work *w, struct error *er
         return fail(error, ERROR_INPUT, "%s: expected an oscillation, got none; --method cpca takes any motion",
                     w->motion->path);
     a->fast_share = fast_share(w->gram, frames);
-    if (!spectrum_real_shares(w->lapack, w->gram, frames, ANALYSIS_MODES_MAX, shares) ||
-        (w->plan->method == ANALYSIS_CPCA && !find_principal(a, w)))
+    if (!spectrum_real_shares(w->lapack, w->gram, frames, ANALYSIS_MODES_MAX, shares))
         return fail_frames(error, w->motion);
-    if (w->plan->method != ANALYSIS_CPCA) find_swinging(a, w);
+    if (w->plan->method == ANALYSIS_POLES) {
+        find_swinging(a, w);
+    } else { // one component per principal component of the analytic signal
+        struct spectrum spectrum;
+        create_components(a, w, w->plan->modes < frames ? w->plan->modes : frames);
+        if (!spectrum_create(&spectrum, w->lapack, w->gram, frames)) return fail_frames(error, w->motion);
+        for (int k = 0; k < a->count; k++) {
+            struct component *c = &a->components[k];
+            const double complex *u = spectrum.vectors + (size_t)k * (size_t)frames;
+            for (int t = 0; t < frames; t++) c->series[t] = u[t];
+            c->explained = spectrum.values[k] / spectrum.total;
+            spectrum_weights(&spectrum, k, w->weights + 2 * (size_t)k * (size_t)frames);
+        }
+        spectrum_free(&spectrum);
+    }
     a->pca1 = shares[0];
     a->pca2 = shares[1];
     a->real_left = sqrt(fmax(1 - shares[a->count - 1], 0));
-    if (!form_shapes(a, w, error)) return false;
-    finish(a, w);
-    return true;
+
+    // From the weights of Ñ: the numbers that give the error of any time series on the whole motion.
+    const size_t n = (size_t)frames, columns = 3 * (size_t)w->motion->vertices, count = (size_t)a->count;
+    for (size_t k = 0; k < count; k++) {
+        struct series_metric *m = &a->components[k].metric;
+        const double *re = w->weights + 2 * k * n, *im = re + n;
+        for (size_t t = 0; t < n; t++) {
+            m->pull[t] = 0;
+            for (size_t s = 0; s < n; s++) m->pull[t] += w->gram[t * n + s] * (re[s] + I * im[s]);
+            m->norm += creal(m->pull[t] * (re[t] - I * im[t]));
+            m->square += m->pull[t] * (re[t] + I * im[t]);
+        }
+        m->power = w->power;
+    }
+    share_motion(a, w);
+    for (size_t row = 0; w->middle && row < 2 * count; row++) { // weights of S′ become the same weights of S
+        double *to = w->weights + row * n, sum = 0;
+        for (size_t t = 0; t < n; t++) sum += to[t];
+        for (size_t t = 0; t < n; t++) to[t] -= sum * w->middle[t];
+    }
+
+    // Ñ of every component, in a second pass over the motion.
+    double *combined = need(2 * count * columns, sizeof *combined);
+    done = slabs_combine(w->lapack, w->motion, w->plan->base, w->weights, 2 * a->count, combined, error);
+    for (size_t k = 0; done && k < count; k++) {
+        struct component *c = &a->components[k];
+        const double *re = combined + 2 * k * columns, *im = re + columns;
+        double largest = 0;
+        for (size_t i = 0; i < columns; i++) c->shape[i / 3][i % 3] = re[i] + I * im[i];
+        for (size_t t = 0; t < n; t++) largest = fmax(largest, cabs(c->series[t]));
+        if (largest > 0) change_gauge(c, largest); // max |R| = 1
+        component_turn(c, w->plan->direction);
+        if (w->plan->method == ANALYSIS_CPCA) component_fit(c, w->plan->fps);
+        component_lags(c);
+    }
+    free(combined);
+    return done;
 }
 
 bool analysis_create(struct analysis *a, const struct lapack *lapack, const struct motion *motion,
@@ -318,4 +444,268 @@ void analysis_free(struct analysis *a)
 {
     pool_free(&a->pool);
     *a = (struct analysis){0};
+}
+
+// --- splines
+//
+// A spline's curve is linear in its knots' values: x = Σ_i v_i φ_i, where φ_i is the curve with knot i at 1 and the others at
+// 0. So for given frames, frequency, damping and bandwidth the best values are linear least squares on the motion itself,
+//
+//     Σ_t |s_t − Re(x_t Ñ)|² = power − 2 bᵀv + vᵀA v        b_i = Σ_t Re(φ_i s_t·Ñ),  A_ij = Σ_t Re(φ_i φ̄_j |Ñ|² + φ_i φ_j Ñ·Ñ) / 2
+//
+// in microseconds. The rest is search, in a fixed order: add one knot after the other where it helps most, then move every frame
+// and parameter in turn by shrinking steps.
+
+static const double near_enough = 1.02;     ///< times the component's own error: no more knots needed
+static const double close_enough = 1.05;    ///< likewise: no other kind of spline needed
+static const double worth = 1e-4;           ///< a relative change of the error that counts
+static const double simpler = 0.97;         ///< slopes, or real mode without lags, must reduce the error to this
+static const double slope_stiffness = 1000; ///< the format's default
+
+enum { CANDIDATES = 48, HALVINGS = 5, SWEEPS = 4, EXCHANGES = 3, UNKNOWNS = 2 * KNOTS_MOST };
+
+struct knot_search {
+    const struct component *component;
+    double fps;
+    wiggly_solver *solver;
+    double complex *response; ///< φ, UNKNOWNS × frames
+    double *re, *im;
+};
+
+/// x for these knots; false if the solver fails.
+static bool solve_curve(const struct knot_search *s, const struct knots *k, double complex *series)
+{
+    wiggly_knot knots[KNOTS_MOST];
+    wiggly_desc desc = wiggly_default_desc();
+    wiggly_curve curve = {.size = sizeof curve, .re = s->re, .im = s->im};
+    for (int i = 0; i < k->count; i++) {
+        knots[i] = (wiggly_knot){.sample = k->frame[i],
+                                 .value = k->value[i],
+                                 .has_slope = k->sloped,
+                                 .slope = k->slope[i],
+                                 .stiffness = slope_stiffness};
+    }
+    desc.samples = s->component->frames;
+    desc.step = 1 / s->fps;
+    desc.mode = k->mode;
+    desc.frequency.value = k->frequency;
+    desc.damping.value = k->damping;
+    desc.bandwidth.value = k->bandwidth;
+    desc.knots = knots;
+    desc.knot_count = k->count;
+    if (wiggly_solve(s->solver, &desc, &curve) >= WIGGLY_ERROR_ARGUMENT) return false;
+    for (int t = 0; t < desc.samples; t++) series[t] = s->re[t] + I * s->im[t];
+    return true;
+}
+
+/// Solves A v = b by Cholesky; an unknown without effect gets 0. Returns bᵀv.
+static double solve_unknowns(double a[UNKNOWNS][UNKNOWNS], const double *b, int count, double *v)
+{
+    double gain = 0;
+    for (int j = 0; j < count; j++) {
+        double whole = a[j][j];
+        for (int k = 0; k < j; k++) a[j][j] -= a[j][k] * a[j][k];
+        a[j][j] = a[j][j] > 1e-10 * whole ? sqrt(a[j][j]) : HUGE_VAL;
+        for (int i = j + 1; i < count; i++) {
+            for (int k = 0; k < j; k++) a[i][j] -= a[i][k] * a[j][k];
+            a[i][j] /= a[j][j];
+        }
+    }
+    for (int i = 0; i < count; i++) {
+        v[i] = b[i];
+        for (int k = 0; k < i; k++) v[i] -= a[i][k] * v[k];
+        v[i] /= a[i][i];
+    }
+    for (int i = count - 1; i >= 0; i--) {
+        for (int k = i + 1; k < count; k++) v[i] -= a[k][i] * v[k];
+        v[i] /= a[i][i];
+    }
+    for (int i = 0; i < count; i++) gain += b[i] * v[i];
+    return gain;
+}
+
+/// Finds the best values and slopes, and their error; infinite if the solver fails.
+static double evaluate(const struct knot_search *s, struct knots *k)
+{
+    const struct series_metric *m = &s->component->metric;
+    double a[UNKNOWNS][UNKNOWNS] = {{0}}, b[UNKNOWNS] = {0}, v[UNKNOWNS];
+    int n = s->component->frames, unknowns = k->sloped ? 2 * k->count : k->count;
+    k->error = HUGE_VAL;
+    for (int i = 0; i < unknowns; i++) {
+        double complex *x = s->response + (size_t)i * (size_t)n;
+        struct knots unit = *k; // φ of value i or, after those, of a slope, scaled so that both are about as large
+        memset(unit.value, 0, sizeof unit.value);
+        memset(unit.slope, 0, sizeof unit.slope);
+        if (i < k->count)
+            unit.value[i] = 1;
+        else
+            unit.slope[i - k->count] = 2 * M_PI * k->frequency;
+        if (!solve_curve(s, &unit, x)) return k->error;
+        for (int t = 0; t < n; t++) b[i] += creal(x[t] * m->pull[t]);
+        for (int j = 0; j <= i; j++) {
+            const double complex *y = s->response + (size_t)j * (size_t)n;
+            for (int t = 0; t < n; t++)
+                a[i][j] += (creal(x[t] * conj(y[t])) * m->norm + creal(x[t] * y[t] * m->square)) / 2;
+        }
+    }
+    double left = m->power - solve_unknowns(a, b, unknowns, v);
+    for (int i = 0; i < k->count; i++) {
+        k->value[i] = v[i];
+        k->slope[i] = k->sloped ? v[k->count + i] * 2 * M_PI * k->frequency : 0;
+    }
+    return k->error = sqrt(fmax(left, 0) / m->power);
+}
+
+/// Keeps a change that reduces the error.
+static bool keep_better(const struct knot_search *s, struct knots *k, struct knots *changed)
+{
+    if (!(evaluate(s, changed) < k->error * (1 - worth))) return false;
+    *k = *changed;
+    return true;
+}
+
+/// Frames from one knot to the next. A slope right beside a neighbour would have no effect.
+static int least_gap(const struct knots *k) { return k->sloped ? 3 : 1; }
+
+static bool try_frame(const struct knot_search *s, struct knots *k, int knot, int frame)
+{
+    struct knots changed = *k;
+    int gap = least_gap(k), last = knot + 1 < k->count ? k->frame[knot + 1] - gap : s->component->frames - 1;
+    if (frame < k->frame[knot - 1] + gap || frame > last) return false;
+    changed.frame[knot] = frame;
+    return keep_better(s, k, &changed);
+}
+
+/// The frequency changes by a relative step, damping and bandwidth by an absolute one.
+static bool try_parameters(const struct knot_search *s, struct knots *k, double frequency, double damping,
+                           double bandwidth)
+{
+    struct knots changed = *k;
+    changed.frequency = fmin(k->frequency * (1 + frequency), s->fps / 2 / (1 + k->bandwidth));
+    changed.damping = fmin(fmax(k->damping + damping, 0), 1);
+    changed.bandwidth = fmin(fmax(k->bandwidth + bandwidth, 0), 1);
+    return keep_better(s, k, &changed);
+}
+
+/// Tries every frame and parameter in turn while that helps, with steps that halve. The first knot stays.
+static void refine(const struct knot_search *s, struct knots *k, int stride)
+{
+    double step = 0.08;
+    for (int halving = 0; halving<HALVINGS; halving++, step /= 2, stride = stride> 1 ? stride / 2 : 1) {
+        bool better = true;
+        for (int sweep = 0; better && sweep < SWEEPS; sweep++) {
+            better = false;
+            for (int sign = -1; sign <= 1; sign += 2) {
+                for (int knot = 1; knot < k->count; knot++)
+                    better |= try_frame(s, k, knot, k->frame[knot] + sign * stride);
+                better |= try_parameters(s, k, sign * step, 0, 0);
+                better |= try_parameters(s, k, 0, sign * step, 0);
+                if (k->mode == WIGGLY_COMPLEX) better |= try_parameters(s, k, 0, 0, sign * step);
+            }
+        }
+    }
+}
+
+/// Adds the knot that helps most, from one frame in `stride`. False if none helps.
+static bool add_knot(const struct knot_search *s, struct knots *k, int stride)
+{
+    struct knots best = *k;
+    int gap = least_gap(k);
+    for (int frame = 1; frame < s->component->frames; frame += stride) {
+        struct knots changed = *k;
+        int at = k->count; // the first knot stays at 0
+        while (at > 1 && k->frame[at - 1] > frame) at--;
+        if (frame < k->frame[at - 1] + gap || (at < k->count && frame > k->frame[at] - gap)) continue;
+        memmove(changed.frame + at + 1, changed.frame + at, (size_t)(k->count - at) * sizeof *changed.frame);
+        changed.frame[at] = frame;
+        changed.count++;
+        keep_better(s, &best, &changed);
+    }
+    bool added = best.count > k->count;
+    *k = best;
+    return added;
+}
+
+/// Takes the other spline if it is clearly better.
+static void prefer(struct knots *k, const struct knots *other)
+{
+    if (other->error < simpler * k->error) *k = *other;
+}
+
+static double rounded(double value, double parts) { return round(value * parts) / parts; }
+
+static void shorten_all(double *values, int count)
+{
+    double largest = 0;
+    for (int i = 0; i < count; i++) largest = fmax(largest, fabs(values[i]));
+    for (int i = 0; i < count && largest > 0; i++) values[i] = rounded(values[i], pow(10, 3 - floor(log10(largest))));
+}
+
+static struct knots find_knots(const struct knot_search *s, wiggly_mode mode, bool sloped)
+{
+    const struct component *c = s->component;
+    struct knots k = {.mode = mode,
+                      .frequency = c->frequency,
+                      .damping = c->damping,
+                      .bandwidth = 0.1,
+                      .count = 1,
+                      .sloped = sloped};
+    int stride = (c->frames + CANDIDATES - 1) / CANDIDATES;
+    double floor_error = component_error(c, c->series);
+    evaluate(s, &k);
+    while (k.error > near_enough * floor_error && k.count < KNOTS_MOST && add_knot(s, &k, stride))
+        refine(s, &k, stride);
+
+    // Each knot but the first is tried at every frame.
+    bool better = true;
+    for (int round = 0; better && round < EXCHANGES && k.error > near_enough * floor_error; round++) {
+        better = false;
+        for (int knot = 1; knot < k.count; knot++) {
+            struct knots changed = k;
+            changed.count--;
+            memmove(changed.frame + knot, changed.frame + knot + 1,
+                    (size_t)(changed.count - knot) * sizeof *changed.frame);
+            evaluate(s, &changed);
+            if (!add_knot(s, &changed, stride)) continue;
+            refine(s, &changed, stride);
+            if (!(changed.error < k.error * (1 - worth))) continue;
+            k = changed;
+            better = true;
+        }
+    }
+    return k;
+}
+
+void knots_create(struct knots *k, const struct component *component, double fps)
+{
+    struct knot_search s = {.component = component, .fps = fps};
+    size_t n = (size_t)component->frames;
+    double complex *series = need(n, sizeof *series);
+    s.response = need(UNKNOWNS * n, sizeof *s.response);
+    s.re = need(2 * n, sizeof *s.re);
+    s.im = s.re + n;
+    if (wiggly_create((int)n, KNOTS_MOST, &s.solver) != WIGGLY_OK) need_failed();
+    *k = find_knots(&s, WIGGLY_COMPLEX, false);
+    if (k->error > close_enough * component_error(component, component->series)) {
+        const struct knots sloped = find_knots(&s, WIGGLY_COMPLEX, true), stiff = find_knots(&s, WIGGLY_REAL, false);
+        prefer(k, &sloped);
+        prefer(k, &stiff);
+    }
+    shorten_all(k->value, k->count);
+    shorten_all(k->slope, k->count);
+    k->frequency = rounded(k->frequency, 1e4);
+    k->damping = rounded(k->damping, 1e4);
+    k->bandwidth = rounded(k->bandwidth, 1e4);
+    if (!solve_curve(&s, k, series)) need_failed();
+    k->series = series;
+    k->error = component_error(component, series);
+    wiggly_destroy(s.solver);
+    free(s.response);
+    free(s.re);
+}
+
+void knots_free(struct knots *k)
+{
+    free(k->series);
+    *k = (struct knots){0};
 }

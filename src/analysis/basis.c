@@ -73,35 +73,3 @@ void basis_weights(const struct basis *b, double *weights)
         for (size_t t = 0; t < n; t++) weights[i * n + t] = pivot > 0 ? weights[i * n + t] / pivot : 0;
     }
 }
-
-double *middle_create(const struct basis *b, int first)
-{
-    double *all = need((size_t)b->count * (size_t)b->frames, sizeof *all);
-    double *middle = need_zeroed((size_t)(first + b->frames), sizeof *middle);
-    basis_weights(b, all);
-    memcpy(middle + first, all, (size_t)b->frames * sizeof *middle);
-    free(all);
-    return middle;
-}
-
-void middle_remove(const double *w, int frames, double *gram)
-{
-    // With g = G w, G − 1 gᵀ − g 1ᵀ + (wᵀ g) 1 1ᵀ: both halves at once, so that G stays symmetric.
-    const size_t n = (size_t)frames;
-    double *product = need(n, sizeof *product);
-    for (size_t t = 0; t < n; t++) product[t] = basis_dot(gram + t * n, w, frames);
-    const double twice = basis_dot(w, product, frames);
-    for (size_t t = 0; t < n; t++) {
-        for (size_t s = 0; s < n; s++) gram[t * n + s] += twice - product[s] - product[t];
-    }
-    free(product);
-}
-
-void middle_adapt(const double *w, int frames, double *weights, int rows)
-{
-    for (int row = 0; row < rows; row++) {
-        double *to = weights + (size_t)row * (size_t)frames, sum = 0;
-        for (int t = 0; t < frames; t++) sum += to[t];
-        for (int t = 0; t < frames; t++) to[t] -= sum * w[t];
-    }
-}

@@ -23,9 +23,6 @@ int subspace_poles(const struct lapack *lapack, const double *gram, int frames, 
 
 // A motion as a sum of undisturbed damped oscillations: which poles matter.
 
-/// Re z^t and −Im z^t over the frames, largest |z^t| = 1: two rows of `frames` numbers each.
-void exponentials_fill(double complex z, int frames, double *rows);
-
 /// Moves the poles that explain the motion best to the front, each judged beside those before it, and appends them to `basis`, which
 /// has a sequence of ones and room for two per pole. Steady poles come before wandering ones. Chooses at most `most`,
 /// and at least one if there is any; leaves out poles that explain less than `least` of the motion's power or only cancel each other.

@@ -1,4 +1,4 @@
-/// Fits the motion of a base to a rigid one, frame by frame.
+/// Reads a motion in slabs of columns, and fits the motion of a base to a rigid one, frame by frame.
 ///
 /// With the centre r̄ of the base's vertices at rest and M = Σ (r − r̄) (x − x̄)ᵀ over them, Σ |R (r − r̄) − (x − x̄)|² is least for the
 /// rotation by the unit quaternion that is the largest eigenvector of (Horn 1987)
@@ -11,10 +11,46 @@
 /// A point or a line leaves rotations open. A little weight on the identity chooses the smallest.
 #include "analysis/rigid.h"
 #include "analysis/basis.h"
-#include "analysis/slabs.h"
 #include "base/need.h"
 #include <math.h>
 #include <stdlib.h>
+
+enum { SLAB_NUMBERS = 1 << 20 }; ///< 8 MiB: a slab and its copies fit the cache
+
+/// Some columns of S, those of whole vertices.
+struct slab {
+    const struct motion *motion;
+    int columns, width, first, count; ///< columns in all; in a slab; the slab's first; in this slab
+    double *numbers;                  ///< frames × count
+};
+
+/// A pass over all slabs: `for (slab = slab_start(m); slab_next(&slab, &error);)`, then slab_end().
+static struct slab slab_start(const struct motion *motion)
+{
+    const int columns = 3 * motion->vertices, width = 3 * (SLAB_NUMBERS / motion->frames / 3 + 1);
+    struct slab slab = {.motion = motion, .columns = columns, .width = width < columns ? width : columns};
+    slab.numbers = need((size_t)motion->frames * (size_t)slab.width, sizeof *slab.numbers);
+    return slab;
+}
+
+/// Reads the next slab; false after the last one or on an error.
+static bool slab_next(struct slab *slab, struct error *error)
+{
+    const int left = slab->columns - slab->first - slab->count;
+    if (left == 0) return false;
+    slab->first += slab->count;
+    slab->count = left < slab->width ? left : slab->width;
+    if (motion_columns(slab->motion, slab->first, slab->count, slab->numbers, error)) return true;
+    slab->count = 0;
+    return false;
+}
+
+/// Whether all slabs were read.
+static bool slab_end(const struct slab *slab)
+{
+    free(slab->numbers);
+    return slab->first + slab->count == slab->columns;
+}
 
 static const double still = 1e-5;     ///< share of the largest motion of a vertex; a vertex that moves less rests
 static const double straight = 1e-6;  ///< share of the squared size; a base with less area is a line
@@ -50,17 +86,6 @@ static void measure_rest(struct survey *s)
 
 static double size_of(const struct survey *s) { return s->spread[0][0] + s->spread[1][1] + s->spread[2][2]; }
 
-/// Whether the base has no area: the second of the spread's invariants is 0.
-static bool is_hinge(const struct survey *s)
-{
-    double area = 0, size = size_of(s);
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3;
-        area += s->spread[a][a] * s->spread[b][b] - s->spread[a][b] * s->spread[a][b];
-    }
-    return area <= straight * size * size;
-}
-
 static void add_vertex(struct survey *s, const struct slab *slab, int vertex)
 {
     const double *x = slab->numbers + 3 * vertex - slab->first;
@@ -81,28 +106,6 @@ static void add_vertex(struct survey *s, const struct slab *slab, int vertex)
     for (int c = 0; c < 3; c++) s->extent[vertex] += (high[c] - low[c]) * (high[c] - low[c]);
 }
 
-static bool read_motion(struct survey *s, const struct motion *motion, struct error *error)
-{
-    struct slab slab = slab_start(motion);
-    while (slab_next(&slab, error)) {
-        for (int v = slab.first / 3; v < (slab.first + slab.count) / 3; v++) add_vertex(s, &slab, v);
-    }
-    return slab_end(&slab);
-}
-
-/// Whether resting vertices hold the mesh. It can still turn about a point or a line.
-static bool is_held(const struct survey *all)
-{
-    const int vertices = all->rest->vertex_count;
-    struct survey s = {.rest = all->rest, .base = need((size_t)vertices + 1, sizeof *s.base)};
-    double largest = 0;
-    for (int v = 0; v < vertices; v++) largest = fmax(largest, all->base[v] ? all->extent[v] : 0);
-    for (int v = 0; v < vertices; v++) s.base[v] = all->base[v] && all->extent[v] <= still * still * largest;
-    measure_rest(&s);
-    free(s.base);
-    return s.count > 0 && !is_hinge(&s);
-}
-
 /// Horn's quaternion of a frame.
 static void fit_turn(const struct lapack *lapack, const double m[3][3], double weight, double q[4])
 {
@@ -117,16 +120,6 @@ static void fit_turn(const struct lapack *lapack, const double m[3][3], double w
     k[0] += weight;
     const bool found = lapack->dsyevd(LAPACK_ROWS_FIRST, 'V', 'U', 4, k, 4, values) == 0;
     for (int i = 0; i < 4; i++) q[i] = found ? k[4 * i + 3] : i == 0; // the last column
-}
-
-static void fill_turn(const double q[4], double r[3][3])
-{
-    for (int a = 0; a < 3; a++) {
-        const int b = (a + 1) % 3, c = (a + 2) % 3;
-        r[a][a] = q[0] * q[0] + q[1 + a] * q[1 + a] - q[1 + b] * q[1 + b] - q[1 + c] * q[1 + c];
-        r[a][b] = 2 * (q[1 + a] * q[1 + b] - q[0] * q[1 + c]);
-        r[b][a] = 2 * (q[1 + a] * q[1 + b] + q[0] * q[1 + c]);
-    }
 }
 
 enum { PATH = 7 }; ///< x̄ of a frame, and its quaternion times twice the reach, as lengths
@@ -160,36 +153,9 @@ static bool smooth(double *path, int frames)
     return along > least_slow * left;
 }
 
-/// R and p of every frame from the path.
-static void follow(struct rigid *rigid, const struct survey *s, const double *path, double reach, int frames)
-{
-    double moved = 0, first[4];
-    rigid->turn = need((size_t)frames, sizeof *rigid->turn);
-    rigid->place = need((size_t)frames, sizeof *rigid->place);
-    for (int t = 0; t < frames; t++) {
-        double q[4], size = 0, same = 0, travel = 0, away = 0;
-        for (int i = 0; i < 4; i++) size += pow(path[(3 + i) * frames + t], 2);
-        for (int i = 0; i < 4; i++) {
-            q[i] = path[(3 + i) * frames + t] / sqrt(size);
-            first[i] = t == 0 ? q[i] : first[i];
-            same += q[i] * first[i];
-        }
-        fill_turn(q, rigid->turn[t]);
-        for (int a = 0; a < 3; a++) {
-            const double *r = rigid->turn[t][a], mean = path[a * frames + t];
-            rigid->place[t][a] = mean - r[0] * s->centre[0] - r[1] * s->centre[1] - r[2] * s->centre[2];
-            travel += pow(mean - path[a * frames], 2);
-            away += pow(mean - s->centre[a], 2);
-        }
-        rigid->travel = fmax(rigid->travel, sqrt(travel));
-        rigid->angle = fmax(rigid->angle, 2 * acos(fmin(fabs(same), 1)) * 180 / M_PI);
-        moved = fmax(moved, sqrt(away) + 2 * reach * sqrt(fmax(1 - q[0] * q[0], 0)));
-    }
-    rigid->frames = moved > nothing * reach ? frames : 0;
-}
-
 /// Fits all frames. Of an unknown base, only the slow part counts: the rest may be the swing.
-static void fit(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames, bool known)
+static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const struct survey *s, int frames,
+                       bool known)
 {
     const double size = size_of(s), reach = sqrt(size / s->count);
     double *path = need(PATH * (size_t)frames, sizeof *path), before[4] = {1};
@@ -204,7 +170,40 @@ static void fit(struct rigid *rigid, const struct lapack *lapack, const struct s
         for (int a = 0; a < 3; a++) path[a * frames + t] = s->mean[t][a];
     }
     rigid->loose = !known;
-    if (known || smooth(path, frames)) follow(rigid, s, path, reach, frames);
+    const bool follows = known || smooth(path, frames);
+
+    // R and p of every frame from the path.
+    double moved = 0, first[4];
+    if (follows) {
+        rigid->turn = need((size_t)frames, sizeof *rigid->turn);
+        rigid->place = need((size_t)frames, sizeof *rigid->place);
+    }
+    for (int t = 0; follows && t < frames; t++) {
+        double q[4], square = 0, same = 0, travel = 0, away = 0, (*turn)[3] = rigid->turn[t];
+        for (int i = 0; i < 4; i++) square += pow(path[(3 + i) * frames + t], 2);
+        for (int i = 0; i < 4; i++) {
+            q[i] = path[(3 + i) * frames + t] / sqrt(square);
+            first[i] = t == 0 ? q[i] : first[i];
+            same += q[i] * first[i];
+        }
+        for (int a = 0; a < 3; a++) {
+            const int b = (a + 1) % 3, c = (a + 2) % 3;
+            turn[a][a] = q[0] * q[0] + q[1 + a] * q[1 + a] - q[1 + b] * q[1 + b] - q[1 + c] * q[1 + c];
+            turn[a][b] = 2 * (q[1 + a] * q[1 + b] - q[0] * q[1 + c]);
+            turn[b][a] = 2 * (q[1 + a] * q[1 + b] + q[0] * q[1 + c]);
+        }
+        for (int a = 0; a < 3; a++) {
+            const double mean = path[a * frames + t];
+            rigid->place[t][a] =
+                mean - turn[a][0] * s->centre[0] - turn[a][1] * s->centre[1] - turn[a][2] * s->centre[2];
+            travel += pow(mean - path[a * frames], 2);
+            away += pow(mean - s->centre[a], 2);
+        }
+        rigid->travel = fmax(rigid->travel, sqrt(travel));
+        rigid->angle = fmax(rigid->angle, 2 * acos(fmin(fabs(same), 1)) * 180 / M_PI);
+        moved = fmax(moved, sqrt(away) + 2 * reach * sqrt(fmax(1 - q[0] * q[0], 0)));
+    }
+    rigid->frames = moved > nothing * reach ? frames : 0;
     free(path);
 }
 
@@ -225,8 +224,33 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
         rigid->whole &= s.base[v] == used[v];
     }
     measure_rest(&s);
-    const bool done = s.count == 0 || read_motion(&s, motion, error);
-    if (done && s.count > 0 && (base || !is_held(&s))) fit(rigid, lapack, &s, motion->frames, base);
+    bool done = true;
+    if (s.count > 0) {
+        struct slab slab = slab_start(motion);
+        while (slab_next(&slab, error)) {
+            for (int v = slab.first / 3; v < (slab.first + slab.count) / 3; v++) add_vertex(&s, &slab, v);
+        }
+        done = slab_end(&slab);
+    }
+
+    // Resting vertices may hold the mesh, unless they lie on a point or a line: then it can still turn.
+    bool held = false;
+    if (done && !base) {
+        struct survey still_ones = {.rest = rest, .base = need(vertices + 1, sizeof *s.base)};
+        double largest = 0, area = 0;
+        for (size_t v = 0; v < vertices; v++) largest = fmax(largest, s.base[v] ? s.extent[v] : 0);
+        for (size_t v = 0; v < vertices; v++)
+            still_ones.base[v] = s.base[v] && s.extent[v] <= still * still * largest;
+        measure_rest(&still_ones);
+        free(still_ones.base);
+        const double size = size_of(&still_ones), (*spread)[3] = (const double(*)[3])still_ones.spread;
+        for (int a = 0; a < 3; a++) { // the second of the spread's invariants
+            const int b = (a + 1) % 3;
+            area += spread[a][a] * spread[b][b] - spread[a][b] * spread[a][b];
+        }
+        held = still_ones.count > 0 && area > straight * size * size;
+    }
+    if (done && s.count > 0 && !held) fit_frames(rigid, lapack, &s, motion->frames, base);
     free(used);
     free(s.base);
     free(s.moment);
@@ -242,44 +266,27 @@ void rigid_free(struct rigid *rigid)
     *rigid = (struct rigid){0};
 }
 
-void rigid_undo(const struct rigid *rigid, double *numbers, int columns)
-{
-    for (int t = 0; t < rigid->frames; t++) {
-        const double(*r)[3] = (const double(*)[3])rigid->turn[t], *p = rigid->place[t];
-        for (double *x = numbers + (size_t)t * (size_t)columns, *end = x + columns; x < end; x += 3) {
-            const double away[3] = {x[0] - p[0], x[1] - p[1], x[2] - p[2]};
-            for (int c = 0; c < 3; c++) x[c] = r[0][c] * away[0] + r[1][c] * away[1] + r[2][c] * away[2];
-        }
-    }
-}
-
-/// An orthonormal basis of the small rigid motions of all vertices that faces use: translations, and turns e × r.
-static void create_motions(struct basis *basis, const struct surface *rest, const uint8_t *used)
-{
-    enum { TURN = 3, MOTIONS = 6 };
-    const int columns = 3 * rest->vertex_count;
-    double *motion = need((size_t)columns, sizeof *motion);
-    basis_create(basis, columns, MOTIONS);
-    for (int m = 0; m < MOTIONS; m++) {
-        const int a = m % 3, b = (a + 1) % 3, c = (a + 2) % 3;
-        for (int v = 0; v < rest->vertex_count; v++) {
-            const float *r = rest->position[v];
-            motion[3 * v + a] = used[v] && m < TURN;
-            motion[3 * v + b] = used[v] && m >= TURN ? -(double)r[c] : 0;
-            motion[3 * v + c] = used[v] && m >= TURN ? (double)r[b] : 0;
-        }
-        basis_append(basis, motion);
-    }
-    free(motion);
-}
-
 double rigid_share(const double complex (*shape)[3], const struct surface *rest)
 {
     const int columns = 3 * rest->vertex_count;
     uint8_t *used = surface_used_vertices(rest);
     double *part = need((size_t)columns, sizeof *part), whole = 0, rigid = 0;
+
+    // An orthonormal basis of the small rigid motions of all vertices that faces use: translations, and turns e × r.
+    enum { TURN = 3, MOTIONS = 6 };
     struct basis basis;
-    create_motions(&basis, rest, used);
+    basis_create(&basis, columns, MOTIONS);
+    for (int m = 0; m < MOTIONS; m++) {
+        const int a = m % 3, b = (a + 1) % 3, c = (a + 2) % 3;
+        for (int v = 0; v < rest->vertex_count; v++) {
+            const float *r = rest->position[v];
+            part[3 * v + a] = used[v] && m < TURN;
+            part[3 * v + b] = used[v] && m >= TURN ? -(double)r[c] : 0;
+            part[3 * v + c] = used[v] && m >= TURN ? (double)r[b] : 0;
+        }
+        basis_append(&basis, part);
+    }
+
     for (int imaginary = 0; imaginary < 2; imaginary++) {
         for (int n = 0; n < columns; n++) {
             const double complex u = used[n / 3] ? shape[n / 3][n % 3] : 0;
@@ -293,4 +300,52 @@ double rigid_share(const double complex (*shape)[3], const struct surface *rest)
     free(part);
     free(used);
     return whole > 0 ? rigid / whole : 0;
+}
+
+/// The next slab as the analysis has it: seen from the base, without each column's mean, which goes to `means` unless that is NULL.
+static bool read_seen_from(struct slab *slab, const struct rigid *base, double *means, struct error *error)
+{
+    if (!slab_next(slab, error)) return false;
+    const int frames = slab->motion->frames, count = slab->count;
+    for (int t = 0; base && t < base->frames; t++) { // y = Rᵀ (x − p)
+        const double(*r)[3] = (const double(*)[3])base->turn[t], *p = base->place[t];
+        for (double *x = slab->numbers + (size_t)t * (size_t)count, *end = x + count; x < end; x += 3) {
+            const double away[3] = {x[0] - p[0], x[1] - p[1], x[2] - p[2]};
+            for (int c = 0; c < 3; c++) x[c] = r[0][c] * away[0] + r[1][c] * away[1] + r[2][c] * away[2];
+        }
+    }
+    for (int j = 0; j < count; j++) {
+        double sum = 0, *column = slab->numbers + j;
+        for (int i = 0; i < frames; i++) sum += column[(size_t)i * (size_t)count];
+        double mean = sum / frames;
+        if (means) means[slab->first + j] = mean;
+        for (int i = 0; i < frames; i++) column[(size_t)i * (size_t)count] -= mean;
+    }
+    return true;
+}
+
+bool slabs_gram(const struct lapack *lapack, const struct motion *motion, const struct rigid *base, double *gram,
+                double *means, struct error *error)
+{
+    size_t n = (size_t)motion->frames;
+    struct slab slab = slab_start(motion);
+    for (size_t i = 0; i < n * n; i++) gram[i] = 0;
+    while (read_seen_from(&slab, base, means, error))
+        lapack->dsyrk(LAPACK_ROWS_FIRST, BLAS_LOWER, BLAS_PLAIN, motion->frames, slab.count, 1, slab.numbers,
+                      slab.count, 1, gram, motion->frames);
+    if (!slab_end(&slab)) return false;
+    for (size_t i = 0; i < n; i++) {
+        for (size_t j = i + 1; j < n; j++) gram[i * n + j] = gram[j * n + i];
+    }
+    return true;
+}
+
+bool slabs_combine(const struct lapack *lapack, const struct motion *motion, const struct rigid *base,
+                   const double *weights, int rows, double *combined, struct error *error)
+{
+    struct slab slab = slab_start(motion);
+    while (read_seen_from(&slab, base, NULL, error))
+        lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, rows, slab.count, motion->frames, 1, weights,
+                      motion->frames, slab.numbers, slab.count, 0, combined + slab.first, slab.columns);
+    return slab_end(&slab);
 }

@@ -1,4 +1,4 @@
-/// The rigid motion of a body's base, which is removed before the analysis.
+/// The rigid motion of a body's base, and passes over a motion from which it is removed.
 #ifndef ANALYSIS_RIGID_H
 #define ANALYSIS_RIGID_H
 
@@ -24,10 +24,17 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
                 const struct surface *rest, const bool *base, struct error *error);
 void rigid_free(struct rigid *rigid);
 
-/// Takes vertices back into the frame of the mesh at rest: y = Rᵀ (x − p). `columns` is 3 per vertex, for each frame.
-void rigid_undo(const struct rigid *rigid, double *numbers, int columns);
-
 /// The share of a shape that small rigid motions of the whole mesh explain, 0 … 1.
 double rigid_share(const double complex (*shape)[3], const struct surface *rest);
+
+// Passes over a motion, a slab of columns at a time: seen from the base, if that is not NULL, and without each column's mean over time:
+
+/// G = S Sᵀ, frames × frames, row after row, both halves filled; and the means.
+bool slabs_gram(const struct lapack *lapack, const struct motion *motion, const struct rigid *base, double *gram,
+                double *means, struct error *error);
+
+/// W S: `rows` weightings of the frames (rows × frames) give rows × columns.
+bool slabs_combine(const struct lapack *lapack, const struct motion *motion, const struct rigid *base,
+                   const double *weights, int rows, double *combined, struct error *error);
 
 #endif

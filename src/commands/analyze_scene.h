@@ -2,7 +2,7 @@
 #ifndef COMMANDS_ANALYZE_SCENE_H
 #define COMMANDS_ANALYZE_SCENE_H
 
-#include "analysis/component.h"
+#include "analysis/analysis.h"
 #include "model/character.h"
 
 /// Analysis results of a coordinate that its file does not hold.
