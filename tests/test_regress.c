@@ -1,7 +1,6 @@
 /// Planted delays: timing_diff on seeded logs of eleven pairs on a machine that drifts, stutters and is shared, with builds that
 /// draw in turn (make regress). The same build three times in a row says nothing; what is planted is found, and named.
 #include "folder.h"
-#include "timing/columns.h"
 #include "timing/framelog.h"
 #include <sys/wait.h>
 #include <unistd.h>

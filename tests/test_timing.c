@@ -1,7 +1,7 @@
 /// The timing log is evidence: what it writes, what it sums up and what timing_diff concludes must be exact.
 #include "folder.h"
 #include "regress/bootstrap.h"
-#include "timing/columns.h"
+#include "timing/framelog.h"
 #include <unistd.h>
 
 static char path[96], other_path[96];

@@ -1,7 +1,7 @@
 /// `wiggly log`: summarises a timing log.
 #include "commands/commands.h"
 #include "commands/options.h"
-#include "timing/columns.h"
+#include "timing/framelog.h"
 #include <stdio.h>
 
 int command_log(int argc, char **argv)

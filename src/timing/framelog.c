@@ -1,17 +1,122 @@
-/// Collects frames, writes the log and prints the summary.
+/// Collects frames, writes the timing log, reads logs back, and sums them up.
+#include "timing/framelog.h"
 #include "base/embedded.h"
 #include "base/file.h"
 #include "base/need.h"
-#include "timing/columns.h"
 #include <errno.h>
+#include <limits.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/utsname.h>
 #include <wiggly/wiggly.h>
 
+// --- columns, and what sums one up
+
+#define ROW(field) #field, .offset = offsetof(struct frame_row, field)
+
+const struct column timing_columns[COLUMN_COUNT] = {
+    {ROW(frame), .use = COLUMN_LABEL, .is_count = true},
+    {ROW(t_s), .use = COLUMN_LABEL, .decimals = 6},
+    {ROW(frame_ms), .use = COLUMN_COST, .decimals = 4, .grain = 0.001, .tail_grain = 0.25},
+    {ROW(frame_interval_ms), .use = COLUMN_COST, .decimals = 4, .grain = 0.001, .tail_grain = 0.25},
+    {ROW(wait_us), .use = COLUMN_WAIT, .decimals = 1},
+    {ROW(input_us), .use = COLUMN_COST, .decimals = 1, .grain = 1, .tail_grain = 250},
+    {ROW(edit_us), .use = COLUMN_COST, .decimals = 1, .grain = 1, .tail_grain = 250},
+    {ROW(solve_us), .use = COLUMN_COST, .decimals = 1, .grain = 1, .tail_grain = 250},
+    {ROW(pose_us), .use = COLUMN_COST, .decimals = 1, .grain = 1, .tail_grain = 250},
+    {ROW(upload_us), .use = COLUMN_COST, .decimals = 1, .grain = 1, .tail_grain = 250},
+    {ROW(draw_us), .use = COLUMN_COST, .decimals = 1, .grain = 1, .tail_grain = 250},
+    {ROW(gpu_us), .use = COLUMN_COST, .decimals = 1, .grain = 1, .tail_grain = 250},
+    {ROW(swap_us), .use = COLUMN_COST, .decimals = 1, .grain = 1, .tail_grain = 250},
+    {ROW(splines_solved), .use = COLUMN_COUNTER, .is_count = true},
+    {ROW(samples), .use = COLUMN_COUNTER, .is_count = true},
+    {ROW(knots), .use = COLUMN_COUNTER, .is_count = true},
+    {ROW(edited), .use = COLUMN_COUNTER, .is_count = true},
+    {ROW(event_to_swap_us), .use = COLUMN_COST, .decimals = 1, .grain = 1, .tail_grain = 250},
+    {ROW(allocations), .use = COLUMN_COST, .is_count = true},
+    {ROW(uploaded_bytes), .use = COLUMN_COST, .is_count = true},
+};
+
+double column_value(const struct column *column, const struct frame_row *row)
+{
+    const char *field = (const char *)row + column->offset;
+    if (column->is_count) {
+        long count;
+        memcpy(&count, field, sizeof count);
+        return count < 0 ? NAN : (double)count;
+    }
+    double value;
+    memcpy(&value, field, sizeof value);
+    return value;
+}
+
+static int by_number(const void *a, const void *b)
+{
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+void statistics_sort(double *values, int count)
+{
+    if (count > 1) qsort(values, (size_t)count, sizeof *values, by_number);
+}
+
+double statistics_quantile(const double *sorted, int count, double p)
+{
+    if (count < 1) return NAN;
+    double position = p * (count - 1);
+    int below = (int)position;
+    int above = below + 1 < count ? below + 1 : below;
+    return sorted[below] + (position - below) * (sorted[above] - sorted[below]);
+}
+
+const double frame_budgets_ms[BUDGET_COUNT] = {1000.0 / 60, 1000.0 / 30};
+
+struct over_budget statistics_over(const double *values, int count, double budget)
+{
+    struct over_budget over = {0, 0};
+    for (int i = 0, run = 0; i < count; i++) {
+        run = values[i] > budget ? run + 1 : 0;
+        over.frames += run > 0;
+        if (run > over.longest) over.longest = run;
+    }
+    return over;
+}
+
+/// Frames over each budget, and the longest run of them; a run of frames ends with its program run. `run` is NULL for one run, whose
+/// lines are shorter.
+static void print_over(const double *ms, const int *run, int rows, FILE *out)
+{
+    for (int b = 0; b < BUDGET_COUNT; b++) {
+        const double budget = frame_budgets_ms[b];
+        struct over_budget all = {0, 0};
+        for (int row = 0, start = 0; row < rows; row++) {
+            if (row + 1 < rows && (!run || run[row + 1] == run[row])) continue;
+            const struct over_budget over = statistics_over(ms + start, row + 1 - start, budget);
+            all.frames += over.frames;
+            all.longest = over.longest > all.longest ? over.longest : all.longest;
+            start = row + 1;
+        }
+        fprintf(out, "over %.1f ms   %s%d of %d frames", budget, run ? "    " : "", all.frames, rows);
+        if (run) fprintf(out, " (%.1f %%)", 100.0 * all.frames / rows);
+        if (run || all.longest > 1) fprintf(out, ", up to %d in a row", all.longest);
+        fputc('\n', out);
+    }
+}
+
+/// The rate that all but 1 % of the frames reach, of enough frames.
+static void print_low(double *intervals_ms, int count, int width, FILE *out)
+{
+    enum { NEEDED = 1000 };
+    if (count < NEEDED) return;
+    statistics_sort(intervals_ms, count);
+    fprintf(out, "%-*s %.1f fps\n", width, "1 % low", 1000 / statistics_quantile(intervals_ms, count, 0.99));
+}
+
+// --- writing a log
+
 enum { BLOCK_ROWS = 256, LATE_ROWS = 16 }; ///< the last rows wait for their GPU times
-static const int LOW_NEEDS_FRAMES = 1000;
 
 /// What the summary needs of a frame: all that is kept of it once its row is written.
 enum { SUMMED_TIME, SUMMED_FRAME, SUMMED_INTERVAL, SUMMED_SOLVE, SUMMED_EVENT, SUMMED_COUNT };
@@ -30,21 +135,6 @@ struct framelog {
     int capacity;
     long pushed, written; ///< rows of the run so far
 };
-
-static void write_cpu(FILE *file)
-{
-    char line[256];
-    FILE *info = fopen("/proc/cpuinfo", "r");
-    while (info && fgets(line, sizeof line, info)) {
-        const char *name = strncmp(line, "model name", 10) == 0 ? strchr(line, ':') : NULL;
-        if (!name) continue;
-        fprintf(file, "# cpu: %s", name + 2);
-        fclose(info);
-        return;
-    }
-    if (info) fclose(info);
-    fprintf(file, "# cpu: NA\n");
-}
 
 static void write_milliseconds(FILE *file, const char *key, double value)
 {
@@ -65,7 +155,12 @@ static void write_header(FILE *file, const struct frame_header *header)
     fprintf(file, "# wiggly: %s (%s)\n", WIGGLY_VERSION, build_commit);
     fprintf(file, "# compiler: %s %s\n", build_compiler, build_flags);
     fprintf(file, "# os: %s %s %s\n", known ? os.sysname : "NA", known ? os.release : "", known ? os.machine : "");
-    write_cpu(file);
+    char line[256], *cpu = NULL;
+    FILE *info = fopen("/proc/cpuinfo", "r");
+    while (info && !cpu && fgets(line, sizeof line, info))
+        cpu = strncmp(line, "model name", 10) == 0 ? strchr(line, ':') : NULL;
+    if (info) fclose(info);
+    fprintf(file, "# cpu: %s", cpu ? cpu + 2 : "NA\n");
     fprintf(file, "# gl_renderer: %s\n", header->gl_renderer ? header->gl_renderer : "NA");
     fprintf(file, "# size: %dx%d scale %g\n", header->width, header->height, (double)header->scale);
     fprintf(file, "# vsync: %d\n", header->vsync);
@@ -77,38 +172,28 @@ static void write_header(FILE *file, const struct frame_header *header)
     fputc('\n', file);
 }
 
-static void write_row(FILE *file, const struct frame_row *row)
-{
-    for (int c = 0; c < COLUMN_COUNT; c++) {
-        double value = column_value(&timing_columns[c], row);
-        if (c) fputc(',', file);
-        if (isnan(value)) {
-            fputs("NA", file);
-        } else {
-            fprintf(file, "%.*f", timing_columns[c].decimals, value);
-        }
-    }
-    fputc('\n', file);
-}
-
-/// Closes the file at the first failure, so that a full disk is reported once, not at every block.
-static void check_written(struct framelog *log)
-{
-    if (fflush(log->file) == 0 && !ferror(log->file)) return;
-    log->write_errno = errno ? errno : EIO;
-    fclose(log->file);
-    log->file = NULL;
-}
-
+/// Writes up to a row. Closes the file at the first failure, so that a full disk is reported once, not at every block.
 static void write_rows(struct framelog *log, long end)
 {
     for (; log->file && log->written < end; log->written++) {
         const struct frame_row *row = &log->rows[log->written % BLOCK_ROWS];
         if (row->solver != log->solver) write_solver(log->file, row->solver);
         log->solver = row->solver;
-        write_row(log->file, row);
+        for (int c = 0; c < COLUMN_COUNT; c++) {
+            const double value = column_value(&timing_columns[c], row);
+            if (c) fputc(',', log->file);
+            if (isnan(value)) {
+                fputs("NA", log->file);
+            } else {
+                fprintf(log->file, "%.*f", timing_columns[c].decimals, value);
+            }
+        }
+        fputc('\n', log->file);
     }
-    if (log->file) check_written(log);
+    if (!log->file || (fflush(log->file) == 0 && !ferror(log->file))) return;
+    log->write_errno = errno ? errno : EIO;
+    fclose(log->file);
+    log->file = NULL;
 }
 
 static void framelog_free(struct framelog *log)
@@ -157,7 +242,7 @@ void framelog_gpu(struct framelog *log, long frame, double gpu_us)
 }
 
 /// Collects the measured values of one kind over the frames from `first` on in the log's scratch.
-static int collect(const struct framelog *log, long first, int summed)
+static int collect_summed(const struct framelog *log, long first, int summed)
 {
     int count = 0;
     for (long n = first; n < log->pushed; n++) {
@@ -167,10 +252,10 @@ static int collect(const struct framelog *log, long first, int summed)
     return count;
 }
 
-static void print_percentiles(const struct framelog *log, long first, int summed, double to_ms, const char *what,
-                              FILE *out)
+static void print_summed(const struct framelog *log, long first, int summed, double to_ms, const char *what,
+                         FILE *out)
 {
-    int count = collect(log, first, summed);
+    int count = collect_summed(log, first, summed);
     if (count == 0) return;
     statistics_sort(log->scratch, count);
     fprintf(out, "%-14s p50 %8.3f ms   p95 %8.3f ms   p99 %8.3f ms\n", what,
@@ -179,48 +264,30 @@ static void print_percentiles(const struct framelog *log, long first, int summed
             to_ms * statistics_quantile(log->scratch, count, 0.99));
 }
 
-static void print_slow_frames(const struct framelog *log, long first, FILE *out)
-{
-    int count = collect(log, first, SUMMED_FRAME);
-    for (int b = 0; b < BUDGET_COUNT; b++) {
-        struct over_budget over = statistics_over(log->scratch, count, frame_budgets_ms[b]);
-        fprintf(out, "over %.1f ms   %d of %d frames", frame_budgets_ms[b], over.frames, count);
-        if (over.longest > 1) fprintf(out, ", up to %d in a row", over.longest);
-        fputc('\n', out);
-    }
-    count = collect(log, first, SUMMED_INTERVAL);
-    if (count < LOW_NEEDS_FRAMES) return;
-    statistics_sort(log->scratch, count);
-    fprintf(out, "1 %% low        %.1f fps\n", 1000 / statistics_quantile(log->scratch, count, 0.99));
-}
-
-static void print_summary(const struct framelog *log, FILE *out)
-{
-    long oldest = log->pushed > log->capacity ? log->pushed - log->capacity : 0;
-    long first = oldest > log->warm_up ? oldest : log->warm_up;
-    if (first >= log->pushed) {
-        fprintf(out, "frames         %ld, all of them warm-up: nothing to sum up\n", log->pushed);
-        return;
-    }
-    const float *start = log->summed[first % log->capacity], *end = log->summed[(log->pushed - 1) % log->capacity];
-    const float elapsed = end[SUMMED_TIME] + end[SUMMED_FRAME] / 1000 - start[SUMMED_TIME];
-    long frames = log->pushed - first;
-    fprintf(out, "frames         %ld in %.2f s, %.1f fps on average", frames, (double)elapsed,
-            (double)frames / (double)elapsed);
-    fprintf(out, ", the first %ld left out\n", first);
-    print_percentiles(log, first, SUMMED_FRAME, 1, "frame", out);
-    print_percentiles(log, first, SUMMED_INTERVAL, 1, "interval", out);
-    print_percentiles(log, first, SUMMED_SOLVE, 1e-3, "solve", out);
-    print_percentiles(log, first, SUMMED_EVENT, 1e-3, "event to swap", out);
-    print_slow_frames(log, first, out);
-}
-
 bool framelog_close(struct framelog *log, FILE *summary, struct error *error)
 {
     if (log->file) write_rows(log, log->pushed);
     if (log->file && fclose(log->file) != 0) log->write_errno = errno;
     log->file = NULL;
-    if (summary) print_summary(log, summary);
+
+    const long oldest = log->pushed > log->capacity ? log->pushed - log->capacity : 0;
+    const long first = oldest > log->warm_up ? oldest : log->warm_up, frames = log->pushed - first;
+    if (summary && frames <= 0) {
+        fprintf(summary, "frames         %ld, all of them warm-up: nothing to sum up\n", log->pushed);
+    } else if (summary) {
+        const float *start = log->summed[first % log->capacity],
+                    *end = log->summed[(log->pushed - 1) % log->capacity];
+        const float elapsed = end[SUMMED_TIME] + end[SUMMED_FRAME] / 1000 - start[SUMMED_TIME];
+        fprintf(summary, "frames         %ld in %.2f s, %.1f fps on average, the first %ld left out\n", frames,
+                (double)elapsed, (double)frames / (double)elapsed, first);
+        print_summed(log, first, SUMMED_FRAME, 1, "frame", summary);
+        print_summed(log, first, SUMMED_INTERVAL, 1, "interval", summary);
+        print_summed(log, first, SUMMED_SOLVE, 1e-3, "solve", summary);
+        print_summed(log, first, SUMMED_EVENT, 1e-3, "event to swap", summary);
+        print_over(log->scratch, NULL, collect_summed(log, first, SUMMED_FRAME), summary);
+        print_low(log->scratch, collect_summed(log, first, SUMMED_INTERVAL), 14, summary);
+    }
+
     bool written = log->write_errno == 0;
     if (!written) {
         fail(error, ERROR_ENVIRONMENT, "%s: the timing log could not be written: %s", log->path,
@@ -228,4 +295,229 @@ bool framelog_close(struct framelog *log, FILE *summary, struct error *error)
     }
     framelog_free(log);
     return written;
+}
+
+// --- reading logs of one or several runs
+
+struct log_reader {
+    const char *path;
+    int line;
+    int warm_up;                      ///< of this run
+    int seen;                         ///< frames of this run, warm-up included
+    bool named;                       ///< this run's column names were read
+    int column[COLUMN_COUNT], fields; ///< the column of each field of a line
+    int capacity;                     ///< rows that there is room for
+    struct timing_log *log;
+    struct error *error;
+};
+
+static bool bad(const struct log_reader *at, const char *expected, const char *got)
+{
+    return fail(at->error, ERROR_INPUT, "%s:%d: expected %s, got '%.80s'", at->path, at->line, expected, got);
+}
+
+static bool read_comment(struct log_reader *at, const char *text)
+{
+    static const char schema[] = "# schema: ", warm_up[] = "# warm_up_frames: ", solver[] = "# solver: ";
+    if (strncmp(text, schema, sizeof schema - 1) == 0) {
+        const char *name = text + sizeof schema - 1;
+        if (strcmp(name, TIMING_SCHEMA) != 0 && strcmp(name, TIMING_SCHEMA_BEFORE) != 0) {
+            return bad(at, "the schema " TIMING_SCHEMA " or " TIMING_SCHEMA_BEFORE, name);
+        }
+        at->log->runs++;
+        at->warm_up = at->seen = 0;
+        at->named = false;
+    } else if (strncmp(text, warm_up, sizeof warm_up - 1) == 0) {
+        at->warm_up = atoi(text + sizeof warm_up - 1);
+    } else if (strncmp(text, solver, sizeof solver - 1) == 0) {
+        const char *name = text + sizeof solver - 1;
+        char *solvers = at->log->solvers; // those that the log names
+        const size_t used = strlen(solvers), room = sizeof at->log->solvers - used;
+        if (strcmp(name, "NA") != 0 && !strstr(solvers, name))
+            snprintf(solvers + used, room, "%s%s", used ? ", " : "", name);
+    }
+    return true;
+}
+
+/// Columns are found by name, so that logs older than a column can be read.
+static bool read_names(struct log_reader *at, const char *text)
+{
+    if (at->log->runs == 0) return bad(at, "a timing log's '# schema:' line first", text);
+    bool has_frame = false, has_time = false;
+    at->fields = 0;
+    for (const char *name = text; name; name = strchr(name, ',') ? strchr(name, ',') + 1 : NULL) {
+        const size_t length = strcspn(name, ",");
+        int column = COLUMN_COUNT - 1;
+        while (column >= 0 && (strlen(timing_columns[column].name) != length ||
+                               strncmp(timing_columns[column].name, name, length) != 0))
+            column--;
+        if (column < 0 || at->fields == COLUMN_COUNT) return bad(at, "the column names of " TIMING_SCHEMA, text);
+        has_frame |= column == COLUMN_FRAME;
+        has_time |= column == COLUMN_FRAME_MS;
+        at->column[at->fields++] = column;
+    }
+    if (!has_frame || !has_time) return bad(at, "the column names of " TIMING_SCHEMA, text);
+    at->named = true;
+    return true;
+}
+
+static bool read_row(struct log_reader *at, char *text)
+{
+    if (at->seen++ < at->warm_up) return true;
+    struct timing_log *log = at->log;
+    if (log->rows == at->capacity) {
+        if (at->capacity > INT_MAX / 2 / COLUMN_COUNT)
+            return fail(at->error, ERROR_INPUT, "%s: too many frames", at->path);
+        const int capacity = at->capacity ? 2 * at->capacity : 1024;
+        double *values = realloc(log->values, (size_t)capacity * COLUMN_COUNT * sizeof *values);
+        if (values) log->values = values;
+        int *run = realloc(log->run, (size_t)capacity * sizeof *run);
+        if (run) log->run = run;
+        if (!values || !run) return fail(at->error, ERROR_ENVIRONMENT, "%s: out of memory", at->path);
+        at->capacity = capacity;
+    }
+    double *row = &log->values[(size_t)log->rows * COLUMN_COUNT];
+    char *rest = text;
+    for (int c = 0; c < COLUMN_COUNT; c++) row[c] = NAN;
+    for (int i = 0; i < at->fields; i++) {
+        char *end = rest + 2;
+        bool missing = strncmp(rest, "NA", 2) == 0;
+        double value = missing ? NAN : strtod(rest, &end);
+        row[at->column[i]] = value;
+        if (end == rest || *end != (i + 1 < at->fields ? ',' : 0) || (!missing && !isfinite(value))) {
+            return bad(at, "a number or NA for each column, separated by commas", text);
+        }
+        rest = end + 1;
+    }
+    log->run[log->rows++] = log->runs - 1;
+    return true;
+}
+
+bool timing_log_read(const char *path, struct timing_log *log, struct error *error)
+{
+    *log = (struct timing_log){0};
+    struct log_reader at = {.path = path, .log = log, .error = error};
+    FILE *file = fopen(path, "r");
+    if (!file) return fail(error, ERROR_INPUT, "%s: %s", path, strerror(errno));
+    char *text = NULL;
+    size_t size = 0;
+    bool good = true;
+    while (good && getline(&text, &size, file) >= 0) {
+        at.line++;
+        text[strcspn(text, "\r\n")] = 0;
+        good = *text == '#' ? read_comment(&at, text) : at.named ? read_row(&at, text) : read_names(&at, text);
+    }
+    if (good && ferror(file)) good = fail(error, ERROR_INPUT, "%s: %s", path, strerror(errno));
+    if (good && log->rows == 0)
+        good = fail(error, ERROR_INPUT, "%s: there are no frames after the warm-up ones", path);
+    free(text);
+    fclose(file);
+    if (!good) timing_log_free(log);
+    return good;
+}
+
+void timing_log_free(struct timing_log *log)
+{
+    free(log->values);
+    free(log->run);
+    *log = (struct timing_log){0};
+}
+
+// --- how a log's frame times are distributed
+
+enum { BAR = 50, BINS = 24, SLOWEST = 5 };
+
+/// The measured values of a column in the order of the log; `values` has room for all rows. Returns how many.
+static int column_values(const struct timing_log *log, int column, double *values)
+{
+    int count = 0;
+    for (int row = 0; row < log->rows; row++) {
+        double value = log->values[(size_t)row * COLUMN_COUNT + (size_t)column];
+        if (!isnan(value)) values[count++] = value;
+    }
+    return count;
+}
+
+/// The smallest of 1, 2 and 5 times a power of ten that is not below `least`.
+static double round_step(double least)
+{
+    double power = pow(10, floor(log10(least)));
+    double times = least / power;
+    return power * (times <= 1 ? 1 : times <= 2 ? 2 : times <= 5 ? 5 : 10);
+}
+
+/// Bars over steps that read well, at most BINS up to p99 and one for the rest.
+static void print_histogram(const struct timing_log *log, double *values, FILE *out)
+{
+    const int count = column_values(log, COLUMN_FRAME_MS, values);
+    if (count == 0) return;
+    statistics_sort(values, count);
+    const double high = statistics_quantile(values, count, 0.99);
+    const double step = round_step(fmax((high - values[0]) / BINS, 1e-3)), start = step * floor(values[0] / step);
+    const int bins = (int)fmin(floor((high - start) / step) + 2, BINS + 2);
+    const int decimals = (int)fmax(0, ceil(-log10(step) - 1e-9));
+    int counts[BINS + 2] = {0}, most = 0;
+    for (int i = 0; i < count; i++) counts[(int)fmin(floor((values[i] - start) / step), bins - 1)]++;
+    for (int i = 0; i < bins; i++) most = counts[i] > most ? counts[i] : most;
+    fprintf(out, "\nframe_ms\n");
+    for (int i = 0; i < bins; i++) {
+        const double from = start + i * step, to = i < bins - 1 ? from + step : fmax(values[count - 1], from);
+        fprintf(out, "%8.*f to %-8.*f %7d ", decimals, from, decimals, to, counts[i]);
+        for (int k = 0; k < (int)ceil((double)BAR * counts[i] / most); k++) fputs("█", out);
+        fputc('\n', out);
+    }
+}
+
+/// For the slowest frames, the stages that took at least a tenth.
+static void print_slowest(const struct timing_log *log, FILE *out)
+{
+    int shown[SLOWEST];
+    fprintf(out, "\nslowest frames\n");
+    for (int n = 0; n < SLOWEST && n < log->rows; n++) {
+        int worst = -1;
+        for (int row = 0; row < log->rows; row++) {
+            bool taken = false;
+            for (int k = 0; k < n; k++) taken |= shown[k] == row;
+            double ms = log->values[(size_t)row * COLUMN_COUNT + COLUMN_FRAME_MS];
+            if (!taken && (worst < 0 || ms > log->values[(size_t)worst * COLUMN_COUNT + COLUMN_FRAME_MS]))
+                worst = row;
+        }
+        shown[n] = worst;
+        const double *row = &log->values[(size_t)worst * COLUMN_COUNT];
+        fprintf(out, "run %d frame %-6.0f at %8.3f s %9.3f ms:", log->run[worst] + 1, row[COLUMN_FRAME],
+                row[COLUMN_TIME], row[COLUMN_FRAME_MS]);
+        for (int c = COLUMN_INPUT_US; c <= COLUMN_SWAP_US; c++) {
+            if (row[c] > 100 * row[COLUMN_FRAME_MS]) fprintf(out, " %s %.0f", timing_columns[c].name, row[c]);
+        }
+        fputc('\n', out);
+    }
+}
+
+void distribution_print(const struct timing_log *log, const char *name, FILE *out)
+{
+    double *values = need_zeroed((size_t)log->rows, sizeof *values);
+    print_line(out, "%s: %d frames of %d %s, without the warm-up ones", name, log->rows, log->runs,
+               log->runs == 1 ? "run" : "runs");
+    if (log->solvers[0]) print_line(out, "solver: %s", log->solvers);
+    fprintf(out, "\n%-18s %10s %10s %10s %10s\n", "", "p50", "p95", "p99", "largest");
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        static const double at[] = {0.5, 0.95, 0.99, 1};
+        const struct column *column = &timing_columns[c];
+        const int count = column_values(log, c, values);
+        if ((column->use != COLUMN_COST && column->use != COLUMN_WAIT) || count == 0) continue;
+        statistics_sort(values, count);
+        fprintf(out, "%-18s", column->name);
+        for (int i = 0; i < 4; i++) {
+            const int decimals = column->is_count ? 0 : column->decimals > 1 ? 3 : 1;
+            fprintf(out, " %10.*f", decimals, statistics_quantile(values, count, at[i]));
+        }
+        fputc('\n', out);
+    }
+    fputc('\n', out);
+    for (int row = 0; row < log->rows; row++) values[row] = log->values[(size_t)row * COLUMN_COUNT + COLUMN_FRAME_MS];
+    print_over(values, log->run, log->rows, out);
+    print_low(values, column_values(log, COLUMN_FRAME_INTERVAL_MS, values), 18, out);
+    print_histogram(log, values, out);
+    print_slowest(log, out);
+    free(values);
 }

@@ -1,6 +1,6 @@
 /// Timing logs.
 #include "fuzz.h"
-#include "timing/columns.h"
+#include "timing/framelog.h"
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {

@@ -2,7 +2,7 @@
 #include "bench/bench.h"
 #include "base/error.h"
 #include "base/progress.h"
-#include "timing/columns.h"
+#include "timing/framelog.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdlib.h>

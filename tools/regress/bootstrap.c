@@ -3,7 +3,7 @@
 /// weights until the quantile's share of the total is reached.
 #include "regress/bootstrap.h"
 #include "base/need.h"
-#include "timing/columns.h"
+#include "timing/framelog.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>
