@@ -4,7 +4,7 @@
 
 #include "analysis/poles.h"
 #include "analysis/rigid.h"
-#include "base/pool.h"
+#include "base/need.h"
 #include <wiggly/wiggly.h>
 
 // One complex coordinate of a motion: its time series R and normal coordinate Ñ with S ≈ Re(R Ñ) (eq. 28).

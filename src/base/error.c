@@ -54,22 +54,17 @@ uint32_t utf8_next(const char **text)
     return codepoint;
 }
 
-/// U+0080 … U+009F are control characters as well: some terminals obey them.
-static int plain_length(const char *s)
-{
-    const char *next = s;
-    const uint32_t c = utf8_next(&next);
-    const bool is_broken = c == REPLACEMENT && next == s + 1, is_control = c < 0x20 || (c >= 0x7F && c < 0xA0);
-    return is_broken || is_control ? 0 : (int)(next - s);
-}
-
 void printable(const char *text, char *shown, size_t size)
 {
     static const char more[] = "…";
     size_t used = 0, cut = 0; // `cut`: last position at which "…" still fits
     for (const char *s = text; *s;) {
         char piece[8];
-        int taken = plain_length(s), length = taken;
+        const char *next = s;
+        const uint32_t c = utf8_next(&next);
+        // U+0080 … U+009F are control characters as well: some terminals obey them.
+        const bool is_broken = c == REPLACEMENT && next == s + 1, is_control = c < 0x20 || (c >= 0x7F && c < 0xA0);
+        int taken = is_broken || is_control ? 0 : (int)(next - s), length = taken;
         if (taken > 0) {
             memcpy(piece, s, (size_t)taken);
         } else {

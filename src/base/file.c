@@ -1,4 +1,4 @@
-/// Reads files, writes them through a temporary file and a rename, and hashes their content.
+/// Reads files, writes them through a temporary file and a rename, hashes their content, and resolves paths.
 #include "base/file.h"
 #include "base/hash.h"
 #include "base/need.h"
@@ -10,6 +10,7 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
+#include <strings.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <sys/xattr.h>
@@ -215,19 +216,6 @@ bool file_check_unread(const char *path, struct error *error)
     return true;
 }
 
-/// Empties a folder that file_folder_beside() has made.
-static void empty(int folder)
-{
-    const int own = dup(folder);
-    DIR *directory = fdopendir(own);
-    if (!directory) {
-        if (own >= 0) close(own);
-        return;
-    }
-    for (const struct dirent *entry; (entry = readdir(directory)) != NULL;) unlinkat(folder, entry->d_name, 0);
-    closedir(directory);
-}
-
 /// Removes a file or folder left by a program that has ended. One of another machine is locked while its program runs.
 static void remove_stale(int folder, const char *name)
 {
@@ -241,8 +229,15 @@ static void remove_stale(int folder, const char *name)
     struct stat about;
     if (file < 0) return;
     if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &about) == 0) {
-        const bool is_folder = S_ISDIR(about.st_mode);
-        if (is_folder) empty(file);
+        const bool is_folder = S_ISDIR(about.st_mode); // which file_folder_beside() has made
+        const int own = is_folder ? dup(file) : -1;
+        DIR *directory = own >= 0 ? fdopendir(own) : NULL;
+        for (const struct dirent *entry; directory && (entry = readdir(directory)) != NULL;)
+            unlinkat(file, entry->d_name, 0);
+        if (directory)
+            closedir(directory);
+        else if (own >= 0)
+            close(own);
         unlinkat(folder, name, is_folder ? AT_REMOVEDIR : 0);
     }
     close(file);
@@ -289,6 +284,7 @@ static int create_beside(const char *target, bool is_folder, mode_t mode, char *
         char name[64];
         snprintf(name, sizeof name, ".wiggly-%ld-%d.tmp", (long)getpid(), i);
         *temporary = beside(target, name);
+        need_at_end = file_remove_unfinished;
         if (!is_folder) replace_unfinished(NULL, *temporary); // a signal may come as soon as the file exists
         int file = !is_folder                     ? open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode)
                    : mkdir(*temporary, mode) == 0 ? open(*temporary, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
@@ -313,17 +309,6 @@ int file_folder_beside(const char *path, char **folder)
     return create_beside(path, true, 0700, folder);
 }
 
-/// The common rights of everyone but the owner: the group, others, and each ACL entry (8 bytes: tag, rights, id).
-static mode_t common_rights(mode_t mode, const unsigned char *acl, ssize_t size)
-{
-    enum { VERSION = 4, ENTRY = 8, OWNER = 1 };
-    mode_t common = mode >> 3 & mode & 7;
-    for (ssize_t at = VERSION; at + ENTRY <= size; at += ENTRY) {
-        if (acl[at] != OWNER) common &= acl[at + 2];
-    }
-    return common;
-}
-
 /// Gives a new file the owner, group, mode and ACL of an old one. If group or ACL cannot be set, group and others get only the rights that
 /// both had: members of the old group are others now. If the mode cannot be set, the file stays private as it was created.
 static bool keep_rights(int file, const char *path, const struct stat *old)
@@ -334,7 +319,13 @@ static bool keep_rights(int file, const char *path, const struct stat *old)
     const bool has_group = has_owner || fchown(file, (uid_t)-1, old->st_gid) == 0;
     fremovexattr(file, acl_name); // inherited from the folder
     const bool kept = has_group && (size < 0 || fsetxattr(file, acl_name, acl, (size_t)size, 0) == 0);
-    const mode_t common = common_rights(old->st_mode, acl, size);
+
+    // The common rights of everyone but the owner: the group, others, and each ACL entry (8 bytes: tag, rights, id).
+    enum { VERSION = 4, ENTRY = 8, OWNER = 1 };
+    mode_t common = old->st_mode >> 3 & old->st_mode & 7;
+    for (ssize_t at = VERSION; at + ENTRY <= size; at += ENTRY) {
+        if (acl[at] != OWNER) common &= acl[at + 2];
+    }
     const mode_t rest = kept ? old->st_mode & 0077 : common << 3 | common;
     return fchmod(file, (old->st_mode & 0700) | rest) == 0 || is_unsupported(errno);
 }
@@ -400,17 +391,6 @@ bool file_output_open(struct file_output *output, const char *path, struct error
     return fail_to(error, ERROR_ENVIRONMENT, "be written", path, cause);
 }
 
-/// The folder's entry must be on the disk, too. If the file system cannot do that, the content is still safe.
-static void sync_folder(const char *target)
-{
-    char *folder = beside(target, ".");
-    int file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    free(folder);
-    if (file < 0) return;
-    fsync(file);
-    close(file);
-}
-
 /// Forgets the temporary file.
 static void forget(struct file_output *output)
 {
@@ -462,7 +442,14 @@ bool file_output_commit(struct file_output *output, struct error *error)
     }
     if (done && replaces) {
         forget(output);
-        sync_folder(output->target);
+        // The folder's entry must be on the disk, too. If the file system cannot do that, the content is still safe.
+        char *folder = beside(output->target, ".");
+        const int file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+        free(folder);
+        if (file >= 0) {
+            fsync(file);
+            close(file);
+        }
     }
     if (!done) fail_to(error, ERROR_ENVIRONMENT, "be written", output->path, cause);
     file_output_discard(output);
@@ -507,4 +494,97 @@ uint64_t file_content(const char *path)
     const uint64_t content = hash_bytes(HASH_START, data, size);
     free(data);
     return content ? content : 1;
+}
+
+// --- paths
+
+const char *path_name(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    return slash ? slash + 1 : path;
+}
+
+bool path_folder(const char *path, char folder[PATH_LIMIT])
+{
+    const char *slash = strrchr(path, '/');
+    size_t length = slash ? (size_t)(slash - path) : 0;
+    if (slash == path) length = 1; // the root keeps its slash
+    if (length >= PATH_LIMIT) return false;
+    memcpy(folder, path, length);
+    folder[length] = '\0';
+    return true;
+}
+
+/// The absolute path of a folder; if it does not exist, links and dots stay.
+static bool absolute_folder(const char *folder, char absolute[PATH_LIMIT])
+{
+    char working[PATH_LIMIT];
+    if (strlen(folder) >= PATH_LIMIT) return false;
+    if (realpath(folder, absolute)) return true;
+    if (folder[0] == '/') {
+        strcpy(absolute, folder);
+        return true;
+    }
+    return getcwd(working, sizeof working) && snprintf(absolute, PATH_LIMIT, "%s/%s", working, folder) < PATH_LIMIT;
+}
+
+bool path_resolve(const char *folder, const char *path, char absolute[PATH_LIMIT])
+{
+    char base[PATH_LIMIT];
+    if (path[0] == '/') {
+        if (strlen(path) >= PATH_LIMIT) return false;
+        strcpy(absolute, path);
+    } else {
+        if (!absolute_folder(folder && folder[0] ? folder : ".", base)) return false;
+        if (snprintf(absolute, PATH_LIMIT, "%s/%s", base, path) >= PATH_LIMIT) return false;
+    }
+
+    char *out = absolute; // without ".", ".." and repeated slashes
+    for (const char *in = absolute; *in;) {
+        while (*in == '/') in++;
+        size_t length = strcspn(in, "/");
+        if (length == 2 && memcmp(in, "..", 2) == 0) {
+            while (out > absolute && *--out != '/') continue;
+        } else if (length > 0 && !(length == 1 && *in == '.')) {
+            *out++ = '/';
+            memmove(out, in, length);
+            out += length;
+        }
+        in += length;
+    }
+    if (out == absolute) *out++ = '/';
+    *out = '\0';
+    return true;
+}
+
+bool path_rebase(const char *path, const char *from, const char *to, char moved[PATH_LIMIT])
+{
+    char old_folder[PATH_LIMIT], new_folder[PATH_LIMIT], absolute[PATH_LIMIT];
+    if (path[0] == '/' || strcmp(from ? from : "", to ? to : "") == 0) return false;
+    if (!path_resolve(from, ".", old_folder) || !path_resolve(to, ".", new_folder)) return false;
+    if (strcmp(old_folder, new_folder) == 0) return false;
+    if (!path_resolve(from, path, absolute)) return false;
+
+    size_t common = 0, used = 0; // bytes of the leading names that are the same
+    for (size_t i = 0;; i++) {
+        const char a = absolute[i], b = new_folder[i];
+        if ((a == '/' || a == '\0') && (b == '/' || b == '\0')) common = i;
+        if (a != b || a == '\0') break;
+    }
+    for (const char *rest = new_folder + common; *rest; rest++) {
+        if (*rest != '/' || rest[1] == '\0') continue;
+        if (used + 4 > PATH_LIMIT) return false;
+        memcpy(moved + used, "../", 4);
+        used += 3;
+    }
+    const char *below = absolute + common + (absolute[common] == '/');
+    if (used + strlen(below) + 1 > PATH_LIMIT) return false;
+    strcpy(moved + used, below);
+    return true;
+}
+
+bool path_has_end(const char *path, const char *end)
+{
+    size_t length = strlen(path), n = strlen(end);
+    return length > n && strcasecmp(path + length - n, end) == 0;
 }

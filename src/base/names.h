@@ -2,7 +2,7 @@
 #ifndef BASE_NAMES_H
 #define BASE_NAMES_H
 
-#include "base/pool.h"
+#include "base/need.h"
 #include <stdbool.h>
 #include <stdint.h>
 

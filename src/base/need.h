@@ -28,11 +28,30 @@ bool need_has_room(size_t bytes);
 /// What need() does where memory runs out, for a library that has said so.
 _Noreturn void need_failed(void);
 
+/// Where the process ends so, it is called last, to remove what is half-written. NULL: nothing.
+extern void (*_Atomic need_at_end)(void);
+
 /// Saves the work, and adds to the sentence in `error` where it is. It may be called in any thread, once; if memory runs out in it too,
 /// the process ends there.
 typedef void need_rescue(void *user, struct error *error);
 
 /// From now on `rescue` (NULL: none) is called where memory runs out, and has `reserve` bytes that are put by for it.
 void need_keep(size_t reserve, need_rescue *rescue, void *user);
+
+// Memory that is freed together.
+
+/// Starts as zeros.
+struct pool {
+    struct pool_block *last;
+};
+
+/// `count` members of `size` bytes each, all zero; never NULL, as from need().
+void *pool_take(struct pool *pool, size_t count, size_t size) __attribute__((returns_nonnull));
+
+/// The same; NULL if memory is short.
+void *pool_try(struct pool *pool, size_t count, size_t size);
+
+/// All of it at once.
+void pool_free(struct pool *pool);
 
 #endif

@@ -56,21 +56,6 @@ static const char *value_of(const char *text, const char *key)
     return found + 1 + strspn(found + 1, " ");
 }
 
-static bool read_type(struct npy *npy, const char *path, const char *text, struct error *error)
-{
-    static const char *const types[] = {"'<f4'", "'<f8'", "'>f4'", "'>f8'"};
-    const char *type = value_of(text, "'descr'");
-    bool known = false;
-    if (!type) return bad_header(path, error);
-    for (int i = 0; i < 4; i++) known |= strncmp(type, types[i], strlen(types[i])) == 0;
-    if (!known)
-        return fail(error, ERROR_INPUT, "%s: expected numbers of type float32 or float64, got %.*s", path,
-                    (int)strcspn(type, ","), type);
-    npy->swapped = type[1] == '>';
-    npy->number_size = type[3] - '0';
-    return true;
-}
-
 /// Parses a shape such as "(96, 4000, 3)"; false if it is none.
 static bool read_lengths(struct npy *npy, const char *shape)
 {
@@ -105,7 +90,18 @@ bool npy_read_header(struct npy *npy, const char *path, const char *data, size_t
                     size);
     memcpy(text, data + npy->data - length, length);
     text[length] = '\0';
-    if (!read_type(npy, path, text, error)) return false;
+
+    static const char *const types[] = {"'<f4'", "'<f8'", "'>f4'", "'>f8'"};
+    const char *type = value_of(text, "'descr'");
+    bool known = false;
+    if (!type) return bad_header(path, error);
+    for (int i = 0; i < 4; i++) known |= strncmp(type, types[i], strlen(types[i])) == 0;
+    if (!known)
+        return fail(error, ERROR_INPUT, "%s: expected numbers of type float32 or float64, got %.*s", path,
+                    (int)strcspn(type, ","), type);
+    npy->swapped = type[1] == '>';
+    npy->number_size = type[3] - '0';
+
     const char *shape = value_of(text, "'shape'"), *order = value_of(text, "'fortran_order'");
     if (!shape || !order || !read_lengths(npy, shape)) return bad_header(path, error);
     npy->columns_first = strncmp(order, "True", 4) == 0;

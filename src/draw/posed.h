@@ -4,7 +4,7 @@
 #ifndef DRAW_POSED_H
 #define DRAW_POSED_H
 
-#include "base/pool.h"
+#include "base/need.h"
 #include "draw/stage.h"
 #include <stdbool.h>
 #include <stdint.h>

@@ -5,7 +5,7 @@
 
 #include "base/file.h"
 #include "base/names.h"
-#include "base/pool.h"
+#include "base/need.h"
 #include "export/export.h"
 #include "model/motion.h"
 

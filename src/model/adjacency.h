@@ -2,7 +2,7 @@
 #ifndef MODEL_ADJACENCY_H
 #define MODEL_ADJACENCY_H
 
-#include "base/pool.h"
+#include "base/need.h"
 #include <stdbool.h>
 #include <stdint.h>
 

@@ -4,7 +4,7 @@
 #ifndef MODEL_GLTF_H
 #define MODEL_GLTF_H
 
-#include "base/pool.h"
+#include "base/need.h"
 #include "model/surface.h"
 #include <stdbool.h>
 #include <stddef.h>

@@ -3,7 +3,7 @@
 #ifndef SCENE_STORAGE_H
 #define SCENE_STORAGE_H
 
-#include "base/pool.h"
+#include "base/need.h"
 #include "scene/evaluate.h"
 #include "scene/order.h"
 

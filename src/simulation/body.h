@@ -4,7 +4,7 @@
 #ifndef SIMULATION_BODY_H
 #define SIMULATION_BODY_H
 
-#include "base/pool.h"
+#include "base/need.h"
 #include "simulation/linear.h"
 #include <stdbool.h>
 

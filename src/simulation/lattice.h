@@ -14,7 +14,7 @@
 #define SIMULATION_LATTICE_H
 
 #include "base/error.h"
-#include "base/pool.h"
+#include "base/need.h"
 #include "simulation/solid.h"
 #include <stdbool.h>
 
