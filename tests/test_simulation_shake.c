@@ -93,7 +93,8 @@ BOX_TEST(a_moving_base_shakes_a_mode_as_it_shakes_an_oscillator, 0.3f, 1, 300)
     s->options.damping = 0.1;
     soften(s);
     assert_near(soft_frequency(soft), 2, 1e-9);
-    struct drive drive = {.kind = DRIVE_BURST, .direction = {1, 0, 0}, .size = 1e-4, .frequency = 1.7, .seconds = 3};
+    struct base_drive drive = {
+        .kind = DRIVE_BURST, .direction = {1, 0, 0}, .size = 1e-4, .frequency = 1.7, .seconds = 3};
     shake_by(s, h, 1e-10);
     integrator->mass_damping = soft->alpha;
     integrator->stiffness_damping = soft->beta;
@@ -331,7 +332,7 @@ TEST(a_track_is_smooth)
     fputs("seconds,metres\n", file);
     for (int i = 0; i < 5; i++) fprintf(file, "%g, %g\n", time[i], value[i]);
     fclose(file);
-    struct drive drive = {.size = 1};
+    struct base_drive drive = {.size = 1};
     assert_done(drive_read_track(&drive, path, &error));
     unlink(path);
     for (int i = 0; i < 5; i++) assert_near(drive_place(&drive, time[i]), value[i], 1e-12);
@@ -360,7 +361,7 @@ TEST(a_track_stays_finite)
         {"1,0\n0,1\n", "track.csv:2: expected a time a nanosecond or more after 1, got 0"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        struct drive drive = {.size = 1};
+        struct base_drive drive = {.size = 1};
         struct error error = {0};
         const char *path = temporary_file("track.csv", cases[i].text, strlen(cases[i].text));
         const bool good = drive_read_track(&drive, path, &error);

@@ -4,13 +4,13 @@
 #include "base/file.h"
 #include "base/names.h"
 #include "base/need.h"
-#include "commands/analyze_scene.h"
 #include "commands/commands.h"
 #include "commands/companion.h"
-#include "commands/open_mesh.h"
 #include "commands/options.h"
 #include "commands/progress.h"
 #include "model/character.h"
+#include "scene/edit.h"
+#include "scene/load.h"
 #include "simulation/soft.h"
 #include <math.h>
 #include <stdio.h>
@@ -18,7 +18,7 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX, DIRECTION_SIZE = 64 };
+enum { FILES_MAX = 16, MODES_MAX = ANALYSIS_MODES_MAX };
 
 static const double recommended_bandwidth = 0.1; ///< the spline's default; an analysis of one oscillation cannot tell
 static const double fast_warning = 0.01;         ///< share of power near half the frame rate that causes a warning
@@ -46,6 +46,15 @@ struct input {
     struct companion made; ///< all zero if wiggly did not simulate it
     struct rigid base;
     double fps;
+};
+
+/// Analysis results of a coordinate that its file does not hold.
+struct analyzed {
+    int rank; ///< rank within its motion, from 0
+    double fps;
+    int frames;
+    double complex *series; ///< R, one value per frame
+    struct knots knots;
 };
 
 struct result {
@@ -95,138 +104,7 @@ static char *make_name(const char *path, const struct character *character)
 /// Rounded to a millionth, so that files do not depend on the processor LAPACK ran on.
 static double rounded(double value) { return round(value * 1e6) / 1e6; }
 
-static void keep(struct coordinate *to, const struct component *c, const struct analysis *analysis, const char *path,
-                 const struct character *character)
-{
-    to->name = make_name(path, character);
-    to->frequency = rounded(c->frequency);
-    to->damping = rounded(c->damping);
-    to->explained = rounded(c->explained);
-    to->pca1 = rounded(analysis->pca1);
-    to->pca2 = rounded(analysis->pca2);
-    for (int n = 0; n < 3 * c->vertices; n++) {
-        to->re[n / 3][n % 3] = (float)creal(c->shape[n / 3][n % 3]);
-        to->im[n / 3][n % 3] = (float)cimag(c->shape[n / 3][n % 3]);
-    }
-}
-
-static void report_spline(const struct analyzed *analyzed, const struct component *c)
-{
-    const struct knots *k = &analyzed->knots;
-    if (!k->series) {
-        printf("    spline: \"mode\": \"complex\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %g\n",
-               c->frequency, c->damping, recommended_bandwidth);
-        return;
-    }
-    printf("    spline: \"mode\": \"%s\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %.3g, %d knot%s\n",
-           k->mode == WIGGLY_REAL ? "real" : "complex", k->frequency, k->damping, k->bandwidth, k->count,
-           k->count > 1 ? "s" : "");
-    printf("    relative error of its motion: %.3g by this spline, %.3g by the coordinate's own time series\n",
-           k->error, component_error(c, c->series));
-}
-
-static void print_direction(const double vector[3], double length, char text[DIRECTION_SIZE])
-{
-    double unit[3];
-    for (int k = 0; k < 3; k++) unit[k] = printable_number(vector[k] / length, 0.01);
-    snprintf(text, DIRECTION_SIZE, "(%.2f, %.2f, %.2f)", unit[0], unit[1], unit[2]);
-}
-
-static void report(const struct coordinate *to, const struct analyzed *analyzed, const struct component *c)
-{
-    print_line(stdout, "  %s: explains %.2f %%; real PCA's first %.2f %%, its first two %.2f %%", to->name,
-               100 * to->explained, 100 * to->pca1, 100 * to->pca2);
-    char along[DIRECTION_SIZE];
-    print_direction(c->direction, 1, along);
-    printf("    frequency %.4g Hz, damping ratio %.3g; mostly along %s, %.3g m at most\n", c->frequency, c->damping,
-           along, c->reach);
-    report_spline(analyzed, c);
-    printf("    lag over the surface: from %.0f to %.0f degrees, with 5 %% of the motion beyond each end\n",
-           printable_number(c->first_lag, 1), printable_number(c->last_lag, 1));
-}
-
-static void report_motion(const struct job *job, const struct input *in, const struct analysis *a)
-{
-    const struct rigid *base = &in->base;
-    print_line(stdout, "%s: %d frames of %d vertices at %g fps", in->motion.path, in->motion.frames,
-               in->motion.vertices, in->fps);
-    if (base->frames > 0) {
-        printf("  removed the motion of the %s: up to %.3g m and %.3g degrees\n", base->whole ? "whole mesh" : "base",
-               printable_number(base->travel, 1e-4), printable_number(base->angle, 0.01));
-    }
-    if (a->count < job->modes)
-        printf("  %d of %d coordinates: the motion has no more poles that matter\n", a->count, job->modes);
-}
-
-/// Warns of frequencies close to half the frame rate, which are measured badly, or above it, which are not seen.
-static void warn_of_speed(const struct motion *motion, const struct analysis *a, double fps)
-{
-    bool fast = a->fast_share > fast_warning;
-    for (int k = 0; k < a->count; k++) fast |= a->components[k].frequency > fast_pole * fps / 2;
-    if (fast) {
-        print_line(stderr,
-                   "%s: warning: parts move faster than %g fps can show (%.1f %% of the motion above %.4g Hz); "
-                   "simulate with more frames per second",
-                   motion->path, fps, 100 * a->fast_share, fast_pole * fps / 2);
-    }
-}
-
-/// A driven motion is no sum of free swings. The method may then find two large motions that nearly cancel.
-static void warn_of_cancelling(const struct motion *motion, const struct analysis *a)
-{
-    if (a->cancelled == 0) return;
-    print_line(stderr,
-               "%s: warning: left out %d pole%s that only cancel others; if something drives the mesh, "
-               "set --from to the second when it stops, or use --method cpca",
-               motion->path, a->cancelled, a->cancelled > 1 ? "s" : "");
-}
-
-/// Of a mesh that is not known to be held, a coordinate may be a rigid motion.
-static void warn_of_rigid(const struct input *in, const struct analysis *a, const struct surface *rest)
-{
-    for (int k = 0; in->base.loose && k < a->count; k++) {
-        const double share = rigid_share((const double complex(*)[3])a->components[k].shape, rest);
-        if (share < rigid_warning) continue;
-        print_line(
-            stderr,
-            "%s: warning: %.0f %% of coordinate %d is a rigid motion of the whole mesh; name what holds it with "
-            "--pin, or --pin none",
-            in->motion.path, 100 * share, k + 1);
-    }
-}
-
-/// The mesh at rest, whose arrays stay the character's.
-static struct surface rest_of(const struct character *c)
-{
-    return (struct surface){.position = c->position,
-                            .color = c->color,
-                            .vertex_count = c->vertex_count,
-                            .indices = c->indices,
-                            .index_count = c->index_count};
-}
-
-/// How the base moves: what --pin names, else what a simulation pinned, else what rests.
-static bool find_base(const struct job *job, struct input *in, const struct surface *rest,
-                      const struct lapack *lapack, struct error *error)
-{
-    const bool simulated = in->made.frames > 0;
-    struct region region = job->pinned;
-    if (!job->pin && simulated && !region_parse(in->made.pin, &region))
-        return fail(error, ERROR_INPUT, "%s: expected a region in what simulate wrote beside it, got \"%s\"",
-                    in->motion.path, in->made.pin);
-    if (!job->pin && simulated && !in->made.world && region.kind != REGION_NONE) return true;
-    if (!job->pin && !simulated) return rigid_find(&in->base, lapack, &in->motion, rest, NULL, error);
-    bool *pinned = need((size_t)rest->vertex_count + 1, sizeof *pinned);
-    for (int v = 0; v < rest->vertex_count; v++) pinned[v] = region.kind == REGION_NONE;
-    bool done =
-        region.kind == REGION_NONE || region_vertices(&region, rest, pinned) > 0 ||
-        fail(error, ERROR_INPUT, "%s: no vertex is in the region of --pin: name one that holds some", job->rest);
-    done = done && rigid_find(&in->base, lapack, &in->motion, rest, pinned, error);
-    free(pinned);
-    return done;
-}
-
-/// Opens a motion and finds what is known of it.
+/// Opens a motion, and finds what is known of it and how its base moves: what --pin names, else what a simulation pinned, else what rests.
 static bool open_input(const struct job *job, int file, const struct surface *rest, const struct lapack *lapack,
                        struct input *in, struct error *error)
 {
@@ -238,60 +116,136 @@ static bool open_input(const struct job *job, int file, const struct surface *re
     if (!companion_read(motion->path, motion->frames, motion->vertices, &in->made, error)) return false;
     in->fps = job->fps > 0 ? job->fps : motion->fps > 0 ? motion->fps : in->made.fps;
     if (!(in->fps > 0)) return fail(error, ERROR_USAGE, "%s: the file has no frame rate: give --fps N", motion->path);
-    return find_base(job, in, rest, lapack, error);
+
+    const bool simulated = in->made.frames > 0;
+    struct region region = job->pinned;
+    if (!job->pin && simulated && !region_parse(in->made.pin, &region))
+        return fail(error, ERROR_INPUT, "%s: expected a region in what simulate wrote beside it, got \"%s\"",
+                    motion->path, in->made.pin);
+    if (!job->pin && simulated && !in->made.world && region.kind != REGION_NONE) return true;
+    if (!job->pin && !simulated) return rigid_find(&in->base, lapack, motion, rest, NULL, error);
+    bool *pinned = need((size_t)rest->vertex_count + 1, sizeof *pinned);
+    for (int v = 0; v < rest->vertex_count; v++) pinned[v] = region.kind == REGION_NONE;
+    bool done =
+        region.kind == REGION_NONE || region_vertices(&region, rest, pinned) > 0 ||
+        fail(error, ERROR_INPUT, "%s: no vertex is in the region of --pin: name one that holds some", job->rest);
+    done = done && rigid_find(&in->base, lapack, motion, rest, pinned, error);
+    free(pinned);
+    return done;
 }
 
-/// Warns if a motion is centred far from the rest mesh: it may have other axes, units or an offset.
-static void warn_of_distance(const struct motion *motion, const struct analysis *analysis,
-                             const struct character *rest)
+/// Warns of what makes an analysis wrong or hard to use.
+static void warn_of_input(const struct input *in, const struct analysis *a, const struct surface *rest)
 {
+    const char *path = in->motion.path;
+
+    // A motion centred far from the rest mesh may have other axes, units or an offset.
     double centre[3] = {0}, distance = 0, size = 0;
     for (int n = 0; n < 3 * rest->vertex_count; n++) {
         double at = (double)rest->position[n / 3][n % 3];
         centre[n % 3] += at / rest->vertex_count;
     }
     for (int n = 0; n < 3 * rest->vertex_count; n++) {
-        double at = (double)rest->position[n / 3][n % 3];
-        double away = analysis->mean[n / 3][n % 3] - at;
+        double at = (double)rest->position[n / 3][n % 3], away = a->mean[n / 3][n % 3] - at;
         distance += away * away;
         size += (at - centre[n % 3]) * (at - centre[n % 3]);
     }
-    if (distance > 0.25 * size) {
+    if (distance > 0.25 * size)
         print_line(stderr, "%s: warning: the motion is not centred on the rest mesh; check axes, units and position",
-                   motion->path);
+                   path);
+
+    // Frequencies close to half the frame rate are measured badly; those above are not seen.
+    const double fastest = fast_pole * in->fps / 2;
+    bool fast = a->fast_share > fast_warning;
+    for (int k = 0; k < a->count; k++) fast |= a->components[k].frequency > fastest;
+    if (fast) {
+        print_line(stderr,
+                   "%s: warning: parts move faster than %g fps can show (%.1f %% of the motion above %.4g Hz); "
+                   "simulate with more frames per second",
+                   path, in->fps, 100 * a->fast_share, fastest);
+    }
+
+    // A driven motion is no sum of free swings. The method may then find two large motions that nearly cancel.
+    if (a->cancelled > 0) {
+        print_line(stderr,
+                   "%s: warning: left out %d pole%s that only cancel others; if something drives the mesh, "
+                   "set --from to the second when it stops, or use --method cpca",
+                   path, a->cancelled, a->cancelled > 1 ? "s" : "");
+    }
+
+    // Of a mesh that is not known to be held, a coordinate may be a rigid motion.
+    for (int k = 0; in->base.loose && k < a->count; k++) {
+        const double share = rigid_share((const double complex(*)[3])a->components[k].shape, rest);
+        if (share < rigid_warning) continue;
+        print_line(
+            stderr,
+            "%s: warning: %.0f %% of coordinate %d is a rigid motion of the whole mesh; name what holds it with "
+            "--pin, or --pin none",
+            path, 100 * share, k + 1);
     }
 }
 
-/// Keeps time series and knots, which only the scene and the coordinate table need.
-static void keep_course(const struct job *job, struct analyzed *to, struct component *c, int rank, double fps)
+/// Keeps a motion's components as coordinates, and reports on each. Time series and knots are for the scene and the table alone.
+static void keep_components(const struct job *job, const struct analysis *analysis, const struct input *in,
+                            struct result *result)
 {
-    *to = (struct analyzed){.rank = rank, .fps = fps, .frames = c->frames};
-    if (!job->scene && !job->coordinates) return;
-    knots_create(&to->knots, c, fps);
-    to->series = need((size_t)c->frames, sizeof *to->series);
-    memcpy(to->series, c->series, (size_t)c->frames * sizeof *to->series);
-}
-
-static void keep_all(const struct job *job, const struct analysis *analysis, const struct motion *motion, double fps,
-                     struct result *result)
-{
-    for (int k = 0; k < analysis->count; k++) {
+    for (int rank = 0; rank < analysis->count; rank++) {
         struct coordinate *to = &result->character.coordinates[result->filled];
         struct analyzed *analyzed = &result->analyzed[result->filled++];
-        struct component *c = &analysis->components[k];
-        keep(to, c, analysis, motion->path, &result->character);
-        keep_course(job, analyzed, c, k, fps);
-        report(to, analyzed, c);
+        const struct component *c = &analysis->components[rank];
+        to->name = make_name(in->motion.path, &result->character);
+        to->frequency = rounded(c->frequency);
+        to->damping = rounded(c->damping);
+        to->explained = rounded(c->explained);
+        to->pca1 = rounded(analysis->pca1);
+        to->pca2 = rounded(analysis->pca2);
+        for (int n = 0; n < 3 * c->vertices; n++) {
+            to->re[n / 3][n % 3] = (float)creal(c->shape[n / 3][n % 3]);
+            to->im[n / 3][n % 3] = (float)cimag(c->shape[n / 3][n % 3]);
+        }
+        *analyzed = (struct analyzed){.rank = rank, .fps = in->fps, .frames = c->frames};
+        const struct knots *knots = job->scene || job->coordinates ? &analyzed->knots : NULL;
+        if (knots) {
+            knots_create(&analyzed->knots, c, in->fps);
+            analyzed->series = need((size_t)c->frames, sizeof *analyzed->series);
+            memcpy(analyzed->series, c->series, (size_t)c->frames * sizeof *analyzed->series);
+        }
+
+        double along[3];
+        for (int k = 0; k < 3; k++) along[k] = printable_number(c->direction[k], 0.01);
+        print_line(stdout, "  %s: explains %.2f %%; real PCA's first %.2f %%, its first two %.2f %%", to->name,
+                   100 * to->explained, 100 * to->pca1, 100 * to->pca2);
+        printf("    frequency %.4g Hz, damping ratio %.3g; mostly along (%.2f, %.2f, %.2f), %.3g m at most\n",
+               c->frequency, c->damping, along[0], along[1], along[2], c->reach);
+        if (knots) {
+            printf("    spline: \"mode\": \"%s\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %.3g, %d "
+                   "knot%s\n",
+                   knots->mode == WIGGLY_REAL ? "real" : "complex", knots->frequency, knots->damping,
+                   knots->bandwidth, knots->count, knots->count > 1 ? "s" : "");
+            printf(
+                "    relative error of its motion: %.3g by this spline, %.3g by the coordinate's own time series\n",
+                knots->error, component_error(c, c->series));
+        } else {
+            printf("    spline: \"mode\": \"complex\", \"frequency\": %.4g, \"damping\": %.3g, \"bandwidth\": %g\n",
+                   c->frequency, c->damping, recommended_bandwidth);
+        }
+        printf("    lag over the surface: from %.0f to %.0f degrees, with 5 %% of the motion beyond each end\n",
+               printable_number(c->first_lag, 1), printable_number(c->last_lag, 1));
     }
     printf("  relative error of the motion with %d coordinate%s: %.3g; as many real principal components: %.3g\n",
            analysis->count, analysis->count > 1 ? "s" : "", analysis->left, analysis->real_left);
 }
 
 /// Analyses a file and appends its coordinates.
-static bool analyse(const struct job *job, int file, const struct lapack *lapack, struct result *result,
-                    struct error *error)
+static bool analyse_file(const struct job *job, int file, const struct lapack *lapack, struct result *result,
+                         struct error *error)
 {
-    const struct surface rest = rest_of(&result->character);
+    const struct character *character = &result->character;
+    const struct surface rest = {.position = character->position, // the arrays stay the character's
+                                 .color = character->color,
+                                 .vertex_count = character->vertex_count,
+                                 .indices = character->indices,
+                                 .index_count = character->index_count};
     struct input in = {.motion.file = -1};
     struct analysis analysis = {0};
     bool done = open_input(job, file, &rest, lapack, &in, error);
@@ -309,12 +263,16 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
     };
     done = done && analysis_create(&analysis, lapack, &in.motion, &plan, error);
     if (done) {
-        warn_of_distance(&in.motion, &analysis, &result->character);
-        warn_of_speed(&in.motion, &analysis, in.fps);
-        warn_of_cancelling(&in.motion, &analysis);
-        warn_of_rigid(&in, &analysis, &rest);
-        report_motion(job, &in, &analysis);
-        keep_all(job, &analysis, &in.motion, in.fps, result);
+        warn_of_input(&in, &analysis, &rest);
+        print_line(stdout, "%s: %d frames of %d vertices at %g fps", in.motion.path, in.motion.frames,
+                   in.motion.vertices, in.fps);
+        if (in.base.frames > 0)
+            printf("  removed the motion of the %s: up to %.3g m and %.3g degrees\n",
+                   in.base.whole ? "whole mesh" : "base", printable_number(in.base.travel, 1e-4),
+                   printable_number(in.base.angle, 0.01));
+        if (analysis.count < job->modes)
+            printf("  %d of %d coordinates: the motion has no more poles that matter\n", analysis.count, job->modes);
+        keep_components(job, &analysis, &in, result);
     }
     analysis_free(&analysis);
     rigid_free(&in.base);
@@ -322,81 +280,142 @@ static bool analyse(const struct job *job, int file, const struct lapack *lapack
     return done;
 }
 
-/// Frees coordinates without poles.
-static void drop_unused(struct result *result)
+/// Adds a spline and its knots.
+static bool add_spline(struct document *document, const char *name, const struct analyzed *analyzed,
+                       struct error *error)
 {
-    struct character *c = &result->character;
-    while (c->coordinate_count > result->filled) {
-        struct coordinate *last = &c->coordinates[--c->coordinate_count];
-        free(last->re);
-        free(last->im);
+    const struct knots *knots = &analyzed->knots;
+    const struct {
+        enum parameter parameter;
+        double value;
+    } set[] = {{PARAMETER_MODE, knots->mode},
+               {PARAMETER_FREQUENCY, knots->frequency},
+               {PARAMETER_DAMPING, knots->damping},
+               {PARAMETER_WIND_UP, 0}, // the fit is to the whole curve
+               {PARAMETER_BANDWIDTH, knots->bandwidth}};
+    const int spline = document->spline_count, count = knots->mode == WIGGLY_COMPLEX ? 5 : 4;
+    if (!edit_spline_add(document, -1, name, NULL, error)) return false;
+    for (int i = 0; i < count; i++) {
+        const struct param value = param_number(set[i].value);
+        if (!edit_parameter(document, spline, set[i].parameter, &value, error)) return false;
     }
+    for (int i = 0; i < knots->count; i++) {
+        const double frame = knots->frame[i] * document->fps / analyzed->fps;
+        const struct knot knot = {.frame = round(frame * 1000) / 1000,
+                                  .value = knots->value[i],
+                                  .slope = knots->sloped ? knots->slope[i] : 0,
+                                  .has_slope = knots->sloped,
+                                  .stiffness = KNOT_DEFAULT_STIFFNESS};
+        if (!edit_knot_insert(document, spline, &knot, error)) return false;
+    }
+    return true;
 }
 
-static bool analyse_files(const struct job *job, const struct lapack *lapack, struct surface *rest,
-                          struct result *result, struct error *error)
+/// Writes a scene for the character file `model`, with one spline per coordinate, as many coordinates as a scene allows. The first
+/// coordinate of every motion comes before the second of any.
+static bool write_scene(const char *path, const char *model, const struct character *character,
+                        const struct analyzed *analyzed, struct error *error)
 {
-    int files = 0;
-    while (job->files[files]) files++;
-    result->analyzed = need_zeroed((size_t)(files * job->modes), sizeof *result->analyzed);
-    if (!character_create(&result->character, rest, files * job->modes)) return fail_no_memory(error, job->rest);
-    for (int i = 0; i < files; i++) {
-        if (!analyse(job, i, lapack, result, error)) return false;
+    char folder[PATH_LIMIT], name[] = "character", *file = need_text(path_name(model));
+    struct document *document = document_create();
+    if (path_folder(model, folder) && folder[0]) document->folder = need_text(folder);
+    struct drive drives[CHARACTER_MAX_DRIVES];
+    struct rig rig = {
+        .kind = RIG_CHARACTER, .name = name, .character = {.model = file, .phases = -1, .drives = drives}};
+    int chosen[CHARACTER_MAX_DRIVES], count = 0;
+    double fps = 0, seconds = 0;
+    for (int rank = 0; rank < character->coordinate_count; rank++) {
+        for (int i = 0; i < character->coordinate_count && count < CHARACTER_MAX_DRIVES; i++) {
+            if (analyzed[i].rank == rank) chosen[count++] = i;
+        }
     }
-    drop_unused(result);
-    const struct character *character = &result->character;
-    const char *const also[] = {job->scene,
-                                job->coordinates}; // all or none, though more was read than the command line named
-    for (int i = 0; i < 2; i++) {
-        if (also[i] && !file_check_unread(also[i], error)) return false;
+    for (int i = 0; i < count; i++) {
+        const struct analyzed *each = &analyzed[chosen[i]];
+        fps = fmax(fps, each->fps);
+        seconds = fmax(seconds, (each->frames - 1) / each->fps);
     }
-    return character_write(job->output, character, !job->no_normals, error) &&
-           (!job->scene || analyze_scene_write(job->scene, job->output, character, result->analyzed, error)) &&
-           (!job->coordinates || analyze_coordinates_write(job->coordinates, character, result->analyzed, error));
+    bool done = edit_fps(document, fps, false, error) &&
+                edit_range(document, 0, (int)round(fps * seconds), RANGE_REFUSE, error);
+    for (int i = 0; done && i < count; i++) {
+        char *driver = character->coordinates[chosen[i]].name;
+        drives[rig.character.drive_count++] = (struct drive){.name = driver, .spline = i, .amplitude = 1};
+        done = add_spline(document, driver, &analyzed[chosen[i]], error);
+    }
+    done = done && edit_rig_add(document, &rig, error) && scene_save(document, path, error);
+    document_destroy(document);
+    free(file);
+    return done;
 }
 
-static void free_result(struct result *result)
+/// Writes R and the spline's x of every coordinate, one row per frame, as CSV: frame, NAME.re, NAME.im, NAME.fit.re, NAME.fit.im.
+/// Fields stay empty after a motion's end.
+static bool write_coordinates(const char *path, const struct character *character, const struct analyzed *analyzed,
+                              struct error *error)
 {
-    for (int i = 0; i < result->filled; i++) {
-        free(result->analyzed[i].series);
-        knots_free(&result->analyzed[i].knots);
+    static const char *const suffixes[] = {".re", ".im", ".fit.re", ".fit.im"};
+    const int count = character->coordinate_count;
+    struct file_output output;
+    int frames = 0;
+    if (!file_output_open(&output, path, error)) return false;
+    FILE *out = output.stream;
+    fputs("frame", out);
+    for (int i = 0; i < 4 * count; i++) {
+        fputc(',', out);
+        print_field(out, character->coordinates[i / 4].name, suffixes[i % 4]);
     }
-    free(result->analyzed);
-    character_free(&result->character);
+    fputc('\n', out);
+    for (int i = 0; i < count; i++) frames = analyzed[i].frames > frames ? analyzed[i].frames : frames;
+    for (int t = 0; t < frames && !ferror(out); t++) {
+        fprintf(out, "%d", t);
+        for (int i = 0; i < count; i++) {
+            if (t >= analyzed[i].frames) {
+                fputs(",,,,", out);
+                continue;
+            }
+            const double complex r = analyzed[i].series[t], x = analyzed[i].knots.series[t];
+            fprintf(out, ",%.9g,%.9g,%.9g,%.9g", creal(r), cimag(r), creal(x), cimag(x));
+        }
+        fputc('\n', out);
+    }
+    return file_output_commit(&output, error);
 }
 
-static bool run(const struct job *job, struct error *error)
+static bool analyse_files(const struct job *job, int files, struct error *error)
 {
     struct surface rest;
     struct result result = {0};
+    struct character *character = &result.character;
     struct lapack lapack;
     char description[128];
     if (!lapack_load(&lapack, description, sizeof description))
         return fail(error, ERROR_ENVIRONMENT, "LAPACKE and OpenBLAS: %s", description);
     bool done = open_mesh(job->rest, &job->opening, &rest, error);
-    if (done) done = analyse_files(job, &lapack, &rest, &result, error);
-    free_result(&result);
+    if (done) {
+        result.analyzed = need_zeroed((size_t)(files * job->modes), sizeof *result.analyzed);
+        done = character_create(character, &rest, files * job->modes) || fail_no_memory(error, job->rest);
+    }
+    for (int i = 0; done && i < files; i++) done = analyse_file(job, i, &lapack, &result, error);
+    while (done && character->coordinate_count > result.filled) { // those without poles
+        struct coordinate *last = &character->coordinates[--character->coordinate_count];
+        free(last->re);
+        free(last->im);
+    }
+
+    // All files are written or none, though more was read than the command line named.
+    done = done && (!job->scene || file_check_unread(job->scene, error)) &&
+           (!job->coordinates || file_check_unread(job->coordinates, error)) &&
+           character_write(job->output, character, !job->no_normals, error) &&
+           (!job->scene || write_scene(job->scene, job->output, character, result.analyzed, error)) &&
+           (!job->coordinates || write_coordinates(job->coordinates, character, result.analyzed, error));
+    for (int i = 0; i < result.filled; i++) {
+        free(result.analyzed[i].series);
+        knots_free(&result.analyzed[i].knots);
+    }
+    free(result.analyzed);
+    character_free(character);
     surface_free(&rest);
     lapack_unload(&lapack);
     return done;
-}
-
-/// Checks what the option table cannot; NULL or an error text.
-static const char *check(struct job *job)
-{
-    int files = 0;
-    while (job->files[files]) files++;
-    if (!job->rest && companion_path(job->files[0], ".rest.obj", job->rest_found) &&
-        access(job->rest_found, R_OK) == 0)
-        job->rest = job->rest_found;
-    if (!job->rest) return "--rest mesh.obj is missing: name the mesh at rest";
-    if (job->pin && !region_parse(job->pin, &job->pinned)) return "--pin: expected " REGION_FORMS;
-    if (!job->output) return "-o creature.glb is missing: name the file to write";
-    if (job->from > 0 && method_of(job) == ANALYSIS_CPCA)
-        return "--from has no effect with --method cpca: leave one out";
-    if (!read_directions(job, files))
-        return "--shake: expected up, side, front or a vector x,y,z; one for all files, or one per file (up:side)";
-    return NULL;
 }
 
 int command_analyze(int argc, char **argv)
@@ -439,9 +458,24 @@ int command_analyze(int argc, char **argv)
     };
     enum options_result result = options_parse(&usage, argc, argv, job.files);
     if (result != OPTIONS_RUN) return (int)result;
-    const char *wrong = check(&job);
+
+    int files = 0;
+    while (job.files[files]) files++;
+    if (!job.rest && companion_path(job.files[0], ".rest.obj", job.rest_found) && access(job.rest_found, R_OK) == 0)
+        job.rest = job.rest_found;
+    const char *wrong = NULL;
+    if (!job.rest)
+        wrong = "--rest mesh.obj is missing: name the mesh at rest";
+    else if (job.pin && !region_parse(job.pin, &job.pinned))
+        wrong = "--pin: expected " REGION_FORMS;
+    else if (!job.output)
+        wrong = "-o creature.glb is missing: name the file to write";
+    else if (job.from > 0 && method_of(&job) == ANALYSIS_CPCA)
+        wrong = "--from has no effect with --method cpca: leave one out";
+    else if (!read_directions(&job, files))
+        wrong = "--shake: expected up, side, front or a vector x,y,z; one for all files, or one per file (up:side)";
     if (wrong) return (int)options_wrong(&usage, "%s", wrong);
     progress_end_when_interrupted();
     struct error error;
-    return options_end(run(&job, &error), &error);
+    return options_end(analyse_files(&job, files, &error), &error);
 }

@@ -25,49 +25,6 @@ static void warn(void *user, const char *sentence)
     print_line(stdout, "warning: %s: %s", *path, sentence);
 }
 
-/// Whether a loop's equilibrium ends elsewhere than it starts, so that it jumps.
-static bool jumps(const struct document *document, const struct evaluation *evaluation, int index)
-{
-    const struct spline *spline = document->splines[index];
-    const struct param *equilibrium = &spline->parameter[PARAMETER_EQUILIBRIUM];
-    const double *y = equilibrium->track >= 0 ? evaluation->curves[equilibrium->track].total
-                      : equilibrium->motion   ? evaluation_motion(evaluation, index)
-                                              : NULL;
-    if (spline_start(spline) != WIGGLY_LOOP || !y) return false;
-    const double slack = equilibrium->motion ? MOTION_SLACK * fabs(equilibrium->motion->gain) : 0;
-    return !(fabs(y[0] - y[evaluation->samples - 1]) <= slack);
-}
-
-/// Warns if poses force a spline's swing or send it far beyond its knots.
-static void check_swing(const char *path, const struct document *document, const struct evaluation *evaluation,
-                        int index)
-{
-    struct warnings found = {0};
-    char text[WARNING_SENTENCE];
-    warnings_add_far(document, evaluation, index, &found);
-    warnings_add_forced(document, evaluation, index, &found);
-    for (int i = 0; i < found.count; i++) {
-        warning_say(&found.list[i], text);
-        print_line(stdout, "warning: %s: splines[%d]: \"%s\": %s", path, index, document->splines[index]->name, text);
-    }
-}
-
-/// Checks what needs a solve.
-static void check_solution(const char *path, struct opened *opened)
-{
-    const struct document *document = opened->document;
-    const struct evaluation *evaluation = &opened->evaluation;
-    opened_solve(opened, SOLVER_BY_LENGTH);
-    for (int i = 0; i < evaluation->count; i++) {
-        check_swing(path, document, evaluation, i);
-        if (!jumps(document, evaluation, i)) continue;
-        print_line(stdout,
-                   "warning: %s: splines[%d]: \"%s\": the equilibrium of this loop does not end where it starts",
-                   path, i, document->splines[i]->name);
-    }
-    solution_warnings(document, evaluation, warn, &path);
-}
-
 static int check_character(const char *path)
 {
     struct imported imported;
@@ -97,7 +54,34 @@ static int check_scene(const char *path)
     const bool good =
         scene_read_paint(opened.document, &error) && models_update(opened.models, opened.document, &error);
     if (!good) print_line(stdout, "%s: %s", path, error.text);
-    check_solution(path, &opened);
+
+    const struct document *document = opened.document;
+    const struct evaluation *evaluation = &opened.evaluation;
+    opened_solve(&opened, SOLVER_BY_LENGTH);
+    for (int i = 0; i < evaluation->count; i++) {
+        const struct spline *spline = document->splines[i];
+        struct warnings found = {0}; // poses that force the swing, or send it far beyond the knots
+        char text[WARNING_SENTENCE];
+        warnings_add_far(document, evaluation, i, &found);
+        warnings_add_forced(document, evaluation, i, &found);
+        for (int k = 0; k < found.count; k++) {
+            warning_say(&found.list[k], text);
+            print_line(stdout, "warning: %s: splines[%d]: \"%s\": %s", path, i, spline->name, text);
+        }
+
+        // A loop whose equilibrium ends elsewhere than it starts jumps.
+        const struct param *equilibrium = &spline->parameter[PARAMETER_EQUILIBRIUM];
+        const double *y = equilibrium->track >= 0 ? evaluation->curves[equilibrium->track].total
+                          : equilibrium->motion   ? evaluation_motion(evaluation, i)
+                                                  : NULL;
+        if (spline_start(spline) != WIGGLY_LOOP || !y) continue;
+        const double slack = equilibrium->motion ? MOTION_SLACK * fabs(equilibrium->motion->gain) : 0;
+        if (fabs(y[0] - y[evaluation->samples - 1]) <= slack) continue;
+        print_line(stdout,
+                   "warning: %s: splines[%d]: \"%s\": the equilibrium of this loop does not end where it starts",
+                   path, i, spline->name);
+    }
+    solution_warnings(document, evaluation, warn, &path);
     opened_free(&opened);
     return good ? 0 : ERROR_INPUT;
 }

@@ -1,4 +1,4 @@
-/// Reads and writes the file beside a simulated motion.
+/// Opens meshes, and reads and writes the file beside a simulated motion.
 #include "commands/companion.h"
 #include "base/file.h"
 #include "base/json.h"
@@ -30,16 +30,14 @@ bool companion_write(const char *motion, const struct companion *c, struct error
     return file_output_commit(&output, error);
 }
 
-/// Whether the numbers can be used.
-static bool is_sound(const struct companion *c)
+bool companion_read(const char *motion, int frames, int vertices, struct companion *c, struct error *error)
 {
-    double length = 0;
-    for (int k = 0; k < 3; k++) length += c->shake[k] * c->shake[k];
-    return c->fps > 0 && c->from >= 0 && isfinite(c->fps) && isfinite(c->from) && fabs(length - 1) < 1e-3;
-}
+    char path[COMPANION_PATH], *text;
+    size_t size;
+    *c = (struct companion){0};
+    if (!companion_path(motion, ".simulation.json", path) || access(path, F_OK) != 0) return true;
+    if (!file_read_text(path, FILE_LIMIT, &text, &size, error)) return false;
 
-static bool parse(const char *path, const char *text, size_t size, struct companion *c, struct error *error)
-{
     json_error_t wrong;
     const char *pin = "";
     int world = 0;
@@ -48,25 +46,18 @@ static bool parse(const char *path, const char *text, size_t size, struct compan
         object && json_unpack_ex(object, &wrong, 0, "{si si sF s[FFF] sF ss sb}", "frames", &c->frames, "vertices",
                                  &c->vertices, "fps", &c->fps, "shake", &c->shake[0], &c->shake[1], &c->shake[2],
                                  "from", &c->from, "pin", &pin, "world", &world) == 0;
+    double square = 0;
+    for (int k = 0; k < 3; k++) square += c->shake[k] * c->shake[k];
+    const bool is_sound = c->fps > 0 && c->from >= 0 && isfinite(c->fps) && isfinite(c->from) &&
+                          fabs(square - 1) < 1e-3 && strlen(pin) < sizeof c->pin;
     if (!done)
         fail(error, ERROR_INPUT, "%s: expected what wiggly simulate writes: %s", path, wrong.text);
-    else if (!is_sound(c) || strlen(pin) >= sizeof c->pin)
+    else if (!is_sound)
         done = fail(error, ERROR_INPUT, "%s: expected what wiggly simulate writes, got a number out of range", path);
     else
         strcpy(c->pin, pin);
     c->world = world;
     json_decref(object);
-    return done;
-}
-
-bool companion_read(const char *motion, int frames, int vertices, struct companion *c, struct error *error)
-{
-    char path[COMPANION_PATH], *text;
-    size_t size;
-    *c = (struct companion){0};
-    if (!companion_path(motion, ".simulation.json", path) || access(path, F_OK) != 0) return true;
-    if (!file_read_text(path, FILE_LIMIT, &text, &size, error)) return false;
-    const bool done = parse(path, text, size, c, error);
     free(text);
     if (done && (c->frames != frames || c->vertices != vertices)) {
         print_line(stderr, "%s: warning: ignored, as it describes another motion (%d frames of %d vertices)", path,
@@ -74,4 +65,44 @@ bool companion_read(const char *motion, int frames, int vertices, struct compani
         *c = (struct companion){0};
     }
     return done;
+}
+
+static bool turn_upright(const struct mesh_options *options, struct surface *surface)
+{
+    static const struct {
+        int from[3], sign[3]; // for each of our axes
+    } turns[] = {{{1, 0, 2}, {-1, 1, 1}}, {{0, 1, 2}, {1, 1, 1}}, {{0, 2, 1}, {1, 1, -1}}};
+    const int up = options->up ? options->up - 1 : 1;
+    for (int i = 0; i < surface->vertex_count; i++) {
+        const float *p = surface->position[i];
+        float placed[3];
+        for (int c = 0; c < 3; c++) {
+            placed[c] = (float)((double)p[turns[up].from[c]] * turns[up].sign[c] * options->scale);
+            if (!isfinite(placed[c])) return false;
+        }
+        memcpy(surface->position[i], placed, sizeof placed);
+    }
+    return true;
+}
+
+bool open_mesh(const char *path, const struct mesh_options *options, struct surface *surface, struct error *error)
+{
+    bool done = surface_read(path, surface, error);
+    if (done && !turn_upright(options, surface))
+        done = fail(error, ERROR_INPUT, "%s: expected a size that --scale keeps finite, got an infinite one", path);
+    if (!done) {
+        surface_free(surface);
+        return false;
+    }
+    uint8_t *used = surface_used_vertices(surface);
+    int stray = surface->vertex_count;
+    for (int i = 0; i < surface->vertex_count; i++) stray -= used[i];
+    if (stray > 0) {
+        print_line(stderr, "%s: warning: %d %s of no triangle: left where they are", path, stray,
+                   stray == 1 ? "vertex is part" : "vertices are part");
+    }
+    if (surface->looks.left_out)
+        print_line(stderr, "%s: warning: %s cannot be read and is left out", path, surface->looks.left_out);
+    free(used);
+    return true;
 }

@@ -66,45 +66,6 @@ static bool write_paint(const struct job *job, const struct document *document, 
     return fail(error, ERROR_INPUT, "%s: expected paint on %s, got none", job->scene, name ? name : "a character");
 }
 
-static bool run(struct job *job, struct error *error)
-{
-    struct opened opened;
-    if (!opened_read(&opened, job->scene, error)) return false;
-    const bool done = job->paint ? write_paint(job, opened.document, error) : write_motion(job, &opened, error);
-    opened_free(&opened);
-    return done;
-}
-
-/// "A:B"
-static bool read_frames(const char *text, struct export_options *options)
-{
-    int end = 0;
-    options->has_frames = true;
-    return sscanf(text, "%lf:%lf%n", &options->first, &options->last, &end) == 2 && text[end] == '\0';
-}
-
-/// Checks what the option table cannot.
-static enum options_result check(const struct usage *usage, struct job *job)
-{
-    char endings[EXPORT_ENDINGS];
-    if (!job->output) return options_wrong(usage, "-o FILE is missing: name the file to write");
-    export_endings(endings);
-    if (!export_knows(job->output) && !film_knows(job->output))
-        return options_wrong(usage, "--output: expected a name ending in %s, or " FILM_ENDINGS ", got '%s'", endings,
-                             job->output);
-    if (job->paint && !path_has_end(job->output, ".npy"))
-        return options_wrong(usage, "--paint: expected an output that ends in .npy, got '%s'", job->output);
-    if (job->frames && !read_frames(job->frames, &job->options))
-        return options_wrong(usage, "--frames: expected FIRST:LAST, such as 0:48, got '%s'", job->frames);
-    if (job->options.all_clips && (job->options.clip || job->frames))
-        return options_wrong(usage,
-                             "--all-clips keeps names and frames of clips: give it without --clip and --frames");
-    if (job->options.rate > 0 && job->options.substeps > 0)
-        return options_wrong(usage, "--fps and --substeps both set the number of keys: give one");
-    job->options.is_cubic = job->keys == CUBIC;
-    return OPTIONS_RUN;
-}
-
 int command_export(int argc, char **argv)
 {
     struct job job = {0};
@@ -149,9 +110,32 @@ int command_export(int argc, char **argv)
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &job.scene);
-    if (result == OPTIONS_RUN) result = check(&usage, &job);
     if (result != OPTIONS_RUN) return (int)result;
+
+    char endings[EXPORT_ENDINGS];
+    int end = 0;
+    if (!job.output) return (int)options_wrong(&usage, "-o FILE is missing: name the file to write");
+    export_endings(endings);
+    if (!export_knows(job.output) && !film_knows(job.output))
+        return (int)options_wrong(&usage, "--output: expected a name ending in %s, or " FILM_ENDINGS ", got '%s'",
+                                  endings, job.output);
+    if (job.paint && !path_has_end(job.output, ".npy"))
+        return (int)options_wrong(&usage, "--paint: expected an output that ends in .npy, got '%s'", job.output);
+    o->has_frames = job.frames != NULL;
+    if (job.frames && (sscanf(job.frames, "%lf:%lf%n", &o->first, &o->last, &end) != 2 || job.frames[end]))
+        return (int)options_wrong(&usage, "--frames: expected FIRST:LAST, such as 0:48, got '%s'", job.frames);
+    if (o->all_clips && (o->clip || job.frames))
+        return (int)options_wrong(&usage,
+                                  "--all-clips keeps names and frames of clips: give it without --clip and --frames");
+    if (o->rate > 0 && o->substeps > 0)
+        return (int)options_wrong(&usage, "--fps and --substeps both set the number of keys: give one");
+    o->is_cubic = job.keys == CUBIC;
+
     process_catch_end();
+    struct opened opened;
     struct error error;
-    return options_end(run(&job, &error), &error);
+    if (!opened_read(&opened, job.scene, &error)) return options_end(false, &error);
+    const bool done = job.paint ? write_paint(&job, opened.document, &error) : write_motion(&job, &opened, &error);
+    opened_free(&opened);
+    return options_end(done, &error);
 }

@@ -62,29 +62,6 @@ enum options_result options_wrong(const struct usage *usage, const char *format,
     return OPTIONS_WRONG;
 }
 
-static enum options_result wrong_option(const struct usage *usage, const char *word, size_t length)
-{
-    const char *names[OPTION_MAX + 1];
-    int count = 0;
-    for (int i = 0; i < usage->option_count && i < OPTION_MAX; i++) names[count++] = usage->options[i].name;
-    names[count++] = "--help";
-    char given[WORD_MAX + 1];
-    snprintf(given, sizeof given, "%.*s", (int)length, word);
-    const char *nearest = options_nearest(given, names, count);
-    if (nearest) return options_wrong(usage, "unknown option %s (did you mean %s?)", given, nearest);
-    return options_wrong(usage, "unknown option %s", given);
-}
-
-static const struct option_spec *find(const struct usage *usage, const char *word, size_t length)
-{
-    for (int i = 0; i < usage->option_count; i++) {
-        const struct option_spec *option = &usage->options[i];
-        if (strlen(option->name) == length && strncmp(word, option->name, length) == 0) return option;
-        if (option->alias && strcmp(word, option->alias) == 0) return option;
-    }
-    return NULL;
-}
-
 /// Parses an integer in [minimum, maximum] that ends at `end`.
 static bool read_int(const char *text, char end, double minimum, double maximum, int *value, const char **rest)
 {
@@ -95,26 +72,6 @@ static bool read_int(const char *text, char end, double minimum, double maximum,
     if (number < INT_MIN || number > INT_MAX) return false;
     *value = (int)number;
     *rest = stop;
-    return true;
-}
-
-static bool read_real(const char *text, double minimum, double maximum, double *value)
-{
-    char *stop;
-    double number = strtod(text, &stop);
-    if (stop == text || *stop || !isfinite(number) || number < minimum || number > maximum) return false;
-    *value = number;
-    return true;
-}
-
-static bool read_size(const char *text, double minimum, double maximum, int size[2])
-{
-    int width, height;
-    const char *rest;
-    if (!read_int(text, 'x', minimum, maximum, &width, &rest)) return false;
-    if (!read_int(rest + 1, 0, minimum, maximum, &height, &rest)) return false;
-    size[0] = width;
-    size[1] = height;
     return true;
 }
 
@@ -166,14 +123,25 @@ static enum options_result store(const struct usage *usage, const struct option_
         if (read_int(text, 0, low, high, option->target, &rest)) return OPTIONS_RUN;
         return options_wrong(usage, "%s: expected a whole number from %.10g to %.10g, got '%s'", option->name, low,
                              high, text);
-    case OPTION_REAL:
-        if (read_real(text, low, high, option->target)) return OPTIONS_RUN;
+    case OPTION_REAL: {
+        char *stop;
+        const double number = strtod(text, &stop);
+        if (stop != text && !*stop && isfinite(number) && number >= low && number <= high) {
+            *(double *)option->target = number;
+            return OPTIONS_RUN;
+        }
         return options_wrong(usage, "%s: expected a number from %.10g to %.10g, got '%s'", option->name, low, high,
                              text);
-    case OPTION_SIZE:
-        if (read_size(text, low, high, option->target)) return OPTIONS_RUN;
+    }
+    case OPTION_SIZE: {
+        int size[2];
+        if (read_int(text, 'x', low, high, &size[0], &rest) && read_int(rest + 1, 0, low, high, &size[1], &rest)) {
+            memcpy(option->target, size, sizeof size);
+            return OPTIONS_RUN;
+        }
         return options_wrong(usage, "%s: expected WIDTHxHEIGHT, each from %.10g to %.10g, got '%s'", option->name,
                              low, high, text);
+    }
     case OPTION_WORD:
         return read_word(usage, option, text);
     }
@@ -186,8 +154,23 @@ static enum options_result read_option(const struct usage *usage, int argc, char
     const char *word = argv[*at];
     const char *equals = word[1] == '-' ? strchr(word, '=') : NULL;
     size_t length = equals ? (size_t)(equals - word) : strlen(word);
-    const struct option_spec *option = find(usage, word, length);
-    if (!option) return wrong_option(usage, word, length);
+    const struct option_spec *option = NULL;
+    for (int i = 0; i < usage->option_count && !option; i++) {
+        const struct option_spec *one = &usage->options[i];
+        const bool named = strlen(one->name) == length && strncmp(word, one->name, length) == 0;
+        if (named || (one->alias && strcmp(word, one->alias) == 0)) option = one;
+    }
+    if (!option) {
+        const char *names[OPTION_MAX + 1];
+        int count = 0;
+        for (int i = 0; i < usage->option_count && i < OPTION_MAX; i++) names[count++] = usage->options[i].name;
+        names[count++] = "--help";
+        char given[WORD_MAX + 1];
+        snprintf(given, sizeof given, "%.*s", (int)length, word);
+        const char *nearest = options_nearest(given, names, count);
+        if (nearest) return options_wrong(usage, "unknown option %s (did you mean %s?)", given, nearest);
+        return options_wrong(usage, "unknown option %s", given);
+    }
     if (option->kind == OPTION_FLAG) {
         if (equals) return options_wrong(usage, "%s takes no value", option->name);
         return store(usage, option, NULL);

@@ -8,62 +8,45 @@
 static const double BELOW = 1e-4; ///< metres below a floor worth a report
 static const double MET = 1e-4;   ///< of the rig's size; chains are posed in floats
 
-static void tell_pin(const struct pin_left *left, int rig, int pin, report_tell *tell, void *user)
-{
-    char sentence[160];
-    const double away = left ? hypot(hypot(left->way[0], left->way[1]), left->way[2]) : 0;
-    if (!left || (left->is_found && away <= MET * left->size)) return;
-    if (left->is_found) {
-        snprintf(sentence, sizeof sentence, "rigs[%d].pins[%d]: the point stays %.3g m from its place", rig, pin,
-                 away);
-    } else {
-        snprintf(sentence, sizeof sentence, "rigs[%d].pins[%d]: there is no such point, so the pin has no effect",
-                 rig, pin);
-    }
-    tell(user, sentence);
-}
-
-static void tell_floor(const struct document *document, const struct floor_left *left, int rig, report_tell *tell,
-                       void *user)
-{
-    char sentence[160];
-    if (!rig_has_floor(document->rigs[rig]) || !left || left->depth < BELOW) return;
-    snprintf(sentence, sizeof sentence,
-             "rigs[%d].floor: knots and pins hold the character up to %.3g m below it, deepest at frame %.6g", rig,
-             left->depth, document_frame(document, left->sample));
-    tell(user, sentence);
-}
-
-static void tell_spline(const struct document *document, const struct evaluation *evaluation, int spline,
-                        report_tell *tell, void *user)
-{
-    char sentence[EVALUATION_SENTENCE];
-    struct error warning; // fail() makes any name printable
-    if (!evaluation_sentence(evaluation, spline, sentence)) return;
-    fail(&warning, ERROR_INPUT, "splines[%d]: \"%s\": %s", spline, document->splines[spline]->name, sentence);
-    tell(user, warning.text);
-}
-
-static void tell_passed_over(const struct document *document, int spline, report_tell *tell, void *user)
-{
-    char sentence[96];
-    if (!pins_move_spline(document, spline) || !spline_is_limited(document->splines[spline])) return;
-    snprintf(sentence, sizeof sentence, "splines[%d].limits: ignored, because pins or a floor move this spline",
-             spline);
-    tell(user, sentence);
-}
-
 void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_tell *tell,
                        void *user)
 {
-    for (int s = 0; s < evaluation->count; s++) tell_spline(document, evaluation, s, tell, user);
-    for (int r = 0; r < document->rig_count; r++) {
-        for (int i = 0; i < document->rigs[r]->pin_count; i++)
-            tell_pin(evaluation_pin(evaluation, document, r, i), r, i, tell, user);
+    char sentence[160], solved[EVALUATION_SENTENCE];
+    for (int s = 0; s < evaluation->count; s++) {
+        struct error warning; // fail() makes any name printable
+        if (!evaluation_sentence(evaluation, s, solved)) continue;
+        fail(&warning, ERROR_INPUT, "splines[%d]: \"%s\": %s", s, document->splines[s]->name, solved);
+        tell(user, warning.text);
     }
-    for (int r = 0; r < document->rig_count; r++)
-        tell_floor(document, evaluation_floor(evaluation, r), r, tell, user);
-    for (int s = 0; s < document->spline_count; s++) tell_passed_over(document, s, tell, user);
+    for (int r = 0; r < document->rig_count; r++) {
+        for (int p = 0; p < document->rigs[r]->pin_count; p++) {
+            const struct pin_left *left = evaluation_pin(evaluation, document, r, p);
+            const double away = left ? hypot(hypot(left->way[0], left->way[1]), left->way[2]) : 0;
+            if (!left || (left->is_found && away <= MET * left->size)) continue;
+            if (left->is_found) {
+                snprintf(sentence, sizeof sentence, "rigs[%d].pins[%d]: the point stays %.3g m from its place", r, p,
+                         away);
+            } else {
+                snprintf(sentence, sizeof sentence,
+                         "rigs[%d].pins[%d]: there is no such point, so the pin has no effect", r, p);
+            }
+            tell(user, sentence);
+        }
+    }
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct floor_left *left = evaluation_floor(evaluation, r);
+        if (!rig_has_floor(document->rigs[r]) || !left || left->depth < BELOW) continue;
+        snprintf(sentence, sizeof sentence,
+                 "rigs[%d].floor: knots and pins hold the character up to %.3g m below it, deepest at frame %.6g", r,
+                 left->depth, document_frame(document, left->sample));
+        tell(user, sentence);
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        if (!pins_move_spline(document, s) || !spline_is_limited(document->splines[s])) continue;
+        snprintf(sentence, sizeof sentence, "splines[%d].limits: ignored, because pins or a floor move this spline",
+                 s);
+        tell(user, sentence);
+    }
 }
 
 enum { DEEPEST_INDENTED = 64 };
@@ -88,31 +71,6 @@ static void print_tree(const struct gltf *gltf, int root)
     }
 }
 
-/// Whether a chain to a tip starts at this node, not further up.
-static bool begins_chain(const struct imported *imported, int node)
-{
-    const int parent = imported->gltf.nodes[node].parent;
-    struct error branches;
-    return imported->skeleton.leads[node] && chain_end(imported, node, &branches) >= 0 &&
-           (parent < 0 || chain_end(imported, parent, &branches) < 0);
-}
-
-static void print_chains(const struct imported *imported)
-{
-    const struct gltf *gltf = &imported->gltf;
-    bool any = false;
-    for (int n = 0; n < gltf->node_count; n++) {
-        struct chain_bones bones;
-        struct error error;
-        const int last = begins_chain(imported, n) ? chain_end(imported, n, &error) : -1;
-        if (last < 0 || last == n) continue;
-        if (!chain_find(gltf, gltf->nodes[n].name, gltf->nodes[last].name, &bones, &error)) continue;
-        if (!any) puts("chains you can use with --chain:");
-        print_line(stdout, "  %s:%s (%d bones)", gltf->nodes[n].name, gltf->nodes[last].name, bones.count);
-        any = true;
-    }
-}
-
 void contents_print(const struct imported *imported)
 {
     const struct gltf *gltf = &imported->gltf;
@@ -124,6 +82,18 @@ void contents_print(const struct imported *imported)
     for (int n = 0; n < gltf->node_count; n++) {
         if (gltf->nodes[n].parent < 0) print_tree(gltf, n);
     }
-    print_chains(imported);
+    bool any = false;
+    for (int n = 0; n < gltf->node_count; n++) {
+        struct chain_bones bones;
+        struct error error;
+        const int parent = gltf->nodes[n].parent,
+                  last = imported->skeleton.leads[n] ? chain_end(imported, n, &error) : -1;
+        if (last < 0 || last == n) continue;
+        if (parent >= 0 && chain_end(imported, parent, &error) >= 0) continue; // the chain starts further up
+        if (!chain_find(gltf, gltf->nodes[n].name, gltf->nodes[last].name, &bones, &error)) continue;
+        if (!any) puts("chains you can use with --chain:");
+        print_line(stdout, "  %s:%s (%d bones)", gltf->nodes[n].name, gltf->nodes[last].name, bones.count);
+        any = true;
+    }
     if (gltf->not_shown) print_line(stdout, "not shown: %s", gltf->not_shown);
 }

@@ -22,7 +22,7 @@ struct job {
 };
 
 /// Splits "A:B" or "A" in place. Names may contain colons, so the splitting colon is one between two existing bones.
-static const char *split(const struct gltf *gltf, char *text)
+static const char *split_chain(const struct gltf *gltf, char *text)
 {
     char *last = NULL;
     if (gltf_find_node(gltf, text) >= 0) return NULL;
@@ -35,97 +35,54 @@ static const char *split(const struct gltf *gltf, char *text)
     return last ? last + 1 : NULL;
 }
 
+/// Chooses the clip and adds the chains.
 static bool add_chains(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)
 {
+    const enum clip_repeat repeat = job->loop ? REPEAT_LOOP : job->once ? REPEAT_ONCE : REPEAT_BY_CLIP;
+    const char *clip = job->clip ? job->clip : opened->document->rigs[0]->model.clip;
+    bool done = import_choose_clip(opened->document, 0, gltf, clip, repeat, error);
     struct chain_wish wish = job->wish;
-    bool done = true;
     wish.follows = !job->plain && opened->document->rigs[0]->model.clip;
     for (int c = 0; done && c < job->chains.count; c++) {
         int rig;
         char *from = need_text(job->chains.text[c]);
-        wish.to = split(gltf, from);
+        wish.to = split_chain(gltf, from);
         wish.from = from;
         done = chain_make(opened->document, opened->models, &wish, &rig, error);
         free(from);
     }
-    return done;
+    return done && models_update(opened->models, opened->document, error);
 }
 
-static bool edit(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)
+/// Writes a scene or an animated character, and says what it plays.
+static bool write_output(const struct job *job, struct opened *opened, struct error *error)
 {
-    const enum clip_repeat repeat = job->loop ? REPEAT_LOOP : job->once ? REPEAT_ONCE : REPEAT_BY_CLIP;
-    const char *clip = job->clip ? job->clip : opened->document->rigs[0]->model.clip;
-    return import_choose_clip(opened->document, 0, gltf, clip, repeat, error) &&
-           add_chains(job, gltf, opened, error) && models_update(opened->models, opened->document, error);
-}
+    const bool as_scene = path_has_end(job->output, ".json");
+    struct export_report report;
+    if (as_scene) {
+        if (!scene_save(opened->document, job->output, error)) return false;
+    } else {
+        const struct export_options options = {.all_clips = job->all_clips};
+        opened_solve(opened, SOLVER_BY_LENGTH);
+        const struct posing posing = opened_posing(opened);
+        if (!export_write(&posing, job->output, &options, &report, error)) return false;
+        if (*report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
+    }
 
-/// The end of a line: "; clip ", "Walk", " loops"; empty without a clip.
-static void tell_clip(const struct opened *opened, const char *parts[3])
-{
+    // "; clip Walk loops".
     const struct model_rig *model = &opened->document->rigs[0]->model;
     const struct gltf *gltf = &models_imported(opened->models, opened->document, 0)->gltf;
     const int clip = gltf_find_clip(gltf, model->clip);
-    parts[0] = clip < 0 ? "" : "; clip ";
-    parts[1] = clip < 0 ? "" : model->clip;
-    parts[2] = clip < 0 ? "" : clip_play(model, &gltf->clips[clip]).loops ? " loops" : " plays once";
-}
-
-static bool write_motion(const struct job *job, struct opened *opened, struct error *error)
-{
-    struct export_report report;
-    const struct export_options options = {.all_clips = job->all_clips};
-    opened_solve(opened, SOLVER_BY_LENGTH);
-    const struct posing posing = opened_posing(opened);
-    if (!export_write(&posing, job->output, &options, &report, error)) return false;
-    if (*report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
-    const char *clip[3];
-    tell_clip(opened, clip);
-    print_line(stdout, "wrote %s: %s%s%s%s", job->output, report.text, clip[0], clip[1], clip[2]);
-    return true;
-}
-
-static bool write_scene(const struct job *job, struct opened *opened, struct error *error)
-{
-    if (!scene_save(opened->document, job->output, error)) return false;
-    const char *clip[3];
-    tell_clip(opened, clip);
-    print_line(stdout, "wrote %s: %d chain%s%s%s%s; wiggly %s shows it", job->output, job->chains.count,
-               job->chains.count == 1 ? "" : "s", clip[0], clip[1], clip[2], job->output);
-    return true;
-}
-
-static bool run(const struct job *job, struct error *error)
-{
-    struct opened opened;
-    if (!opened_read(&opened, job->character, error)) return false;
-    bool done = true;
-    const struct imported *character = models_imported(opened.models, opened.document, 0);
-    if (!character) {
-        done = fail(error, ERROR_INPUT, "%s: expected a character with bones, got a soft one", job->character);
-    } else if (!job->output) {
-        contents_print(character);
+    const char *before = clip < 0 ? "" : "; clip ";
+    const char *name = clip < 0 ? "" : model->clip;
+    const char *plays = clip < 0 ? "" : clip_play(model, &gltf->clips[clip]).loops ? " loops" : " plays once";
+    if (as_scene) {
+        print_line(stdout, "wrote %s: %d chain%s%s%s%s; wiggly %s shows it", job->output, job->chains.count,
+                   job->chains.count == 1 ? "" : "s", before, name, plays, job->output);
     } else {
-        done = edit(job, &character->gltf, &opened, error) &&
-               (path_has_end(job->output, ".json") ? write_scene : write_motion)(job, &opened, error);
+        print_line(stdout, "wrote %s: %s%s%s%s", job->output, report.text, before, name, plays);
     }
-    opened_free(&opened);
-    return done;
-}
-
-/// Checks what the option table cannot.
-static enum options_result check(const struct usage *usage, const struct job *job)
-{
-    if (!import_suits(job->character))
-        return options_wrong(usage, "expected a character ending in .glb or .gltf, got '%s'", job->character);
-    if (job->chains.count > 0 && !job->output)
-        return options_wrong(usage, "-o FILE is missing: name the file to write");
-    if (job->output && !path_has_end(job->output, ".json") && !export_knows(job->output))
-        return options_wrong(usage, "--output: expected a scene (.json) or a character (.glb), got '%s'",
-                             job->output);
-    if (job->all_clips && (!job->output || path_has_end(job->output, ".json")))
-        return options_wrong(usage, "--all-clips: expected a character to write (-o FILE.glb)");
-    if (job->loop && job->once) return options_wrong(usage, "expected one of --loop and --once, got both");
-    return OPTIONS_RUN;
+    return true;
 }
 
 int command_rig(int argc, char **argv)
@@ -162,8 +119,32 @@ int command_rig(int argc, char **argv)
         .operand_maximum = 1,
     };
     enum options_result result = options_parse(&usage, argc, argv, &job.character);
-    if (result == OPTIONS_RUN) result = check(&usage, &job);
     if (result != OPTIONS_RUN) return (int)result;
+
+    const bool as_scene = job.output && path_has_end(job.output, ".json");
+    if (!import_suits(job.character))
+        return (int)options_wrong(&usage, "expected a character ending in .glb or .gltf, got '%s'", job.character);
+    if (job.chains.count > 0 && !job.output)
+        return (int)options_wrong(&usage, "-o FILE is missing: name the file to write");
+    if (job.output && !as_scene && !export_knows(job.output))
+        return (int)options_wrong(&usage, "--output: expected a scene (.json) or a character (.glb), got '%s'",
+                                  job.output);
+    if (job.all_clips && (!job.output || as_scene))
+        return (int)options_wrong(&usage, "--all-clips: expected a character to write (-o FILE.glb)");
+    if (job.loop && job.once) return (int)options_wrong(&usage, "expected one of --loop and --once, got both");
+
+    struct opened opened;
     struct error error;
-    return options_end(run(&job, &error), &error);
+    if (!opened_read(&opened, job.character, &error)) return options_end(false, &error);
+    bool done = true;
+    const struct imported *character = models_imported(opened.models, opened.document, 0);
+    if (!character) {
+        done = fail(&error, ERROR_INPUT, "%s: expected a character with bones, got a soft one", job.character);
+    } else if (!job.output) {
+        contents_print(character);
+    } else {
+        done = add_chains(&job, &character->gltf, &opened, &error) && write_output(&job, &opened, &error);
+    }
+    opened_free(&opened);
+    return options_end(done, &error);
 }

@@ -3,12 +3,11 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/need.h"
+#include "base/progress.h"
 #include "commands/commands.h"
 #include "commands/companion.h"
-#include "commands/open_mesh.h"
 #include "commands/options.h"
 #include "commands/progress.h"
-#include "commands/simulate_shake.h"
 #include "model/motion.h"
 #include "model/surface.h"
 #include "simulation/soft.h"
@@ -20,6 +19,18 @@
 static const double slow_warning = 1 / 8.0; ///< of the frequency asked for: a lowest mode below it causes a warning
 static const double drive_ratio = 1.375;    ///< of drive and body by default: parts follow one after another
 
+struct shake_job {
+    const char *mesh, *output; ///< for messages; output path
+    struct shake shake;
+    struct loads loads;
+    double seconds, fps;
+    double accuracy; ///< allowed relative RMS error
+    double budget;   ///< element-steps
+    int substeps;    ///< per frame; 0: by accuracy
+    bool world;      ///< positions in the world, not relative to the base
+    bool verbose;
+};
+
 struct job {
     const char *mesh, *output;
     struct mesh_options opening;
@@ -28,11 +39,177 @@ struct job {
     double amplitude, damping, seconds; ///< NAN: by default
     double budget;                      ///< millions of element-steps
     struct shake_job shake;
-    struct drive drive;
+    struct base_drive drive;
     struct soft_options soft;
     double floor; ///< height above the lowest point; below 0: none
     bool modal;
 };
+
+// --- a shake, simulated to a requested accuracy
+//
+// The motion is simulated twice, the second time with steps r times shorter. For a scheme of
+// second order the finer error is 1/(r² − 1) of the difference; if backward Euler calmed some steps, which is first order, 1/(r − 1).
+// While that is too large, steps get shorter. Chaotic or undamped motions may never get accurate, so the search has a budget of element-
+// steps: Newton iterations (or a hundred of conjugate gradients) times elements, which is the same on every machine. The first two
+// simulations always run.
+
+/// How many frames are written.
+static int shake_frames(const struct shake_job *job) { return (int)fmax(1, round(job->seconds * job->fps)); }
+
+struct record {
+    int frames, nodes, substeps;
+    bool calmed;       ///< some steps were first order
+    double cost;       ///< element-steps
+    float (*place)[3]; ///< frames × nodes, relative to the base
+};
+
+/// Simulates the whole motion once.
+static bool simulate_once(const struct shake_job *job, struct soft *soft, struct record *record, struct error *error)
+{
+    struct integrator integrator;
+    integrator_create(&integrator, &soft->body, 1 / (job->fps * record->substeps));
+    integrator.mass_damping = soft->alpha;
+    integrator.stiffness_damping = soft->beta;
+    integrator.tolerance = 1e-4 * soft->lattice.cell; // Newton's next iteration would change a thousandth of that
+    integrator.loads = job->loads;
+    bool good = true;
+    if (job->loads.gravity > 0 && soft->pinned > 0 && soft->loose_parts == 0 && !integrator_settle(&integrator))
+        good = fail(error, ERROR_INPUT, "%s: the body finds no rest under its weight: try a higher --frequency",
+                    job->mesh);
+    if (good) soft_shake(soft, &job->shake, &integrator);
+    struct progress progress = {.started = clock_now(), .lines = job->verbose};
+    for (int frame = 0; good && frame < record->frames; frame++) {
+        for (int step = 0; good && frame > 0 && step < record->substeps; step++) good = integrator_step(&integrator);
+        if (!good)
+            fail(error, ERROR_INPUT,
+                 "frame %d: the simulation became unstable: try a smaller --amplitude or more --damping", frame);
+        for (int i = 0; good && i < record->nodes; i++) {
+            float *place = record->place[(size_t)frame * (size_t)record->nodes + (size_t)i];
+            for (int c = 0; c < 3; c++) place[c] = (float)integrator.x[i][c];
+        }
+        if (good) progress_show(&progress, frame + 1, record->frames);
+    }
+    record->calmed = integrator.calmed > 0;
+    record->cost = ((double)integrator.newton + (double)integrator.gradients / 100) * soft->body.element_count;
+    integrator_free(&integrator);
+    return good;
+}
+
+/// The finer motion's mass-weighted error relative to its amplitude around the mean.
+static double estimate_error(const struct record *fine, const struct record *coarse, const double *mass)
+{
+    double difference = 0, motion = 0, ratio = (double)fine->substeps / coarse->substeps;
+    for (int i = 0; i < 3 * fine->nodes; i++) {
+        double sum = 0, squares = 0;
+        for (int f = 0; f < fine->frames; f++) {
+            size_t at = (size_t)f * (size_t)fine->nodes + (size_t)(i / 3);
+            double first = (double)fine->place[i / 3][i % 3], place = (double)fine->place[at][i % 3];
+            double apart = place - (double)coarse->place[at][i % 3];
+            sum += place - first;
+            squares += (place - first) * (place - first);
+            difference += mass[i / 3] * apart * apart;
+        }
+        motion += mass[i / 3] * fmax(0, squares - sum * sum / fine->frames);
+    }
+    bool first_order = fine->calmed || coarse->calmed;
+    return motion > 0 ? sqrt(difference / motion) / (first_order ? ratio - 1 : ratio * ratio - 1) : 0;
+}
+
+/// Simulates until the error is small enough or the budget is used up. `fine` ends as the motion; `error_left` is −1 if unknown.
+static bool simulate_to_accuracy(const struct shake_job *job, struct soft *soft, struct record *fine,
+                                 struct record *coarse, double *error_left, struct error *error)
+{
+    enum { FINEST = 512, STEPS_A_PERIOD = 48 };
+    static const double LEAST = 1.5; // steps shorter by less tell too little
+    double used = 0;
+    *error_left = -1;
+    const struct base_drive *drive = job->loads.drive;
+    double fastest = soft_frequency(soft); // of what is known
+    if (drive && drive->kind != DRIVE_TRACK)
+        fastest = fmax(fastest, drive->frequency * (drive->kind == DRIVE_SWEEP ? 2 : 1));
+    fine->substeps = job->substeps ? job->substeps : (int)fmax(1, ceil(STEPS_A_PERIOD * fastest / job->fps));
+    if (!simulate_once(job, soft, fine, error)) return false;
+    for (double next = 2; !job->substeps && (*error_left < 0 || *error_left > job->accuracy);) {
+        used += fine->cost;
+        // Shorter steps need fewer iterations each, so the cost grows at most in proportion.
+        if (*error_left >= 0) next = fmin(next, (job->budget - used) / fine->cost);
+        int finer = (int)ceil(fine->substeps * next);
+        if (*error_left >= 0 && (finer > FINEST || next < LEAST)) return true;
+        struct record swap = *coarse;
+        *coarse = *fine;
+        *fine = swap;
+        fine->substeps = finer;
+        if (!simulate_once(job, soft, fine, error)) return false;
+        *error_left = estimate_error(fine, coarse, soft->body.mass);
+        next = fmax(LEAST, fmin(4, 1.1 * sqrt(*error_left / job->accuracy)));
+        if (job->verbose) fprintf(stderr, "%d steps a frame: error %.2g %%\n", fine->substeps, 100 * *error_left);
+    }
+    return true;
+}
+
+/// Simulates, writes the motion and prints the cost. Of `soft` it changes only the body's scratch memory.
+static bool simulate_shake(const struct shake_job *job, struct soft *soft, const struct surface *surface,
+                           struct error *error)
+{
+    const int frames = shake_frames(job), nodes = soft->body.node_count, vertices = soft->lattice.vertex_count;
+    const struct base_drive *drive = job->loads.drive;
+    struct record fine = {.frames = frames, .nodes = nodes}, coarse = fine;
+    struct file_output output;
+    const double started = clock_now();
+    double left;
+    if (!need_has_room(2 * (size_t)frames * (size_t)nodes * sizeof *fine.place))
+        return fail_no_memory(error, job->mesh);
+    if (!motion_start(&output, job->output, frames, vertices, error)) return false;
+    fine.place = need_zeroed((size_t)frames * (size_t)nodes, sizeof *fine.place);
+    coarse.place = need_zeroed((size_t)frames * (size_t)nodes, sizeof *coarse.place);
+    bool good = simulate_to_accuracy(job, soft, &fine, &coarse, &left, error);
+    if (good) {
+        float(*position)[3] = need_zeroed((size_t)vertices + 1, sizeof *position);
+        double(*x)[3] = need_zeroed((size_t)nodes + 1, sizeof *x);
+        // Vertices outside the lattice keep their rest positions.
+        memcpy(position, surface->position, (size_t)surface->vertex_count * sizeof *position);
+        for (int frame = 0; frame < frames && !ferror(output.stream); frame++) {
+            const double base = job->world && drive ? drive_place(drive, frame / job->fps) : 0;
+            for (int i = 0; i < nodes; i++) {
+                const float *place = fine.place[(size_t)frame * (size_t)nodes + (size_t)i];
+                for (int c = 0; c < 3; c++)
+                    x[i][c] = (double)place[c] + (job->world && drive ? base * drive->direction[c] : 0);
+            }
+            lattice_embed(&soft->lattice, (const double(*)[3])x, position);
+            fwrite(position, sizeof *position, (size_t)vertices, output.stream);
+            stage_tell("writing the motion", frame + 1, frames);
+        }
+        free(position);
+        free(x);
+        good = file_output_commit(&output, error);
+    } else {
+        file_output_discard(&output);
+    }
+    free(fine.place);
+    free(coarse.place);
+    if (!good) return false;
+
+    print_line(stdout, "%s: %d frames of %d vertices at %g fps, in %.1f s", job->output, frames, vertices, job->fps,
+               clock_now() - started);
+    if (left < 0) {
+        printf("  %d steps a frame; the error was not measured\n", fine.substeps);
+    } else {
+        printf("  %d steps a frame; error of the motion %.2g %%\n", fine.substeps, 100 * left);
+    }
+    if (drive && drive_end(drive) < job->seconds)
+        printf("  the drive stops at %.4g s; then the body swings freely\n", drive_end(drive));
+    if (left > job->accuracy) {
+        fflush(stdout);
+        print_line(
+            stderr,
+            "%s: warning: expected an error of the motion of at most %.3g %%, got %.2g %% when the search ended: "
+            "--substeps %d or a larger --budget may come nearer, unless the motion is chaotic",
+            job->output, 100 * job->accuracy, 100 * left, (int)fmin(2 * fine.substeps, 1000));
+    }
+    return true;
+}
+
+// --- the command
 
 /// Drives the base, or lets the body swing freely; each has defaults of its own.
 static void set_swing(struct job *job, enum drive_kind kind)
@@ -45,27 +222,22 @@ static void set_swing(struct job *job, enum drive_kind kind)
     job->soft.softness.from = job->soft_text ? job->soft_text : shake->driven ? "distance" : NULL;
 }
 
-/// Sets how fast the drive is and how long the motion: by default 4 s or more, 8 periods, and 4 after the drive, but no longer than
-/// analyze takes. Returns whether a burst ends in time for analyze: a period before the end.
-static bool set_times(struct job *job, const struct soft *soft)
-{
-    struct drive *drive = &job->drive;
-    struct shake_job *shake = &job->shake;
-    const double period = 1 / soft_frequency(soft);
-    if (drive->frequency == 0) drive->frequency = drive_ratio / period;
-    const double end = isfinite(drive_end(drive)) ? drive_end(drive) : 0;
-    shake->seconds = isfinite(job->seconds)
-                         ? job->seconds
-                         : fmin(fmax(fmax(4, 8 * period), end + 4 * period), ANALYSIS_FRAMES_MAX / shake->fps);
-    return end + fmax(period, ANALYSIS_FRAMES_MIN / shake->fps) <= shake->seconds;
-}
-
 /// Makes the body, tuned to what moves it. Where time is too short, the burst that nobody asked for gives way to a free swing.
 static bool make_body(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
 {
     if (!soft_create(soft, surface, job->mesh, &job->soft, error)) return false;
-    const bool fits = set_times(job, soft);
-    const double end = drive_end(&job->drive), period = 1 / soft_frequency(soft);
+
+    // By default 4 s or more, 8 periods, and 4 after the drive, but no longer than analyze takes. A burst ends in time for analyze a
+    // period before the end.
+    struct base_drive *drive = &job->drive;
+    struct shake_job *shake = &job->shake;
+    const double period = 1 / soft_frequency(soft);
+    if (drive->frequency == 0) drive->frequency = drive_ratio / period;
+    const double end = drive_end(drive), stops = isfinite(end) ? end : 0;
+    shake->seconds = isfinite(job->seconds)
+                         ? job->seconds
+                         : fmin(fmax(fmax(4, 8 * period), stops + 4 * period), ANALYSIS_FRAMES_MAX / shake->fps);
+    const bool fits = stops + fmax(period, ANALYSIS_FRAMES_MIN / shake->fps) <= shake->seconds;
     if (fits || job->drive.kind == DRIVE_NONE) return true;
     if (job->drive_text) {
         if (isfinite(end) && period <= job->shake.seconds)
@@ -82,24 +254,28 @@ static bool make_body(struct job *job, struct soft *soft, const struct surface *
     return make_body(job, soft, surface, error);
 }
 
-/// Moves the base along the shake.
-static void start_drive(struct job *job, const struct soft *soft)
+static bool shake_body(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
 {
-    struct drive *drive = &job->drive;
-    if (drive->kind == DRIVE_NONE) return;
-    memcpy(drive->direction, job->shake.shake.direction, sizeof drive->direction);
-    drive->size = drive->kind == DRIVE_TRACK ? 1 : job->shake.shake.amplitude * soft->size;
-    drive->seconds = job->shake.seconds;
-    job->shake.loads.drive = drive;
-}
+    struct floor floor = {0};
+    struct base_drive *drive = &job->drive;
+    if (drive->kind != DRIVE_NONE) { // it moves the base along the shake
+        memcpy(drive->direction, job->shake.shake.direction, sizeof drive->direction);
+        drive->size = drive->kind == DRIVE_TRACK ? 1 : job->shake.shake.amplitude * soft->size;
+        drive->seconds = job->shake.seconds;
+        job->shake.loads.drive = drive;
+    }
+    if (job->floor >= 0) {
+        floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young, job->soft.density);
+        job->shake.loads.floor = &floor;
+    }
+    const bool good = simulate_shake(&job->shake, soft, surface, error);
+    floor_free(&floor);
+    if (!good) return false;
 
-/// What analyze needs to know of the motion.
-static bool write_companion(const struct job *job, const struct soft *soft, const struct surface *surface,
-                            struct error *error)
-{
+    // What analyze needs to know of the motion.
     const struct shake_job *shake = &job->shake;
     struct companion made = {.frames = shake_frames(shake), .vertices = surface->vertex_count, .fps = shake->fps};
-    const double end = shake->loads.drive ? drive_end(shake->loads.drive) : 0;
+    const double end = shake->loads.drive ? drive_end(drive) : 0;
     made.from = end < shake->seconds ? end : 0;
     made.world = shake->world;
     memcpy(made.shake, shake->shake.direction, sizeof made.shake);
@@ -108,19 +284,6 @@ static bool write_companion(const struct job *job, const struct soft *soft, cons
     else
         snprintf(made.pin, sizeof made.pin, "%.6g", 0.05 * soft->height);
     return companion_write(job->output, &made, error);
-}
-
-static bool shake(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
-{
-    struct floor floor = {0};
-    start_drive(job, soft);
-    if (job->floor >= 0) {
-        floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young, job->soft.density);
-        job->shake.loads.floor = &floor;
-    }
-    const bool good = simulate_shake(&job->shake, soft, surface, error) && write_companion(job, soft, surface, error);
-    floor_free(&floor);
-    return good;
 }
 
 /// Writes each mode's displacement, scaled to a maximum of 1.
@@ -186,7 +349,7 @@ static void report_body(const struct job *job, const struct soft *soft)
     }
 }
 
-static bool run(struct job *job, struct error *error)
+static bool simulate_mesh(struct job *job, struct error *error)
 {
     struct surface surface = {0};
     struct soft soft;
@@ -197,7 +360,7 @@ static bool run(struct job *job, struct error *error)
                 make_body(job, &soft, &surface, error);
     if (good) {
         report_body(job, &soft);
-        good = job->modal ? write_modes(job, &soft, error) : shake(job, &soft, &surface, error);
+        good = job->modal ? write_modes(job, &soft, error) : shake_body(job, &soft, &surface, error);
         good = good && obj_write(job->rest, &surface, error);
         if (good) print_line(stdout, "%s: the mesh at rest", job->rest);
         soft_free(&soft);
@@ -205,19 +368,6 @@ static bool run(struct job *job, struct error *error)
     surface_free(&surface);
     drive_free(&job->drive);
     return good;
-}
-
-/// Sets stiffness and mass; 0: not given. NULL or an error text.
-static const char *set_material(struct soft_options *soft)
-{
-    const struct soft_options usual = soft_default_options();
-    if (soft->young > 0 && soft->frequency > 0) return "--young and --frequency both set the stiffness: give one";
-    if (soft->density > 0 && soft->young == 0)
-        return "--density needs --young: with --frequency the stiffness follows the mass and the motion stays the "
-               "same";
-    if (soft->frequency == 0) soft->frequency = usual.frequency;
-    if (soft->density == 0) soft->density = usual.density;
-    return NULL;
 }
 
 /// Parses --drive; an unknown name is a file. NULL or an error text.
@@ -242,7 +392,7 @@ static const char *set_drive(struct job *job)
 }
 
 /// Checks what the option table cannot; NULL or an error text.
-static const char *check(struct job *job)
+static const char *check_job(struct job *job)
 {
     if (!job->output) return "-o FILE is missing: name the file to write";
     if (job->modal && !path_has_end(job->output, ".npy"))
@@ -259,7 +409,18 @@ static const char *check(struct job *job)
     job->shake.budget = 1e6 * job->budget;
     set_swing(job, DRIVE_NONE);
     const char *wrong = job->modal ? NULL : set_drive(job);
-    return wrong ? wrong : set_material(&job->soft);
+    if (wrong) return wrong;
+
+    // Stiffness and mass; 0: not given.
+    const struct soft_options usual = soft_default_options();
+    struct soft_options *soft = &job->soft;
+    if (soft->young > 0 && soft->frequency > 0) return "--young and --frequency both set the stiffness: give one";
+    if (soft->density > 0 && soft->young == 0)
+        return "--density needs --young: with --frequency the stiffness follows the mass and the motion stays the "
+               "same";
+    if (soft->frequency == 0) soft->frequency = usual.frequency;
+    if (soft->density == 0) soft->density = usual.density;
+    return NULL;
 }
 
 /// Modes among which the one that is seen most is found.
@@ -350,8 +511,8 @@ int command_simulate(int argc, char **argv)
     job.modal = modes > 0;
     job.soft.modes = job.modal ? modes : MODES_SEARCHED;
     if (!job.modal) job.soft.shake = &shake->shake;
-    const char *wrong = check(&job);
+    const char *wrong = check_job(&job);
     if (wrong) return (int)options_wrong(&usage, "%s", wrong);
     struct error error;
-    return options_end(run(&job, &error), &error);
+    return options_end(simulate_mesh(&job, &error), &error);
 }

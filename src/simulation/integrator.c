@@ -22,7 +22,7 @@ static double swell(double x)
 }
 
 /// The natural cubic spline; beyond its ends it is a straight line.
-static double track_at(const struct drive *d, double t, int derivative)
+static double track_at(const struct base_drive *d, double t, int derivative)
 {
     int low = 0, high = d->count - 1;
     while (high - low > 1) {
@@ -40,7 +40,7 @@ static double track_at(const struct drive *d, double t, int derivative)
     return a * d->value[low] + b * d->value[high] + bend * width * width / 6;
 }
 
-double drive_place(const struct drive *d, double t)
+double drive_place(const struct base_drive *d, double t)
 {
     t = fmax(t, 0);
     const double periods = d->frequency * t, wave = sin(2 * M_PI * periods);
@@ -63,7 +63,7 @@ double drive_place(const struct drive *d, double t)
     return 0;
 }
 
-double drive_acceleration(const struct drive *d, double t)
+double drive_acceleration(const struct base_drive *d, double t)
 {
     if (d->kind == DRIVE_NONE) return 0;
     if (d->kind == DRIVE_TRACK) return d->size * track_at(d, t, 2);
@@ -71,13 +71,13 @@ double drive_acceleration(const struct drive *d, double t)
     return (drive_place(d, t + h) - 2 * drive_place(d, t) + drive_place(d, t - h)) / (h * h);
 }
 
-double drive_end(const struct drive *d)
+double drive_end(const struct base_drive *d)
 {
     if (d->kind == DRIVE_BURST) return BURST_PERIODS / d->frequency;
     return d->kind == DRIVE_TRACK ? d->time[d->count - 1] : INFINITY;
 }
 
-static bool read_track_lines(struct drive *d, char *text, const char *path, struct error *error)
+static bool read_track_lines(struct base_drive *d, char *text, const char *path, struct error *error)
 {
     int number = 0;
     for (char *line = text, *next; line; line = next) {
@@ -107,7 +107,7 @@ static bool read_track_lines(struct drive *d, char *text, const char *path, stru
                 d->count);
 }
 
-bool drive_read_track(struct drive *d, const char *path, struct error *error)
+bool drive_read_track(struct base_drive *d, const char *path, struct error *error)
 {
     char *text;
     size_t size, lines = 1;
@@ -135,12 +135,12 @@ bool drive_read_track(struct drive *d, const char *path, struct error *error)
     return good;
 }
 
-void drive_free(struct drive *d)
+void drive_free(struct base_drive *d)
 {
     free(d->time);
     free(d->value);
     free(d->curvature);
-    *d = (struct drive){0};
+    *d = (struct base_drive){0};
 }
 
 // --- springs under the vertices

@@ -27,7 +27,7 @@ enum drive_kind {
 };
 
 /// How the base of a shaken body moves: a displacement over time along one direction.
-struct drive {
+struct base_drive {
     enum drive_kind kind;
     double direction[3]; ///< of length 1
     double size;         ///< the largest displacement, m; for a track, the factor it is multiplied by
@@ -40,17 +40,17 @@ struct drive {
 };
 
 /// Reads a track, one "seconds,displacement" a line; headings and blank lines are skipped. Sets kind and samples.
-bool drive_read_track(struct drive *drive, const char *path, struct error *error);
-void drive_free(struct drive *drive);
+bool drive_read_track(struct base_drive *drive, const char *path, struct error *error);
+void drive_free(struct base_drive *drive);
 
 /// Displacement from the start along the direction, m. All kinds have continuous velocities.
-double drive_place(const struct drive *drive, double time);
+double drive_place(const struct base_drive *drive, double time);
 
 /// Its second derivative, m/s².
-double drive_acceleration(const struct drive *drive, double time);
+double drive_acceleration(const struct base_drive *drive, double time);
 
 /// The second at which the drive ends; infinite if it never ends.
-double drive_end(const struct drive *drive);
+double drive_end(const struct base_drive *drive);
 
 /// A smooth floor under the surface: each vertex below it is pushed up by a spring.
 ///
@@ -89,9 +89,9 @@ void floor_free(struct floor *floor);
 /// The simulation runs in the base's frame. There a base that accelerates by a is a uniform force −m a on all nodes, the pinned
 /// nodes stand still and the floor moves. This is exact.
 struct loads {
-    double gravity;            ///< down (−y), m/s²
-    const struct drive *drive; ///< of the base, or NULL
-    struct floor *floor;       ///< or NULL
+    double gravity;                 ///< down (−y), m/s²
+    const struct base_drive *drive; ///< of the base, or NULL
+    struct floor *floor;            ///< or NULL
 };
 
 struct integrator {

@@ -6,7 +6,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     struct error error = {0};
-    struct drive drive = {.size = 1};
+    struct base_drive drive = {.size = 1};
     const bool good = drive_read_track(&drive, fuzz_file("track.csv", data, size), &error);
     fuzz_expect(good == (error.kind == ERROR_NONE), "a track is refused with a sentence");
     for (int i = 0; good && i < drive.count; i++) {
