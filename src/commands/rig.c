@@ -69,11 +69,11 @@ static bool write_output(const struct job *job, struct opened *opened, struct er
         if (*report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
     }
 
-    // "; clip Walk loops".
+    // "; clip Walk loops"; the name of a nameless one, "clip 2", says it already.
     const struct model_rig *model = &opened->document->rigs[0]->model;
     const struct gltf *gltf = &models_imported(opened->models, opened->document, 0)->gltf;
     const int clip = gltf_find_clip(gltf, model->clip);
-    const char *before = clip < 0 ? "" : "; clip ";
+    const char *before = clip < 0 ? "" : strncmp(model->clip, "clip ", 5) == 0 ? "; " : "; clip ";
     const char *name = clip < 0 ? "" : model->clip;
     const char *plays = clip < 0 ? "" : clip_play(model, &gltf->clips[clip]).loops ? " loops" : " plays once";
     if (as_scene) {
