@@ -34,7 +34,7 @@ static void change_gauge(struct component *c, double complex g)
     c->metric.square *= g * g;
 }
 
-static double complex along(const struct component *c, int vertex)
+static double complex component_along(const struct component *c, int vertex)
 {
     const double complex *n = c->shape[vertex];
     return n[0] * c->direction[0] + n[1] * c->direction[1] + n[2] * c->direction[2];
@@ -74,7 +74,7 @@ static void component_turn(struct component *c, const double direction[3])
         for (int i = 0; i < 3; i++) d[i] = copysign(1, largest) * d[i];
     }
     for (int v = 0; v < c->vertices; v++) {
-        double complex n = along(c, v);
+        double complex n = component_along(c, v);
         squares += n * n;
         sum += n;
     }
@@ -132,7 +132,7 @@ void component_lags(struct component *c)
     double total = 0, sum = 0;
     c->reach = 0;
     for (int v = 0; v < c->vertices; v++) {
-        double complex n = along(c, v);
+        double complex n = component_along(c, v);
         double size = 0;
         for (int k = 0; k < 3; k++) size += creal(c->shape[v][k] * conj(c->shape[v][k]));
         c->reach = fmax(c->reach, sqrt(size));
@@ -525,7 +525,7 @@ static double solve_unknowns(double a[UNKNOWNS][UNKNOWNS], const double *b, int 
 }
 
 /// Finds the best values and slopes, and their error; infinite if the solver fails.
-static double evaluate(const struct knot_search *s, struct knots *k)
+static double evaluate_knots(const struct knot_search *s, struct knots *k)
 {
     const struct series_metric *m = &s->component->metric;
     double a[UNKNOWNS][UNKNOWNS] = {{0}}, b[UNKNOWNS] = {0}, v[UNKNOWNS];
@@ -559,7 +559,7 @@ static double evaluate(const struct knot_search *s, struct knots *k)
 /// Keeps a change that reduces the error.
 static bool keep_better(const struct knot_search *s, struct knots *k, struct knots *changed)
 {
-    if (!(evaluate(s, changed) < k->error * (1 - worth))) return false;
+    if (!(evaluate_knots(s, changed) < k->error * (1 - worth))) return false;
     *k = *changed;
     return true;
 }
@@ -588,7 +588,7 @@ static bool try_parameters(const struct knot_search *s, struct knots *k, double 
 }
 
 /// Tries every frame and parameter in turn while that helps, with steps that halve. The first knot stays.
-static void refine(const struct knot_search *s, struct knots *k, int stride)
+static void refine_knots(const struct knot_search *s, struct knots *k, int stride)
 {
     double step = 0.08;
     for (int halving = 0; halving<HALVINGS; halving++, step /= 2, stride = stride> 1 ? stride / 2 : 1) {
@@ -607,7 +607,7 @@ static void refine(const struct knot_search *s, struct knots *k, int stride)
 }
 
 /// Adds the knot that helps most, from one frame in `stride`. False if none helps.
-static bool add_knot(const struct knot_search *s, struct knots *k, int stride)
+static bool add_best_knot(const struct knot_search *s, struct knots *k, int stride)
 {
     struct knots best = *k;
     int gap = least_gap(k);
@@ -627,7 +627,7 @@ static bool add_knot(const struct knot_search *s, struct knots *k, int stride)
 }
 
 /// Takes the other spline if it is clearly better.
-static void prefer(struct knots *k, const struct knots *other)
+static void prefer_knots(struct knots *k, const struct knots *other)
 {
     if (other->error < simpler * k->error) *k = *other;
 }
@@ -652,9 +652,9 @@ static struct knots find_knots(const struct knot_search *s, wiggly_mode mode, bo
                       .sloped = sloped};
     int stride = (c->frames + CANDIDATES - 1) / CANDIDATES;
     double floor_error = component_error(c, c->series);
-    evaluate(s, &k);
-    while (k.error > near_enough * floor_error && k.count < KNOTS_MOST && add_knot(s, &k, stride))
-        refine(s, &k, stride);
+    evaluate_knots(s, &k);
+    while (k.error > near_enough * floor_error && k.count < KNOTS_MOST && add_best_knot(s, &k, stride))
+        refine_knots(s, &k, stride);
 
     // Each knot but the first is tried at every frame.
     bool better = true;
@@ -665,9 +665,9 @@ static struct knots find_knots(const struct knot_search *s, wiggly_mode mode, bo
             changed.count--;
             memmove(changed.frame + knot, changed.frame + knot + 1,
                     (size_t)(changed.count - knot) * sizeof *changed.frame);
-            evaluate(s, &changed);
-            if (!add_knot(s, &changed, stride)) continue;
-            refine(s, &changed, stride);
+            evaluate_knots(s, &changed);
+            if (!add_best_knot(s, &changed, stride)) continue;
+            refine_knots(s, &changed, stride);
             if (!(changed.error < k.error * (1 - worth))) continue;
             k = changed;
             better = true;
@@ -688,9 +688,11 @@ void knots_create(struct knots *k, const struct component *component, double fps
     *k = find_knots(&s, WIGGLY_COMPLEX, false);
     if (k->error > close_enough * component_error(component, component->series)) {
         const struct knots sloped = find_knots(&s, WIGGLY_COMPLEX, true), stiff = find_knots(&s, WIGGLY_REAL, false);
-        prefer(k, &sloped);
-        prefer(k, &stiff);
+        prefer_knots(k, &sloped);
+        prefer_knots(k, &stiff);
     }
+
+    // Rounds the numbers to a thousandth of the largest, as a person would write them.
     shorten_all(k->value, k->count);
     shorten_all(k->slope, k->count);
     k->frequency = rounded(k->frequency, 1e4);

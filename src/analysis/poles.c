@@ -23,6 +23,7 @@
 // Large displacements or a force make a motion need more poles than it has. Spurious poles move as the order grows; those of the
 // body stay, to at least three digits.
 
+/// Smaller eigenvalues of C, as a share of the largest, are rounding of float data or too weak to matter.
 static const double least_share = 1e-6;
 /// Noise gives eigenvalues of about equal size; those this many times above their median are motion.
 static const double above_noise = 1.6;
@@ -41,8 +42,8 @@ static double trend(int windows, bool linear, int j)
 
 /// Removes what is constant or linear in the window's start j: C −= B G Bᵀ, where row i of B is the trend over j, delayed by i
 /// frames. `room` holds 2 L n numbers.
-static void project(const struct lapack *lapack, const double *gram, int n, int length, bool linear, double *room,
-                    double *c)
+static void remove_trend(const struct lapack *lapack, const double *gram, int n, int length, bool linear,
+                         double *room, double *c)
 {
     int windows = n - length + 1;
     double *b = room, *bg = room + (size_t)length * (size_t)n;
@@ -145,14 +146,14 @@ int subspace_poles(const struct lapack *lapack, const double *gram, int frames, 
         }
     }
     for (int i = 0; i < length; i++) whole += c[i * length + i];
-    project(lapack, gram, frames, length, false, room, c);
-    project(lapack, gram, frames, length, true, room, c);
+    remove_trend(lapack, gram, frames, length, false, room, c);
+    remove_trend(lapack, gram, frames, length, true, room, c);
     memcpy(room, c, size * sizeof *c);
     bool good = lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', length, room, length, values) == 0;
     if (good && values[length - 1] <= least_swing * whole) {
         count = 0;
     } else if (good) {
-        // Restores what project() removed of white noise of this power per window and frame, so that it is white again.
+        // Restores what remove_trend() removed of white noise of this power per window and frame, so that it is white again.
         const double noise = fmax(values[length / 2], 0);
         for (int d = 0; d < length; d++) {
             double lost = 0;
@@ -300,7 +301,7 @@ struct fit {
 };
 
 /// Adds to an entry of the lower band, column after column; blocks of two neighbouring frames fit in it.
-static void put(double *band, int d, int row, int column, double value)
+static void put_in_band(double *band, int d, int row, int column, double value)
 {
     band[column * 2 * d + row - column] += value;
 }
@@ -321,7 +322,7 @@ static void solve_series(struct fit *f)
     memset(band, 0, 2 * (size_t)(d * d) * (size_t)n * sizeof *band);
     for (int t = 0; t < n; t++) {
         for (int i = 0; i < d; i++) {
-            for (int k = 0; k <= i; k++) put(band, d, t * d + i, t * d + k, f->metric[i * d + k]);
+            for (int k = 0; k <= i; k++) put_in_band(band, d, t * d + i, t * d + k, f->metric[i * d + k]);
             x[t * d + i] = f->pull[i * n + t];
         }
         const double share = t < f->first ? driven : 1; // of μ that counts between frame t and the next
@@ -331,12 +332,12 @@ static void solve_series(struct fit *f)
             const int at = t * d + 2 * k, next = at + d;
             const double mu = share * push[k];
             for (int i = 0; i < 2; i++) {
-                put(band, d, at + i, at + i, mu * creal(z[k] * conj(z[k])));
-                put(band, d, next + i, next + i, mu);
-                put(band, d, next + i, at + i, -mu * creal(z[k]));
+                put_in_band(band, d, at + i, at + i, mu * creal(z[k] * conj(z[k])));
+                put_in_band(band, d, next + i, next + i, mu);
+                put_in_band(band, d, next + i, at + i, -mu * creal(z[k]));
             }
-            put(band, d, next, at + 1, -mu * cimag(z[k]));
-            put(band, d, next + 1, at, mu * cimag(z[k]));
+            put_in_band(band, d, next, at + 1, -mu * cimag(z[k]));
+            put_in_band(band, d, next + 1, at, mu * cimag(z[k]));
         }
     }
     if (f->lapack->dpbsv(LAPACK_COLUMNS_FIRST, 'L', n * d, 2 * d - 1, 1, band, 2 * d, x, n * d) != 0) return;

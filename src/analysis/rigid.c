@@ -86,7 +86,7 @@ static void measure_rest(struct survey *s)
 
 static double size_of(const struct survey *s) { return s->spread[0][0] + s->spread[1][1] + s->spread[2][2]; }
 
-static void add_vertex(struct survey *s, const struct slab *slab, int vertex)
+static void survey_vertex(struct survey *s, const struct slab *slab, int vertex)
 {
     const double *x = slab->numbers + 3 * vertex - slab->first;
     double low[3], high[3];
@@ -125,7 +125,7 @@ static void fit_turn(const struct lapack *lapack, const double m[3][3], double w
 enum { PATH = 7 }; ///< x̄ of a frame, and its quaternion times twice the reach, as lengths
 
 /// Replaces each row of the path by its least-squares cubic: the slow part. False if that is small beside the rest.
-static bool smooth(double *path, int frames)
+static bool keep_slow(double *path, int frames)
 {
     enum { POWERS = 4 };
     struct basis basis;
@@ -170,7 +170,7 @@ static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const s
         for (int a = 0; a < 3; a++) path[a * frames + t] = s->mean[t][a];
     }
     rigid->loose = !known;
-    const bool follows = known || smooth(path, frames);
+    const bool follows = known || keep_slow(path, frames);
 
     // R and p of every frame from the path.
     double moved = 0, first[4];
@@ -228,7 +228,7 @@ bool rigid_find(struct rigid *rigid, const struct lapack *lapack, const struct m
     if (s.count > 0) {
         struct slab slab = slab_start(motion);
         while (slab_next(&slab, error)) {
-            for (int v = slab.first / 3; v < (slab.first + slab.count) / 3; v++) add_vertex(&s, &slab, v);
+            for (int v = slab.first / 3; v < (slab.first + slab.count) / 3; v++) survey_vertex(&s, &slab, v);
         }
         done = slab_end(&slab);
     }

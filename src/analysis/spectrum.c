@@ -16,6 +16,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+/// Another coefficient needs this share of the power left to predict; less is the rounding of float data.
 static const double least_power = 1e-9;
 
 enum { TERMS = HILBERT_ORDER_MAX + 1 };

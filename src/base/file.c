@@ -62,8 +62,8 @@ static bool fail_too_large(const char *path, size_t limit, struct error *error)
 }
 
 /// Reads to the end, or one byte past the limit. The caller owns `*data` in any case.
-static bool read_all(int file, const char *path, size_t limit, char **data, size_t capacity, size_t *size,
-                     struct error *error)
+static bool read_to_end(int file, const char *path, size_t limit, char **data, size_t capacity, size_t *size,
+                        struct error *error)
 {
     *size = 0;
     *data = malloc(capacity + 1);
@@ -96,7 +96,7 @@ bool file_read(const char *path, size_t limit, char **data, size_t *size, struct
         fail_too_large(path, limit, error);
     } else {
         size_t capacity = about.st_size > 0 ? (size_t)about.st_size + 1 : READ_BLOCK;
-        done = read_all(file, path, limit, data, capacity, size, error);
+        done = read_to_end(file, path, limit, data, capacity, size, error);
     }
     close(file);
     if (!done) {
@@ -118,7 +118,7 @@ bool file_read_text(const char *path, size_t limit, char **text, size_t *size, s
 }
 
 /// `name` relative to the folder of `path`.
-static char *beside(const char *path, const char *name)
+static char *path_beside(const char *path, const char *name)
 {
     const char *slash = strrchr(path, '/');
     size_t folder = slash && name[0] != '/' ? (size_t)(slash - path) + 1 : 0;
@@ -137,7 +137,7 @@ static char *resolve_links(const char *path)
         ssize_t length = readlink(target, link, sizeof link - 1);
         if (length < 0) return target;
         link[length] = '\0';
-        char *next = beside(target, link);
+        char *next = path_beside(target, link);
         free(target);
         target = next;
     }
@@ -244,10 +244,10 @@ static void remove_stale(int folder, const char *name)
 }
 
 /// Removes such files beside the target, once for each folder that is written to in turn.
-static void sweep(const char *target)
+static void sweep_stale(const char *target)
 {
     static _Thread_local uint64_t swept;
-    char *path = beside(target, ".");
+    char *path = path_beside(target, ".");
     const uint64_t folder = hash_bytes(HASH_START, path, strlen(path));
     DIR *directory = folder != swept ? opendir(path) : NULL;
     swept = folder;
@@ -283,7 +283,7 @@ static int create_beside(const char *target, bool is_folder, mode_t mode, char *
     for (int i = 0; i < MAX_NAMES; i++) {
         char name[64];
         snprintf(name, sizeof name, ".wiggly-%ld-%d.tmp", (long)getpid(), i);
-        *temporary = beside(target, name);
+        *temporary = path_beside(target, name);
         need_at_end = file_remove_unfinished;
         if (!is_folder) replace_unfinished(NULL, *temporary); // a signal may come as soon as the file exists
         int file = !is_folder                     ? open(*temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, mode)
@@ -305,7 +305,7 @@ static int create_beside(const char *target, bool is_folder, mode_t mode, char *
 
 int file_folder_beside(const char *path, char **folder)
 {
-    sweep(path);
+    sweep_stale(path);
     return create_beside(path, true, 0700, folder);
 }
 
@@ -357,7 +357,7 @@ bool file_check_place(const char *path, struct error *error)
 }
 
 /// Opens the output: a temporary file beside the target, or the target itself if it is a device or pipe.
-static int open_output(const char *path, struct file_output *output)
+static int open_target(const char *path, struct file_output *output)
 {
     struct stat old;
     const bool exists = stat(path, &old) == 0;
@@ -369,7 +369,7 @@ static int open_output(const char *path, struct file_output *output)
     if (exists && access(path, W_OK) != 0) return -1;
     output->target = resolve_links(path);
     if (!output->target) return -1;
-    sweep(output->target);
+    sweep_stale(output->target);
     int file = create_beside(output->target, false, exists ? 0600 : 0666, &output->temporary);
     if (file >= 0 && exists && !keep_rights(file, path, &old)) {
         close(file);
@@ -382,7 +382,7 @@ bool file_output_open(struct file_output *output, const char *path, struct error
 {
     *output = (struct file_output){.path = path};
     if (!file_check_unread(path, error)) return false;
-    int file = open_output(path, output);
+    int file = open_target(path, output);
     if (file >= 0) output->stream = fdopen(file, "wb");
     if (output->stream) return true;
     int cause = errno;
@@ -392,7 +392,7 @@ bool file_output_open(struct file_output *output, const char *path, struct error
 }
 
 /// Forgets the temporary file.
-static void forget(struct file_output *output)
+static void forget_temporary(struct file_output *output)
 {
     if (output->temporary) replace_unfinished(output->temporary, NULL);
     free(output->temporary);
@@ -441,9 +441,9 @@ bool file_output_commit(struct file_output *output, struct error *error)
         done |= copied;
     }
     if (done && replaces) {
-        forget(output);
+        forget_temporary(output);
         // The folder's entry must be on the disk, too. If the file system cannot do that, the content is still safe.
-        char *folder = beside(output->target, ".");
+        char *folder = path_beside(output->target, ".");
         const int file = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
         free(folder);
         if (file >= 0) {
@@ -460,7 +460,7 @@ void file_output_discard(struct file_output *output)
 {
     if (output->stream) fclose(output->stream);
     if (output->temporary) unlink(output->temporary);
-    forget(output);
+    forget_temporary(output);
     free(output->target);
     *output = (struct file_output){0};
 }

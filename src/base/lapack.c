@@ -6,7 +6,7 @@
 #include <string.h>
 
 /// dlsym() returns an object pointer; POSIX allows copying it into a function pointer, C forbids the cast.
-static void find(void *library, const char *name, void *function)
+static void find_symbol(void *library, const char *name, void *function)
 {
     void *symbol = library ? dlsym(library, name) : NULL;
     memcpy(function, &symbol, sizeof symbol);
@@ -29,14 +29,14 @@ bool lapack_load(struct lapack *lapack, char *description, size_t size)
     char *(*get_config)(void) = NULL;
     lapack->blas = dlopen("libopenblas.so.0", RTLD_NOW | RTLD_GLOBAL);
     lapack->lapacke = dlopen("liblapacke.so.3", RTLD_NOW);
-    find(lapack->blas, "openblas_set_num_threads", &set_threads);
-    find(lapack->blas, "openblas_get_config", &get_config);
-    find(lapack->blas, "cblas_dsyrk", &lapack->dsyrk);
-    find(lapack->blas, "cblas_dgemm", &lapack->dgemm);
-    find(lapack->lapacke, "LAPACKE_dpbsv", &lapack->dpbsv);
-    find(lapack->lapacke, "LAPACKE_dsyevd", &lapack->dsyevd);
-    find(lapack->lapacke, "LAPACKE_zheevd", &lapack->zheevd);
-    find(lapack->lapacke, "LAPACKE_dgeev", &lapack->dgeev);
+    find_symbol(lapack->blas, "openblas_set_num_threads", &set_threads);
+    find_symbol(lapack->blas, "openblas_get_config", &get_config);
+    find_symbol(lapack->blas, "cblas_dsyrk", &lapack->dsyrk);
+    find_symbol(lapack->blas, "cblas_dgemm", &lapack->dgemm);
+    find_symbol(lapack->lapacke, "LAPACKE_dpbsv", &lapack->dpbsv);
+    find_symbol(lapack->lapacke, "LAPACKE_dsyevd", &lapack->dsyevd);
+    find_symbol(lapack->lapacke, "LAPACKE_zheevd", &lapack->zheevd);
+    find_symbol(lapack->lapacke, "LAPACKE_dgeev", &lapack->dgeev);
     if (set_threads) set_threads(1);
     bool whole = lapack->dpbsv && lapack->dsyevd && lapack->zheevd && lapack->dgeev && lapack->dsyrk && lapack->dgemm;
     if (!whole) {

@@ -17,7 +17,7 @@ struct used {
     bool is_taken;
 };
 
-static int compare(const void *a, const void *b)
+static int compare_names(const void *a, const void *b)
 {
     return strcmp(((const struct used *)a)->text, ((const struct used *)b)->text);
 }
@@ -28,7 +28,7 @@ static struct used *used_of(struct names *names, const char *text, int length)
     struct used *used = pool_take(&names->pool, 1, sizeof *used + (size_t)length + 1);
     memcpy(used + 1, text, (size_t)length);
     *used = (struct used){.text = (char *)(used + 1), .next = 2};
-    struct used **found = tsearch(used, &names->tree, compare);
+    struct used **found = tsearch(used, &names->tree, compare_names);
     if (found) return *found;
     need_failed();
 }
@@ -52,7 +52,7 @@ const char *names_add(struct names *names, const char *wanted)
 
 bool names_has(const struct names *names, const char *name)
 {
-    struct used *const *found = tfind(&(struct used){.text = name}, &names->tree, compare);
+    struct used *const *found = tfind(&(struct used){.text = name}, &names->tree, compare_names);
     return found && (*found)->is_taken;
 }
 

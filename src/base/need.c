@@ -49,7 +49,7 @@ _Noreturn void need_failed(void)
 }
 
 /// `count` · `size`, at least 1, because NULL must mean that memory ran out.
-static size_t bytes_of(size_t count, size_t size)
+static size_t need_bytes(size_t count, size_t size)
 {
     size_t bytes;
     if (__builtin_mul_overflow(count, size, &bytes)) need_failed();
@@ -58,7 +58,7 @@ static size_t bytes_of(size_t count, size_t size)
 
 void *need_more(void *old, size_t count, size_t size)
 {
-    const size_t bytes = bytes_of(count, size);
+    const size_t bytes = need_bytes(count, size);
     for (int i = 0; i < NAPS; i++) {
         void *memory = realloc(old, bytes);
         if (memory) return memory;
@@ -69,7 +69,7 @@ void *need_more(void *old, size_t count, size_t size)
 
 void *need(size_t count, size_t size)
 {
-    void *memory = malloc(bytes_of(count, size));
+    void *memory = malloc(need_bytes(count, size));
     if (memory) return memory;
     ran_short();
     return need_more(NULL, count, size);
@@ -77,7 +77,7 @@ void *need(size_t count, size_t size)
 
 void *need_zeroed(size_t count, size_t size)
 {
-    const size_t bytes = bytes_of(count, size);
+    const size_t bytes = need_bytes(count, size);
     void *memory = calloc(1, bytes); // pages from the system are zero already
     if (memory) return memory;
     ran_short();

@@ -313,8 +313,8 @@ static bool add_spline(struct document *document, const char *name, const struct
 
 /// Writes a scene for the character file `model`, with one spline per coordinate, as many coordinates as a scene allows. The first
 /// coordinate of every motion comes before the second of any.
-static bool write_scene(const char *path, const char *model, const struct character *character,
-                        const struct analyzed *analyzed, struct error *error)
+static bool analyze_write_scene(const char *path, const char *model, const struct character *character,
+                                const struct analyzed *analyzed, struct error *error)
 {
     char folder[PATH_LIMIT], name[] = "character", *file = need_text(path_name(model));
     struct document *document = document_create();
@@ -349,8 +349,8 @@ static bool write_scene(const char *path, const char *model, const struct charac
 
 /// Writes R and the spline's x of every coordinate, one row per frame, as CSV: frame, NAME.re, NAME.im, NAME.fit.re, NAME.fit.im.
 /// Fields stay empty after a motion's end.
-static bool write_coordinates(const char *path, const struct character *character, const struct analyzed *analyzed,
-                              struct error *error)
+static bool analyze_write_coordinates(const char *path, const struct character *character,
+                                      const struct analyzed *analyzed, struct error *error)
 {
     static const char *const suffixes[] = {".re", ".im", ".fit.re", ".fit.im"};
     const int count = character->coordinate_count;
@@ -405,8 +405,8 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
     done = done && (!job->scene || file_check_unread(job->scene, error)) &&
            (!job->coordinates || file_check_unread(job->coordinates, error)) &&
            character_write(job->output, character, !job->no_normals, error) &&
-           (!job->scene || write_scene(job->scene, job->output, character, result.analyzed, error)) &&
-           (!job->coordinates || write_coordinates(job->coordinates, character, result.analyzed, error));
+           (!job->scene || analyze_write_scene(job->scene, job->output, character, result.analyzed, error)) &&
+           (!job->coordinates || analyze_write_coordinates(job->coordinates, character, result.analyzed, error));
     for (int i = 0; i < result.filled; i++) {
         free(result.analyzed[i].series);
         knots_free(&result.analyzed[i].knots);

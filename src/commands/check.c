@@ -19,7 +19,7 @@ static void print_problem(void *user, bool is_error, const char *sentence)
     print_line(stdout, "%s%s", is_error ? "" : "warning: ", sentence);
 }
 
-static void warn(void *user, const char *sentence)
+static void print_warning(void *user, const char *sentence)
 {
     const char *const *path = user;
     print_line(stdout, "warning: %s: %s", *path, sentence);
@@ -81,7 +81,7 @@ static int check_scene(const char *path)
                    "warning: %s: splines[%d]: \"%s\": the equilibrium of this loop does not end where it starts",
                    path, i, spline->name);
     }
-    solution_warnings(document, evaluation, warn, &path);
+    solution_warnings(document, evaluation, print_warning, &path);
     opened_free(&opened);
     return good ? 0 : ERROR_INPUT;
 }

@@ -67,6 +67,7 @@ bool companion_read(const char *motion, int frames, int vertices, struct compani
     return done;
 }
 
+/// z up becomes y up as in Blender's exporters: x stays, y becomes −z. x up: z stays, x becomes y, y becomes −x.
 static bool turn_upright(const struct mesh_options *options, struct surface *surface)
 {
     static const struct {

@@ -24,20 +24,20 @@ struct job {
     struct progress progress;
 };
 
-static bool proceed(void *user, long done, long total)
+static bool show_frames(void *user, long done, long total)
 {
     struct job *job = user;
     if (!job->quiet) progress_show(&job->progress, done, total);
     return !process_was_told_to_end();
 }
 
-static bool write_motion(struct job *job, struct opened *opened, struct error *error)
+static bool export_motion(struct job *job, struct opened *opened, struct error *error)
 {
     struct export_report report;
     document_set_path(opened->document, job->scene);
     opened_solve(opened, SOLVER_BY_LENGTH);
     const struct posing posing = opened_posing(opened);
-    job->options.proceed = proceed;
+    job->options.proceed = show_frames;
     job->options.user = job;
     job->progress.started = clock_now();
     if (job->theme) theme_use((enum theme_kind)(job->theme - 1));
@@ -50,7 +50,7 @@ static bool write_motion(struct job *job, struct opened *opened, struct error *e
 }
 
 /// Writes the paint of the named character, or of the first one with paint.
-static bool write_paint(const struct job *job, const struct document *document, struct error *error)
+static bool export_paint(const struct job *job, const struct document *document, struct error *error)
 {
     const char *name = job->options.rig;
     for (int i = -1; (i = document_next_rig(document, RIG_CHARACTER, i)) >= 0;) {
@@ -135,7 +135,7 @@ int command_export(int argc, char **argv)
     struct opened opened;
     struct error error;
     if (!opened_read(&opened, job.scene, &error)) return options_end(false, &error);
-    const bool done = job.paint ? write_paint(&job, opened.document, &error) : write_motion(&job, &opened, &error);
+    const bool done = job.paint ? export_paint(&job, opened.document, &error) : export_motion(&job, &opened, &error);
     opened_free(&opened);
     return options_end(done, &error);
 }

@@ -97,7 +97,7 @@ static enum options_result read_word(const struct usage *usage, const struct opt
     return options_wrong(usage, "%s: expected %s, got '%s'", option->name, list, text);
 }
 
-static enum options_result store(const struct usage *usage, const struct option_spec *option, const char *text)
+static enum options_result store_value(const struct usage *usage, const struct option_spec *option, const char *text)
 {
     const char *rest;
     double low = option->minimum, high = option->maximum;
@@ -173,15 +173,15 @@ static enum options_result read_option(const struct usage *usage, int argc, char
     }
     if (option->kind == OPTION_FLAG) {
         if (equals) return options_wrong(usage, "%s takes no value", option->name);
-        return store(usage, option, NULL);
+        return store_value(usage, option, NULL);
     }
-    if (equals) return store(usage, option, equals + 1);
+    if (equals) return store_value(usage, option, equals + 1);
     if (*at + 1 >= argc) return options_wrong(usage, "%s needs a value: %s", option->name, option->argument);
-    return store(usage, option, argv[++*at]);
+    return store_value(usage, option, argv[++*at]);
 }
 
 /// `all`: not just the common options.
-static void print_help(const struct usage *usage, bool all)
+static void options_print_help(const struct usage *usage, bool all)
 {
     const int count = all || !usage->common_count ? usage->option_count : usage->common_count;
     printf("Usage: wiggly %s%s %s\n%s\n", usage->command, usage->option_count ? " [options]" : "", usage->operands,
@@ -198,7 +198,7 @@ static void print_help(const struct usage *usage, bool all)
 }
 
 /// Refuses an output that is another output of the command, or one of its inputs. Devices and pipes may be shared.
-static enum options_result check_outputs(const struct usage *usage, const char **operands)
+static enum options_result options_check_outputs(const struct usage *usage, const char **operands)
 {
     static char operand[WORD_MAX + 1];
     const char *word = usage->operands + (usage->operands[0] == '[');
@@ -233,7 +233,7 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     for (int i = 1; i < argc; i++) {
         const bool asks_all = !only_operands && strcmp(argv[i], "--help-all") == 0;
         if (asks_all || (!only_operands && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0))) {
-            print_help(usage, asks_all);
+            options_print_help(usage, asks_all);
             return OPTIONS_HELP;
         }
         if (!only_operands && strcmp(argv[i], "--") == 0) {
@@ -250,7 +250,7 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     }
     if (count == 0 && usage->operands[0] != '[')
         return options_wrong(usage, "an argument is missing: %s", usage->operands);
-    return check_outputs(usage, operands);
+    return options_check_outputs(usage, operands);
 }
 
 int options_end(bool done, const struct error *error)

@@ -56,6 +56,7 @@ struct job {
 /// How many frames are written.
 static int shake_frames(const struct shake_job *job) { return (int)fmax(1, round(job->seconds * job->fps)); }
 
+/// The motion of the nodes, and how it was computed.
 struct record {
     int frames, nodes, substeps;
     bool calmed;       ///< some steps were first order
@@ -371,7 +372,7 @@ static bool simulate_mesh(struct job *job, struct error *error)
 }
 
 /// Parses --drive; an unknown name is a file. NULL or an error text.
-static const char *set_drive(struct job *job)
+static const char *parse_drive(struct job *job)
 {
     static const char *const kinds[] = {"none", "sine", "burst", "sweep"}; // as in enum drive_kind
     const bool impulse = job->shake.shake.impulse, loose = job->soft.pin.kind == REGION_NONE;
@@ -408,7 +409,7 @@ static const char *check_job(struct job *job)
     job->shake.output = job->output;
     job->shake.budget = 1e6 * job->budget;
     set_swing(job, DRIVE_NONE);
-    const char *wrong = job->modal ? NULL : set_drive(job);
+    const char *wrong = job->modal ? NULL : parse_drive(job);
     if (wrong) return wrong;
 
     // Stiffness and mass; 0: not given.

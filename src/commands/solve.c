@@ -32,7 +32,7 @@ static void write_csv(FILE *out, const struct document *document, const struct e
     }
 }
 
-static void warn(void *user, const char *sentence)
+static void warn_on_stderr(void *user, const char *sentence)
 {
     const char *const *scene = user;
     print_line(stderr, "%s: warning: %s", *scene, sentence);
@@ -61,7 +61,7 @@ int command_solve(int argc, char **argv)
     struct error error;
     if (!opened_read_splines(&opened, scene, &error)) return options_end(false, &error);
     opened_solve(&opened, solver);
-    solution_warnings(opened.document, &opened.evaluation, warn, &scene);
+    solution_warnings(opened.document, &opened.evaluation, warn_on_stderr, &scene);
     struct file_output output;
     bool done = true;
     if (!out) {

@@ -13,7 +13,7 @@
 enum { SWEEPS_MAX = 60 };
 
 /// Rotates rows and columns p and q so that entry (p, q) becomes zero, and the same rows of `vectors`. False if it is zero already.
-static bool rotate(int n, double *a, double *vectors, int p, int q)
+static bool jacobi_rotate(int n, double *a, double *vectors, int p, int q)
 {
     double pq = a[p * n + q], pp = a[p * n + p], qq = a[q * n + q];
     if (fabs(pq) <= DBL_EPSILON * sqrt(fabs(pp)) * sqrt(fabs(qq)) || fabs(pq) < DBL_MIN) return false;
@@ -46,7 +46,7 @@ void eigen_symmetric(int n, double *a, double *values, double *vectors)
     for (int sweep = 0; moved && sweep < SWEEPS_MAX; sweep++) {
         moved = false;
         for (int p = 0; p < n; p++) {
-            for (int q = p + 1; q < n; q++) moved |= rotate(n, a, vectors, p, q);
+            for (int q = p + 1; q < n; q++) moved |= jacobi_rotate(n, a, vectors, p, q);
         }
     }
     for (int i = 0; i < n; i++) values[i] = a[i * n + i];
@@ -152,6 +152,7 @@ void svd3(const double f[3][3], struct svd *svd)
 
 // --- one tetrahedron
 
+/// The pairs of principal axes.
 static const int axis_pairs[3][2] = {{0, 1}, {0, 2}, {1, 2}};
 
 struct material material_from(double young, double poisson)
@@ -363,7 +364,7 @@ void blocks_multiply(const struct blocks *blocks, const double (*x)[3], double (
 }
 
 /// Inverse of a symmetric definite 3×3 block by cofactors.
-static void invert(const double a[9], double out[9])
+static void invert_block(const double a[9], double out[9])
 {
     double c0 = a[4] * a[8] - a[5] * a[7], c1 = a[5] * a[6] - a[3] * a[8], c2 = a[3] * a[7] - a[4] * a[6];
     double scale = 1 / (a[0] * c0 + a[1] * c1 + a[2] * c2);
@@ -395,7 +396,7 @@ int conjugate_solve(struct conjugate *c, const struct blocks *a, const double (*
     const int rows = a->rows, n = 3 * rows;
     double *r = *c->r, *z = *c->z, *p = *c->p, *q = *c->q, *unknown = *x;
     const double *right = *b;
-    for (int i = 0; i < rows; i++) invert(a->block[a->diagonal[i]], c->inverse[i]);
+    for (int i = 0; i < rows; i++) invert_block(a->block[a->diagonal[i]], c->inverse[i]);
     double goal = tolerance * tolerance * precondition(c, rows, b, c->z);
     blocks_multiply(a, (const double(*)[3])x, c->q);
     for (int i = 0; i < n; i++) r[i] = right[i] - q[i];
@@ -560,7 +561,7 @@ struct lanczos {
     double *values, *vectors; ///< of `small`
 };
 
-static double dot(const double (*a)[3], const double (*b)[3], int count)
+static double nodes_dot(const double (*a)[3], const double (*b)[3], int count)
 {
     double sum = 0;
     for (int i = 0; i < count; i++) sum += vec3_dot(a[i], b[i]);
@@ -572,18 +573,18 @@ static double dot(const double (*a)[3], const double (*b)[3], int count)
 static double orthonormalise(struct lanczos *l, double (*v)[3], int count, double *parts)
 {
     const int n = l->node_count;
-    double start = sqrt(dot((const double(*)[3])v, (const double(*)[3])v, n));
+    double start = sqrt(nodes_dot((const double(*)[3])v, (const double(*)[3])v, n));
     for (int pass = 0; pass < 2; pass++) {
         for (int k = 0; k < count; k++) {
             double(*b)[3] = l->basis + (size_t)k * (size_t)n;
-            double part = dot((const double(*)[3])v, (const double(*)[3])b, n);
+            double part = nodes_dot((const double(*)[3])v, (const double(*)[3])b, n);
             if (parts) parts[k] += part;
             for (int i = 0; i < n; i++) {
                 for (int c = 0; c < 3; c++) v[i][c] -= part * b[i][c];
             }
         }
     }
-    double length = sqrt(dot((const double(*)[3])v, (const double(*)[3])v, n));
+    double length = sqrt(nodes_dot((const double(*)[3])v, (const double(*)[3])v, n));
     if (!(length > 1e-10 * start)) return 0;
     for (int i = 0; i < n; i++) {
         for (int c = 0; c < 3; c++) v[i][c] /= length;

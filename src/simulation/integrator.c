@@ -282,7 +282,7 @@ struct scheme {
     double inertia, rate; ///< κ and r
 };
 
-static struct scheme complete(struct scheme s, double h)
+static struct scheme complete_scheme(struct scheme s, double h)
 {
     s.inertia = (1 - s.am) / ((1 - s.af) * s.beta * h * h);
     s.rate = s.gamma / (s.beta * h);
@@ -297,10 +297,10 @@ static struct scheme generalised_alpha(double h)
     s.gamma = 0.5 - s.am + s.af;
     s.beta = 0.25 * (1 - s.am + s.af) * (1 - s.am + s.af);
     s.k = 0.5 - s.beta;
-    return complete(s, h);
+    return complete_scheme(s, h);
 }
 
-static struct scheme backward_euler(double h) { return complete((struct scheme){.beta = 1, .gamma = 1}, h); }
+static struct scheme backward_euler(double h) { return complete_scheme((struct scheme){.beta = 1, .gamma = 1}, h); }
 
 void integrator_create(struct integrator *integrator, struct body *body, double step)
 {
@@ -351,7 +351,7 @@ static double sum_forces(struct integrator *m, double time, const double (*x)[3]
 
 /// Returns the potential at y, and its negative gradient in work->downhill:
 /// κ/2 |y − t|²_M + r/2 (y − q)ᵀ C (y − q) + Ψ(y)
-static double evaluate(struct integrator *m, const struct scheme *scheme, const double (*y)[3])
+static double evaluate_potential(struct integrator *m, const struct scheme *scheme, const double (*y)[3])
 {
     struct integrator_work *w = m->work;
     double potential, energy = sum_forces(m, m->time + m->step, y, w->force, &potential);
@@ -399,7 +399,7 @@ static double line_search(struct integrator *m, const struct scheme *scheme, dou
         for (int i = 0; i < 3 * m->body->node_count; i++) y[i] += (part - taken) * direction[i];
         if (largest <= m->tolerance) return largest;
         taken = part;
-        *energy = evaluate(m, scheme, (const double(*)[3])w->y);
+        *energy = evaluate_potential(m, scheme, (const double(*)[3])w->y);
         if (*energy <= before + enough * part * slope) return part * largest;
         if (*energy <= before + rounding * fabs(before) && fabs(slope_along(m)) <= 0.8 * fabs(slope)) {
             return part * largest;
@@ -415,9 +415,9 @@ static void minimise(struct integrator *m, const struct scheme *scheme)
     struct integrator_work *w = m->work;
     struct blocks *a = &m->body->stiffness;
     const size_t bytes = (size_t)m->body->node_count * sizeof *w->direction;
-    double energy = evaluate(m, scheme, (const double(*)[3])w->y);
+    double energy = evaluate_potential(m, scheme, (const double(*)[3])w->y);
     for (int iteration = 0; iteration < NEWTON_STEPS && isfinite(energy); iteration++) {
-        // The body's matrix becomes κ M + r C + K(y), with y from the last evaluate().
+        // The body's matrix becomes κ M + r C + K(y), with y from the last evaluate_potential().
         const double damping = scheme->rate * m->stiffness_damping;
         const double inertia = scheme->inertia + scheme->rate * m->mass_damping;
         body_stiffness(m->body);

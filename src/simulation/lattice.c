@@ -25,6 +25,7 @@ struct tiling {
     int *part;      ///< per element: an element of the connected part it belongs to; −1: left out
 };
 
+/// Disjoint sets: the least member of i's set (union by index, path halving). parent[i] = i at the start.
 static int union_root(int *parent, int i)
 {
     while (parent[i] != i) {
@@ -236,6 +237,7 @@ static void tiling_free(struct tiling *t)
 
 // --- lattice
 
+// Cutting takes some 13 bytes per voxel. A very thin sheet or needle would need more voxels, and gets fewer tetrahedra instead.
 static const double voxels_max = 3e7;
 
 enum { TELLING = 1 << 13 }; ///< vertices between two progress reports

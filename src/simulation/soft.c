@@ -11,7 +11,8 @@
 
 // --- regions and softness
 
-static bool read_numbers(const char *text, int count, double *numbers)
+/// `count` numbers with commas between; false if there are more or fewer.
+static bool read_reals(const char *text, int count, double *numbers)
 {
     for (int i = 0; i < count; i++) {
         char *end;
@@ -28,14 +29,14 @@ bool region_parse(const char *text, struct region *region)
     *region = (struct region){.kind = REGION_NONE};
     if (strcmp(text, "none") == 0) return true;
     if (strncmp(text, "plane:", 6) == 0) {
-        if (!read_numbers(text + 6, 6, n) || (n[3] == 0 && n[4] == 0 && n[5] == 0)) return false;
+        if (!read_reals(text + 6, 6, n) || (n[3] == 0 && n[4] == 0 && n[5] == 0)) return false;
         region->kind = REGION_PLANE;
         memcpy(region->point, n, sizeof region->point);
         memcpy(region->normal, n + 3, sizeof region->normal);
         return true;
     }
     if (strncmp(text, "sphere:", 7) == 0) {
-        if (!read_numbers(text + 7, 4, n) || !(n[3] > 0)) return false;
+        if (!read_reals(text + 7, 4, n) || !(n[3] > 0)) return false;
         region->kind = REGION_SPHERE;
         memcpy(region->point, n, sizeof region->point);
         region->size = n[3];
@@ -48,7 +49,7 @@ bool region_parse(const char *text, struct region *region)
         return true;
     }
     region->kind = REGION_FOOT;
-    return read_numbers(text, 1, &region->size) && region->size >= 0;
+    return read_reals(text, 1, &region->size) && region->size >= 0;
 }
 
 static bool has_color(const struct region *region, const float linear[3])
@@ -128,8 +129,8 @@ static bool weigh_distance(const struct lattice *lattice, const struct body *bod
 }
 
 /// Reads a .npy of `vertices` float32 or float64 numbers.
-static bool read_weights(const char *path, const char *data, size_t size, int vertices, double *vertex,
-                         struct error *error)
+static bool read_softness(const char *path, const char *data, size_t size, int vertices, double *vertex,
+                          struct error *error)
 {
     struct npy npy;
     if (!npy_read_header(&npy, path, data, size, error)) return false;
@@ -172,7 +173,7 @@ bool softness_apply(const struct softness *softness, const struct lattice *latti
         char *data = NULL;
         size_t size;
         good = file_read_text(softness->from, FILE_LIMIT, &data, &size, error) &&
-               read_weights(softness->from, data, size, surface->vertex_count, vertex, error);
+               read_softness(softness->from, data, size, surface->vertex_count, vertex, error);
         free(data);
     }
     if (good && !by_distance) lattice_spread(lattice, vertex, node);

@@ -157,7 +157,7 @@ struct repair {
     uint32_t *name;    ///< per vertex: one number for all vertices at the same place
     struct edge *edge; ///< sorted by ends
     int edge_count;
-    int *next; ///< per triangle: its neighbours across edges that exactly two share, as join() writes them, then −1
+    int *next; ///< per triangle: its neighbours across edges that exactly two share, as join_triangles() writes them
     uint8_t *turned; ///< per triangle
     int *patch;      ///< triangles, patch by patch
 };
@@ -225,7 +225,7 @@ static int end_of_group(const struct repair *r, int i)
 }
 
 /// Lists a neighbour of a triangle: twice its number, plus 1 if their sides disagree.
-static void join(struct repair *r, int triangle, int other, bool agree)
+static void join_triangles(struct repair *r, int triangle, int other, bool agree)
 {
     for (int k = 0; k < 3; k++) {
         int *next = &r->next[3 * triangle + k];
@@ -251,7 +251,7 @@ static double whole_area(const struct surface *s)
 }
 
 /// How a ray from `from` crosses a triangle: 1 ahead, −1 behind, 0 not (Möller and Trumbore).
-static int crosses(const struct surface *s, int triangle, const double from[3], const double direction[3])
+static int ray_crosses(const struct surface *s, int triangle, const double from[3], const double direction[3])
 {
     double p[3][3], edge[2][3], away[3], h[3], q[3];
     triangle_corners(s, triangle, p);
@@ -293,7 +293,7 @@ static bool faces_inwards(const struct repair *r, int first, int count, int rays
         const bool along = (vec3_dot(direction, normal) > 0) != r->turned[own];
         int ahead = 0, behind = 0;
         for (int t = 0; t < s->index_count / 3; t++) {
-            const int side = t == own ? 0 : crosses(s, t, middle, direction);
+            const int side = t == own ? 0 : ray_crosses(s, t, middle, direction);
             ahead += side > 0;
             behind += side < 0;
         }
@@ -395,8 +395,8 @@ void solid_create(struct solid *solid, const struct surface *surface, double thi
         end = end_of_group(&r, i);
         if (end - i != 2) continue;
         const struct edge *a = &r.edge[i], *b = a + 1;
-        join(&r, a->triangle, b->triangle, a->direction != b->direction);
-        join(&r, b->triangle, a->triangle, a->direction != b->direction);
+        join_triangles(&r, a->triangle, b->triangle, a->direction != b->direction);
+        join_triangles(&r, b->triangle, a->triangle, a->direction != b->direction);
     }
     tell_repair(3);
     turn_patches(&r);

@@ -299,6 +299,7 @@ bool framelog_close(struct framelog *log, FILE *summary, struct error *error)
 
 // --- reading logs of one or several runs
 
+/// Where the reader is.
 struct log_reader {
     const char *path;
     int line;
@@ -311,7 +312,7 @@ struct log_reader {
     struct error *error;
 };
 
-static bool bad(const struct log_reader *at, const char *expected, const char *got)
+static bool bad_log(const struct log_reader *at, const char *expected, const char *got)
 {
     return fail(at->error, ERROR_INPUT, "%s:%d: expected %s, got '%.80s'", at->path, at->line, expected, got);
 }
@@ -322,7 +323,7 @@ static bool read_comment(struct log_reader *at, const char *text)
     if (strncmp(text, schema, sizeof schema - 1) == 0) {
         const char *name = text + sizeof schema - 1;
         if (strcmp(name, TIMING_SCHEMA) != 0 && strcmp(name, TIMING_SCHEMA_BEFORE) != 0) {
-            return bad(at, "the schema " TIMING_SCHEMA " or " TIMING_SCHEMA_BEFORE, name);
+            return bad_log(at, "the schema " TIMING_SCHEMA " or " TIMING_SCHEMA_BEFORE, name);
         }
         at->log->runs++;
         at->warm_up = at->seen = 0;
@@ -342,7 +343,7 @@ static bool read_comment(struct log_reader *at, const char *text)
 /// Columns are found by name, so that logs older than a column can be read.
 static bool read_names(struct log_reader *at, const char *text)
 {
-    if (at->log->runs == 0) return bad(at, "a timing log's '# schema:' line first", text);
+    if (at->log->runs == 0) return bad_log(at, "a timing log's '# schema:' line first", text);
     bool has_frame = false, has_time = false;
     at->fields = 0;
     for (const char *name = text; name; name = strchr(name, ',') ? strchr(name, ',') + 1 : NULL) {
@@ -351,12 +352,12 @@ static bool read_names(struct log_reader *at, const char *text)
         while (column >= 0 && (strlen(timing_columns[column].name) != length ||
                                strncmp(timing_columns[column].name, name, length) != 0))
             column--;
-        if (column < 0 || at->fields == COLUMN_COUNT) return bad(at, "the column names of " TIMING_SCHEMA, text);
+        if (column < 0 || at->fields == COLUMN_COUNT) return bad_log(at, "the column names of " TIMING_SCHEMA, text);
         has_frame |= column == COLUMN_FRAME;
         has_time |= column == COLUMN_FRAME_MS;
         at->column[at->fields++] = column;
     }
-    if (!has_frame || !has_time) return bad(at, "the column names of " TIMING_SCHEMA, text);
+    if (!has_frame || !has_time) return bad_log(at, "the column names of " TIMING_SCHEMA, text);
     at->named = true;
     return true;
 }
@@ -385,7 +386,7 @@ static bool read_row(struct log_reader *at, char *text)
         double value = missing ? NAN : strtod(rest, &end);
         row[at->column[i]] = value;
         if (end == rest || *end != (i + 1 < at->fields ? ',' : 0) || (!missing && !isfinite(value))) {
-            return bad(at, "a number or NA for each column, separated by commas", text);
+            return bad_log(at, "a number or NA for each column, separated by commas", text);
         }
         rest = end + 1;
     }
@@ -439,7 +440,7 @@ static int column_values(const struct timing_log *log, int column, double *value
 }
 
 /// The smallest of 1, 2 and 5 times a power of ten that is not below `least`.
-static double round_step(double least)
+static double bin_width(double least)
 {
     double power = pow(10, floor(log10(least)));
     double times = least / power;
@@ -453,7 +454,7 @@ static void print_histogram(const struct timing_log *log, double *values, FILE *
     if (count == 0) return;
     statistics_sort(values, count);
     const double high = statistics_quantile(values, count, 0.99);
-    const double step = round_step(fmax((high - values[0]) / BINS, 1e-3)), start = step * floor(values[0] / step);
+    const double step = bin_width(fmax((high - values[0]) / BINS, 1e-3)), start = step * floor(values[0] / step);
     const int bins = (int)fmin(floor((high - start) / step) + 2, BINS + 2);
     const int decimals = (int)fmax(0, ceil(-log10(step) - 1e-9));
     int counts[BINS + 2] = {0}, most = 0;
