@@ -339,6 +339,11 @@ int document_find_spline(const struct document *document, const char *name)
     return -1;
 }
 
+bool document_has_spline(const struct document *document, int spline, struct error *error)
+{
+    return (spline >= 0 && spline < document->spline_count) || fail(error, ERROR_INPUT, "there is no such spline");
+}
+
 int document_find_spline_id(const struct document *document, unsigned id)
 {
     const unsigned guess = id - 1; // loaded splines have these ids

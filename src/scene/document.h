@@ -170,6 +170,9 @@ bool document_has_frame(const struct document *document, double frame, int last,
 /// Index of the spline with that name, or -1.
 int document_find_spline(const struct document *document, const char *name);
 
+/// Whether there is a spline at that index; sets an error if not.
+bool document_has_spline(const struct document *document, int spline, struct error *error);
+
 /// Index of the spline with that id, or -1.
 int document_find_spline_id(const struct document *document, unsigned id);
 

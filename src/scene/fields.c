@@ -1,7 +1,7 @@
 /// Objects of a scene file, described by rows: read, printed, checked, compared, copied and freed.
 #include "scene/fields.h"
 #include "base/need.h"
-#include "scene/editing.h"
+#include "scene/document.h"
 #include <assert.h>
 #include <math.h>
 #include <stdlib.h>
@@ -371,7 +371,7 @@ static bool check_field(const struct document *document, int joints, const struc
     case FIELD_MODEL:
         return model_find(document, text_of(field, object), inside(object, field->flag), error);
     case FIELD_SPLINE:
-        return edit_has_spline(document, *(int *)at, error);
+        return document_has_spline(document, *(int *)at, error);
     case FIELD_PLACE:
         return check_place(document, field, at, error);
     case FIELD_ANGLES:

@@ -1,0 +1,1050 @@
+/// Edits: of the scene's frames, of splines and knots, of rigs and their pins, channels, drives and paint.
+#include "scene/edit.h"
+#include "base/file.h"
+#include "base/names.h"
+#include "base/need.h"
+#include "scene/fields.h"
+#include "scene/order.h"
+#include "scene/pins.h"
+#include "scene/rig_kind.h"
+#include <ctype.h>
+#include <limits.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define EDIT_KIND(kind) (1u << (kind))
+#define EDIT_BENT (EDIT_KIND(RIG_TAIL) | EDIT_KIND(RIG_CHAIN)) ///< kinds that have channels
+#define EDIT_PINNED (EDIT_BENT | EDIT_KIND(RIG_CHARACTER))     ///< kinds that take pins
+#define EDIT_ANY_KIND (EDIT_KIND(RIG_KINDS) - 1)
+
+/// Ends an edit of a document, of which `before` is a copy; `good` says whether it went well so far. If not, or if a file could not have its
+/// pins and floors any more, the document is restored. Returns whether it went well.
+static bool end_edit(struct document *document, struct document *before, bool good, struct error *error)
+{
+    struct pin_trouble trouble;
+    good = good && document_check_joints(document, error);
+    if (good && pins_hold_any(document) &&
+        !(pins_check(document, &trouble) && pins_check_order(document, &trouble))) {
+        const struct rig *rig = document->rigs[trouble.rig];
+        good = fail(error, ERROR_INPUT, "%s: %s: %s", rig_title(rig), trouble.pin >= 0 ? "pins" : trouble.member,
+                    trouble.error.text);
+    }
+
+    if (good) {
+        document_destroy(before);
+    } else {
+        document_become(document, before);
+    }
+    return good;
+}
+
+/// The rig at that index if it is of one of those kinds; NULL and an error if not.
+static const struct rig *find_rig(const struct document *document, int rig, unsigned kinds, struct error *error)
+{
+    const bool is_rig = rig >= 0 && rig < document->rig_count;
+    if (is_rig && kinds & EDIT_KIND(document->rigs[rig]->kind)) return document->rigs[rig];
+    const char *word = "rig";
+    for (int k = 0; k < RIG_KINDS; k++) {
+        if (kinds == EDIT_KIND(k)) word = rig_word((enum rig_kind)k);
+    }
+    fail(error, ERROR_INPUT, "there is no such %s", word);
+    return NULL;
+}
+
+/// Replaces a rig by a changed clone, and takes the clone over, if the document allows it and it differs in more than name and pins.
+static bool replace_rig(struct document *document, int rig, struct rig *changed, struct error *error)
+{
+    const bool good = rig_check(document, changed, error);
+    if (!good || rig_equals(document->rigs[rig], changed)) {
+        rig_drop(changed);
+        return good;
+    }
+    struct document *before = document_copy(document);
+    rig_drop(document->rigs[rig]);
+    document->rigs[rig] = changed;
+    document_touch(document);
+    return end_edit(document, before, true, error);
+}
+
+// --- frames per second, substeps and range
+
+static bool check_loops(const struct document *document, struct error *error)
+{
+    for (int i = 0; i < document->spline_count && document_samples(document) == 1; i++) {
+        const struct spline *spline = document->splines[i];
+        if (spline_start(spline) != WIGGLY_LOOP) continue;
+        return fail(error, ERROR_INPUT, "%s: a loop needs more than one frame", spline->name);
+    }
+    return true;
+}
+
+/// Whether all knots are inside the document's frames, on different samples.
+static bool check_knots_fit(const struct document *document, struct error *error)
+{
+    for (int i = 0; i < document->spline_count; i++) {
+        const struct spline *spline = document->splines[i];
+        int before = -1, last = document_last_knot_sample(document, spline);
+        for (int k = 0; k < spline->knot_count; k++) {
+            const double frame = spline->knots[k].frame;
+            int sample = document_sample(document, frame);
+            if (sample < 0 || sample > last) {
+                return fail(error, ERROR_INPUT, "%s: the knot at frame %.10g would fall outside the range",
+                            spline->name, frame);
+            }
+            if (sample == before) {
+                return fail(error, ERROR_INPUT, "%s: two knots would land on frame %.10g", spline->name, frame);
+            }
+            before = sample;
+        }
+    }
+    return true;
+}
+
+struct timing {
+    double fps;
+    int substeps, first, last;
+};
+
+static struct timing timing_of(const struct document *document)
+{
+    return (struct timing){document->fps, document->substeps, document->first_frame, document->last_frame};
+}
+
+/// Whether a timing is allowed, knots not considered.
+static bool check_timing(const struct document *document, const struct timing *timing, struct error *error)
+{
+    long long frames = (long long)timing->last - timing->first;
+    long long samples = frames * timing->substeps + 1;
+    if (!(timing->fps > 0 && timing->fps <= SCENE_MAX_FPS)) {
+        return fail(error, ERROR_INPUT, "frames per second must be above 0 and at most %d", SCENE_MAX_FPS);
+    }
+    if (timing->substeps < 1 || timing->substeps > SCENE_MAX_SUBSTEPS) {
+        return fail(error, ERROR_INPUT, "substeps must be from 1 to %d", SCENE_MAX_SUBSTEPS);
+    }
+    if (frames < 0) return fail(error, ERROR_INPUT, "the last frame must not be before the first");
+    if (timing->first < -SCENE_MAX_FRAME || timing->last > SCENE_MAX_FRAME) {
+        return fail(error, ERROR_INPUT, "frames must be from -%d to %d", SCENE_MAX_FRAME, SCENE_MAX_FRAME);
+    }
+    return document_check_samples(document->spline_count, document_count_limited(document), samples, error);
+}
+
+static void set_timing(struct document *document, const struct timing *timing)
+{
+    document->fps = timing->fps;
+    document->substeps = timing->substeps;
+    document->first_frame = timing->first;
+    document->last_frame = timing->last;
+    document_touch(document);
+}
+
+/// The scaled end of the range, rounded outwards so that knots inside stay inside.
+static int scaled_end(int frame, double factor, bool first)
+{
+    const double slack = 1e-6; // so that 96 · 30/24 stays 120
+    double scaled = first ? floor(frame * factor + slack) : ceil(frame * factor - slack);
+    return (int)fmax(-SCENE_MAX_FRAME - 1, fmin(SCENE_MAX_FRAME + 1, scaled));
+}
+
+bool edit_fps(struct document *document, double fps, bool keeps_seconds, struct error *error)
+{
+    struct timing timing = timing_of(document);
+    const double factor = fps / document->fps;
+    timing.fps = fps;
+    if (!check_timing(document, &timing, error)) return false;
+    if (fps == document->fps) return true;
+    if (keeps_seconds) {
+        timing.first = scaled_end(document->first_frame, factor, true);
+        timing.last = scaled_end(document->last_frame, factor, false);
+        if (!check_timing(document, &timing, error)) return false;
+    }
+    struct document *before = document_copy(document);
+    for (int s = 0; keeps_seconds && s < document->spline_count; s++) {
+        struct spline *spline = document_own_spline(document, s);
+        for (int k = 0; k < spline->knot_count; k++) spline->knots[k].frame = spline->knots[k].frame * factor + 0.0;
+    }
+    for (int r = 0; keeps_seconds && r < document->rig_count; r++) {
+        struct rig *rig = document_own_rig(document, r);
+        for (int i = 0; i < rig->pin_count; i++) rig->pins[i].frame = rig->pins[i].frame * factor + 0.0;
+    }
+    set_timing(document, &timing);
+    return end_edit(document, before, check_loops(document, error) && check_knots_fit(document, error), error);
+}
+
+bool edit_substeps(struct document *document, int substeps, struct error *error)
+{
+    struct timing timing = timing_of(document);
+    timing.substeps = substeps;
+    if (!check_timing(document, &timing, error)) return false;
+    if (substeps == document->substeps) return true;
+    struct document *before = document_copy(document);
+    set_timing(document, &timing);
+    return end_edit(document, before, check_knots_fit(document, error), error);
+}
+
+/// Removes a spline's knots that fall outside the range.
+static void trim_knots(struct document *document, int index)
+{
+    const struct spline *spline = document->splines[index];
+    const int last = document_last_knot_sample(document, spline), count = spline->knot_count;
+    int from = 0, to = count;
+    while (from < count && document_sample(document, spline->knots[from].frame) < 0) from++;
+    while (to > from && document_sample(document, spline->knots[to - 1].frame) > last) to--;
+    if (to - from == count) return;
+    struct spline *own = document_own_spline(document, index);
+    memmove(own->knots, own->knots + from, (size_t)(to - from) * sizeof *own->knots);
+    own->knot_count = to - from;
+}
+
+/// Moves knots outside the range to the nearest samples inside, and pushes other knots along.
+static bool move_knots(struct document *document, int index, struct error *error)
+{
+    const struct spline *spline = document->splines[index];
+    int count = spline->knot_count, last = document_last_knot_sample(document, spline);
+    if (count > last + 1) {
+        return fail(error, ERROR_INPUT, "%s: %d knots do not fit into %d frames", spline->name, count,
+                    document->last_frame - document->first_frame + 1);
+    }
+    int low = 0, high = count; // knots up to `low` are pushed right, those from `high` on left
+    while (low < count && document_sample(document, spline->knots[low].frame) < low) low++;
+    while (high > low && document_sample(document, spline->knots[high - 1].frame) > last - (count - high)) high--;
+    if (low == 0 && high == count) return true;
+    struct knot *knots = document_own_spline(document, index)->knots;
+    for (int k = 0; k < low; k++) knots[k].frame = document_frame(document, k);
+    for (int k = high; k < count; k++) knots[k].frame = document_frame(document, last - (count - 1 - k));
+    return true;
+}
+
+/// Moves a rig's pins outside the range to the nearest sample inside, or removes them.
+static void fit_pins(struct document *document, int index, enum range_fit fit)
+{
+    const struct rig *rig = document->rigs[index];
+    const int last = pins_last_sample(document, rig);
+    for (int i = 0; i < rig->pin_count;) {
+        const int sample = document_sample(document, rig->pins[i].frame);
+        if (sample >= 0 && sample <= last) {
+            i++;
+            continue;
+        }
+        struct rig *own = document_own_rig(document, index);
+        struct pin pin = pins_remove(own, own->pins[i].id);
+        pin.frame = document_frame(document, sample < 0 ? 0 : last);
+        if (fit == RANGE_MOVE) pins_insert(own, &pin);
+        rig = own;
+        i = 0; // the pins' order has changed
+    }
+}
+
+bool edit_range(struct document *document, int first, int last, enum range_fit fit, struct error *error)
+{
+    struct timing timing = timing_of(document);
+    timing.first = first;
+    timing.last = last;
+    if (!check_timing(document, &timing, error)) return false;
+    if (first == document->first_frame && last == document->last_frame) return true;
+    struct document *before = document_copy(document);
+    set_timing(document, &timing);
+
+    bool good = check_loops(document, error);
+    if (good && fit == RANGE_REFUSE) good = check_knots_fit(document, error);
+    for (int s = 0; good && fit != RANGE_REFUSE && s < document->spline_count; s++) {
+        if (fit == RANGE_TRIM)
+            trim_knots(document, s);
+        else
+            good = move_knots(document, s, error);
+    }
+    for (int r = 0; good && fit != RANGE_REFUSE && r < document->rig_count; r++) fit_pins(document, r, fit);
+    return end_edit(document, before, good, error);
+}
+
+// --- splines and knots
+
+/// `base`, or the first free name among "base 2", "base 3" …; a number at the end of `base` is replaced.
+static char *free_name(const struct document *document, const char *base)
+{
+    size_t length = strlen(base), stem = length;
+    while (stem > 0 && isdigit((unsigned char)base[stem - 1])) stem--;
+    bool numbered = stem > 1 && stem < length && base[stem - 1] == ' ';
+    if (numbered) length = stem - 1;
+    struct names names = {0};
+    for (int i = 0; i < document->spline_count; i++) names_add(&names, document->splines[i]->name);
+    char *wanted = name_from(base, length), *name = need_text(names_add(&names, wanted));
+    names_free(&names);
+    free(wanted);
+    return name;
+}
+
+static bool check_spline_name(const struct document *document, const char *name, int own, struct error *error)
+{
+    int other = document_find_spline(document, name);
+    if (!name[0]) return fail(error, ERROR_INPUT, "a spline needs a name");
+    if (other < 0 || other == own) return true;
+    return fail(error, ERROR_INPUT, "a spline called %s already exists", name);
+}
+
+/// Updates all references to splines when the one at `from` moves to `to`. INT_MAX as `from` or `to` means outside the list.
+static void move_references(struct document *document, int from, int to)
+{
+    for (struct reference reference = {0}; reference_next(document, &reference);) {
+        const int index = reference.spline;
+        if (index == from)
+            reference_set(document, &reference, to);
+        else if (from < index && index <= to)
+            reference_set(document, &reference, index - 1);
+        else if (to <= index && index < from)
+            reference_set(document, &reference, index + 1);
+    }
+}
+
+/// Inserts a spline with new ids.
+static bool add_spline(struct document *document, int at, struct spline *spline, struct error *error)
+{
+    const int limited = spline_is_limited(spline) + document_count_limited(document);
+    long long total = spline->knot_count;
+    for (int i = 0; i < document->spline_count; i++) total += document->splines[i]->knot_count;
+    bool good = document_check_samples(document->spline_count + 1, limited, document_samples(document), error);
+    if (good && total > SCENE_MAX_KNOTS)
+        good = fail(error, ERROR_INPUT, "the limit is %d knots over all splines", SCENE_MAX_KNOTS);
+    if (!good) {
+        spline_drop(spline);
+        return false;
+    }
+    spline->id = document->next_id++;
+    for (int k = 0; k < spline->knot_count; k++) spline->knots[k].id = document->next_id++;
+    document_insert_spline(document, at, spline);
+    move_references(document, INT_MAX, at);
+    return true;
+}
+
+bool edit_spline_add(struct document *document, int at, const char *name, const struct knot *first,
+                     struct error *error)
+{
+    const int count = document->spline_count;
+    if (name && !check_spline_name(document, name, -1, error)) return false;
+    const int sample = first ? document_sample(document, first->frame) : 0;
+    if (first && !(isfinite(first->frame) && isfinite(first->value)))
+        return fail(error, ERROR_INPUT, "a knot's numbers must be finite");
+    if (sample < 0 || sample >= document_samples(document)) {
+        return fail(error, ERROR_INPUT, "frame %.10g is outside %d to %d", first->frame, document->first_frame,
+                    document->last_frame);
+    }
+    struct spline *spline = spline_create();
+    spline->name = free_name(document, name ? name : "spline");
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        spline->parameter[p].value = parameter_rows[p].fresh;
+    }
+    if (document_loops(document)) spline->parameter[PARAMETER_START].value = WIGGLY_LOOP;
+    spline->knots = need(1, sizeof *spline->knots);
+    spline->knot_capacity = 1;
+    if (first) {
+        spline->knot_count = 1;
+        spline->knots[0] = (struct knot){
+            .frame = first->frame + 0.0, .value = first->value + 0.0, .stiffness = KNOT_DEFAULT_STIFFNESS};
+        if (sample > document_last_knot_sample(document, spline))
+            spline->knots[0].frame = document->first_frame; // the last frame of a loop repeats the first
+    }
+    return add_spline(document, at < 0 || at > count ? count : at, spline, error);
+}
+
+bool edit_spline_copy(struct document *document, int spline, struct error *error)
+{
+    if (!document_has_spline(document, spline, error)) return false;
+    struct spline *copy = spline_clone(document->splines[spline]);
+    free(copy->name);
+    copy->name = free_name(document, document->splines[spline]->name);
+    return add_spline(document, spline + 1, copy, error);
+}
+
+bool edit_spline_remove(struct document *document, int spline, struct error *error)
+{
+    if (!document_has_spline(document, spline, error)) return false;
+    int followers = reference_count(document, spline);
+    if (followers > 0) {
+        return fail(error, ERROR_INPUT, "%s: still used in %d place%s; remove those first",
+                    document->splines[spline]->name, followers, followers == 1 ? "" : "s");
+    }
+    move_references(document, spline, INT_MAX);
+    document_remove_spline(document, spline);
+    return true;
+}
+
+bool edit_spline_move(struct document *document, int spline, int to, struct error *error)
+{
+    if (!document_has_spline(document, spline, error)) return false;
+    if (to < 0 || to >= document->spline_count) return fail(error, ERROR_INPUT, "there is no such place in the list");
+    if (to == spline) return true;
+    struct spline *moved = spline_hold(document->splines[spline]);
+    document_remove_spline(document, spline);
+    document_insert_spline(document, to, moved);
+    move_references(document, spline, to);
+    return true;
+}
+
+bool edit_spline_name(struct document *document, int spline, const char *name, struct error *error)
+{
+    if (!document_has_spline(document, spline, error) || !check_spline_name(document, name, spline, error))
+        return false;
+    if (strcmp(document->splines[spline]->name, name) == 0) return true;
+    struct spline *own = document_own_spline(document, spline);
+    char *copy = need_text(name);
+    free(own->name);
+    own->name = copy;
+    return true;
+}
+
+bool edit_spline_color(struct document *document, int spline, int color, struct error *error)
+{
+    if (!document_has_spline(document, spline, error)) return false;
+    if (color < -1 || color > 0xFFFFFF) return fail(error, ERROR_INPUT, "there is no such colour");
+    if (document->splines[spline]->color != color) document_own_spline(document, spline)->color = color;
+    return true;
+}
+
+static bool check_constant(const struct spline *spline, enum parameter parameter, double value, struct error *error)
+{
+    double low = parameter_rows[parameter].minimum, high = parameter_maximum(parameter, spline_mode(spline));
+    const char *name = parameter_rows[parameter].name;
+    if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: %s must be finite", spline->name, name);
+    if (parameter_rows[parameter].kind == PARAMETER_WHOLE && value != floor(value))
+        return fail(error, ERROR_INPUT, "%s: %s must be a whole number", spline->name, name);
+    if (value >= low && value <= high) return true;
+    if (value < low) return fail(error, ERROR_INPUT, "%s: %s must be at least %g", spline->name, name, low);
+    return fail(error, ERROR_INPUT, "%s: %s must be at most %g", spline->name, name, high);
+}
+
+/// An infinite limit is no limit. Knots must be within.
+static bool check_limit(const struct document *document, const struct spline *spline, enum parameter parameter,
+                        double value, struct error *error)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    const bool is_high = parameter == PARAMETER_HIGH;
+    const double other = spline->parameter[is_high ? PARAMETER_LOW : PARAMETER_HIGH].value;
+    if (value == row->standard) return true;
+    if (!isfinite(value)) return fail(error, ERROR_INPUT, "%s: a limit must be finite", spline->name);
+    const int limited = document_count_limited(document) + !spline_is_limited(spline);
+    if (!document_check_samples(document->spline_count, limited, document_samples(document), error)) return false;
+    if (is_high ? value <= other : value >= other)
+        return fail(error, ERROR_INPUT, "%s: the low limit must be below the high one", spline->name);
+    for (int k = 0; k < spline->knot_count; k++) {
+        char frame[NUMBER_TEXT_SIZE];
+        if (spline->knots[k].still) continue;
+        if (is_high ? spline->knots[k].value <= value : spline->knots[k].value >= value) continue;
+        number_print(spline->knots[k].frame, frame);
+        return fail(error, ERROR_INPUT, "%s: the knot at frame %s is %s that", spline->name, frame,
+                    is_high ? "above" : "below");
+    }
+    return true;
+}
+
+/// Sets a parameter, whatever follows what then.
+static bool set_parameter(struct document *document, int index, enum parameter parameter, const struct param *param,
+                          struct error *error)
+{
+    const struct spline *old = document->splines[index];
+    const struct parameter_row *row = &parameter_rows[parameter];
+    const double value = param->value;
+    struct spline wanted = *old;
+    struct param *own = &wanted.parameter[parameter];
+    struct joint_motion *motion = NULL;
+
+    if (row->kind == PARAMETER_CHOICE) {
+        if (!(value >= 0 && value <= row->maximum && value == floor(value)))
+            return fail(error, ERROR_INPUT, "there is no such %s", row->name);
+        *own = param_number(value);
+        for (enum parameter p = 0; parameter == PARAMETER_MODE && p < PARAMETER_COUNT; p++)
+            wanted.parameter[p].value =
+                fmin(wanted.parameter[p].value, parameter_maximum(p, (enum wiggly_mode)value));
+        if (parameter == PARAMETER_START && value == WIGGLY_LOOP) {
+            const int last = document_samples(document) - 1;
+            if (last == 0) return fail(error, ERROR_INPUT, "%s: a loop needs more than one frame", old->name);
+            if (spline_find_knot(document, old, last) >= 0)
+                return fail(error, ERROR_INPUT,
+                            "%s: delete the knot at the last frame first; in a loop that frame repeats the first",
+                            old->name);
+        }
+    } else if (param->motion) {
+        struct joint_motion checked = *param->motion;
+        struct error why;
+        if (parameter != PARAMETER_EQUILIBRIUM)
+            return fail(error, ERROR_INPUT, "%s: only the equilibrium follows a joint", old->name);
+        if (!motion_check(document, &checked, &why)) return fail(error, ERROR_INPUT, "%s: %s", old->name, why.text);
+        motion = motion_create(&checked);
+        *own = (struct param){.track = -1, .motion = motion};
+    } else if (param->track >= 0) {
+        if (row->kind != PARAMETER_TRACK)
+            return fail(error, ERROR_INPUT, "%s: %s must be a number", old->name, row->name);
+        if (param->track >= document->spline_count)
+            return fail(error, ERROR_INPUT, "%s: there is no spline to follow", old->name);
+        *own = param_track(param->track);
+    } else {
+        if (!(row->kind == PARAMETER_LIMIT ? check_limit(document, old, parameter, value, error)
+                                           : check_constant(old, parameter, value, error)))
+            return false;
+        *own = param_number(value + 0.0);
+    }
+
+    bool same = true;
+    for (int p = 0; p < PARAMETER_COUNT; p++) {
+        const struct param *a = &old->parameter[p], *b = &wanted.parameter[p];
+        same &= a->value == b->value && a->track == b->track && motion_equals(a->motion, b->motion);
+    }
+    if (!same) {
+        struct spline *changed = document_own_spline(document, index);
+        motion_hold(wanted.parameter[PARAMETER_EQUILIBRIUM].motion);
+        motion_drop(changed->parameter[PARAMETER_EQUILIBRIUM].motion);
+        memcpy(changed->parameter, wanted.parameter, sizeof changed->parameter);
+    }
+    motion_drop(motion);
+    return true;
+}
+
+bool edit_parameter(struct document *document, int spline, enum parameter parameter, const struct param *param,
+                    struct error *error)
+{
+    if (!document_has_spline(document, spline, error)) return false;
+    if ((unsigned)parameter >= PARAMETER_COUNT) return fail(error, ERROR_INPUT, "there is no such parameter");
+    struct document *before = document_copy(document);
+    bool good = set_parameter(document, spline, parameter, param, error);
+    struct order_cycle cycle;
+    if (good && param->track >= 0 && !scene_has_order(document, &cycle)) {
+        good = fail(error, ERROR_INPUT, "%s cannot follow %s, which already follows it",
+                    before->splines[spline]->name, before->splines[param->track]->name);
+    }
+    return end_edit(document, before, good, error);
+}
+
+/// Whether a knot is allowed; `id` is its own. Turns −0 into 0, as saving does, and clears slope and phase of a still
+/// knot.
+static bool check_knot(const struct document *document, const struct spline *spline, struct knot *knot, unsigned id,
+                       struct error *error)
+{
+    char frame[NUMBER_TEXT_SIZE];
+    struct error why;
+    const double kept = knot->value;
+    if (knot->still)
+        *knot = (struct knot){.frame = knot->frame,
+                              .stiffness = KNOT_DEFAULT_STIFFNESS,
+                              .still = true,
+                              .id = knot->id,
+                              .extra = knot->extra};
+    if (!fields_check(document, JOINTS_UNKNOWN, knot_fields, knot, &why))
+        return fail(error, ERROR_INPUT, "%s: a knot: %s", spline->name, why.text);
+    if (knot->still) knot->value = kept;
+    const double low = spline->parameter[PARAMETER_LOW].value, high = spline->parameter[PARAMETER_HIGH].value;
+    if (!knot->still && (knot->value < low || knot->value > high)) {
+        return fail(error, ERROR_INPUT, "%s: a knot at %.6g would be %s limit, %.6g", spline->name, knot->value,
+                    knot->value < low ? "below the low" : "above the high", knot->value < low ? low : high);
+    }
+    int sample = document_sample(document, knot->frame), last = document_last_knot_sample(document, spline);
+    if (sample < 0 || sample > last) {
+        number_print(knot->frame, frame);
+        return fail(error, ERROR_INPUT, "%s: frame %s is outside %d to %d%s", spline->name, frame,
+                    document->first_frame, document->last_frame,
+                    spline_start(spline) == WIGGLY_LOOP ? "; the last frame of a loop repeats the first" : "");
+    }
+    int there = spline_find_knot(document, spline, sample);
+    if (there < 0 || spline->knots[there].id == id) return true;
+    number_print(knot->frame, frame);
+    return fail(error, ERROR_INPUT, "%s: there is already a knot at frame %s", spline->name, frame);
+}
+
+bool edit_knot_insert(struct document *document, int spline, const struct knot *knot, struct error *error)
+{
+    struct knot added = *knot;
+    long long total = 1;
+    bool exists = false;
+    if (!document_has_spline(document, spline, error)) return false;
+    const struct spline *old = document->splines[spline];
+    if (!check_knot(document, old, &added, 0, error)) return false;
+    for (int i = 0; i < document->spline_count; i++) {
+        total += document->splines[i]->knot_count;
+        exists |= added.id != 0 && spline_find_id(document->splines[i], added.id) >= 0;
+    }
+    if (exists) return fail(error, ERROR_INPUT, "%s: this knot already exists", old->name);
+    if (total > SCENE_MAX_KNOTS) return fail(error, ERROR_INPUT, "the limit of %d knots is reached", SCENE_MAX_KNOTS);
+    if (added.id == 0) added.id = document->next_id;
+    if (document->next_id <= added.id) document->next_id = added.id + 1;
+    struct spline *own = document_own_spline(document, spline);
+    if (own->knot_count == own->knot_capacity) {
+        own->knot_capacity += own->knot_capacity / 2 + 1;
+        own->knots = need_more(own->knots, (size_t)own->knot_capacity, sizeof *own->knots);
+    }
+    const int at = spline_lower_bound(document, own, document_sample(document, added.frame));
+    memmove(&own->knots[at + 1], &own->knots[at], (size_t)(own->knot_count++ - at) * sizeof added);
+    own->knots[at] = added;
+    return true;
+}
+
+/// Index of the knot with that id; -1 and an error if there is none.
+static int find_knot(const struct document *document, int spline, unsigned id, struct error *error)
+{
+    if (!document_has_spline(document, spline, error)) return -1;
+    const int at = spline_find_id(document->splines[spline], id);
+    if (at < 0) fail(error, ERROR_INPUT, "%s: this knot no longer exists", document->splines[spline]->name);
+    return at;
+}
+
+bool edit_knot_remove(struct document *document, int spline, unsigned id, struct error *error)
+{
+    const int at = find_knot(document, spline, id, error);
+    if (at < 0) return false;
+    struct spline *own = document_own_spline(document, spline);
+    memmove(&own->knots[at], &own->knots[at + 1], (size_t)(--own->knot_count - at) * sizeof *own->knots);
+    return true;
+}
+
+bool edit_knot_set(struct document *document, int spline, const struct knot *knot, struct error *error)
+{
+    struct knot changed = *knot;
+    const int from = find_knot(document, spline, knot->id, error);
+    if (from < 0) return false;
+    const struct spline *old = document->splines[spline];
+    changed.extra = old->knots[from].extra;
+    if (!check_knot(document, old, &changed, changed.id, error)) return false;
+    if (fields_equal(knot_fields, &changed, &old->knots[from])) return true;
+    struct knot *knots = document_own_spline(document, spline)->knots;
+    int to = spline_lower_bound(document, document->splines[spline], document_sample(document, changed.frame));
+    if (to > from) to--; // its index once the old one is removed
+    if (to > from) memmove(&knots[from], &knots[from + 1], (size_t)(to - from) * sizeof *knots);
+    if (to < from) memmove(&knots[to + 1], &knots[to], (size_t)(from - to) * sizeof *knots);
+    knots[to] = changed;
+    return true;
+}
+
+bool edit_spline_settles(struct document *document, int spline, bool settles, struct error *error)
+{
+    bool done = true;
+    for (int k = 0; k < document->splines[spline]->knot_count && done; k++) {
+        struct knot knot = document->splines[spline]->knots[k];
+        knot.settles = settles && !knot.still;
+        done = edit_knot_set(document, spline, &knot, error);
+    }
+    return done;
+}
+
+// --- rigs and their pins
+
+enum { NAME_SIZE = 512 };
+
+static const struct joint_motion *motion_of_spline(const struct document *document, int spline)
+{
+    return document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM].motion;
+}
+
+static void append_name(char list[NAME_SIZE], const char *name)
+{
+    const size_t used = strlen(list);
+    if (used + 2 < NAME_SIZE)
+        snprintf(list + used, NAME_SIZE - used, "%s%.*s", used > 0 ? ", " : "", name_fit(name, NAME_SIZE - used - 3),
+                 name);
+}
+
+bool edit_rig_remove(struct document *document, int rig, struct error *error)
+{
+    char users[NAME_SIZE] = "";
+    if (!find_rig(document, rig, EDIT_ANY_KIND, error)) return false;
+    for (int r = -1; (r = document_next_chain(document, rig, r)) >= 0;)
+        append_name(users, rig_title(document->rigs[r]));
+    for (int s = 0; s < document->spline_count; s++) {
+        if (document_follows(document, s, rig)) append_name(users, document->splines[s]->name);
+    }
+    if (users[0]) {
+        return fail(error, ERROR_INPUT, "%s: still needed by %s; remove those first", rig_title(document->rigs[rig]),
+                    users);
+    }
+    document_remove_rig(document, rig);
+    return true;
+}
+
+/// Whether a chain or a spline refers to a model by that file. A rig with that name would take its place.
+static bool is_file_of_any(const struct document *document, const char *name)
+{
+    bool any = false;
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        any |= rig->kind == RIG_CHAIN && rig->chain.by_file && strcmp(rig->chain.model, name) == 0;
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct joint_motion *motion = motion_of_spline(document, s);
+        any |= motion && motion->by_file && strcmp(motion->model, name) == 0;
+    }
+    return any;
+}
+
+static void take(struct names *names, const char *name)
+{
+    if (name && !names_has(names, name)) names_add(names, name);
+}
+
+char *edit_rig_free_name(const struct document *document, const char *wanted)
+{
+    struct names names = {0};
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        take(&names, rig->name);
+        if (rig->kind == RIG_CHAIN && rig->chain.by_file) take(&names, rig->chain.model);
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct joint_motion *motion = motion_of_spline(document, s);
+        if (motion && motion->by_file) take(&names, motion->model);
+    }
+    char *name = need_text(names_add(&names, wanted));
+    names_free(&names);
+    return name;
+}
+
+static void set_text(char **text, const char *value)
+{
+    char *copy = value ? need_text(value) : NULL; // first: need_text() may save the document when memory runs out
+    free(*text);
+    *text = copy;
+}
+
+bool edit_rig_name(struct document *document, int rig, const char *name, struct error *error)
+{
+    if (!find_rig(document, rig, EDIT_ANY_KIND, error)) return false;
+    const enum rig_kind kind = document->rigs[rig]->kind;
+    if (!name || !name[0]) return fail(error, ERROR_INPUT, "a %s needs a name", rig_word(kind));
+    for (int r = 0; r < document->rig_count; r++) {
+        const char *other = document->rigs[r]->name;
+        if (r != rig && other && strcmp(other, name) == 0)
+            return fail(error, ERROR_INPUT, "there is a rig called %s already", name);
+    }
+    if (kind == RIG_MODEL && is_file_of_any(document, name))
+        return fail(error, ERROR_INPUT, "expected a name that is no model's file, got %s", name);
+    char *const old = document->rigs[rig]->name ? need_text(document->rigs[rig]->name) : NULL;
+    if (old && strcmp(old, name) == 0) {
+        free(old);
+        return true;
+    }
+
+    // What refers to the old name refers to the new one.
+    for (int s = 0; old && s < document->spline_count; s++) {
+        if (!document_follows(document, s, rig)) continue;
+        struct param *param = &document_own_spline(document, s)->parameter[PARAMETER_EQUILIBRIUM];
+        struct joint_motion *motion = motion_create(param->motion);
+        if (!motion->by_file && strcmp(motion->model, old) == 0) set_text(&motion->model, name);
+        if (motion->chain && strcmp(motion->chain, old) == 0) set_text(&motion->chain, name);
+        motion_drop(param->motion);
+        param->motion = motion;
+    }
+    for (int r = -1; old && (r = document_next_chain(document, rig, r)) >= 0;) {
+        if (!document->rigs[r]->chain.by_file) set_text(&document_own_rig(document, r)->chain.model, name);
+    }
+    set_text(&document_own_rig(document, rig)->name, name);
+    free(old);
+    return true;
+}
+
+bool edit_rig_add(struct document *document, const struct rig *contents, struct error *error)
+{
+    if (document->rig_count >= SCENE_MAX_RIGS)
+        return fail(error, ERROR_INPUT, "there are %d rigs, and no more fit", SCENE_MAX_RIGS);
+    struct rig *rig = rig_clone(contents);
+    if (!rig_check(document, rig, error)) {
+        rig_drop(rig);
+        return false;
+    }
+    struct document *before = document_copy(document);
+
+    // Without a name it gets one from its file, joint or kind.
+    const char *const title = rig_title(contents);
+    const bool is_file = !(rig->name && rig->name[0]) && (rig->kind == RIG_CHARACTER || rig->kind == RIG_MODEL);
+    const char *const base = is_file ? path_name(title) : title, *const dot = is_file ? strrchr(base, '.') : NULL;
+    char *stem = name_from(base, dot && dot > base ? (size_t)(dot - base) : strlen(base));
+    free(rig->name);
+    rig->name = edit_rig_free_name(document, stem[0] ? stem : "model");
+    free(stem);
+
+    rig->extra = NULL;
+    rig->id = document->next_id++;
+    document_add_rig(document, rig);
+    return end_edit(document, before, true, error);
+}
+
+bool edit_rig_set(struct document *document, int rig, const struct rig *wanted, struct error *error)
+{
+    return find_rig(document, rig, EDIT_KIND(wanted->kind), error) &&
+           replace_rig(document, rig, rig_clone(wanted), error);
+}
+
+/// Whether a rig may have a pin. Turns −0 into 0.
+static bool check_pin(const struct document *document, const struct rig *rig, struct pin *pin, struct error *error)
+{
+    struct error why;
+    return fields_check(document, JOINTS_UNKNOWN, rig_pin_fields(rig), pin, &why) ||
+           fail(error, ERROR_INPUT, "%s: a pin: %s", rig_title(rig), why.text);
+}
+
+/// The rig that has the pin; NULL and an error if there is none.
+static const struct rig *find_pinned(const struct document *document, int rig, unsigned id, struct error *error)
+{
+    const struct rig *found = find_rig(document, rig, EDIT_PINNED, error);
+    if (!found || pins_find_id(found, id) >= 0) return found;
+    fail(error, ERROR_INPUT, "%s: this pin no longer exists", rig_title(found));
+    return NULL;
+}
+
+bool edit_pin_add(struct document *document, int rig, const struct pin *pin, struct error *error)
+{
+    const struct rig *old = find_rig(document, rig, EDIT_PINNED, error);
+    struct pin added = *pin;
+    if (!old || !check_pin(document, old, &added, error)) return false;
+    if (pins_count(document) >= SCENE_MAX_PINS)
+        return fail(error, ERROR_INPUT, "the limit of %d pins is reached", SCENE_MAX_PINS);
+    struct document *before = document_copy(document);
+    added.id = document->next_id++;
+    pins_insert(document_own_rig(document, rig), &added);
+    return end_edit(document, before, true, error);
+}
+
+bool edit_pin_remove(struct document *document, int rig, unsigned id, struct error *error)
+{
+    if (!find_pinned(document, rig, id, error)) return false;
+    struct document *before = document_copy(document);
+    pins_remove(document_own_rig(document, rig), id);
+    return end_edit(document, before, true, error);
+}
+
+bool edit_pin_set(struct document *document, int rig, const struct pin *pin, struct error *error)
+{
+    const struct rig *old = find_pinned(document, rig, pin->id, error);
+    struct pin changed = *pin;
+    if (!old || !check_pin(document, old, &changed, error)) return false;
+    const struct pin *was = &old->pins[pins_find_id(old, pin->id)];
+    if (fields_equal(rig_pin_fields(old), was, &changed)) return true;
+    changed.extra = was->extra;
+    struct document *before = document_copy(document);
+    struct rig *own = document_own_rig(document, rig);
+    pins_remove(own, changed.id);
+    pins_insert(own, &changed);
+    return end_edit(document, before, true, error);
+}
+
+// --- channels, drives and paint
+
+/// The channel at a place; NULL and an error if there is none.
+static const struct channel *find_channel(const struct document *document, struct channel_place at,
+                                          struct error *error)
+{
+    const struct rig *rig = find_rig(document, at.rig, EDIT_BENT, error);
+    if (!rig) return NULL;
+    if (at.channel >= 0 && at.channel < rig->bent.channel_count) return &rig->bent.channels[at.channel];
+    fail(error, ERROR_INPUT, "there is no such channel");
+    return NULL;
+}
+
+bool edit_angles(struct document *document, struct channel_place at, enum angle_kind kind,
+                 const struct angles *angles, struct error *error)
+{
+    const struct rig *rig = find_rig(document, at.rig, EDIT_BENT, error);
+    if (!rig) return false;
+    if (kind == ANGLE_REST && rig->kind != RIG_TAIL)
+        return fail(error, ERROR_INPUT, "only a tail has angles at rest");
+    if (kind != ANGLE_REST && !find_channel(document, at, error)) return false;
+    struct rig *changed = rig_clone(rig);
+    if (kind == ANGLE_REST) changed->tail.rest = *angles;
+    if (kind == ANGLE_LAG) changed->bent.channels[at.channel].lag = *angles;
+    if (kind == ANGLE_GAIN) changed->bent.channels[at.channel].gain = *angles;
+    return replace_rig(document, at.rig, changed, error);
+}
+
+bool edit_channel(struct document *document, struct channel_place at, const struct channel *channel,
+                  struct error *error)
+{
+    if (!find_channel(document, at, error)) return false;
+    struct rig *changed = rig_clone(document->rigs[at.rig]);
+    changed->bent.channels[at.channel] = *channel;
+    return replace_rig(document, at.rig, changed, error);
+}
+
+/// Appends a visible channel.
+static void append_channel(struct rig *rig, int spline, enum axis axis, enum channel_part of)
+{
+    const size_t count = (size_t)rig->bent.channel_count;
+    rig->bent.channels = need_more(rig->bent.channels, count + 1, sizeof *rig->bent.channels);
+    struct channel *channel = &rig->bent.channels[count];
+    *channel = (struct channel){.spline = spline, .axis = axis, .of = of};
+    channel->lag.value[0] = CHANNEL_DEFAULT_LAG;
+    if ((unsigned)axis < AXES) channel->gain.value[0] = axis_gain(axis);
+    rig->bent.channel_count++;
+}
+
+bool edit_channel_add(struct document *document, int rig, int spline, enum axis axis, enum channel_part of,
+                      struct error *error)
+{
+    const struct rig *old = find_rig(document, rig, EDIT_BENT, error);
+    if (!old) return false;
+    struct rig *changed = rig_clone(old);
+    append_channel(changed, spline, axis, of);
+    return replace_rig(document, rig, changed, error);
+}
+
+bool edit_channel_remove(struct document *document, struct channel_place at, struct error *error)
+{
+    if (!find_channel(document, at, error)) return false;
+    struct rig *changed = rig_clone(document->rigs[at.rig]);
+    struct channel *gone = &changed->bent.channels[at.channel];
+    memmove(gone, gone + 1, (size_t)(--changed->bent.channel_count - at.channel) * sizeof *gone);
+    return replace_rig(document, at.rig, changed, error);
+}
+
+static const struct character_rig *find_character(const struct document *document, int rig, struct error *error)
+{
+    const struct rig *found = find_rig(document, rig, EDIT_KIND(RIG_CHARACTER), error);
+    return found ? &found->character : NULL;
+}
+
+static bool put_drives(struct document *document, int rig, struct drive *drives, int count, struct error *error)
+{
+    struct rig wanted = *document->rigs[rig];
+    wanted.character.drives = drives;
+    wanted.character.drive_count = count;
+    return edit_rig_set(document, rig, &wanted, error);
+}
+
+/// Copies a character's drives into `drives`. Returns how many there are; −1 and an error if it is no character.
+static int take_drives(const struct document *document, int rig, struct drive drives[CHARACTER_MAX_DRIVES + 1],
+                       struct error *error)
+{
+    const struct character_rig *character = find_character(document, rig, error);
+    if (!character) return -1;
+    for (int i = 0; i < character->drive_count; i++) drives[i] = character->drives[i];
+    return character->drive_count;
+}
+
+bool edit_drive(struct document *document, int rig, int index, const struct drive *drive, struct error *error)
+{
+    struct drive drives[CHARACTER_MAX_DRIVES + 1];
+    const int count = take_drives(document, rig, drives, error);
+    if (count < 0) return false;
+    if (index < -1 || index >= count) return fail(error, ERROR_INPUT, "this character has no such coordinate");
+    struct drive *own = &drives[index < 0 ? count : index];
+    char *const name = index < 0 ? drive->name : own->name; // the coordinate keeps its name
+    *own = *drive;
+    own->name = name;
+    return put_drives(document, rig, drives, count + (index < 0), error);
+}
+
+bool edit_drive_remove(struct document *document, int rig, int index, struct error *error)
+{
+    struct drive drives[CHARACTER_MAX_DRIVES + 1];
+    const int count = take_drives(document, rig, drives, error);
+    if (count < 0) return false;
+    if (index < 0 || index >= count) return fail(error, ERROR_INPUT, "this character has no such coordinate");
+    memmove(&drives[index], &drives[index + 1], (size_t)(count - 1 - index) * sizeof *drives);
+    return put_drives(document, rig, drives, count - 1, error);
+}
+
+bool edit_paint_new(struct document *document, int rig, int coordinates, int vertices, struct error *error)
+{
+    if (!find_character(document, rig, error)) return false;
+    if (coordinates < 1 || vertices < 1)
+        return fail(error, ERROR_INPUT, "there is nothing to paint on this character");
+    struct paint *paint = paint_create(coordinates, vertices);
+    struct character_rig *own = &document_own_rig(document, rig)->character;
+    paint_drop(own->painted);
+    own->painted = paint;
+    return true;
+}
+
+bool edit_paint(struct document *document, int rig, const struct dab *dab, struct error *error)
+{
+    const struct character_rig *old = find_character(document, rig, error);
+    if (!old) return false;
+    const struct paint *paint = old->painted;
+    if (!paint) return fail(error, ERROR_INPUT, "this character has no paint yet");
+    if (dab->coordinate < 0 || dab->coordinate >= paint->coordinates)
+        return fail(error, ERROR_INPUT, "there is no such coordinate in the paint");
+    for (int i = 0; i < dab->count; i++) {
+        const float *value = dab->values[i];
+        const bool good = fabsf(value[0]) <= PAINT_MOST_SWELL && fabsf(value[1]) <= PAINT_MOST_LEAD;
+        if (!good || dab->vertices[i] < 0 || dab->vertices[i] >= paint->vertices)
+            return fail(error, ERROR_INPUT, "paint must be finite, and on the model");
+    }
+    if (dab->count > 0) paint_dab(&document_own_rig(document, rig)->character.painted, dab);
+    return true;
+}
+
+// --- tails
+
+static const double NEW_REST = 1.5;         ///< degrees per joint, so that a new tail is not a straight cone
+static const double NEW_HEIGHT = 0.26;      ///< metres; puts the body of a tail of 1.6 m on the ground
+static const double ASIDE = 0.75;           ///< distance from a tail to its copy, in tail lengths
+static const double ANGLE_RESOLUTION = 1e6; ///< resampled angles are rounded to 1/this degrees
+
+bool edit_tail_add(struct document *document, int rig, int spline, struct error *error)
+{
+    const bool is_tail = rig >= 0 && rig < document->rig_count && document->rigs[rig]->kind == RIG_TAIL;
+    struct rig *added = is_tail ? rig_clone(document->rigs[rig]) : rig_create(RIG_TAIL);
+    free(added->name);
+    added->name = NULL;
+    added->pin_count = 0; // both tails follow the same splines, so one set of pins is enough
+    if (is_tail) {
+        if (added->tail.position[0].track < 0) added->tail.position[0].value += ASIDE * added->tail.length;
+    } else {
+        added->tail.rest.value[0] = NEW_REST;
+        added->tail.position[1].value = NEW_HEIGHT;
+        if (document_has_spline(document, spline, NULL)) append_channel(added, spline, AXIS_SIDE, PART_TOTAL);
+    }
+    const bool good = edit_rig_add(document, added, error);
+    rig_drop(added);
+    return good;
+}
+
+/// Resamples a tail's angles for `to` joints, times `factor`. A ramp already covers the whole tail.
+static void resample(struct angles *angles, int to, double factor)
+{
+    const struct angles old = *angles;
+    if (old.form == ANGLES_EACH) angles->count = to;
+    for (int n = 0; n < angles_count(angles); n++) {
+        double value = angles_number(&old, old.form == ANGLES_EACH ? 0 : n);
+        if (old.form == ANGLES_EACH && to > 1) {
+            double at = (double)n * (old.count - 1) / (to - 1);
+            int low = (int)at;
+            double high = old.value[low + 1 < old.count ? low + 1 : low];
+            value = old.value[low] + (high - old.value[low]) * (at - low);
+        }
+        angles_set_number(angles, n, round(value * factor * ANGLE_RESOLUTION) / ANGLE_RESOLUTION + 0.0);
+    }
+}
+
+/// The tail keeps its shape and swing: with twice the joints, each bends and lags half as much.
+bool edit_joints(struct document *document, int rig, int count, struct error *error)
+{
+    const struct rig *old = find_rig(document, rig, EDIT_KIND(RIG_TAIL), error);
+    if (!old) return false;
+    const int from = old->tail.joints;
+    if (count < 1 || count > TAIL_MAX_JOINTS) {
+        return fail(error, ERROR_INPUT, "%s: joints must be from 1 to %d", old->name, TAIL_MAX_JOINTS);
+    }
+    if (from == count) return true;
+    struct document *before = document_copy(document);
+    struct rig *own = document_own_rig(document, rig);
+    struct tail *tail = &own->tail;
+    const double factor = (double)from / count;
+    tail->joints = count;
+
+    // Pins keep their places along the tail; if two meet, the first stays.
+    const int pins = own->pin_count;
+    own->pin_count = 0;
+    for (int i = 0; i < pins; i++) {
+        struct pin pin = own->pins[i];
+        bool meets = false;
+        pin.point = (2 * (pin.point + 1) * count + from) / (2 * from) - 1;
+        if (pin.point < 0) pin.point = 0;
+        for (int k = 0; k < own->pin_count; k++)
+            meets |= own->pins[k].frame == pin.frame && own->pins[k].point == pin.point;
+        if (!meets) own->pins[own->pin_count++] = pin;
+    }
+
+    resample(&tail->rest, count, factor);
+    for (int c = 0; c < tail->channel_count; c++) {
+        struct channel *channel = &tail->channels[c];
+        const bool bends = axis_bends(channel->axis);
+        resample(&channel->gain, count, bends ? factor : 1);
+        resample(&channel->lag, count, bends && channel->lag.form == ANGLES_ONE ? factor : 1);
+    }
+    return end_edit(document, before, true, error);
+}
