@@ -28,6 +28,13 @@ enum {
 
 struct json_t;
 
+/// Problems of a file, each one sentence "file:line: path: expected …, got …".
+struct problems {
+    void (*report)(void *user, bool is_error, const char *sentence); ///< warnings have is_error = false
+    void *user;
+    int errors, warnings; ///< counted by the callee; start at 0
+};
+
 struct knot {
     double frame;     ///< as written; may be fractional
     double value;     ///< of a still one, what it had before, or NaN; not saved then

@@ -6,7 +6,6 @@
 #include "scene/fields.h"
 #include "scene/order.h"
 #include "scene/pins.h"
-#include "scene/rig_kind.h"
 #include <ctype.h>
 #include <limits.h>
 #include <math.h>

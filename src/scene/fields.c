@@ -1,5 +1,6 @@
 /// Objects of a scene file, described by rows: read, printed, checked, compared, copied and freed.
 #include "scene/fields.h"
+#include "base/file.h"
 #include "base/need.h"
 #include "scene/document.h"
 #include <assert.h>
@@ -48,6 +49,63 @@ static size_t extra_place(const struct field *fields)
     return fields->place;
 }
 
+/// The number of rows that hold a spline's index.
+static int spline_rows(const struct field *fields)
+{
+    int count = 0;
+    for (const struct field *field = fields; field->key; field++) count += field->kind == FIELD_SPLINE;
+    return count;
+}
+
+int fields_splines(const struct field *fields, const void *object, int *inputs)
+{
+    int tracks = 0;
+    *inputs = spline_rows(fields);
+    for (const struct field *field = fields; field->key; field++) {
+        if (field->kind == FIELD_LIST) *inputs += count_of(field, object) * spline_rows(field->rows);
+        if (field->kind == FIELD_PLACE) tracks += 3;
+    }
+    return *inputs + tracks;
+}
+
+/// The offset of the n-th spline's index in the object or, if `*list` is not NULL, in an element of that list.
+static size_t find_spline(const struct field *fields, const void *object, int n, const struct field **list,
+                          int *element)
+{
+    *list = NULL;
+    for (const struct field *field = fields; field->key; field++) {
+        const bool is_list = field->kind == FIELD_LIST;
+        const int each = is_list ? spline_rows(field->rows) : field->kind == FIELD_SPLINE;
+        const int all = is_list ? each * count_of(field, object) : each;
+        n -= all;
+        if (n >= 0) continue;
+        if (!is_list) return field->place;
+        const struct field *row = field->rows;
+        for (int before = (n + all) % each; row->kind != FIELD_SPLINE || before-- > 0;) row++;
+        *list = field;
+        *element = (n + all) / each;
+        return row->place;
+    }
+    for (; fields->kind != FIELD_PLACE || n >= 3; fields++) n -= fields->kind == FIELD_PLACE ? 3 : 0;
+    return fields->place + (size_t)n * sizeof(struct param) + offsetof(struct param, track);
+}
+
+int fields_spline(const struct field *fields, const void *object, int n)
+{
+    const struct field *list;
+    int element;
+    const size_t at = find_spline(fields, object, n, &list, &element);
+    return *(const int *)look(list ? element_of(list, object, element) : object, at);
+}
+
+void fields_set_spline(const struct field *fields, void *object, int n, int spline)
+{
+    const struct field *list;
+    int element;
+    const size_t at = find_spline(fields, object, n, &list, &element);
+    *(int *)inside(list ? element_of(list, object, element) : object, at) = spline;
+}
+
 void fields_reset(const struct field *fields, void *object)
 {
     for (const struct field *field = fields; field->key; field++) {
@@ -73,37 +131,6 @@ void fields_reset(const struct field *fields, void *object)
     }
 }
 
-static void load_numbers(struct reader *reader, struct value value, const struct field *field, double *numbers)
-{
-    const int count = number_count(field);
-    if (!value.json && !field->is_required) return;
-    if (!reader_array(reader, value, (size_t)count, count == 3 ? "[x, y, z]" : "[x, z]")) return;
-    for (int i = 0; i < count; i++) reader_number(reader, reader_element(&value, i), true, field->range, &numbers[i]);
-}
-
-static void load_whole(struct reader *reader, struct value value, const struct field *field, int *number)
-{
-    if (!value.json && field->is_required) reader_unexpected(reader, value, "a whole number");
-    reader_integer(reader, value, (int)field->range.minimum, (int)field->range.maximum, number);
-}
-
-static void load_word(struct reader *reader, struct value value, const struct field *field, int *word)
-{
-    const int found = value.json || field->is_required ? reader_word(reader, value, field->words) : -1;
-    if (found >= 0) *word = found;
-}
-
-/// Each coordinate is a number in metres or follows a spline. Unknown keys of tracks are kept under the coordinate's name.
-static void load_place(struct reader *reader, struct value value, struct param *params, json_t **extra)
-{
-    json_t *tracks = NULL;
-    if (!value.json || !reader_array(reader, value, 3, "[x, y, z]")) return;
-    for (int k = 0; k < 3; k++) {
-        reader_param(reader, reader_element(&value, k), range_any, coordinate_name(k), false, &params[k], &tracks);
-    }
-    reader_put(extra, value.at.key, tracks);
-}
-
 void list_load(struct reader *reader, const struct value *object, const struct field *field, void *at)
 {
     const struct value value = reader_member(object, field->key);
@@ -117,60 +144,71 @@ void list_load(struct reader *reader, const struct value *object, const struct f
     }
 }
 
-static void load_field(struct reader *reader, const struct value *object, const struct field *field, void *into,
-                       json_t **extra)
-{
-    const struct value value = reader_member(object, field->key);
-    void *at = inside(into, field->place);
-    switch (field->kind) {
-    case FIELD_NUMBER:
-        if (field->flag != 0) *(bool *)inside(into, field->flag) = value.json != NULL;
-        reader_number(reader, value, field->is_required, field->range, at);
-        break;
-    case FIELD_WHOLE:
-        load_whole(reader, value, field, at);
-        break;
-    case FIELD_FLAG:
-        reader_flag(reader, value, at);
-        break;
-    case FIELD_NUMBERS:
-        load_numbers(reader, value, field, at);
-        break;
-    case FIELD_WORD:
-        load_word(reader, value, field, at);
-        break;
-    case FIELD_TEXT:
-        if (value.json || field->is_required) *(char **)at = reader_name(reader, value);
-        break;
-    case FIELD_PATH:
-    case FIELD_MODEL:
-        if (value.json || field->is_required) *(char **)at = reader_path(reader, value);
-        break;
-    case FIELD_SPLINE:
-        *(int *)at = reader_spline_name(reader, value);
-        break;
-    case FIELD_PLACE:
-        load_place(reader, value, at, extra);
-        break;
-    case FIELD_ANGLES:
-        load_angles(reader, value, at, extra);
-        break;
-    case FIELD_LIST:
-        list_load(reader, object, field, into);
-        break;
-    default:
-        break;
-    }
-}
-
-void fields_load(struct reader *reader, const struct value *object, const struct field *fields, void *at,
+void fields_load(struct reader *reader, const struct value *object, const struct field *fields, void *into,
                  json_t **extra)
 {
     for (const struct field *field = fields; field->key; field++) {
-        if (field->load)
-            field->load(reader, object, at);
-        else
-            load_field(reader, object, field, at, extra);
+        const struct value value = reader_member(object, field->key);
+        const bool is_read = value.json || field->is_required;
+        void *at = inside(into, field->place);
+        if (field->load) {
+            field->load(reader, object, into);
+            continue;
+        }
+        switch (field->kind) {
+        case FIELD_NUMBER:
+            if (field->flag != 0) *(bool *)inside(into, field->flag) = value.json != NULL;
+            reader_number(reader, value, field->is_required, field->range, at);
+            break;
+        case FIELD_WHOLE:
+            if (!value.json && field->is_required) reader_unexpected(reader, value, "a whole number");
+            reader_integer(reader, value, (int)field->range.minimum, (int)field->range.maximum, at);
+            break;
+        case FIELD_FLAG:
+            reader_flag(reader, value, at);
+            break;
+        case FIELD_NUMBERS: {
+            const int count = number_count(field);
+            const char *expected = count == 3 ? "[x, y, z]" : "[x, z]";
+            const bool good = is_read && reader_array(reader, value, (size_t)count, expected);
+            for (int i = 0; good && i < count; i++)
+                reader_number(reader, reader_element(&value, i), true, field->range, (double *)at + i);
+            break;
+        }
+        case FIELD_WORD: {
+            const int found = is_read ? reader_word(reader, value, field->words) : -1;
+            if (found >= 0) *(int *)at = found;
+            break;
+        }
+        case FIELD_TEXT:
+            if (is_read) *(char **)at = reader_name(reader, value);
+            break;
+        case FIELD_PATH:
+        case FIELD_MODEL:
+            if (is_read) *(char **)at = reader_path(reader, value);
+            break;
+        case FIELD_SPLINE:
+            *(int *)at = reader_spline_name(reader, value);
+            break;
+        case FIELD_PLACE: {        // each coordinate is a number in metres or follows a spline
+            json_t *tracks = NULL; // their unknown keys are kept under the coordinate's name
+            const bool good = value.json && reader_array(reader, value, 3, "[x, y, z]");
+            for (int k = 0; good && k < 3; k++) {
+                reader_param(reader, reader_element(&value, k), range_any, coordinate_name(k), false,
+                             (struct param *)at + k, &tracks);
+            }
+            reader_put(extra, value.at.key, tracks);
+            break;
+        }
+        case FIELD_ANGLES:
+            load_angles(reader, value, at, extra);
+            break;
+        case FIELD_LIST:
+            list_load(reader, object, field, into);
+            break;
+        default:
+            break;
+        }
     }
 }
 
@@ -202,67 +240,6 @@ void list_print(struct members *members, const struct document *document, const 
     text_string(text, count > 0 ? "\n      ]" : "[]");
 }
 
-static void print_place(struct members *members, const struct document *document, const struct field *field,
-                        const struct param *params, json_t *extra, const char *folder)
-{
-    json_t *tracks = json_object_get(extra, field->key);
-    member(members, field->key);
-    for (int k = 0; k < 3; k++) {
-        text_string(members->text, k > 0 ? ", " : "[");
-        print_param(members->text, document, &params[k], tracks, coordinate_name(k), folder);
-    }
-    text_string(members->text, "]");
-}
-
-static void print_row(struct members *members, const struct document *document, const struct field *field,
-                      const void *object, json_t *extra, const char *folder)
-{
-    const void *at = look(object, field->place);
-    switch (field->kind) {
-    case FIELD_NUMBER:
-        member_number(members, field->key, *(const double *)at);
-        break;
-    case FIELD_WHOLE:
-        member_number(members, field->key, *(const int *)at);
-        break;
-    case FIELD_FLAG:
-        member(members, field->key);
-        text_string(members->text, *(const bool *)at ? "true" : "false");
-        break;
-    case FIELD_NUMBERS:
-        member(members, field->key);
-        text_numbers(members->text, at, number_count(field));
-        break;
-    case FIELD_WORD:
-        member_string(members, field->key, field->words[*(const int *)at]);
-        break;
-    case FIELD_TEXT:
-        if (*(char *const *)at) member_string(members, field->key, *(char *const *)at);
-        break;
-    case FIELD_PATH:
-        member_path(members, field->key, document, *(char *const *)at, folder);
-        break;
-    case FIELD_MODEL:
-        member_path(members, field->key, *(const bool *)look(object, field->flag) ? document : NULL,
-                    *(char *const *)at, folder);
-        break;
-    case FIELD_SPLINE:
-        member_string(members, field->key, document->splines[*(const int *)at]->name);
-        break;
-    case FIELD_PLACE:
-        print_place(members, document, field, at, extra, folder);
-        break;
-    case FIELD_ANGLES:
-        print_angles(members, field->key, at, extra);
-        break;
-    case FIELD_LIST:
-        list_print(members, document, field, object, folder);
-        break;
-    default:
-        break;
-    }
-}
-
 /// Whether a field is not printed, because it has its default or is missing.
 static bool is_left_out(const struct field *field, const void *object)
 {
@@ -277,18 +254,70 @@ void fields_print(struct members *members, const struct document *document, cons
                   const void *object, const char *folder)
 {
     json_t *extra = *(json_t *const *)look(object, extra_place(fields)), *value;
+    struct text *text = members->text;
     const char *key;
     for (const struct field *field = fields; field->key; field++) {
-        if (field->print)
+        const void *at = look(object, field->place);
+        if (field->print) {
             field->print(members, document, object, folder);
-        else if (!is_left_out(field, object))
-            print_row(members, document, field, object, extra, folder);
+            continue;
+        }
+        if (is_left_out(field, object)) continue;
+        switch (field->kind) {
+        case FIELD_NUMBER:
+            member_number(members, field->key, *(const double *)at);
+            break;
+        case FIELD_WHOLE:
+            member_number(members, field->key, *(const int *)at);
+            break;
+        case FIELD_FLAG:
+            member(members, field->key);
+            text_string(text, *(const bool *)at ? "true" : "false");
+            break;
+        case FIELD_NUMBERS:
+            member(members, field->key);
+            text_numbers(text, at, number_count(field));
+            break;
+        case FIELD_WORD:
+            member_string(members, field->key, field->words[*(const int *)at]);
+            break;
+        case FIELD_TEXT:
+            if (*(char *const *)at) member_string(members, field->key, *(char *const *)at);
+            break;
+        case FIELD_PATH:
+            member_path(members, field->key, document, *(char *const *)at, folder);
+            break;
+        case FIELD_MODEL:
+            member_path(members, field->key, *(const bool *)look(object, field->flag) ? document : NULL,
+                        *(char *const *)at, folder);
+            break;
+        case FIELD_SPLINE:
+            member_string(members, field->key, document->splines[*(const int *)at]->name);
+            break;
+        case FIELD_PLACE:
+            member(members, field->key);
+            for (int k = 0; k < 3; k++) {
+                text_string(text, k > 0 ? ", " : "[");
+                print_param(text, document, (const struct param *)at + k, json_object_get(extra, field->key),
+                            coordinate_name(k), folder);
+            }
+            text_string(text, "]");
+            break;
+        case FIELD_ANGLES:
+            print_angles(members, field->key, at, extra);
+            break;
+        case FIELD_LIST:
+            list_print(members, document, field, object, folder);
+            break;
+        default:
+            break;
+        }
     }
     json_object_foreach(extra, key, value)
     {
         if (fields_find(fields, key)) continue; // unknown keys of a track or ramp
         member(members, key);
-        text_json(members->text, value);
+        text_json(text, value);
     }
 }
 
@@ -301,15 +330,6 @@ static bool fail_range(const struct field *field, struct error *error)
     return fail(error, ERROR_INPUT, "the %s must be finite", field->key);
 }
 
-static bool check_numbers(const struct field *field, double *numbers, struct error *error)
-{
-    for (int i = 0; i < number_count(field); i++) {
-        if (!isfinite(numbers[i]) || !range_has(field->range, numbers[i])) return fail_range(field, error);
-        numbers[i] += 0.0;
-    }
-    return true;
-}
-
 bool model_find(const struct document *document, const char *text, bool *by_file, struct error *error)
 {
     if (!text) text = "";
@@ -318,66 +338,59 @@ bool model_find(const struct document *document, const char *text, bool *by_file
            fail(error, ERROR_INPUT, "expected the name or file of a model rig, got \"%s\"", text);
 }
 
-static bool check_word(const struct field *field, int word, struct error *error)
-{
-    char words[WORDS_TEXT];
-    for (int i = 0; field->words[i]; i++) {
-        if (i == word && field->words[i][0]) return true;
-    }
-    return fail(error, ERROR_INPUT, "the %s must be %s", field->key, list_words(field->words, words));
-}
-
-static bool check_place(const struct document *document, const struct field *field, struct param *params,
-                        struct error *error)
-{
-    for (int k = 0; k < 3; k++) {
-        if (params[k].motion) return fail(error, ERROR_INPUT, "only an equilibrium follows a joint");
-        if (params[k].track >= document->spline_count)
-            return fail(error, ERROR_INPUT, "there is no spline to follow");
-        if (!isfinite(params[k].value)) return fail(error, ERROR_INPUT, "the %s must be finite", field->key);
-        params[k].value += 0.0;
-    }
-    return true;
-}
-
-static bool check_list(const struct document *document, int joints, const struct field *field, const void *object,
-                       struct error *error)
-{
-    const int count = count_of(field, object), most = (int)field->range.maximum;
-    if (count > most) return fail(error, ERROR_INPUT, "at most %d %s fit", most, field->key);
-    for (int i = 0; i < count; i++) {
-        if (!fields_check(document, joints, field->rows, element_of(field, object, i), error)) return false;
-    }
-    return true;
-}
-
 static bool check_field(const struct document *document, int joints, const struct field *field, void *object,
                         struct error *error)
 {
     void *at = inside(object, field->place);
     const char *text = is_text(field) ? text_of(field, object) : NULL;
+    struct param *params = at;
+    double *numbers = at;
     switch (field->kind) {
     case FIELD_NUMBER:
     case FIELD_NUMBERS:
-        return check_numbers(field, at, error);
+        for (int i = 0; i < number_count(field); i++) {
+            if (!isfinite(numbers[i]) || !range_has(field->range, numbers[i])) return fail_range(field, error);
+            numbers[i] += 0.0;
+        }
+        return true;
     case FIELD_WHOLE:
         return range_has(field->range, *(int *)at) || fail_range(field, error);
-    case FIELD_WORD:
-        return (field->is_quiet && *(int *)at == (int)field->usual[0]) || check_word(field, *(int *)at, error);
+    case FIELD_WORD: {
+        const int word = *(int *)at;
+        char words[WORDS_TEXT];
+        if (field->is_quiet && word == (int)field->usual[0]) return true;
+        for (int i = 0; field->words[i]; i++) {
+            if (i == word && field->words[i][0]) return true;
+        }
+        return fail(error, ERROR_INPUT, "the %s must be %s", field->key, list_words(field->words, words));
+    }
     case FIELD_TEXT:
     case FIELD_PATH:
         return field->is_apart || (text ? text[0] != '\0' : !field->is_required) ||
                fail(error, ERROR_INPUT, "\"%s\" must not be empty", field->key);
     case FIELD_MODEL:
-        return model_find(document, text_of(field, object), inside(object, field->flag), error);
+        return model_find(document, text, inside(object, field->flag), error);
     case FIELD_SPLINE:
         return document_has_spline(document, *(int *)at, error);
     case FIELD_PLACE:
-        return check_place(document, field, at, error);
+        for (int k = 0; k < 3; k++) {
+            if (params[k].motion) return fail(error, ERROR_INPUT, "only an equilibrium follows a joint");
+            if (params[k].track >= document->spline_count)
+                return fail(error, ERROR_INPUT, "there is no spline to follow");
+            if (!isfinite(params[k].value)) return fail(error, ERROR_INPUT, "the %s must be finite", field->key);
+            params[k].value += 0.0;
+        }
+        return true;
     case FIELD_ANGLES:
         return check_angles(joints, at, error);
-    case FIELD_LIST:
-        return check_list(document, joints, field, object, error);
+    case FIELD_LIST: {
+        const int count = count_of(field, object), most = (int)field->range.maximum;
+        if (count > most) return fail(error, ERROR_INPUT, "at most %d %s fit", most, field->key);
+        for (int i = 0; i < count; i++) {
+            if (!fields_check(document, joints, field->rows, element_of(field, object, i), error)) return false;
+        }
+        return true;
+    }
     default:
         return true;
     }
@@ -392,31 +405,26 @@ bool fields_check(const struct document *document, int joints, const struct fiel
     return true;
 }
 
-static bool same_lists(const struct field *field, const void *a, const void *b)
-{
-    bool same = count_of(field, a) == count_of(field, b);
-    for (int i = 0; same && i < count_of(field, a); i++)
-        same = fields_equal(field->rows, element_of(field, a, i), element_of(field, b, i));
-    return same;
-}
-
-static bool same_places(const struct param *a, const struct param *b)
-{
-    bool same = true;
-    for (int k = 0; k < 3; k++) same &= a[k].track == b[k].track && a[k].value == b[k].value;
-    return same;
-}
-
-/// NULL is only itself.
-static bool same_text(const char *a, const char *b) { return a == b || (a && b && strcmp(a, b) == 0); }
-
 static bool same_field(const struct field *field, const void *a, const void *b)
 {
     const void *left = look(a, field->place), *right = look(b, field->place);
     if (field->flag != 0 && *(const bool *)look(a, field->flag) != *(const bool *)look(b, field->flag)) return false;
-    if (is_text(field)) return same_text(text_of(field, a), text_of(field, b));
-    if (field->kind == FIELD_LIST) return same_lists(field, a, b);
-    if (field->kind == FIELD_PLACE) return same_places(left, right);
+    if (is_text(field)) {
+        const char *one = text_of(field, a), *other = text_of(field, b);
+        return one == other || (one && other && strcmp(one, other) == 0); // NULL is only itself
+    }
+    if (field->kind == FIELD_LIST) {
+        bool same = count_of(field, a) == count_of(field, b);
+        for (int i = 0; same && i < count_of(field, a); i++)
+            same = fields_equal(field->rows, element_of(field, a, i), element_of(field, b, i));
+        return same;
+    }
+    if (field->kind == FIELD_PLACE) {
+        const struct param *one = left, *other = right;
+        bool same = true;
+        for (int k = 0; k < 3; k++) same &= one[k].track == other[k].track && one[k].value == other[k].value;
+        return same;
+    }
     if (field->kind == FIELD_ANGLES) return angles_equal(left, right);
     return memcmp(left, right, field->size) == 0;
 }
@@ -429,22 +437,18 @@ bool fields_equal(const struct field *fields, const void *a, const void *b)
     return true;
 }
 
-static void copy_list(const struct field *field, void *object)
-{
-    const int count = count_of(field, object);
-    void **list = inside(object, field->place), *shared = *list;
-    *list = need((size_t)count + 1, field->size);
-    if (count > 0) memcpy(*list, shared, (size_t)count * field->size);
-    for (int i = 0; i < count; i++) fields_copy(field->rows, element_of(field, object, i));
-}
-
 void fields_copy(const struct field *fields, void *copy)
 {
     for (const struct field *field = fields; field->key; field++) {
         const char *text = is_text(field) ? text_of(field, copy) : NULL;
         if (text) *(char **)inside(copy, field->place) = need_text(text);
         if (field->kind == FIELD_PAINT) paint_hold(paint_of(field, copy));
-        if (field->kind == FIELD_LIST) copy_list(field, copy);
+        if (field->kind != FIELD_LIST) continue;
+        const int count = count_of(field, copy);
+        void **list = inside(copy, field->place), *shared = *list;
+        *list = need((size_t)count + 1, field->size);
+        if (count > 0) memcpy(*list, shared, (size_t)count * field->size);
+        for (int i = 0; i < count; i++) fields_copy(field->rows, element_of(field, copy, i));
     }
 }
 
@@ -469,4 +473,154 @@ size_t fields_bytes(const struct field *fields, const void *object, const void *
         bytes += paint_bytes(paint_of(field, object));
     }
     return bytes;
+}
+
+// --- printing, key by key
+
+void member(struct members *members, const char *key)
+{
+    text_string(members->text, members->any ? members->separator : members->open);
+    text_quoted(members->text, key);
+    text_string(members->text, ": ");
+    members->any = true;
+}
+
+void member_number(struct members *members, const char *key, double value)
+{
+    member(members, key);
+    text_number(members->text, value);
+}
+
+void member_string(struct members *members, const char *key, const char *string)
+{
+    member(members, key);
+    text_quoted(members->text, string);
+}
+
+void member_path(struct members *members, const char *key, const struct document *document, const char *path,
+                 const char *folder)
+{
+    char moved[PATH_LIMIT];
+    member(members, key);
+    text_path(members->text, document && path_rebase(path, document->folder, folder, moved) ? moved : path);
+}
+
+void members_extra(struct members *members, json_t *extra, bool (*skips)(const char *key))
+{
+    const char *key;
+    json_t *value;
+    json_object_foreach(extra, key, value)
+    {
+        if (skips && skips(key)) continue;
+        member(members, key);
+        text_json(members->text, value);
+    }
+}
+
+void text_numbers(struct text *text, const double *values, int count)
+{
+    text_string(text, "[");
+    for (int i = 0; i < count; i++) {
+        if (i > 0) text_string(text, ", ");
+        text_number(text, values[i]);
+    }
+    text_string(text, "]");
+}
+
+void print_param(struct text *text, const struct document *document, const struct param *param, json_t *extras,
+                 const char *key, const char *folder)
+{
+    if (!param_follows(param)) {
+        text_number(text, param->value);
+        return;
+    }
+    struct members track = {text, "{ ", ", ", false};
+    if (param->motion) {
+        fields_print(&track, document, motion_fields, param->motion, folder);
+    } else {
+        member_string(&track, "spline", document->splines[param->track]->name);
+        members_extra(&track, json_object_get(extras, key), NULL);
+    }
+    text_string(text, " }");
+}
+
+// --- the joint that a spline follows: { "model": "walk", "joint": "hips", "of": "turn", "gain": 1 }
+
+const char *const motion_words[] = {
+    [MOTION_TURN] = "turn", [MOTION_ACROSS] = "across", [MOTION_UP] = "up", [MOTION_KINDS] = NULL};
+
+const struct field motion_fields[] = {
+    {FIELD("model", FIELD_MODEL, struct joint_motion, model), .is_required = true,
+     .flag = offsetof(struct joint_motion, by_file)},
+    {FIELD("joint", FIELD_TEXT, struct joint_motion, joint), .is_required = true},
+    {FIELD("of", FIELD_WORD, struct joint_motion, of), .words = motion_words, .is_required = true},
+    {FIELD("gain", FIELD_NUMBER, struct joint_motion, gain), .range = FIELD_ANY, .usual = {1}},
+    {FIELD("chain", FIELD_TEXT, struct joint_motion, chain)},
+    FIELD_END(struct joint_motion),
+};
+
+bool motion_equals(const struct joint_motion *a, const struct joint_motion *b)
+{
+    return a == b || (a && b && fields_equal(motion_fields, a, b));
+}
+
+struct joint_motion *motion_create(const struct joint_motion *motion)
+{
+    struct joint_motion *copy = need(1, sizeof *copy);
+    *copy = *motion;
+    atomic_init(&copy->holders, 1);
+    fields_copy(motion_fields, copy);
+    return copy;
+}
+
+void motion_hold(struct joint_motion *motion)
+{
+    if (motion) atomic_fetch_add(&motion->holders, 1);
+}
+
+void motion_drop(struct joint_motion *motion)
+{
+    if (!motion || atomic_fetch_sub(&motion->holders, 1) > 1) return;
+    fields_free(motion_fields, motion);
+    free(motion);
+}
+
+static bool has_chain(const struct document *document, const struct joint_motion *motion, struct error *error)
+{
+    return !motion->chain || document_find_chain(document, motion->chain) >= 0 ||
+           fail(error, ERROR_INPUT, "expected the name of a chain, got \"%s\"", motion->chain);
+}
+
+bool motion_check(const struct document *document, struct joint_motion *motion, struct error *error)
+{
+    return fields_check(document, JOINTS_UNKNOWN, motion_fields, motion, error) && has_chain(document, motion, error);
+}
+
+void motion_load(struct reader *reader, const struct value *object, struct param *param)
+{
+    const int errors = reader->errors;
+    struct joint_motion *motion = need_zeroed(1, sizeof *motion);
+    atomic_init(&motion->holders, 1);
+    object_load(reader, object, motion_fields, motion);
+    if (reader->errors == errors)
+        *param = (struct param){.track = -1, .motion = motion};
+    else
+        motion_drop(motion);
+}
+
+void resolve_motions(struct reader *reader, const struct value *scene)
+{
+    const struct document *document = reader->document;
+    const struct value splines = reader_member(scene, "splines");
+    for (int s = 0; s < document->spline_count; s++) {
+        struct joint_motion *motion = document->splines[s]->parameter[PARAMETER_EQUILIBRIUM].motion;
+        const struct value spline = reader_element(&splines, s);
+        const struct value object = reader_member(&spline, parameter_rows[PARAMETER_EQUILIBRIUM].name);
+        const struct value model = reader_member(&object, "model"), chain = reader_member(&object, "chain");
+        struct error error;
+        if (!motion) continue;
+        if (!model_find(document, motion->model, &motion->by_file, &error))
+            reader_fail(reader, &model.at, "%s", error.text);
+        if (!has_chain(document, motion, &error)) reader_fail(reader, &chain.at, "%s", error.text);
+    }
 }

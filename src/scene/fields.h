@@ -94,6 +94,12 @@ struct field {
         0, INFINITY, true                                                                                            \
     }
 
+/// How many splines an object refers to: first by its inputs, which are its FIELD_SPLINE rows and those of its lists' elements, then by the tracks
+/// of its places. Reads and writes the index of the n-th; a track that follows nothing has −1.
+int fields_splines(const struct field *fields, const void *object, int *inputs);
+int fields_spline(const struct field *fields, const void *object, int n);
+void fields_set_spline(const struct field *fields, void *object, int n, int spline);
+
 /// Sets all members to their defaults.
 void fields_reset(const struct field *fields, void *at);
 
@@ -124,6 +130,10 @@ size_t fields_bytes(const struct field *fields, const void *at, const void *othe
 
 /// The row of a key, or NULL.
 const struct field *fields_find(const struct field *fields, const char *key);
+
+/// The rows of a rig; and those of its pins, or NULL.
+const struct field *rig_fields(const struct rig *rig);
+const struct field *rig_pin_fields(const struct rig *rig);
 
 /// Looks a model rig up by name, else by its file; false: there is none.
 bool model_find(const struct document *document, const char *text, bool *by_file, struct error *error);

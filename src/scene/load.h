@@ -6,13 +6,6 @@
 #include "scene/document.h"
 #include <stddef.h>
 
-/// Problems of a file, each one sentence "file:line: path: expected …, got …".
-struct problems {
-    void (*report)(void *user, bool is_error, const char *sentence); ///< warnings have is_error = false
-    void *user;
-    int errors, warnings; ///< counted by the callee; start at 0
-};
-
 /// Reads and validates a scene. On failure returns NULL with the first error in `error`. With `problems` it reports every problem, as
 /// `wiggly check` does; NULL drops warnings and further errors.
 struct document *scene_load(const char *path, struct problems *problems, struct error *error);

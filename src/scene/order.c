@@ -1,6 +1,7 @@
 /// Sorts splines by their dependencies, finds cycles, and visits every reference to a spline in a document.
 #include "scene/order.h"
 #include "base/need.h"
+#include "scene/fields.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -63,70 +64,44 @@ bool scene_has_order(const struct document *document, struct order_cycle *cycle)
     return found;
 }
 
-static bool follows_any(const struct spline *spline, const bool *marked, int count)
-{
-    for (int i = 0; i < PARAMETER_COUNT; i++) {
-        int track = spline->parameter[i].track;
-        if (track >= 0 && track < count && marked[track]) return true;
-    }
-    return false;
-}
-
 void scene_followers(const struct document *document, int spline, bool *followers, int count)
 {
     for (int s = 0; s < count; s++) followers[s] = s == spline;
     for (bool more = true; more;) {
         more = false;
         for (int s = 0; s < count; s++) {
-            if (followers[s] || !follows_any(document->splines[s], followers, count)) continue;
-            followers[s] = more = true;
+            for (int p = 0; p < PARAMETER_COUNT && !followers[s]; p++) {
+                const int track = document->splines[s]->parameter[p].track;
+                if (track >= 0 && track < count && followers[track]) followers[s] = more = true;
+            }
         }
     }
-}
-
-/// A rig's n-th reference to a spline, its inputs first; NULL: there are no more.
-static int *place_in_rig(struct rig *rig, int n)
-{
-    const int inputs = rig_input_count(rig);
-    if (n >= inputs) return rig->kind == RIG_TAIL && n < inputs + 3 ? &rig->tail.position[n - inputs].track : NULL;
-    if (rig->kind == RIG_CHARACTER) return &rig->character.drives[n].spline;
-    return &rig->bent.channels[n].spline;
-}
-
-static bool next_in_rig(struct rig *rig, struct reference *reference)
-{
-    const int inputs = rig_input_count(rig);
-    for (const int *place; (place = place_in_rig(rig, reference->number)) != NULL;) {
-        const int n = reference->number++;
-        const enum reference_kind of_input = rig->kind == RIG_CHARACTER ? REFERENCE_DRIVE : REFERENCE_CHANNEL;
-        reference->kind = n < inputs ? of_input : REFERENCE_POSITION;
-        reference->which = n < inputs ? n : n - inputs;
-        reference->spline = *place;
-        if (*place >= 0) return true;
-    }
-    return false;
-}
-
-static bool next_track(const struct spline *spline, struct reference *reference)
-{
-    while (reference->number < PARAMETER_COUNT) {
-        reference->which = reference->number++;
-        reference->spline = spline->parameter[reference->which].track;
-        if (reference->spline >= 0) return true;
-    }
-    return false;
 }
 
 bool reference_next(const struct document *document, struct reference *reference)
 {
     if (reference->kind == REFERENCE_TRACK) {
         for (; reference->owner < document->spline_count; reference->owner++, reference->number = 0) {
-            if (next_track(document->splines[reference->owner], reference)) return true;
+            while (reference->number < PARAMETER_COUNT) {
+                reference->which = reference->number++;
+                reference->spline = document->splines[reference->owner]->parameter[reference->which].track;
+                if (reference->spline >= 0) return true;
+            }
         }
         *reference = (struct reference){.kind = REFERENCE_CHANNEL};
     }
     for (; reference->owner < document->rig_count; reference->owner++, reference->number = 0) {
-        if (next_in_rig(document->rigs[reference->owner], reference)) return true;
+        int inputs, channels;
+        const struct rig *rig = document->rigs[reference->owner];
+        const int splines = fields_splines(rig_fields(rig), rig, &inputs);
+        const enum reference_kind of_input = rig_channels(rig, &channels) ? REFERENCE_CHANNEL : REFERENCE_DRIVE;
+        while (reference->number < splines) {
+            const int n = reference->number++;
+            reference->kind = n < inputs ? of_input : REFERENCE_POSITION;
+            reference->which = n < inputs ? n : n - inputs;
+            reference->spline = fields_spline(rig_fields(rig), rig, n);
+            if (reference->spline >= 0) return true;
+        }
     }
     return false;
 }
@@ -135,9 +110,10 @@ void reference_set(struct document *document, const struct reference *reference,
 {
     if (reference->kind == REFERENCE_TRACK) {
         document_own_spline(document, reference->owner)->parameter[reference->which].track = spline;
-    } else {
-        *place_in_rig(document_own_rig(document, reference->owner), reference->number - 1) = spline;
+        return;
     }
+    struct rig *rig = document_own_rig(document, reference->owner);
+    fields_set_spline(rig_fields(rig), rig, reference->number - 1, spline);
 }
 
 int reference_count(const struct document *document, int spline)

@@ -32,9 +32,9 @@ void scene_followers(const struct document *document, int spline, bool *follower
 
 enum reference_kind {
     REFERENCE_TRACK,    ///< a spline's parameter that follows
-    REFERENCE_POSITION, ///< a coordinate of a tail's position that follows
-    REFERENCE_CHANNEL,  ///< a tail's or chain's channel
-    REFERENCE_DRIVE,    ///< a coordinate of a character
+    REFERENCE_POSITION, ///< a coordinate of a rig's position that follows
+    REFERENCE_CHANNEL,  ///< an input of a rig that has channels
+    REFERENCE_DRIVE,    ///< an input of another rig: a coordinate of a character
 };
 
 /// All zero before the first reference.

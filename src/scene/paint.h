@@ -32,6 +32,9 @@ void paint_drop(struct paint *paint);
 bool paint_is_plain(const struct paint *paint);
 bool paint_is_plain_at(const struct paint *paint, int coordinate);
 
+/// Whether a coordinate's values are within the limits; NaN is not.
+bool paint_check(const struct paint *paint, int coordinate, struct error *error);
+
 /// Bytes of memory; 0 for NULL.
 size_t paint_bytes(const struct paint *paint);
 

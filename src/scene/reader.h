@@ -5,7 +5,6 @@
 #define SCENE_READER_H
 
 #include "scene/document.h"
-#include "scene/load.h"
 #include <jansson.h>
 
 // --- the text: its limits, and the lines and paths for messages; jansson gives positions of syntax errors only
@@ -44,18 +43,6 @@ struct source {
     size_t size;
     struct finger fingers[SOURCE_MAX_DEPTH];
 };
-
-/// Refuses text that would take too much memory or stack to parse, by counting brackets and commas.
-bool source_check_limits(const struct source *source, struct error *error);
-
-/// The line of a place in a parsed text; if there is no such key, of the nearest place above.
-int source_line(struct source *source, const struct where *where);
-
-/// "splines[0].knots[2].frame"; "scene" for the root.
-void where_path(const struct where *where, char path[PATH_TEXT_SIZE]);
-
-/// The path of the value that is open at byte `offset`; the text need only be valid up to there.
-void source_path_at(const struct source *source, size_t offset, char path[PATH_TEXT_SIZE]);
 
 // --- values
 
@@ -174,8 +161,7 @@ void motion_load(struct reader *reader, const struct value *object, struct param
 /// Gives an object of unknown keys (or NULL) to the document.
 json_t *reader_keep(struct reader *reader, json_t *extra);
 
-/// The parts of a scene, each into reader->document. Splines come first: rigs name them.
-void load_splines(struct reader *reader, const struct value *scene);
+/// A scene's rigs, into reader->document, which has its splines: rigs name them.
 void load_rigs(struct reader *reader, const struct value *scene);
 
 /// Looks up what motions name among the rigs, all of which are read.

@@ -1,4 +1,4 @@
-/// A rig: something that splines move. Each kind is a row in every layer: how it is read, written and copied (rig_kind.c here), posed
+/// A rig: something that splines move. Each kind is a row in every layer: how it is read, written and copied (rigs.c here), posed
 /// (rig/posing.c), put on the stage (editor/stage/stage.c), drawn (draw/stage.c) and edited (editor/inspector/inspector.c).
 #ifndef SCENE_RIG_H
 #define SCENE_RIG_H
