@@ -201,19 +201,6 @@ void document_note_models(const struct document *document)
     }
 }
 
-static size_t spline_bytes(const struct spline *spline)
-{
-    return sizeof *spline + (size_t)spline->knot_count * sizeof *spline->knots + strlen(spline->name) + 1;
-}
-
-static int find_rig_id(const struct document *document, unsigned id)
-{
-    for (int i = 0; i < document->rig_count; i++) {
-        if (document->rigs[i]->id == id) return i;
-    }
-    return -1;
-}
-
 size_t document_bytes_beside(const struct document *document, const struct document *other)
 {
     size_t bytes = sizeof *document + (size_t)document->spline_count * sizeof *document->splines +
@@ -221,12 +208,16 @@ size_t document_bytes_beside(const struct document *document, const struct docum
     for (int i = 0; i < document->spline_count; i++) {
         const struct spline *spline = document->splines[i];
         const int there = other ? document_find_spline_id(other, spline->id) : -1;
-        if (there < 0 || other->splines[there] != spline) bytes += spline_bytes(spline);
+        if (there >= 0 && other->splines[there] == spline) continue;
+        bytes += sizeof *spline + (size_t)spline->knot_count * sizeof *spline->knots + strlen(spline->name) + 1;
     }
     for (int i = 0; i < document->rig_count; i++) {
         const struct rig *rig = document->rigs[i];
-        const int there = other ? find_rig_id(other, rig->id) : -1;
-        if (there < 0 || other->rigs[there] != rig) bytes += rig_bytes(rig, there < 0 ? NULL : other->rigs[there]);
+        const struct rig *there = NULL;
+        for (int k = 0; other && k < other->rig_count && !there; k++) {
+            if (other->rigs[k]->id == rig->id) there = other->rigs[k];
+        }
+        if (there != rig) bytes += rig_bytes(rig, there);
     }
     return bytes;
 }

@@ -122,13 +122,6 @@ static void drop_oldest(struct history *history)
     history->states[0].label = NULL;
 }
 
-/// Whether the open step merges with the last one. A saved state stays separate, so that undo can return to it.
-static bool joins_last(const struct history *history)
-{
-    return history->done > 0 && history->can_merge && history->merge != 0 &&
-           current(history)->merge == history->merge && current(history)->number != history->saved_number;
-}
-
 void history_end(struct history *history)
 {
     assert(history->is_open);
@@ -136,7 +129,10 @@ void history_end(struct history *history)
         history->is_open = false;
         return;
     }
-    const bool joins = joins_last(history);
+    // A saved state stays separate, so that undo can return to it.
+    const struct state *last = current(history);
+    const bool joins = history->done > 0 && history->can_merge && history->merge != 0 &&
+                       last->merge == history->merge && last->number != history->saved_number;
     forget_from(history, history->done + (joins ? 0 : 1));
     document_destroy(history->left);
     history->left = NULL;

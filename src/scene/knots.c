@@ -30,28 +30,25 @@ char *knots_print(const struct knot_list *list)
     return text.data;
 }
 
-static void read_array(struct reader *reader, struct value array, struct knot_list *list)
-{
-    int count = reader_objects(reader, array, SCENE_MAX_KNOTS);
-    if (count == 0) reader_fail(reader, &array.at, "expected at least one knot, got none");
-    if (count <= 0) return;
-    list->knots = need_zeroed((size_t)count, sizeof *list->knots);
-    list->splines = need_zeroed((size_t)count, sizeof *list->splines);
-    list->count = count;
-    for (int i = 0; i < count; i++) {
-        const struct value object = reader_element(&array, i), spline = reader_member(&object, "spline");
-        object_load(reader, &object, knot_fields, &list->knots[i]);
-        if (spline.json) list->splines[i] = reader_name(reader, spline);
-        list->knots[i].extra = NULL; /* the reader's document goes */
-    }
-}
-
 static bool parse_json(const char *name, const char *text, struct knot_list *list, struct error *error)
 {
     struct reader reader = {.source = {.name = name, .text = text, .size = strlen(text)}, .error = error};
     reader.document = document_create();
     const struct value root = {.json = reader_parse(&reader)};
-    if (root.json) read_array(&reader, json_is_object(root.json) ? reader_member(&root, "knots") : root, list);
+    const struct value array = json_is_object(root.json) ? reader_member(&root, "knots") : root;
+    const int count = root.json ? reader_objects(&reader, array, SCENE_MAX_KNOTS) : -1;
+    if (count == 0) reader_fail(&reader, &array.at, "expected at least one knot, got none");
+    if (count > 0) {
+        list->knots = need_zeroed((size_t)count, sizeof *list->knots);
+        list->splines = need_zeroed((size_t)count, sizeof *list->splines);
+        list->count = count;
+    }
+    for (int i = 0; i < count; i++) {
+        const struct value object = reader_element(&array, i), spline = reader_member(&object, "spline");
+        object_load(&reader, &object, knot_fields, &list->knots[i]);
+        if (spline.json) list->splines[i] = reader_name(&reader, spline);
+        list->knots[i].extra = NULL; // the reader's document goes
+    }
     json_decref(root.json);
     document_destroy(reader.document);
     if (reader.errors > 0) knot_list_free(list);
@@ -92,29 +89,25 @@ static bool bad(const struct csv *csv, const char *expected, const char *got)
                 got && *got ? "\"" : "", got && *got ? got : "nothing", got && *got ? "\"" : "");
 }
 
-static void take_field(struct line *line, const char *from, size_t length)
-{
-    static const char around[] = " \t\r\"";
-    while (length > 0 && strchr(around, *from)) from++, length--;
-    while (length > 0 && strchr(around, from[length - 1])) length--;
-    if (line->count == MAX_FIELDS) return;
-    char *field = line->field[line->count++];
-    const bool fits = length < MAX_FIELD;
-    if (!fits) length = MAX_FIELD - sizeof cut_off;
-    memcpy(field, from, length);
-    strcpy(field + length, fits ? "" : cut_off);
-}
-
 /// Splits a line at semicolons, else tabs, else commas. With semicolons or tabs, a comma in a number is the decimal point.
 static void split(struct line *line, const char *text, size_t length)
 {
+    static const char around[] = " \t\r\"";
     char separator = memchr(text, ';', length) ? ';' : memchr(text, '\t', length) ? '\t' : ',';
     line->count = 0;
     for (const char *end = text + length; text <= end;) {
         const char *next = memchr(text, separator, (size_t)(end - text));
         if (!next) next = end;
-        take_field(line, text, (size_t)(next - text));
+        const char *from = text, *to = next;
+        while (from < to && strchr(around, *from)) from++;
+        while (from < to && strchr(around, to[-1])) to--;
         text = next + 1;
+        if (line->count == MAX_FIELDS) continue;
+        char *field = line->field[line->count++];
+        const bool fits = to - from < MAX_FIELD;
+        const size_t kept = fits ? (size_t)(to - from) : MAX_FIELD - sizeof cut_off;
+        memcpy(field, from, kept);
+        strcpy(field + kept, fits ? "" : cut_off);
     }
     for (int i = 0; i < line->count && separator != ','; i++) {
         char *comma = strchr(line->field[i], ',');
@@ -127,17 +120,6 @@ static bool is_number(const char *field, double *number)
     char *end;
     *number = strtod(field, &end);
     return end != field && !*end && isfinite(*number);
-}
-
-/// Reads a header: columns have names; frame and value default to the first and second column.
-static void read_header(struct csv *csv)
-{
-    for (int c = 0; c < COLUMN_COUNT; c++) {
-        csv->at[c] = c <= COLUMN_VALUE ? c : -1;
-        for (int i = 0; i < csv->line.count; i++) {
-            if (strcasecmp(csv->line.field[i], column_names[c]) == 0) csv->at[c] = i;
-        }
-    }
 }
 
 /// Reads a field's number. A missing optional field is left unchanged.
@@ -171,32 +153,39 @@ static bool add_knot(struct csv *csv, const struct knot *knot)
     return true;
 }
 
-static bool read_knot(struct csv *csv)
-{
-    struct knot knot = {.stiffness = KNOT_DEFAULT_STIFFNESS};
-    bool given;
-    const int at = csv->at[COLUMN_VALUE];
-    knot.still = at < csv->line.count && strcasecmp(csv->line.field[at], "still") == 0;
-    if (knot.still) knot.value = NAN;
-    if (knot.still) return read_field(csv, COLUMN_FRAME, &given, &knot.frame) && add_knot(csv, &knot);
-    return read_field(csv, COLUMN_FRAME, &given, &knot.frame) && read_field(csv, COLUMN_VALUE, &given, &knot.value) &&
-           read_field(csv, COLUMN_STIFFNESS, &given, &knot.stiffness) &&
-           read_field(csv, COLUMN_SLOPE, &knot.has_slope, &knot.slope) &&
-           read_field(csv, COLUMN_IM, &knot.has_phase, &knot.phase) && add_knot(csv, &knot);
-}
-
+/// Reads a knot, or a header: its columns have names; frame and value default to the first and second column.
 static bool read_line(struct csv *csv, const char *text, size_t length, bool *started)
 {
+    const struct line *line = &csv->line;
     double number;
     size_t blank = strspn(text, " \t\r");
     if (blank >= length || text[blank] == '#') return true;
     split(&csv->line, text, length);
-    bool is_header = !*started && csv->line.count > 1 && !is_number(csv->line.field[0], &number) &&
-                     !is_number(csv->line.field[1], &number);
+    bool is_header =
+        !*started && line->count > 1 && !is_number(line->field[0], &number) && !is_number(line->field[1], &number);
     *started = true;
-    if (!is_header) return read_knot(csv);
-    read_header(csv);
-    return true;
+    if (is_header) {
+        for (int c = 0; c < COLUMN_COUNT; c++) {
+            csv->at[c] = c <= COLUMN_VALUE ? c : -1;
+            for (int i = 0; i < line->count; i++) {
+                if (strcasecmp(line->field[i], column_names[c]) == 0) csv->at[c] = i;
+            }
+        }
+        return true;
+    }
+
+    struct knot knot = {.stiffness = KNOT_DEFAULT_STIFFNESS};
+    bool given;
+    const int at = csv->at[COLUMN_VALUE];
+    knot.still = at < line->count && strcasecmp(line->field[at], "still") == 0;
+    if (knot.still) knot.value = NAN;
+    bool good = read_field(csv, COLUMN_FRAME, &given, &knot.frame);
+    if (!knot.still)
+        good = good && read_field(csv, COLUMN_VALUE, &given, &knot.value) &&
+               read_field(csv, COLUMN_STIFFNESS, &given, &knot.stiffness) &&
+               read_field(csv, COLUMN_SLOPE, &knot.has_slope, &knot.slope) &&
+               read_field(csv, COLUMN_IM, &knot.has_phase, &knot.phase);
+    return good && add_knot(csv, &knot);
 }
 
 static bool knots_parse_csv(const char *name, const char *text, struct knot_list *list, struct error *error)

@@ -47,16 +47,15 @@ int pins_find(const struct document *document, const struct rig *rig, int point,
     return -1;
 }
 
-static bool comes_after(const struct pin *a, const struct pin *b)
-{
-    return a->frame > b->frame || (a->frame == b->frame && a->point > b->point);
-}
-
 void pins_insert(struct rig *rig, const struct pin *pin)
 {
     rig->pins = need_more(rig->pins, (size_t)rig->pin_count + 1, sizeof *rig->pins);
     int at = rig->pin_count++;
-    for (; at > 0 && comes_after(&rig->pins[at - 1], pin); at--) rig->pins[at] = rig->pins[at - 1];
+    for (; at > 0; at--) {
+        const struct pin *before = &rig->pins[at - 1];
+        if (before->frame < pin->frame || (before->frame == pin->frame && before->point <= pin->point)) break;
+        rig->pins[at] = *before;
+    }
     rig->pins[at] = *pin;
 }
 
@@ -70,17 +69,6 @@ struct pin pins_remove(struct rig *rig, unsigned id)
     return pin;
 }
 
-/// An earlier pin of the same point on the same sample, or -1.
-static int find_same(const struct document *document, const struct rig *rig, int at)
-{
-    const struct pin *pin = &rig->pins[at];
-    const int sample = document_sample(document, pin->frame);
-    for (int i = at - 1; i >= 0 && document_sample(document, rig->pins[i].frame) == sample; i--) {
-        if (rig->pins[i].point == pin->point) return i;
-    }
-    return -1;
-}
-
 int pins_last_sample(const struct document *document, const struct rig *rig)
 {
     const int samples = document_samples(document);
@@ -91,92 +79,53 @@ int pins_last_sample(const struct document *document, const struct rig *rig)
     return samples - 1;
 }
 
-static bool check_place(const struct document *document, const struct rig *rig, int at, struct pin_trouble *trouble)
-{
-    const double frame = rig->pins[at].frame;
-    const int point = rig->pins[at].point;
-    trouble->member = rig_pin_key(rig);
-    if (rig->kind == RIG_TAIL && point >= rig->tail.joints)
-        return fail(&trouble->error, ERROR_INPUT, "expected a whole number from 0 to %d, got %d",
-                    rig->tail.joints - 1, point);
-    trouble->member = "frame";
-    if (!document_has_frame(document, frame, pins_last_sample(document, rig), &trouble->error)) return false;
-    return find_same(document, rig, at) < 0 ||
-           fail(&trouble->error, ERROR_INPUT, "expected one pin per point and sample, got another at frame %.10g",
-                frame);
-}
-
-/// Why pins cannot move a spline; NULL: they can.
-static const char *stiffness_of(const struct spline *spline)
-{
-    const struct param *pull = &spline->parameter[PARAMETER_FREQUENCY];
-    if (spline_mode(spline) == WIGGLY_CUBIC) return "which is cubic";
-    if (pull->track < 0 && pull->value == 0) return "whose frequency is 0";
-    const struct param *calm = &spline->parameter[PARAMETER_CALM];
-    return calm->track < 0 && calm->value == 0 ? "whose calm is 0" : NULL;
-}
-
-/// A character standing below its floor would need its feet lifted, which no spline does.
-static bool check_floor(const struct rig *rig, struct pin_trouble *trouble)
-{
-    const struct character_rig *character = &rig->character;
-    if (rig->kind != RIG_CHARACTER || !character->has_floor || character->floor <= character->position[1])
-        return true;
-    trouble->member = "floor";
-    return fail(&trouble->error, ERROR_INPUT,
-                "expected a height of at most %.10g, which is what the character stands on, got %.10g",
-                character->position[1], character->floor);
-}
-
 static const char *member_that_holds(const struct rig *rig) { return rig->pin_count > 0 ? "pins" : "floor"; }
-
-static bool check_splines(const struct document *document, const struct rig *rig, struct pin_trouble *trouble)
-{
-    for (int i = 0; i < rig_input_count(rig); i++) {
-        if (rig_point_input(rig, i) < 0) continue;
-        const struct spline *spline = document->splines[rig_input(rig, i)];
-        const char *why = stiffness_of(spline);
-        if (why)
-            return fail(&trouble->error, ERROR_INPUT, "expected splines with a swing of their own, got \"%s\", %s",
-                        spline->name, why);
-    }
-    return true;
-}
 
 bool pins_check(const struct document *document, struct pin_trouble *trouble)
 {
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
         for (int i = 0; i < rig->pin_count; i++) {
-            *trouble = (struct pin_trouble){.rig = r, .pin = i};
-            if (!check_place(document, rig, i, trouble)) return false;
+            const struct pin *pin = &rig->pins[i];
+            const int sample = document_sample(document, pin->frame);
+            *trouble = (struct pin_trouble){.rig = r, .pin = i, .member = rig_pin_key(rig)};
+            if (rig->kind == RIG_TAIL && pin->point >= rig->tail.joints)
+                return fail(&trouble->error, ERROR_INPUT, "expected a whole number from 0 to %d, got %d",
+                            rig->tail.joints - 1, pin->point);
+            trouble->member = "frame";
+            if (!document_has_frame(document, pin->frame, pins_last_sample(document, rig), &trouble->error))
+                return false;
+            for (int k = i - 1; k >= 0 && document_sample(document, rig->pins[k].frame) == sample; k--) {
+                if (rig->pins[k].point == pin->point)
+                    return fail(&trouble->error, ERROR_INPUT,
+                                "expected one pin per point and sample, got another at frame %.10g", pin->frame);
+            }
         }
+
+        // A character standing below its floor would need its feet lifted, which no spline does.
+        if (rig_has_floor(rig) && rig->character.floor > rig->character.position[1]) {
+            *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = "floor"};
+            return fail(&trouble->error, ERROR_INPUT,
+                        "expected a height of at most %.10g, which is what the character stands on, got %.10g",
+                        rig->character.position[1], rig->character.floor);
+        }
+
         *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};
-        if (!check_floor(rig, trouble)) return false;
-        if (is_held(rig) && !check_splines(document, rig, trouble)) return false;
+        for (int i = 0; is_held(rig) && i < rig_input_count(rig); i++) {
+            if (rig_point_input(rig, i) < 0) continue;
+            const struct spline *spline = document->splines[rig_input(rig, i)];
+            const struct param *pull = &spline->parameter[PARAMETER_FREQUENCY];
+            const struct param *calm = &spline->parameter[PARAMETER_CALM];
+            const char *why = NULL;
+            if (calm->track < 0 && calm->value == 0) why = "whose calm is 0";
+            if (pull->track < 0 && pull->value == 0) why = "whose frequency is 0";
+            if (spline_mode(spline) == WIGGLY_CUBIC) why = "which is cubic";
+            if (why)
+                return fail(&trouble->error, ERROR_INPUT,
+                            "expected splines with a swing of their own, got \"%s\", %s", spline->name, why);
+        }
     }
     return true;
-}
-
-/// The first pinned rig that a spline drives.
-static int pinned_rig_of(const struct document *document, int spline)
-{
-    for (int r = 0; r < document->rig_count; r++) {
-        if (is_held(document->rigs[r]) && rig_is_moved(document->rigs[r], spline)) return r;
-    }
-    return 0;
-}
-
-static void name_cycle(const struct document *document, const int *group, const struct pin_cycle *cycle,
-                       struct pin_trouble *trouble)
-{
-    const char *name = document->splines[cycle->spline]->name, *leader = document->splines[cycle->leader]->name;
-    const bool is_pinned = group[cycle->spline] >= 0;
-    trouble->rig = pinned_rig_of(document, is_pinned ? cycle->spline : cycle->leader);
-    trouble->member = member_that_holds(document->rigs[trouble->rig]);
-    const bool together = is_pinned && group[cycle->spline] == group[cycle->leader];
-    fail(&trouble->error, ERROR_INPUT, "expected splines %s, got \"%s\", which follows \"%s\"",
-         together ? "that do not follow each other" : "without a cycle", name, leader);
 }
 
 /// Each pin takes a solve of each spline that is solved together with its rig's.
@@ -215,29 +164,26 @@ bool pins_check_order(const struct document *document, struct pin_trouble *troub
     if (scene_order(document, (struct order_space){order + count, next}, tracked, &tracks)) {
         pin_groups_find(document, group);
         good = pin_groups_order(document, group, tracked, placed, placed + count, order, &cycle);
-        if (!good) name_cycle(document, group, &cycle, trouble);
-        good = good && check_work(document, group, trouble);
+        if (good) {
+            good = check_work(document, group, trouble);
+        } else {
+            const bool is_pinned = group[cycle.spline] >= 0;
+            const bool together = is_pinned && group[cycle.spline] == group[cycle.leader];
+            for (int r = document->rig_count - 1; r >= 0; r--) { // the first pinned rig that the spline moves
+                if (is_held(document->rigs[r]) &&
+                    rig_is_moved(document->rigs[r], is_pinned ? cycle.spline : cycle.leader))
+                    trouble->rig = r;
+            }
+            trouble->member = member_that_holds(document->rigs[trouble->rig]);
+            fail(&trouble->error, ERROR_INPUT, "expected splines %s, got \"%s\", which follows \"%s\"",
+                 together ? "that do not follow each other" : "without a cycle",
+                 document->splines[cycle.spline]->name, document->splines[cycle.leader]->name);
+        }
     }
     free(group);
     free(next);
     free(placed);
     return good;
-}
-
-static void merge(int *group, int count, int into, int from)
-{
-    for (int s = 0; s < count; s++) {
-        if (group[s] == from) group[s] = into;
-    }
-}
-
-static void join(int *group, int count, int a, int b)
-{
-    if (group[a] < group[b]) {
-        merge(group, count, group[a], group[b]);
-    } else if (group[b] < group[a]) {
-        merge(group, count, group[b], group[a]);
-    }
 }
 
 void pin_groups_find(const struct document *document, int *group)
@@ -250,7 +196,10 @@ void pin_groups_find(const struct document *document, int *group)
             const int spline = rig_point_input(rig, i);
             if (spline < 0) continue;
             if (group[spline] < 0) group[spline] = spline;
-            join(group, document->spline_count, group[spline], group[rig_point_spline(rig)]);
+            const int one = group[spline], other = group[rig_point_spline(rig)];
+            for (int s = 0; one != other && s < document->spline_count; s++) {
+                if (group[s] == (one < other ? other : one)) group[s] = one < other ? one : other;
+            }
         }
     }
 }
@@ -259,17 +208,6 @@ void pin_groups_find(const struct document *document, int *group)
 static void mark(const int *group, int which, int spline, bool *bases)
 {
     if (spline >= 0 && group[spline] != which) bases[spline] = true;
-}
-
-/// Marks everything that bends the model of a chain.
-static void mark_chains(const struct document *document, const struct chain *pinned, const int *group, int which,
-                        bool *bases)
-{
-    const int model = document_find_model(document, pinned->model, pinned->by_file);
-    for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
-        const struct chain *chain = &document->rigs[r]->chain;
-        for (int c = 0; c < chain->channel_count; c++) mark(group, which, chain->channels[c].spline, bases);
-    }
 }
 
 void pin_groups_find_bases(const struct document *document, const int *group, int which, bool *bases)
@@ -283,7 +221,12 @@ void pin_groups_find_bases(const struct document *document, const int *group, in
         for (int c = 0; rig->kind == RIG_TAIL && c < rig->tail.channel_count; c++) {
             if (rig->tail.channels[c].axis == AXIS_STRETCH) mark(group, which, rig->tail.channels[c].spline, bases);
         }
-        if (rig->kind == RIG_CHAIN) mark_chains(document, &rig->chain, group, which, bases);
+        if (rig->kind != RIG_CHAIN) continue;
+        const int model = document_find_model(document, rig->chain.model, rig->chain.by_file);
+        for (int on = -1; (on = document_next_chain(document, model, on)) >= 0;) { // everything that bends its model
+            const struct chain *chain = &document->rigs[on]->chain;
+            for (int c = 0; c < chain->channel_count; c++) mark(group, which, chain->channels[c].spline, bases);
+        }
     }
 }
 
@@ -292,7 +235,7 @@ struct ordering {
     const struct document *document;
     const int *group;
     bool *placed, *bases;
-    int *order, count;
+    int count;       ///< placed
     bool is_lenient; ///< splines outside the group that move its rigs need not be placed
     struct pin_cycle cycle;
 };
@@ -322,33 +265,24 @@ static bool is_group_ready(struct ordering *o, int which)
     return true;
 }
 
-static void place(struct ordering *o, int spline)
-{
-    o->placed[spline] = true;
-    o->order[o->count++] = spline;
-}
-
-/// Places a spline, or its whole group, if it is ready.
-static void try_to_place(struct ordering *o, int spline)
-{
-    const int which = o->group[spline];
-    if (o->placed[spline] || !(which < 0 ? is_ready(o, spline) : is_group_ready(o, which))) return;
-    if (which < 0) place(o, spline);
-    for (int s = 0; which >= 0 && s < o->document->spline_count; s++) {
-        if (o->group[s] == which) place(o, s);
-    }
-    o->is_lenient = false;
-}
-
 bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed,
                       bool *bases, int *order, struct pin_cycle *cycle)
 {
     const int count = document->spline_count;
-    struct ordering o = {.document = document, .group = group, .placed = placed, .bases = bases, .order = order};
+    struct ordering o = {.document = document, .group = group, .placed = placed, .bases = bases};
     for (int s = 0; s < count; s++) placed[s] = false;
     while (o.count < count) {
         const int before = o.count;
-        for (int i = 0; i < count; i++) try_to_place(&o, tracked[i]);
+        for (int i = 0; i < count; i++) { // places a spline, or its whole group, if it is ready
+            const int spline = tracked[i], which = group[spline];
+            if (placed[spline] || !(which < 0 ? is_ready(&o, spline) : is_group_ready(&o, which))) continue;
+            for (int s = which < 0 ? spline : 0; s < (which < 0 ? spline + 1 : count); s++) {
+                if (group[s] != which) continue;
+                placed[s] = true;
+                order[o.count++] = s;
+            }
+            o.is_lenient = false;
+        }
         if (o.count > before) continue;
         if (o.is_lenient) {
             *cycle = o.cycle;

@@ -28,7 +28,8 @@ void text_string(struct text *text, const char *string) { text_bytes(text, strin
 void text_number(struct text *text, double value)
 {
     char digits[NUMBER_TEXT_SIZE];
-    text_bytes(text, digits, number_print(value, digits));
+    const size_t length = number_print(value, digits);
+    text_bytes(text, digits, length);
 }
 
 /// A byte of a path that is not UTF-8 is this letter plus the byte: one of Unicode's private letters, at the end of its range, where
@@ -37,41 +38,28 @@ enum { BYTE_LETTER = 0x10FE00, FIRST_BYTE = 0x80, LAST_BYTE = 0xFF };
 
 static bool is_byte_letter(uint32_t c) { return c >= BYTE_LETTER + FIRST_BYTE && c <= BYTE_LETTER + LAST_BYTE; }
 
-/// Number of bytes from `c` on that need no look.
-static size_t plain_length(const char *c)
-{
-    size_t length = 0;
-    while ((unsigned char)c[length] >= 0x20 && (unsigned char)c[length] < 0x80 && c[length] != '"' &&
-           c[length] != '\\')
-        length++;
-    return length;
-}
-
-/// Writes the letter at `c` as JSON; returns what is after it.
-static const char *quote_letter(struct text *text, const char *c, bool is_path)
-{
-    const char *next = c;
-    const uint32_t letter = utf8_next(&next);
-    char escape[8];
-    if ((letter == 0xFFFD && next == c + 1) || (is_path && is_byte_letter(letter))) {
-        for (; c < next; c++) text_bytes(text, escape, (size_t)utf8_encode(BYTE_LETTER + (unsigned char)*c, escape));
-    } else if (letter >= 0x80) {
-        text_bytes(text, c, (size_t)(next - c));
-    } else {
-        snprintf(escape, sizeof escape, letter < 0x20 ? "\\u%04x" : "\\%c", (unsigned)letter);
-        text_string(text, escape);
-    }
-    return next;
-}
-
 static void quote(struct text *text, const char *string, bool is_path)
 {
+    char escape[8];
     text_string(text, "\"");
     for (const char *c = string; *c;) {
-        const size_t plain = plain_length(c);
-        text_bytes(text, c, plain);
-        c += plain;
-        if (*c) c = quote_letter(text, c, is_path);
+        const char *next = c;
+        while ((unsigned char)*next >= 0x20 && (unsigned char)*next < 0x80 && *next != '"' && *next != '\\') next++;
+        text_bytes(text, c, (size_t)(next - c)); // what needs no look
+        c = next;
+        if (!*c) break;
+
+        const uint32_t letter = utf8_next(&next);
+        if ((letter == 0xFFFD && next == c + 1) || (is_path && is_byte_letter(letter))) {
+            for (; c < next; c++)
+                text_bytes(text, escape, (size_t)utf8_encode(BYTE_LETTER + (unsigned char)*c, escape));
+        } else if (letter >= 0x80) {
+            text_bytes(text, c, (size_t)(next - c));
+        } else {
+            snprintf(escape, sizeof escape, letter < 0x20 ? "\\u%04x" : "\\%c", (unsigned)letter);
+            text_string(text, escape);
+        }
+        c = next;
     }
     text_string(text, "\"");
 }
@@ -96,41 +84,31 @@ void text_read_path(char *path)
     *to = '\0';
 }
 
-static void text_array(struct text *text, const json_t *array)
-{
-    text_string(text, "[");
-    for (size_t i = 0; i < json_array_size(array); i++) {
-        if (i > 0) text_string(text, ", ");
-        text_json(text, json_array_get(array, i));
-    }
-    text_string(text, "]");
-}
-
-static void text_object(struct text *text, json_t *object)
-{
-    const char *key, *separator = "{ ";
-    json_t *value;
-    json_object_foreach(object, key, value)
-    {
-        text_string(text, separator);
-        text_quoted(text, key);
-        text_string(text, ": ");
-        text_json(text, value);
-        separator = ", ";
-    }
-    text_string(text, json_object_size(object) > 0 ? " }" : "{}");
-}
-
 /// No deeper than the file (SOURCE_MAX_DEPTH).
 void text_json(struct text *text, json_t *value)
 {
+    const char *key, *separator = "{ ";
+    json_t *member;
     char integer[32];
     switch (json_typeof(value)) {
     case JSON_OBJECT:
-        text_object(text, value);
+        json_object_foreach(value, key, member)
+        {
+            text_string(text, separator);
+            text_quoted(text, key);
+            text_string(text, ": ");
+            text_json(text, member);
+            separator = ", ";
+        }
+        text_string(text, json_object_size(value) > 0 ? " }" : "{}");
         break;
     case JSON_ARRAY:
-        text_array(text, value);
+        text_string(text, "[");
+        for (size_t i = 0; i < json_array_size(value); i++) {
+            if (i > 0) text_string(text, ", ");
+            text_json(text, json_array_get(value, i));
+        }
+        text_string(text, "]");
         break;
     case JSON_STRING:
         text_quoted(text, json_string_value(value));
@@ -188,24 +166,6 @@ static struct decimal shortest_decimal(double magnitude)
     return d;
 }
 
-static size_t print_plain(const struct decimal *d, char *text)
-{
-    const int first = d->point < 1 ? d->point - 1 : 0, end = d->point > d->count ? d->point : d->count;
-    char *at = text;
-    for (int i = first; i < end; i++) {
-        if (i == d->point) *at++ = '.';
-        *at++ = i >= 0 && i < d->count ? d->digits[i] : '0';
-    }
-    *at = '\0';
-    return (size_t)(at - text);
-}
-
-static size_t print_exponent(const struct decimal *d, char *text, size_t size)
-{
-    const char *point = d->count > 1 ? "." : "";
-    return (size_t)snprintf(text, size, "%c%s%se%d", d->digits[0], point, d->digits + 1, d->point - 1);
-}
-
 size_t number_print(double value, char text[NUMBER_TEXT_SIZE])
 {
     assert(isfinite(value));
@@ -215,10 +175,18 @@ size_t number_print(double value, char text[NUMBER_TEXT_SIZE])
     }
     size_t sign = value < 0;
     text[0] = '-';
-    const double magnitude = fabs(value);
-    const struct decimal d = shortest_decimal(magnitude);
-    if (d.point >= LEAST_POINT && d.point <= MOST_POINT) return sign + print_plain(&d, text + sign);
-    return sign + print_exponent(&d, text + sign, NUMBER_TEXT_SIZE - sign);
+    const struct decimal d = shortest_decimal(fabs(value));
+    char *at = text + sign;
+    if (d.point < LEAST_POINT || d.point > MOST_POINT)
+        return sign + (size_t)snprintf(at, NUMBER_TEXT_SIZE - sign, "%c%s%se%d", d.digits[0], d.count > 1 ? "." : "",
+                                       d.digits + 1, d.point - 1);
+    const int first = d.point < 1 ? d.point - 1 : 0, end = d.point > d.count ? d.point : d.count;
+    for (int i = first; i < end; i++) {
+        if (i == d.point) *at++ = '.';
+        *at++ = i >= 0 && i < d.count ? d.digits[i] : '0';
+    }
+    *at = '\0';
+    return (size_t)(at - text);
 }
 
 size_t text_size(const char *string) { return string ? strlen(string) + 1 : 0; }

@@ -1,6 +1,8 @@
-/// Finds the problems of a solved spline and puts them into words.
+/// Finds the problems of a spline and puts them into words: slopes and phases without effect (docs/mathematics.md says what knots hold), and those
+/// of its solution.
 #include "scene/warnings.h"
 #include "maths/maths.h"
+#include "scene/pins.h"
 #include <math.h>
 #include <stdio.h>
 
@@ -11,6 +13,111 @@ static const double WIDE_TURN = 0.3;     ///< β · periods between two knots (F
 static const double FORCED_TURN = 120;   ///< degrees of poses out of step: midway the swing is down to half of theirs
 static const double MOST_OF_VALUES = 30; ///< degrees out of step by values alone; beyond, freeing a phase cannot help
 static const double LEAST_FORCED = 0.4;  ///< magnitude of such poses, as a share of the largest
+
+static const double FULL =
+    0.9539; ///< damping ratio at which ω_d is 0.3 ω_n: from there on a slope says what comes after it
+
+// --- without effect
+
+/// The knot on a sample, or NULL.
+static const struct knot *knot_on(const struct document *document, const struct spline *spline, int sample)
+{
+    const int k = spline_find_knot(document, spline, sample);
+    return k >= 0 ? &spline->knots[k] : NULL;
+}
+
+/// Whether a knot leaves nothing of w free.
+static bool is_whole(const struct spline *spline, const struct knot *knot)
+{
+    return knot && (spline_mode(spline) != WIGGLY_COMPLEX || knot->has_phase || knot->still);
+}
+
+/// The oscillator's slope is a speed measured on both sides, at an end on one.
+static const char *idle_speed(const struct document *document, const struct spline *spline, int sample, int first,
+                              bool pinned)
+{
+    const bool loop = spline_start(spline) == WIGGLY_LOOP, complex = spline_mode(spline) == WIGGLY_COMPLEX;
+    const int samples = document_samples(document), period = samples - 1;
+    const int before = loop ? (sample + period - 1) % period : sample - 1;
+    const int after = loop ? (sample + 1) % period : sample + 1;
+    const bool begins = !loop && sample == first && !pinned, ends = !loop && after == samples;
+    if (!is_whole(spline, knot_on(document, spline, sample))) return NULL;
+    if (!begins && !is_whole(spline, knot_on(document, spline, before))) return NULL;
+    if (!ends && !is_whole(spline, knot_on(document, spline, after))) return NULL;
+    if (begins || ends)
+        return complex ? "it and the sample beside it hold poses or are still" : "the sample beside it is a knot too";
+    return complex ? "it and both samples beside it hold poses or are still" : "both samples beside it have knots";
+}
+
+const char *spline_idle_wind_up(const struct document *document, int of)
+{
+    const struct spline *spline = document->splines[of];
+    if (!(spline->parameter[PARAMETER_WIND_UP].value > 0)) return NULL;
+    if (spline_mode(spline) != WIGGLY_COMPLEX) return "only Wiggly splines have one";
+    if (spline->parameter[PARAMETER_PASSIVE].value == WIGGLY_FILTER) return "the paper's filter has none";
+    if (spline_is_limited(spline)) return "limits need the whole curve";
+    return pins_move_spline(document, of) ? "pins need the whole curve" : NULL;
+}
+
+bool spline_winds_up(const struct document *document, int of)
+{
+    return document->splines[of]->parameter[PARAMETER_WIND_UP].value > 0 && !spline_idle_wind_up(document, of);
+}
+
+bool spline_uses_calm(const struct document *document, int of)
+{
+    return !spline_winds_up(document, of) || spline_start(document->splines[of]) == WIGGLY_LOOP;
+}
+
+int spline_idle_pose(const struct spline *spline)
+{
+    if (spline_mode(spline) == WIGGLY_COMPLEX) return -1;
+    for (int k = 0; k < spline->knot_count; k++) {
+        if (spline->knots[k].has_phase) return k;
+    }
+    return -1;
+}
+
+const char *knot_idle_slope(const struct document *document, int of, int knot)
+{
+    const struct spline *spline = document->splines[of];
+    const struct knot *at = &spline->knots[knot];
+    const struct param *damping = &spline->parameter[PARAMETER_DAMPING];
+    const struct param *frequency = &spline->parameter[PARAMETER_FREQUENCY];
+    const enum wiggly_start start = spline_start(spline);
+    const bool loop = start == WIGGLY_LOOP;
+    if (!at->has_slope) return NULL;
+    if (spline_winds_up(document, of)) { // it takes a slope as a phase
+        if (at->has_phase) return "the pose says the phase";
+        const bool is_still = !param_follows(frequency) && frequency->value == 0;
+        return is_still || (!param_follows(damping) && damping->value >= FULL) ? "the spline hardly swings" : NULL;
+    }
+
+    // Solved are a whole loop, the samples from the first knot on, or all after a start at rest.
+    const bool outer = knot == 0 || knot + 1 == spline->knot_count;
+    const bool pinned = outer && pins_move_spline(document, of); // pins may be beyond it
+    const int samples = document_samples(document), sample = document_sample(document, at->frame),
+              earliest = document_sample(document, spline->knots[0].frame);
+    const int first = start == WIGGLY_FREE || (start == WIGGLY_REST && earliest < 2) ? earliest : 0;
+    if ((loop ? samples - 1 : samples - first) < 3 && !pinned) return "there are fewer than three samples";
+
+    // The paper's slope is the step to the next sample; at the last sample, from the one before.
+    if (spline->parameter[PARAMETER_PASSIVE].value == WIGGLY_FILTER) {
+        const int other = loop ? (sample + 1) % (samples - 1) : sample + 1 < samples ? sample + 1 : sample - 1;
+        if (!knot_on(document, spline, other)) return NULL;
+        return other < sample && !loop ? "the sample before is a knot too" : "the next sample is a knot too";
+    }
+
+    // A Wiggly spline continues after its last knot freely, as the slope there says, or as a track does.
+    if (knot + 1 == spline->knot_count && !loop && spline_mode(spline) == WIGGLY_COMPLEX) {
+        if (pinned || frequency->track >= 0 || damping->track >= 0) return NULL;
+        if (frequency->value > 0 && damping->value < FULL)
+            return at->has_phase ? "after the last pose the motion follows from that pose alone" : NULL;
+    }
+    return idle_speed(document, spline, sample, first, pinned);
+}
+
+// --- solved splines
 
 /// The solved spline that is checked, and the warnings found so far on all splines.
 struct look {
@@ -91,14 +198,6 @@ struct far {
     double times, limit; ///< height = times · FAR · limit
 };
 
-static void look_between(const struct look *look, int from, int to, double limit, struct far *far)
-{
-    for (int i = from; i <= to; i++) {
-        const double times = height(look->curve, i) / (FAR * limit);
-        if (times > far->times) *far = (struct far){.sample = i, .times = times, .limit = limit};
-    }
-}
-
 /// Allowed is twice the height of the knots around, of the average knot, or of the equilibrium's range; without swinging knots, anything.
 static struct far find_farthest(const struct look *look)
 {
@@ -113,19 +212,13 @@ static struct far find_farthest(const struct look *look)
         const struct knot *after = &knots[k < count ? k : loop ? 0 : last];
         const int from = k > 0 ? sample_of(look, before) : 0;
         const int to = k < count ? sample_of(look, after) : look->curve->samples - 1;
-        look_between(look, from, to, fmax(least, fmax(knot_height(look, before), knot_height(look, after))), &far);
+        const double limit = fmax(least, fmax(knot_height(look, before), knot_height(look, after)));
+        for (int i = from; i <= to; i++) {
+            const double times = height(look->curve, i) / (FAR * limit);
+            if (times > far.times) far = (struct far){.sample = i, .times = times, .limit = limit};
+        }
     }
     return far;
-}
-
-/// Sets limits, in short numbers: the equilibrium's range plus a little more than the highest knot on either side.
-static void set_limits(const struct look *look, struct warning *warning)
-{
-    const struct measure all = measure(look);
-    const double room = 1.15 * (all.value > 0 ? all.value : all.knots);
-    const double digits = maths_power_of_ten(1 - maths_decade(room));
-    warning->low = floor((all.low - room) * digits) / digits;
-    warning->high = ceil((all.high + room) * digits) / digits;
 }
 
 static void find_far(const struct look *look)
@@ -139,7 +232,13 @@ static void find_far(const struct look *look)
                               .value = curve->total[peak],
                               .remedy = curve->y[peak] + copysign(far.limit, curve->total[peak] - curve->y[peak]),
                               .phase = curve->im[peak] * far.limit / height(curve, peak)};
-    set_limits(look, &warning);
+
+    // Limits, in short numbers: the equilibrium's range plus a little more than the highest knot on either side.
+    const struct measure all = measure(look);
+    const double room = 1.15 * (all.value > 0 ? all.value : all.knots);
+    const double digits = maths_power_of_ten(1 - maths_decade(room));
+    warning.low = floor((all.low - room) * digits) / digits;
+    warning.high = ceil((all.high + room) * digits) / digits;
     add(look, warning);
 }
 
@@ -163,16 +262,6 @@ static double edge_of(const struct look *look) { return frequency_of(look) * (1 
 static double edge_allowed(const struct look *look)
 {
     return FAST_RATE * look->document->fps * look->document->substeps;
-}
-
-static void find_rate(const struct look *look)
-{
-    const double edge = edge_of(look);
-    if (edge <= edge_allowed(look)) return;
-    add(look, (struct warning){.kind = WARNING_RATE,
-                               .amount = edge,
-                               .limit = edge_allowed(look),
-                               .remedy = ceil(edge / (FAST_RATE * look->document->fps))});
 }
 
 /// Samples from one knot to the next, also across a loop's seam.
@@ -211,31 +300,6 @@ static struct warning in_middle(const struct look *look, const struct knot_span 
                             .to = span->to->frame};
 }
 
-/// Keeps only the worst drift, because its remedy cures the others, too.
-static void find_drift(const struct look *look, int k, double frequency, struct warning *drift)
-{
-    struct knot_span span;
-    if (!take_span(look, k, &span)) return;
-    const double bandwidth = bandwidth_of(look->spline);
-    const double periods = frequency * span.length * document_step(look->document);
-    const double most = WIDE_TURN * (1 + 1e-9); // allows for rounding
-    if (bandwidth * periods <= most || periods <= drift->amount) return;
-    *drift = in_middle(look, &span, WARNING_DRIFT);
-    drift->amount = periods;
-    drift->limit = bandwidth;
-    drift->remedy = floor(1000 * WIDE_TURN / periods) / 1000;
-}
-
-static double largest_pose(const struct look *look)
-{
-    double largest = 0;
-    for (int k = 0; k < look->spline->knot_count; k++) {
-        const struct knot *knot = &look->spline->knots[k];
-        if (knot->has_phase) largest = fmax(largest, knot_height(look, knot));
-    }
-    return largest;
-}
-
 static double degrees_between(double a, double b) { return fabs(remainder(a - b, 2 * M_PI)) * 180 / M_PI; }
 
 /// The least degrees by which a knot without a phase is out of step: its value gives only the sign of Re x.
@@ -244,23 +308,15 @@ static double degrees_if_free(double angle, const struct knot *knot, double y)
     return fmax(0, degrees_between(angle, knot->value < y ? M_PI : 0) - 90);
 }
 
-/// The angle by which a free x turns from one knot to the next, ∫ω dt.
-static double turn_of(const struct look *look, const struct knot_span *span)
-{
-    const double *omega = look->curve->omega;
-    double turn = 0;
-    for (int i = 0; i < span->length; i++)
-        turn += 0.5 * (omega[sample_in(look, span, i)] + omega[sample_in(look, span, i + 1)]) * look->curve->step;
-    return turn;
-}
-
 /// Degrees by which two neighbouring poses are out of step, minus the share β of the turn that the bandwidth absorbs. 0 if their phases are
 /// not the cause: if poses are small, less than a period apart, or out of step by their values alone.
 static double degrees_forced(const struct look *look, const struct knot_span *span, double largest)
 {
     const struct knot *const ends[] = {span->from, span->to};
-    const double turn = turn_of(look, span);
-    double angle[2], y[2];
+    const double *omega = look->curve->omega;
+    double angle[2], y[2], turn = 0; // the angle by which a free x turns from one knot to the next, ∫ω dt
+    for (int i = 0; i < span->length; i++)
+        turn += 0.5 * (omega[sample_in(look, span, i)] + omega[sample_in(look, span, i + 1)]) * look->curve->step;
     for (int e = 0; e < 2; e++) {
         if (!ends[e]->has_phase || knot_height(look, ends[e]) < LEAST_FORCED * largest) return 0;
         y[e] = look->curve->y[sample_of(look, ends[e])];
@@ -273,39 +329,6 @@ static double degrees_forced(const struct look *look, const struct knot_span *sp
     return miss - bandwidth_of(look->spline) * turn * 180 / M_PI;
 }
 
-/// Whether poses can be out of step: not if equilibrium or bandwidth follow something.
-static bool has_step(const struct spline *spline)
-{
-    const struct param *equilibrium = &spline->parameter[PARAMETER_EQUILIBRIUM];
-    return spline_mode(spline) == WIGGLY_COMPLEX && equilibrium->track < 0 && !equilibrium->motion &&
-           spline->parameter[PARAMETER_BANDWIDTH].track < 0;
-}
-
-static void find_forced(const struct look *look, int k, double largest)
-{
-    struct knot_span span;
-    if (!take_span(look, k, &span)) return;
-    struct warning warning = in_middle(look, &span, WARNING_FORCED);
-    warning.amount = degrees_forced(look, &span, largest);
-    if (warning.amount > FORCED_TURN) add(look, warning);
-}
-
-/// The smaller swing of two poses, divided by the smallest swing between them.
-static double swing_lost(const struct look *look, const struct warning *warning)
-{
-    struct knot_span span;
-    const int first = document_sample(look->document, warning->from);
-    if (!take_span(look, spline_find_knot(look->document, look->spline, first), &span)) return INFINITY;
-    double least = INFINITY, ends = INFINITY;
-    for (int i = 0; i <= span.length; i++) {
-        const int sample = sample_in(look, &span, i);
-        const double here = maths_hypot(look->curve->re[sample], look->curve->im[sample]);
-        least = fmin(least, here);
-        if (i == 0 || i == span.length) ends = fmin(ends, here);
-    }
-    return ends > 0 ? ends / least : INFINITY;
-}
-
 double warning_left(const struct warning *warning, const struct document *document,
                     const struct evaluation *evaluation)
 {
@@ -313,41 +336,19 @@ double warning_left(const struct warning *warning, const struct document *docume
     if (!look_at(document, evaluation, warning->spline, NULL, &look)) return INFINITY;
     if (warning->kind == WARNING_FAR) return find_farthest(&look).times;
     if (warning->kind == WARNING_RATE) return edge_of(&look) / edge_allowed(&look);
-    return swing_lost(&look, warning);
-}
 
-static void find_idle(const struct look *look)
-{
-    const struct spline *spline = look->spline;
-    const int pose = spline_idle_pose(spline);
-    for (int k = 0; k < spline->knot_count; k++) {
-        const struct knot *knot = &spline->knots[k];
-        const char *why = knot_idle_slope(look->document, look->of, k);
-        struct warning warning = {.kind = WARNING_PHASE, .frame = knot->frame, .value = knot->value, .why = why};
-        if (k == pose) add(look, warning);
-        warning.kind = WARNING_SLOPE;
-        if (why) add(look, warning);
+    // The smaller swing of two poses, divided by the smallest swing between them.
+    struct knot_span span;
+    const int first = document_sample(document, warning->from);
+    if (!take_span(&look, spline_find_knot(document, look.spline, first), &span)) return INFINITY;
+    double least = INFINITY, ends = INFINITY;
+    for (int i = 0; i <= span.length; i++) {
+        const int sample = sample_in(&look, &span, i);
+        const double here = maths_hypot(look.curve->re[sample], look.curve->im[sample]);
+        least = fmin(least, here);
+        if (i == 0 || i == span.length) ends = fmin(ends, here);
     }
-}
-
-/// The wind-up, and knots that settle.
-static void find_direction(const struct look *look)
-{
-    const struct spline *spline = look->spline;
-    const double wind_up = spline->parameter[PARAMETER_WIND_UP].value;
-    const double samples = wind_up / (frequency_of(look) * document_step(look->document));
-    struct warning warning = {.kind = WARNING_WIND_UP, .why = spline_idle_wind_up(look->document, look->of)};
-    if (warning.why && spline_mode(spline) == WIGGLY_COMPLEX) add(look, warning);
-    if (wind_up > 0 && !warning.why && samples < LEAST_WIND_UP)
-        add(look, (struct warning){.kind = WARNING_SUDDEN,
-                                   .amount = samples,
-                                   .remedy = ceil(100 * wind_up * LEAST_WIND_UP / samples) / 100});
-    for (int k = 0; k < spline->knot_count && spline_mode(spline) == WIGGLY_CUBIC; k++) {
-        if (!spline->knots[k].settles) continue;
-        add(look, (struct warning){
-                      .kind = WARNING_SETTLES, .frame = spline->knots[k].frame, .value = spline->knots[k].value});
-        return;
-    }
+    return ends > 0 ? ends / least : INFINITY;
 }
 
 void warnings_add_far(const struct document *document, const struct evaluation *evaluation, int of,
@@ -361,25 +362,82 @@ void warnings_add_forced(const struct document *document, const struct evaluatio
                          struct warnings *found)
 {
     struct look look;
-    if (!look_at(document, evaluation, of, found, &look) || !has_step(look.spline)) return;
-    const double largest = largest_pose(&look);
-    for (int k = 0; k < look.spline->knot_count; k++) find_forced(&look, k, largest);
+    if (!look_at(document, evaluation, of, found, &look)) return;
+    const struct spline *spline = look.spline;
+    const struct param *equilibrium = &spline->parameter[PARAMETER_EQUILIBRIUM];
+    if (spline_mode(spline) != WIGGLY_COMPLEX || param_follows(equilibrium) ||
+        spline->parameter[PARAMETER_BANDWIDTH].track >= 0)
+        return; // poses cannot be out of step
+    double largest = 0;
+    for (int k = 0; k < spline->knot_count; k++) {
+        if (spline->knots[k].has_phase) largest = fmax(largest, knot_height(&look, &spline->knots[k]));
+    }
+    for (int k = 0; k < spline->knot_count; k++) {
+        struct knot_span span;
+        if (!take_span(&look, k, &span)) continue;
+        struct warning warning = in_middle(&look, &span, WARNING_FORCED);
+        warning.amount = degrees_forced(&look, &span, largest);
+        if (warning.amount > FORCED_TURN) add(&look, warning);
+    }
 }
 
 void warnings_add(const struct document *document, const struct evaluation *evaluation, int of,
                   struct warnings *found)
 {
     struct look look;
-    struct warning drift = {0};
     if (!look_at(document, evaluation, of, found, &look)) return;
+    const struct spline *spline = look.spline;
+    const bool is_cubic = spline_mode(spline) == WIGGLY_CUBIC;
     if (!spline_winds_up(document, of)) find_far(&look);
-    find_idle(&look);
-    find_direction(&look);
-    if (spline_mode(look.spline) == WIGGLY_CUBIC) return;
-    find_rate(&look);
+
+    const int pose = spline_idle_pose(spline);
+    for (int k = 0; k < spline->knot_count; k++) {
+        const struct knot *knot = &spline->knots[k];
+        const char *why = knot_idle_slope(document, of, k);
+        struct warning idle = {.kind = WARNING_PHASE, .frame = knot->frame, .value = knot->value, .why = why};
+        if (k == pose) add(&look, idle);
+        idle.kind = WARNING_SLOPE;
+        if (why) add(&look, idle);
+    }
+
+    const double wind_up = spline->parameter[PARAMETER_WIND_UP].value, frequency = frequency_of(&look);
+    const double samples = wind_up / (frequency * document_step(document));
+    const char *why = spline_idle_wind_up(document, of);
+    if (why && spline_mode(spline) == WIGGLY_COMPLEX)
+        add(&look, (struct warning){.kind = WARNING_WIND_UP, .why = why});
+    if (wind_up > 0 && !why && samples < LEAST_WIND_UP)
+        add(&look, (struct warning){.kind = WARNING_SUDDEN,
+                                    .amount = samples,
+                                    .remedy = ceil(100 * wind_up * LEAST_WIND_UP / samples) / 100});
+
+    for (int k = 0; k < spline->knot_count && is_cubic; k++) {
+        const struct knot *knot = &spline->knots[k];
+        if (!knot->settles) continue;
+        add(&look, (struct warning){.kind = WARNING_SETTLES, .frame = knot->frame, .value = knot->value});
+        break;
+    }
+    if (is_cubic) return;
+
+    const double edge = edge_of(&look), allowed = edge_allowed(&look);
+    if (edge > allowed)
+        add(&look, (struct warning){.kind = WARNING_RATE,
+                                    .amount = edge,
+                                    .limit = allowed,
+                                    .remedy = ceil(edge / (FAST_RATE * document->fps))});
     if (spline_winds_up(document, of)) return; // what follows is about the whole curve
-    const double frequency = frequency_of(&look);
-    for (int k = 0; k < look.spline->knot_count; k++) find_drift(&look, k, frequency, &drift);
+
+    struct warning drift = {0}; // only the worst, because its remedy cures the others, too
+    for (int k = 0; k < spline->knot_count; k++) {
+        struct knot_span span;
+        if (!take_span(&look, k, &span)) continue;
+        const double periods = frequency * span.length * document_step(document);
+        const double most = WIDE_TURN * (1 + 1e-9); // allows for rounding
+        if (bandwidth_of(spline) * periods <= most || periods <= drift.amount) continue;
+        drift = in_middle(&look, &span, WARNING_DRIFT);
+        drift.amount = periods;
+        drift.limit = bandwidth_of(spline);
+        drift.remedy = floor(1000 * WIDE_TURN / periods) / 1000;
+    }
     if (drift.amount > 0) add(&look, drift);
     warnings_add_forced(document, evaluation, of, found);
 }
