@@ -2,7 +2,7 @@
 #ifndef COMMANDS_REPORT_H
 #define COMMANDS_REPORT_H
 
-#include "rig/imported.h"
+#include "rig/models.h"
 #include "scene/evaluate.h"
 
 /// Receives a printable sentence.

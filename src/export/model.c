@@ -1,6 +1,6 @@
 /// An imported character as a form in its file's space: its vertices, and the bones of its chains as joints.
 #include "export/form.h"
-#include "rig/imported.h"
+#include "rig/models.h"
 #include <string.h>
 
 /// Adds the bones of all chains on the rig.

@@ -2,7 +2,7 @@
 /// so that bones at rest are not turned. The first joint is the character's origin, and holds the bones that have none above them.
 #include "export/form.h"
 #include "model/vector.h"
-#include "rig/imported.h"
+#include "rig/models.h"
 #include <stdio.h>
 #include <string.h>
 

@@ -1,11 +1,81 @@
 /// The models of a document's characters, soft and imported: read when a document is opened, and cached by path, so that another scene with the
-/// same models reads nothing.
+/// same models reads nothing. And how an imported one is prepared.
 #ifndef RIG_MODELS_H
 #define RIG_MODELS_H
 
 #include "model/figure.h"
-#include "rig/imported.h"
+#include "model/gltf.h"
 #include "scene/document.h"
+
+// --- imported characters
+
+/// A drawn part of a bone. Its own part goes from the node to the child that it leads to, else to a tip. A bone beside that child, such as
+/// an ear on a head, also has the link from its parent.
+struct bone {
+    int node;     ///< the bone
+    int from;     ///< where the part begins: the node, or its parent
+    int child;    ///< where it ends; −1: in a tip
+    float tip[3]; ///< in the node's own space
+    bool hidden;  ///< no vertex follows the bone or a child of it: a control, a pole, a leaf
+};
+
+struct skeleton {
+    struct bone *bones; ///< own parts first, by node
+    int count, own;     ///< all parts, own parts
+    bool *carries;      ///< by node: whether vertices follow the bone; true for all bones of a file without meshes
+    bool *leads;        ///< whether it or a node below it carries
+};
+
+/// An imported character prepared for posing: its file, its rest pose, bounding boxes, and its bones as you see and click them: a line from each
+/// joint to the next. Bones are the joints of skins; in a file without skins all nodes that have a parent.
+struct imported {
+    struct gltf gltf;
+    struct gltf_pose rest;
+    struct gltf_bounds bounds;
+    struct skeleton skeleton;
+};
+
+/// Reads a .glb or .gltf. On error nothing is left to free.
+bool imported_read(struct imported *imported, const char *path, struct error *error);
+
+/// Derives everything else from `gltf`. False if memory is short.
+bool imported_complete(struct imported *imported);
+void imported_free(struct imported *imported);
+
+/// Where a bone begins and ends in a pose, in the character's space.
+void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3]);
+
+/// Direction of an animal's back, as x and z from its middle: towards its tail's end, else away from glTF's front, +z. False for a character seen
+/// from the front: no bone has "tail" in its name, and it is wider than long or has no bones.
+bool imported_back(const struct imported *imported, float back[2]);
+
+// --- bones of a chain
+
+struct chain_bones {
+    int count;
+    int node[ANGLES_MAX_JOINTS]; ///< each the parent of the next
+};
+
+/// The bones from one to another below it, both by name. false with a sentence.
+bool chain_find(const struct gltf *gltf, const char *from, const char *to, struct chain_bones *bones,
+                struct error *error);
+
+/// The bone at the end of the only way down from `from`; −1 and an error if the way branches, or is too long. Below a bone that leads to
+/// vertices, the way ends at the last one that carries some.
+int chain_end(const struct imported *imported, int from, struct error *error);
+
+// --- pairs
+
+enum { BONE_NAME_SIZE = 1024 };
+
+/// The name of the same bone on the other side: ear_1_L → ear_1_R, LeftHand → RightHand, arm.l.002 → arm.r.002. false where a name has no
+/// side, or is too long.
+bool bone_other_side(const char *name, char other[BONE_NAME_SIZE]);
+
+/// The bones of the same chain on the other side, by the names of its ends. false if there is none.
+bool chain_find_twin(const struct gltf *gltf, const char *from, const char *to, struct chain_bones *bones);
+
+// --- the models of a document
 
 struct models;
 

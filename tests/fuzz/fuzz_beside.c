@@ -1,5 +1,5 @@
 /// A .gltf and a file beside it, which it may name as a buffer and as a picture. An input is the text, a NUL, and that file.
-#include "rig/imported.h"
+#include "rig/models.h"
 #include "surface.h"
 #include <string.h>
 

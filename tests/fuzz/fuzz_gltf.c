@@ -1,6 +1,6 @@
 /// Characters in .glb and .gltf, by every reader of them: imported, as a surface, and as a character of ours; and what is drawn of them.
 #include "draw/posed.h"
-#include "rig/imported.h"
+#include "rig/models.h"
 #include "surface.h"
 #include <stdlib.h>
 

@@ -5,7 +5,7 @@
 #include "editor/core/core.h"
 #include "rig/chain_make.h"
 #include "rig/import.h"
-#include "rig/imported.h"
+#include "rig/models.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

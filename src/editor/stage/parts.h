@@ -3,7 +3,7 @@
 #define EDITOR_STAGE_PARTS_H
 
 #include "editor/stage/state.h"
-#include "rig/imported.h"
+#include "rig/models.h"
 #include "rig/posing.h"
 #include <math.h>
 

@@ -6,7 +6,7 @@
 #include "editor/stage/silhouette.h"
 #include "model/reach.h"
 #include "rig/camera.h"
-#include "rig/imported.h"
+#include "rig/models.h"
 #include "rig/swing.h"
 
 /// Stiff enough for the body to stand still at both ends of its path, 1/s.
