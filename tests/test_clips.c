@@ -4,7 +4,7 @@
 #include "rig/chain_make.h"
 #include "rig/import.h"
 #include "rig/opened.h"
-#include "rig/posing_kind.h"
+#include "rig/posing.h"
 #include "scene/edit.h"
 #include <jansson.h>
 

@@ -2,7 +2,7 @@
 #include "rig/chain_make.h"
 #include "base/need.h"
 #include "maths/maths.h"
-#include "rig/posing_kind.h"
+#include "rig/posing.h"
 #include "rig/strand.h"
 #include "scene/edit.h"
 #include <ctype.h>

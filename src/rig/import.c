@@ -4,7 +4,7 @@
 #include "base/need.h"
 #include "maths/maths.h"
 #include "model/character.h"
-#include "rig/posing_kind.h"
+#include "rig/posing.h"
 #include "scene/edit.h"
 #include "scene/pins.h"
 #include <fcntl.h>

@@ -1,6 +1,7 @@
-/// Soft characters: coordinates' weights from splines' values, and the models' vertices as points for pins.
+/// Soft characters: coordinates' weights from splines' values, the models' vertices as points for pins, and the lowest ones for floors.
 #include "maths/maths.h"
-#include "rig/posing_kind.h"
+#include "rig/posing.h"
+#include "spline/wide.h"
 #include <math.h>
 
 _Static_assert((int)CHARACTER_MAX_DRIVES <= (int)MORPH_MAX_COORDINATES, "a drive moves a coordinate");
@@ -31,7 +32,7 @@ static const struct figure *figure_of(const struct posing *posing, int rig)
 }
 
 /// A e^{−j·lag}
-static void turn_of(const struct drive *drive, double turn[2])
+static void drive_turn(const struct drive *drive, double turn[2])
 {
     const double lag = radians(drive->lag);
     turn[0] = drive->amplitude * maths_cos(lag);
@@ -56,13 +57,13 @@ static void find_pull(const struct character_rig *rig, const struct figure *figu
         const int coordinate = rig->drives[d].spline == spline ? figure_find(figure, rig->drives[d].name) : -1;
         double turn[2];
         if (coordinate < 0) continue;
-        turn_of(&rig->drives[d], turn);
+        drive_turn(&rig->drives[d], turn);
         add_product(&figure->character.coordinates[coordinate], vertex, turn, c);
     }
 }
 
-static bool find(const struct posing *posing, int rig, double sample, int which, const int *splines, int count,
-                 pin_pull *c, struct pin_point *point)
+static bool character_find(const struct posing *posing, int rig, double sample, int which, const int *splines,
+                           int count, pin_pull *c, struct pin_point *point)
 {
     const struct character_rig *character = &posing->document->rigs[rig]->character;
     const struct figure *figure = figure_of(posing, rig);
@@ -80,7 +81,7 @@ static bool find(const struct posing *posing, int rig, double sample, int which,
         double turn[2];
         pin_pull moves = {{0}};
         if (coordinate < 0) continue;
-        turn_of(&character->drives[d], turn);
+        drive_turn(&character->drives[d], turn);
         add_product(&figure->character.coordinates[coordinate], which, turn, moves);
         const double y[2] = {character->drives[d].amplitude * values[d].y, 0};
         pin_pull rests = {{0}};
@@ -90,14 +91,6 @@ static bool find(const struct posing *posing, int rig, double sample, int which,
     }
     for (int i = 0; i < count; i++) find_pull(character, figure, which, splines[i], c[i]);
     return true;
-}
-
-/// |c|² at a vertex.
-static double square_at(const struct character_rig *rig, const struct figure *figure, int vertex, int spline)
-{
-    pin_pull c = {{0}};
-    find_pull(rig, figure, vertex, spline, c);
-    return pinning_square(c);
 }
 
 static double area_of(const struct figure *figure, const uint32_t corner[3])
@@ -111,7 +104,7 @@ static double area_of(const struct figure *figure, const uint32_t corner[3])
 }
 
 /// The coarse mesh is enough for a mean.
-static void weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
+static void character_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
 {
     const struct character_rig *character = &posing->document->rigs[rig]->character;
     const struct figure *figure = figure_of(posing, rig);
@@ -121,16 +114,20 @@ static void weigh(const struct posing *posing, int rig, const int *splines, int 
             const uint32_t *corner = &figure->coarse[t];
             const double area = area_of(figure, corner);
             areas += area;
-            for (int k = 0; k < 3; k++) sum += area / 3 * square_at(character, figure, (int)corner[k], splines[i]);
+            for (int k = 0; k < 3; k++) {
+                pin_pull c = {{0}};
+                find_pull(character, figure, (int)corner[k], splines[i], c);
+                sum += area / 3 * pinning_square(c);
+            }
         }
         if (areas > 0) weights[i] += sum / areas;
     }
 }
 
-static const struct pinning_functions pinning = {find, weigh};
+static const struct pinning_functions character_pinning = {character_find, character_weigh};
 
-static bool pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                 struct rig_pose *posed)
+static bool character_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                           struct rig_pose *posed)
 {
     const struct character_rig *character = &posing->document->rigs[rig]->character;
     const struct figure *figure = figure_of(posing, rig);
@@ -145,7 +142,7 @@ static bool pose(const struct posing *posing, int rig, double position, const st
     return true;
 }
 
-static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
+static void character_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
 {
     const struct figure *figure = posed->character.figure;
     morph_bounds(figure, &posed->character.morph, lo, hi);
@@ -156,4 +153,171 @@ static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
     }
 }
 
-const struct posing_functions character_posing = {pose, bounds, &pinning};
+// --- lowest vertices: several samples at a time, so that most vertices can be excluded for all of them at once
+
+/// Samples, and blocks of samples, that are processed together.
+enum { BLOCK = 16, ROW = LOW_POINT_ROW / BLOCK };
+
+/// A driven coordinate: its weights at every sample, and their range in each block and in all.
+struct driven {
+    const struct coordinate *coordinate;
+    double *re, *im;
+    double *re_range[2], *im_range[2];
+    double re_all[2], im_all[2];
+};
+
+/// The lowest vertices so far: per sample the height and index, per block the largest of these heights.
+struct lowest {
+    double *height, *vertex, *highest;
+    int blocks; ///< whole rows of blocks
+};
+
+static double *take_room(double **room, int count)
+{
+    double *taken = *room;
+    *room += count;
+    return taken;
+}
+
+static void find_ranges(const double *x, int blocks, double *const range[2], double all[2])
+{
+    all[0] = INFINITY, all[1] = -INFINITY;
+    for (int b = 0; b < blocks; b++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int i = BLOCK * b; i < BLOCK * (b + 1); i++) {
+            low = x[i] < low ? x[i] : low;
+            high = x[i] > high ? x[i] : high;
+        }
+        range[0][b] = low;
+        range[1][b] = high;
+        all[0] = fmin(all[0], low);
+        all[1] = fmax(all[1], high);
+    }
+}
+
+static void find_driven(const struct coordinate *coordinate, const struct drive *drive, const wiggly_curve *curve,
+                        int samples, int blocks, double **room, struct driven *driven)
+{
+    *driven = (struct driven){.coordinate = coordinate,
+                              .re = take_room(room, BLOCK * blocks),
+                              .im = take_room(room, BLOCK * blocks),
+                              .re_range = {take_room(room, blocks), take_room(room, blocks)},
+                              .im_range = {take_room(room, blocks), take_room(room, blocks)}};
+
+    // z at every sample, as in pose_character(); after the last sample it stays.
+    const double lag = radians(drive->lag), c = maths_cos(lag), s = maths_sin(lag);
+    for (int i = 0; i < BLOCK * blocks; i++) {
+        const int at = i < samples ? i : samples - 1;
+        driven->re[i] = drive->amplitude * (curve->y[at] + curve->re[at] * c + curve->im[at] * s);
+        driven->im[i] = drive->amplitude * (curve->im[at] * c - curve->re[at] * s);
+    }
+    find_ranges(driven->re, blocks, driven->re_range, driven->re_all);
+    find_ranges(driven->im, blocks, driven->im_range, driven->im_all);
+}
+
+/// A vertex's height by coordinate: a Re z − b Im z.
+struct moves {
+    double at_rest, a[CHARACTER_MAX_DRIVES], b[CHARACTER_MAX_DRIVES];
+};
+
+/// A lower bound of a vertex's height.
+static double least_height(const struct driven *driven, int count, const struct moves *moves)
+{
+    double least = moves->at_rest;
+    for (int k = 0; k < count; k++) {
+        least += moves->a[k] * driven[k].re_all[moves->a[k] < 0];
+        least -= moves->b[k] * driven[k].im_all[moves->b[k] > 0];
+    }
+    return least;
+}
+
+/// Marks the blocks of a row in which a vertex may be lower than those found; returns whether there are any.
+WIDEST static bool may_be_low(const struct driven *driven, int count, const struct moves *moves, int from,
+                              const double *restrict highest, bool *restrict may)
+{
+    double least[ROW];
+    int any = 0;
+    for (int i = 0; i < ROW; i++) least[i] = moves->at_rest;
+    for (int k = 0; k < count; k++) {
+        const double a = moves->a[k], b = moves->b[k];
+        const double *restrict re = driven[k].re_range[a < 0] + from, *restrict im = driven[k].im_range[b > 0] + from;
+        for (int i = 0; i < ROW; i++) least[i] += a * re[i] - b * im[i];
+    }
+    for (int i = 0; i < ROW; i++) any += may[i] = least[i] < highest[i];
+    return any > 0;
+}
+
+/// Checks whether a vertex is the lowest at each sample of a block.
+WIDEST static bool look_at_block(const struct driven *driven, int count, const struct moves *moves, int vertex,
+                                 int from, double *restrict low, double *restrict lowest)
+{
+    double height[BLOCK];
+    int lower = 0;
+    for (int i = 0; i < BLOCK; i++) height[i] = moves->at_rest;
+    for (int k = 0; k < count; k++) {
+        const double a = moves->a[k], b = moves->b[k];
+        const double *restrict re = driven[k].re + from, *restrict im = driven[k].im + from;
+        for (int i = 0; i < BLOCK; i++) height[i] += a * re[i] - b * im[i];
+    }
+    for (int i = 0; i < BLOCK; i++) lower += height[i] < low[i];
+    if (lower == 0) return false;
+    for (int i = 0; i < BLOCK; i++) {
+        const bool is_lower = height[i] < low[i];
+        low[i] = is_lower ? height[i] : low[i];
+        lowest[i] = is_lower ? vertex : lowest[i];
+    }
+    return true;
+}
+
+static void look_at_vertex(const struct driven *driven, int count, const struct moves *moves, int vertex,
+                           struct lowest *found)
+{
+    bool may[ROW];
+    for (int row = 0; row < found->blocks; row += ROW) {
+        if (!may_be_low(driven, count, moves, row, found->highest + row, may)) continue;
+        for (int b = row; b < row + ROW; b++) {
+            double *height = found->height + BLOCK * b;
+            if (!may[b - row] ||
+                !look_at_block(driven, count, moves, vertex, BLOCK * b, height, found->vertex + BLOCK * b))
+                continue;
+            found->highest[b] = height[0];
+            for (int i = 1; i < BLOCK; i++)
+                found->highest[b] = height[i] > found->highest[b] ? height[i] : found->highest[b];
+        }
+    }
+}
+
+bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low)
+{
+    const struct character_rig *character = &posing->document->rigs[rig]->character;
+    const struct figure *figure = models_figure(posing->models, document_rig_number(posing->document, rig));
+    const int samples = posing->evaluation->samples;
+    const int blocks = low_point_samples(samples) / BLOCK;
+    struct driven driven[CHARACTER_MAX_DRIVES];
+    struct moves moves;
+    int count = 0;
+    if (!figure) return false;
+    struct lowest found = {take_room(&room, BLOCK * blocks), take_room(&room, BLOCK * blocks),
+                           take_room(&room, blocks), blocks};
+    for (int d = 0; d < character->drive_count; d++) {
+        const int coordinate = figure_find(figure, character->drives[d].name);
+        if (coordinate < 0) continue;
+        find_driven(&figure->character.coordinates[coordinate], &character->drives[d],
+                    &posing->evaluation->curves[character->drives[d].spline], samples, blocks, &room,
+                    &driven[count++]);
+    }
+    for (int i = 0; i < BLOCK * blocks; i++) found.height[i] = ceiling, found.vertex[i] = -1;
+    for (int b = 0; b < blocks; b++) found.highest[b] = ceiling;
+    for (int v = 0; v < figure->character.vertex_count; v++) {
+        moves.at_rest = character->position[1] + (double)figure->character.position[v][1] - (double)figure->lo[1];
+        for (int k = 0; k < count; k++) {
+            moves.a[k] = (double)driven[k].coordinate->re[v][1];
+            moves.b[k] = (double)driven[k].coordinate->im[v][1];
+        }
+        if (least_height(driven, count, &moves) < ceiling) look_at_vertex(driven, count, &moves, v, &found);
+    }
+    for (int i = 0; i < samples; i++) low[i] = (struct low_point){found.height[i], (int)found.vertex[i]};
+    return true;
+}
+
+const struct posing_functions character_posing = {character_pose, character_bounds, &character_pinning};

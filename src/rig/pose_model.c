@@ -1,10 +1,11 @@
-/// Poses an imported character, or a tail's fox: its clip, and the bends on top.
+/// Imported characters and a tail's fox: posed by the clip and the bends on top; and joints followed through clips.
 #include "maths/maths.h"
 #include "model/fox.h"
 #include "model/vector.h"
-#include "rig/posing_kind.h"
 #include "rig/strand.h"
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 static const double ROUNDING = 1e-6; ///< of a clip's length: times of keys are single precision
 
@@ -63,21 +64,6 @@ void posing_root(const struct posing *posing, int rig, const struct by_hand *by_
     root[10] -= model->scale * (double)imported->gltf.lo[1];
 }
 
-/// Moves the fox's body, and finds its place, as posing_root() does.
-static float place_fox(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                       struct gltf_pose *pose, double root[12])
-{
-    const struct tail *tail = &posing->document->rigs[rig]->tail;
-    const double scale = tail->length / (double)FOX_TAIL_LENGTH;
-    const double columns[9] = {scale, 0, 0, 0, scale, 0, 0, 0, scale};
-    wiggly_value values[RIG_MAX_INPUTS];
-    posing_values(posing, rig, position, by_hand, values);
-    memcpy(root, columns, sizeof columns);
-    const struct limbs limbs = tail_base(posing, rig, position, values, by_hand, root + 9);
-    fox_move(&limbs, pose);
-    return tail_ground(tail);
-}
-
 bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                    struct rig_pose *posed)
 {
@@ -97,8 +83,15 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
     posed->kind = RIG_MODEL;
     posed->model.imported = models_imported(posing->models, document, rig);
     posed->model.pose = pose;
-    if (is_tail) {
-        posed->model.ground = place_fox(posing, rig, position, by_hand, pose, root);
+    if (is_tail) { // the fox's body
+        const struct tail *tail = &document->rigs[rig]->tail;
+        const double scale = tail->length / (double)FOX_TAIL_LENGTH;
+        const double columns[9] = {scale, 0, 0, 0, scale, 0, 0, 0, scale};
+        posing_values(posing, rig, position, by_hand, values);
+        memcpy(root, columns, sizeof columns);
+        const struct limbs limbs = tail_base(posing, rig, position, values, by_hand, root + 9);
+        fox_move(&limbs, pose);
+        posed->model.ground = tail_ground(tail);
     } else {
         posed->model.ground = (float)document->rigs[rig]->model.position[1];
         posing_root(posing, rig, by_hand, root);
@@ -108,7 +101,7 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
     return true;
 }
 
-static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
+static void model_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
 {
     const struct imported *imported = posed->model.imported;
     vec3 box[2];
@@ -119,4 +112,141 @@ static void bounds(const struct rig_pose *posed, float lo[3], float hi[3])
     memcpy(hi, box[1], sizeof box[1]);
 }
 
-const struct posing_functions model_posing = {rig_pose_body, bounds, NULL};
+// --- joints followed through clips
+
+enum { MEAN_STEPS = 120 }; ///< over a clip
+
+static const double DEGREES = 57.29577951308232;
+
+struct followed {
+    const struct imported *imported;
+    struct gltf_pose *pose;
+    int node;
+    int clip; ///< −1: it rests
+    struct clip_play play;
+    enum motion_of of;
+    struct chain_axes axes;
+    double scale; ///< metres in the world per unit of the file
+    double seen;  ///< last angle in degrees, so that turns continue past half a turn
+    double
+        drift; ///< what a round adds, per second: a steady travel bends nothing, and must not jump back after each round
+};
+
+static bool find_followed(const struct models *models, const struct document *document,
+                          const struct joint_motion *motion, struct followed *followed)
+{
+    const int rig = document_find_model(document, motion->model, motion->by_file);
+    const struct imported *imported = models_imported(models, document, rig);
+    if (!imported) return false;
+    const struct model_rig *model = &document->rigs[rig]->model;
+    const int clip = gltf_find_clip(&imported->gltf, model->clip);
+    struct chain_axes axes = {
+        .side = {0, 1, 0}, .up = {-1, 0, 0}, .along = {0, 0, 1}}; // of a chain that points to the front
+    for (int r = document->rig_count - 1; motion->chain && r >= 0; r--) {
+        const struct rig *chain = document->rigs[r];
+        struct chain_bones bones;
+        if (chain->kind != RIG_CHAIN || !chain->name || strcmp(chain->name, motion->chain) != 0) continue;
+        if (chain_find(&imported->gltf, chain->chain.from, chain->chain.to, &bones, NULL))
+            axes = chain_axes_at_rest(imported, &chain->chain, &bones);
+    }
+    *followed = (struct followed){.imported = imported,
+                                  .pose = models_pose(models, document, rig, POSE_UNSEEN),
+                                  .node = gltf_find_node(&imported->gltf, motion->joint),
+                                  .clip = clip,
+                                  .of = motion->of,
+                                  .axes = axes,
+                                  .scale = model->scale};
+    if (clip >= 0) followed->play = clip_play(model, &imported->gltf.clips[clip]);
+    return followed->node >= 0;
+}
+
+/// Degrees about the chain's side axis by which the joint has turned from rest.
+static double followed_turn(struct followed *followed)
+{
+    const mat3s rest = glms_mat4_pick3(mat4_from(followed->imported->rest.world[followed->node]));
+    const mat3s now = glms_mat4_pick3(mat4_from(followed->pose->world[followed->node]));
+    const vec3s axis = vec3_from(followed->axes.side), before = vec3_from(followed->axes.along);
+    const vec3s after = glms_mat3_mulv(now, glms_mat3_mulv(mat3_inverse(rest), before));
+    const vec3s across = glms_vec3_cross(axis, before);
+    double turn = DEGREES * maths_atan2((double)glms_vec3_dot(after, across), (double)glms_vec3_dot(after, before));
+    turn += 360 * round((followed->seen - turn) / 360);
+    return followed->seen = turn;
+}
+
+static double followed_at(struct followed *followed, double time)
+{
+    const double travelled = followed->drift * (time - followed->play.first);
+    const struct gltf *gltf = &followed->imported->gltf;
+    if (followed->clip < 0) {
+        gltf_pose_clip(gltf, -1, 0, followed->pose);
+    } else {
+        gltf_pose_loop(gltf, followed->clip, time, followed->pose);
+    }
+    gltf_pose_world(gltf, followed->pose);
+    if (followed->of == MOTION_TURN) return followed_turn(followed) - travelled;
+    const vec3s side = vec3_from(followed->axes.side), along = vec3_from(followed->axes.along);
+    const vec3s direction = followed->of == MOTION_UP ? side : glms_vec3_cross(side, along);
+    return followed->scale * (double)glms_vec3_dot(direction, vec3_from(followed->pose->world[followed->node] + 12)) -
+           travelled;
+}
+
+/// Samples a joint, averaged over a frame on either side: clips have keys on frames with straight lines between, and each corner would kick
+/// the spline. The result is the cubic B-spline of the keys. A clip that does not loop is held at the scene's ends.
+struct smoothing {
+    int substeps;
+    double ring[2 * SCENE_MAX_SUBSTEPS]; ///< samples around the next one
+};
+
+static double *raw(struct smoothing *smoothing, int sample)
+{
+    const int size = 2 * smoothing->substeps;
+    return &smoothing->ring[((sample % size) + size) % size];
+}
+
+static void sample_raw(struct smoothing *smoothing, const struct document *document, struct followed *followed,
+                       int sample)
+{
+    const int end = document_samples(document) - 1;
+    const int held = followed->play.loops ? sample : sample < 0 ? 0 : sample > end ? end : sample;
+    *raw(smoothing, sample) = followed_at(followed, posing_clip_time(document, held, &followed->play));
+}
+
+bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples)
+{
+    struct followed followed;
+    const int substeps = document->substeps;
+    struct smoothing smoothing = {.substeps = substeps};
+    if (!find_followed(context, document, motion, &followed)) return false;
+    const struct clip_play *play = &followed.play;
+    const int count = document_samples(document);
+
+    // The number of samples after which the clip repeats exactly, or 0. The scene may begin before the clip.
+    const double length = play->length / document_step(document);
+    const bool waits =
+        document->first_frame / document->fps < play->first - 1e-6 && !posing_clip_loops(document, play);
+    const bool repeats = play->loops && !waits && length >= 1 && length < 1e6 && fabs(length - round(length)) < 1e-4;
+    const int period = repeats ? (int)round(length) : 0;
+
+    if (play->loops && play->length > 0) {
+        const double first = followed_at(&followed, play->first);
+        followed.drift = (followed_at(&followed, play->first + play->length) - first) / play->length;
+        followed.seen = 0;
+    }
+    double mean = 0;
+    for (int n = 0; n < MEAN_STEPS; n++) mean += followed_at(&followed, play->first + play->length * n / MEAN_STEPS);
+    mean /= MEAN_STEPS;
+    for (int s = 1 - substeps; s < substeps - 1; s++) sample_raw(&smoothing, document, &followed, s);
+    for (int s = 0; s < count; s++) {
+        if (period && s >= period) {
+            samples[s] = samples[s - period];
+            continue;
+        }
+        sample_raw(&smoothing, document, &followed, s + substeps - 1);
+        double sum = 0;
+        for (int k = 1 - substeps; k < substeps; k++) sum += (substeps - abs(k)) * *raw(&smoothing, s + k);
+        samples[s] = sum / substeps / substeps - mean;
+    }
+    return true;
+}
+
+const struct posing_functions model_posing = {rig_pose_body, model_bounds, NULL};

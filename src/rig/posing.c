@@ -1,7 +1,6 @@
 /// Poses any rig at any time, by its kind; and provides what the scene needs for solving.
 #include "rig/posing.h"
 #include "maths/maths.h"
-#include "rig/posing_kind.h"
 #include <string.h>
 
 #define POSING_ROW(constant, name) [constant] = &name##_posing,
@@ -80,8 +79,8 @@ double pinning_square(const pin_pull c)
     return sum;
 }
 
-static bool find(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
-                 const struct pin *pin, const int *splines, int count, pin_pull *c, struct pin_point *point)
+static bool source_find(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
+                        const struct pin *pin, const int *splines, int count, pin_pull *c, struct pin_point *point)
 {
     const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
     if (count > 0) memset(c, 0, (size_t)count * sizeof *c);
@@ -89,16 +88,16 @@ static bool find(void *context, const struct evaluation *evaluation, const struc
     return pins->find(&posing, rig, document_sample(document, pin->frame), pin->point, splines, count, c, point);
 }
 
-static void weigh(void *context, const struct document *document, int rig, const int *splines, int count,
-                  double *weights)
+static void source_weigh(void *context, const struct document *document, int rig, const int *splines, int count,
+                         double *weights)
 {
     const struct posing posing = {.document = document, .models = context, .at_rest = true};
     const struct pinning_functions *pins = posing_kinds[document->rigs[rig]->kind]->pins;
     if (pins) pins->weigh(&posing, rig, splines, count, weights);
 }
 
-static bool lowest(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
-                   double ceiling, double *room, struct low_point *low)
+static bool source_lowest(void *context, const struct evaluation *evaluation, const struct document *document,
+                          int rig, double ceiling, double *room, struct low_point *low)
 {
     const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
     return character_lowest(&posing, rig, ceiling, room, low);
@@ -106,9 +105,9 @@ static bool lowest(void *context, const struct evaluation *evaluation, const str
 
 struct model_source models_source(struct models *models)
 {
-    return (struct model_source){.find = find,
-                                 .weigh = weigh,
-                                 .lowest = lowest,
+    return (struct model_source){.find = source_find,
+                                 .weigh = source_weigh,
+                                 .lowest = source_lowest,
                                  .follow = models ? clip_follow : NULL,
                                  .context = models,
                                  .version = models_version(models)};

@@ -1,10 +1,13 @@
-/// Bends tails and chains, and follows the nodes from a root to their tips.
+/// Bends tails and chains, follows the nodes from a root to their tips, and poses and pins them.
 #include "rig/strand.h"
 #include "maths/maths.h"
 #include "model/fox.h"
 #include "model/vector.h"
-#include "rig/posing_kind.h"
+#include "rig/posing.h"
 #include <math.h>
+#include <string.h>
+
+_Static_assert((int)TAIL_MAX_JOINTS <= (int)POSE_MAX_JOINTS, "a pose holds every tail");
 
 static const float UPRIGHT = 0.98f; ///< cosine against world up above which a chain stands or hangs
 
@@ -56,26 +59,21 @@ static vec3s side_of(const struct imported *imported, const struct chain_bones *
     return perpendicular(fabsf(glms_vec3_dot(along, up)) > UPRIGHT ? front : up, along);
 }
 
-/// The mirror image of the twin's side axis. Both must use the same one of up and front, and the mirror image of front is back if the pair is
-/// apart along z.
-static vec3s mirrored_side(const struct imported *imported, const struct chain_bones *bones,
-                           const struct chain_bones *twin)
-{
-    const vec3s apart =
-        glms_vec3_sub(place_of(imported->rest.world[bones->node[0]]), place_of(imported->rest.world[twin->node[0]]));
-    vec3s side = side_of(imported, twin);
-    const int across = fabsf(apart.z) > fabsf(apart.x) ? 2 : 0;
-    side.raw[across] = -side.raw[across];
-    return perpendicular(side, direction(imported, bones));
-}
-
 struct chain_axes chain_axes_at_rest(const struct imported *imported, const struct chain *chain,
                                      const struct chain_bones *bones)
 {
     struct chain_bones twin;
     const bool has_twin = chain->mirror && chain_find_twin(&imported->gltf, chain->from, chain->to, &twin);
     const vec3s along = direction(imported, bones);
-    const vec3s straight = has_twin ? mirrored_side(imported, bones, &twin) : side_of(imported, bones);
+    vec3s straight = side_of(imported, bones);
+    if (has_twin) { // The mirror image of the twin's. Both use the same one of up and front; back mirrors front if they are apart along z.
+        const vec3s apart = glms_vec3_sub(place_of(imported->rest.world[bones->node[0]]),
+                                          place_of(imported->rest.world[twin.node[0]]));
+        const int across = fabsf(apart.z) > fabsf(apart.x) ? 2 : 0;
+        straight = side_of(imported, &twin);
+        straight.raw[across] = -straight.raw[across];
+        straight = perpendicular(straight, along);
+    }
     const vec3s side = glms_vec3_rotate(straight, (float)radians(chain->turn), along);
     const vec3s lift = glms_vec3_cross(along, side);
     struct chain_axes axes;
@@ -89,16 +87,6 @@ int rig_body(const struct document *document, int rig)
 {
     const struct rig *of = document->rigs[rig];
     return of->kind == RIG_CHAIN ? document_find_model(document, of->chain.model, of->chain.by_file) : rig;
-}
-
-static struct strand strand_of_tail(const struct tail *tail)
-{
-    struct strand strand = {.channels = tail->channels,
-                            .channel_count = tail->channel_count,
-                            .joints = tail->joints,
-                            .rest = &tail->rest};
-    for (int n = 0; n < tail->joints; n++) strand.bones.node[n] = FOX_FIRST_JOINT + n;
-    return strand;
 }
 
 bool strand_of_chain(const struct chain *chain, const struct imported *imported, struct strand *strand)
@@ -118,7 +106,12 @@ bool strand_find(const struct posing *posing, int body, int rig, struct strand *
     const struct document *document = posing->document;
     if (rig_body(document, rig) != body) return false;
     if (document->rigs[rig]->kind == RIG_TAIL) {
-        *strand = strand_of_tail(&document->rigs[rig]->tail);
+        const struct tail *tail = &document->rigs[rig]->tail;
+        *strand = (struct strand){.channels = tail->channels,
+                                  .channel_count = tail->channel_count,
+                                  .joints = tail->joints,
+                                  .rest = &tail->rest};
+        for (int n = 0; n < tail->joints; n++) strand->bones.node[n] = FOX_FIRST_JOINT + n;
         return true;
     }
     if (document->rigs[rig]->kind != RIG_CHAIN || body < 0) return false;
@@ -224,14 +217,8 @@ void strand_turned_axes(const struct strand *strand, const wiggly_value *values,
 
 static const double unit[3] = {1, 1, 1};
 
-static void multiply(const double a[9], const double b[9], double product[9])
-{
-    for (int i = 0; i < 9; i++)
-        product[i] = a[i % 3] * b[i / 3 * 3] + a[3 + i % 3] * b[i / 3 * 3 + 1] + a[6 + i % 3] * b[i / 3 * 3 + 2];
-}
-
 /// m · (v scaled)
-static void apply(const double m[9], const double scale[3], const double v[3], double out[3])
+static void path_apply(const double m[9], const double scale[3], const double v[3], double out[3])
 {
     for (int k = 0; k < 3; k++)
         out[k] = m[k] * scale[0] * v[0] + m[3 + k] * scale[1] * v[1] + m[6 + k] * scale[2] * v[2];
@@ -244,23 +231,6 @@ static void rotation_matrix(const double q[4], double m[9])
                               2 * (x * y - w * z),     1 - 2 * (x * x + z * z), 2 * (y * z + w * x),
                               2 * (x * z + w * y),     2 * (y * z - w * x),     1 - 2 * (x * x + y * y)};
     memcpy(m, turned, sizeof turned);
-}
-
-/// Places all nodes in the world, from a root's columns and place.
-static void place_nodes(struct path *path, const double root[12])
-{
-    const double *frame = root, *scale = unit, *at = root + 9;
-    for (int n = 0; n < path->count; n++) {
-        struct path_node *node = &path->nodes[n];
-        double scaled[9];
-        for (int k = 0; k < 9; k++) scaled[k] = frame[k] * scale[k / 3];
-        apply(frame, scale, node->offset, node->at);
-        for (int k = 0; k < 3; k++) node->at[k] += at[k];
-        multiply(scaled, node->turn, node->frame);
-        frame = node->frame, scale = node->scale, at = node->at;
-    }
-    apply(frame, scale, path->tip, path->end);
-    for (int k = 0; k < 3; k++) path->end[k] += at[k];
 }
 
 /// The nodes from the root to a bone, posed by the clip. False if there are too many.
@@ -286,38 +256,6 @@ static bool list_nodes(const struct imported *imported, const struct gltf_pose *
     return true;
 }
 
-/// Bends the nodes of a strand.
-static void bend_nodes(const struct strand *strand, const wiggly_value *values, enum look look, struct path *path)
-{
-    for (int i = 0, n = 0; i < path->count && n < strand->joints; i++) {
-        if (path->nodes[i].node != strand->bones.node[n]) continue;
-        turn_joint(strand, values, look, n++, path->nodes[i].rotation);
-        rotation_matrix(path->nodes[i].rotation, path->nodes[i].turn);
-    }
-}
-
-/// The tip in the last bone's own space.
-static void find_tip(const struct strand *strand, double tip[3])
-{
-    const vec3s way = last_way(strand->imported, &strand->bones);
-    const mat3s inward = into_bone(strand->imported, strand->bones.node[strand->joints - 1]);
-    const vec3s own = glms_mat3_mulv(inward, way);
-    for (int k = 0; k < 3; k++) tip[k] = (double)own.raw[k];
-}
-
-/// A straight strand along +z.
-static void list_joints(const struct tail *tail, struct path *path)
-{
-    const double segment = tail->length / tail->joints;
-    path->count = tail->joints;
-    for (int n = 0; n < path->count; n++)
-        path->nodes[n] = (struct path_node){.node = FOX_FIRST_JOINT + n,
-                                            .offset = {0, 0, n > 0 ? segment : 0},
-                                            .rotation = {0, 0, 0, 1},
-                                            .scale = {1, 1, 1}};
-    memcpy(path->tip, (const double[]){0, 0, segment}, sizeof path->tip);
-}
-
 bool path_find(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                struct path *path)
 {
@@ -329,22 +267,52 @@ bool path_find(const struct posing *posing, int rig, double position, const stru
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;
     if ((!pose && !is_tail) || !strand_find(posing, body, rig, &strand)) return false;
-    if (is_tail) {
-        list_joints(&document->rigs[rig]->tail, path);
+    if (is_tail) { // a straight strand along +z
+        const struct tail *tail = &document->rigs[rig]->tail;
+        const double segment = tail->length / tail->joints;
+        path->count = tail->joints;
+        for (int n = 0; n < path->count; n++)
+            path->nodes[n] = (struct path_node){.node = FOX_FIRST_JOINT + n,
+                                                .offset = {0, 0, n > 0 ? segment : 0},
+                                                .rotation = {0, 0, 0, 1},
+                                                .scale = {1, 1, 1}};
+        memcpy(path->tip, (const double[]){0, 0, segment}, sizeof path->tip);
         posing_values(posing, rig, position, by_hand, values);
         tail_base(posing, rig, position, values, by_hand, root + 9);
     } else {
         if (!list_nodes(strand.imported, pose, strand.bones.node[strand.joints - 1], path)) return false;
-        find_tip(&strand, path->tip);
+        const mat3s inward = into_bone(strand.imported, strand.bones.node[strand.joints - 1]);
+        const vec3s tip = glms_mat3_mulv(inward, last_way(strand.imported, &strand.bones));
+        for (int k = 0; k < 3; k++) path->tip[k] = (double)tip.raw[k];
         posing_root(posing, body, NULL, root);
     }
     path->first = path->count - strand.joints;
     for (int r = 0; r < document->rig_count; r++) {
         if (!strand_find(posing, body, r, &strand)) continue;
         posing_values(posing, r, position, r == rig ? by_hand : NULL, values);
-        bend_nodes(&strand, values, posing->look, path);
+        for (int i = 0, n = 0; i < path->count && n < strand.joints; i++) {
+            struct path_node *node = &path->nodes[i];
+            if (node->node != strand.bones.node[n]) continue;
+            turn_joint(&strand, values, posing->look, n++, node->rotation);
+            rotation_matrix(node->rotation, node->turn);
+        }
     }
-    place_nodes(path, root);
+
+    const double *frame = root, *scale = unit, *at = root + 9;
+    for (int n = 0; n < path->count; n++) {
+        struct path_node *node = &path->nodes[n];
+        double a[9];
+        for (int k = 0; k < 9; k++) a[k] = frame[k] * scale[k / 3];
+        path_apply(frame, scale, node->offset, node->at);
+        for (int k = 0; k < 3; k++) node->at[k] += at[k];
+        for (int k = 0; k < 9; k++) {
+            const double *b = &node->turn[k / 3 * 3];
+            node->frame[k] = a[k % 3] * b[0] + a[3 + k % 3] * b[1] + a[6 + k % 3] * b[2];
+        }
+        frame = node->frame, scale = node->scale, at = node->at;
+    }
+    path_apply(frame, scale, path->tip, path->end);
+    for (int k = 0; k < 3; k++) path->end[k] += at[k];
     return true;
 }
 
@@ -362,7 +330,7 @@ void path_arms(struct path *path, int joint)
     for (int n = last; n >= 0; n--) {
         struct path_node *node = &path->nodes[n];
         for (int k = 0; k < 3; k++) node->arm[k] = node->scale[k] * to[k];
-        apply(node->turn, unit, node->arm, to);
+        path_apply(node->turn, unit, node->arm, to);
         for (int k = 0; k < 3; k++) to[k] += node->offset[k];
     }
 }
@@ -371,7 +339,7 @@ void path_way(const struct path_node *node, const double axis[3], double way[3])
 {
     double across[3];
     vector_cross(axis, node->arm, across);
-    apply(node->frame, unit, across, way);
+    path_apply(node->frame, unit, across, way);
 }
 
 double path_length(const struct path *path, int count)
@@ -383,3 +351,195 @@ double path_length(const struct path *path, int count)
     }
     return sum;
 }
+
+// --- posed
+
+double channel_bend(const struct channel *channel, wiggly_value value, int n, int joints, enum look look)
+{
+    const double lag = look == LOOK_STIFF ? 0.0 : radians(angles_lag(&channel->lag, n, joints));
+    return radians(angles_at(&channel->gain, n, joints)) * wiggly_lagged(value, lag);
+}
+
+double channel_moves(const struct channel *channel, wiggly_value value, int n, enum look look)
+{
+    const double lag = look == LOOK_STIFF ? 0.0 : n * radians(angles_at(&channel->lag, 0, 1));
+    return angles_at(&channel->gain, 0, 1) * wiggly_lagged(value, lag);
+}
+
+/// Limits of the body's parts, degrees and percent, so that no spline breaks the fox.
+static const struct {
+    double lowest, highest;
+} limb_limits[AXES] = {
+    [AXIS_LOOK] = {-70, 70},   [AXIS_NOD] = {-35, 35},     [AXIS_EARS] = {-30, 60},
+    [AXIS_BREATH] = {-15, 25}, [AXIS_STRETCH] = {-40, 40}, [AXIS_BLINK] = {0, 100},
+};
+
+/// Sum of an axis' channels for a part's n-th joint, within the limb_limits.
+static double limb_moved(const struct tail *tail, const wiggly_value *values, enum look look, enum axis axis, int n)
+{
+    double sum = 0;
+    for (int c = 0; c < tail->channel_count; c++) {
+        if (tail->channels[c].axis == axis) sum += channel_moves(&tail->channels[c], values[c], n, look);
+    }
+    return fmin(fmax(sum, limb_limits[axis].lowest), limb_limits[axis].highest);
+}
+
+float tail_ground(const struct tail *tail)
+{
+    const double height = (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) * tail->length;
+    return tail->position[1].track < 0 ? (float)(tail->position[1].value - height) : 0.0f;
+}
+
+struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
+                       const struct by_hand *by_hand, double base[3])
+{
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
+    const enum look look = posing->look;
+    const double stretch = limb_moved(tail, values, look, AXIS_STRETCH, 1) / 100;
+    struct limbs limbs = {
+        .look = (float)radians(limb_moved(tail, values, look, AXIS_LOOK, 1)),
+        .nod = (float)radians(limb_moved(tail, values, look, AXIS_NOD, 1)),
+        .breath = (float)limb_moved(tail, values, look, AXIS_BREATH, 1) / 100,
+        .stretch = (float)stretch,
+        .blink = (float)limb_moved(tail, values, look, AXIS_BLINK, 1) / 100,
+    };
+    for (int n = 0; n < 2; n++) limbs.ears[n] = (float)radians(limb_moved(tail, values, look, AXIS_EARS, n + 1));
+
+    double by[3];
+    limbs_base(stretch, tail->length / (double)FOX_TAIL_LENGTH, base);
+    posing_base(posing, rig, by_hand, by);
+    for (int k = 0; k < 3; k++) {
+        const struct param *param = &tail->position[k];
+        const wiggly_value value = evaluation_at(posing->evaluation, param->track, position);
+        base[k] += by[k] + (param->track < 0 ? param->value : value.y + value.re);
+    }
+    return limbs;
+}
+
+static bool strand_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                        struct rig_pose *posed)
+{
+    struct pose *strand = &posed->strand;
+    struct path path;
+    if (!path_find(posing, rig, position, by_hand, &path)) return false;
+    strand->count = path.count - path.first + 1;
+    for (int n = 0; n < strand->count; n++) {
+        const struct path_node *node = &path.nodes[n + 1 < strand->count ? path.first + n : path.count - 1];
+        const double *at = n + 1 < strand->count ? node->at : path.end;
+        for (int k = 0; k < 12; k++)
+            strand->matrix[n][k] = k % 4 == 3 ? 0.0f : (float)node->frame[3 * (k / 4) + k % 4];
+        for (int k = 0; k < 3; k++) strand->matrix[n][12 + k] = (float)at[k];
+        strand->matrix[n][15] = 1.0f;
+    }
+    return true;
+}
+
+static bool tail_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                      struct rig_pose *posed)
+{
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
+    wiggly_value values[RIG_MAX_INPUTS];
+    double base[3];
+    posing_values(posing, rig, position, by_hand, values);
+    posed->strand.ground = tail_ground(tail);
+    posed->strand.scale = (float)(tail->length / (double)FOX_TAIL_LENGTH);
+    posed->strand.limbs = tail_base(posing, rig, position, values, by_hand, base);
+    return strand_pose(posing, rig, position, by_hand, posed);
+}
+
+static void tail_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
+{
+    pose_bounds(&posed->strand, lo, hi);
+}
+
+// --- pinned: points where joints end
+//
+// Let L be the matrix from the frame of a bent joint to the world. A turn of the joint about an axis a moves a point at r from the joint, in
+// that frame, by L (a × r). Each axis is the one left by the turns after it.
+
+static const double SLACK = 1e-6; ///< of the length
+
+/// How splines move the end of a path's joint by bending a strand.
+static void add_bends(const struct path *path, int joint, const struct strand *strand, const wiggly_value *values,
+                      const int *splines, int count, pin_pull *c)
+{
+    for (int i = 0, n = 0; i <= path->first + joint && n < strand->joints; i++) {
+        const struct path_node *node = &path->nodes[i];
+        double axis[3][3], way[3][3];
+        if (node->node != strand->bones.node[n]) continue;
+        strand_turned_axes(strand, values, n, axis);
+        for (int a = 0; a < 3; a++) {
+            for (int k = 0; k < 3; k++) axis[a][k] *= strand_sign(strand, (enum axis)a);
+            path_way(node, axis[a], way[a]);
+        }
+        for (int h = 0; h < strand->channel_count; h++) {
+            const struct channel *channel = &strand->channels[h];
+            for (int s = 0; s < count && axis_bends(channel->axis); s++) {
+                if (splines[s] == channel->spline)
+                    pinning_add_channel(channel, n, strand->joints, way[channel->axis], c[s]);
+            }
+        }
+        n++;
+    }
+}
+
+static bool strand_find_pin(const struct posing *posing, int rig, double sample, int which, const int *splines,
+                            int count, pin_pull *c, struct pin_point *point)
+{
+    const struct document *document = posing->document;
+    const int body = rig_body(document, rig);
+    wiggly_value values[RIG_MAX_INPUTS];
+    struct strand strand;
+    struct path path;
+    if (!path_find(posing, rig, sample, NULL, &path) || which >= path.count - path.first) return false;
+    const double length = path_length(&path, path.count - path.first);
+    *point = (struct pin_point){.size = length, .slack = SLACK * length, .reach = path_length(&path, which + 1)};
+    memcpy(point->at, path_end(&path, which), sizeof point->at);
+    memcpy(point->base, path.nodes[path.first].at, sizeof point->base);
+    path_arms(&path, which);
+    for (int r = 0; count > 0 && r < document->rig_count; r++) {
+        if (!strand_find(posing, body, r, &strand)) continue;
+        posing_values(posing, r, sample, NULL, values);
+        add_bends(&path, which, &strand, values, splines, count, c);
+        if (r != body) continue;
+
+        // The motion of a tail's base, and how the body's stretch moves it; pinning_add_channel() takes percent for degrees.
+        const struct tail *tail = &document->rigs[rig]->tail;
+        double way[3];
+        const struct limbs limbs = tail_base(posing, rig, 0, values, NULL, way);
+        limbs_base_slope((double)limbs.stretch, tail->length / (double)FOX_TAIL_LENGTH, way);
+        for (int k = 0; k < 3; k++) way[k] *= 1.8 / 3.14159265358979323846;
+        for (int s = 0; s < count; s++) {
+            for (int k = 0; k < 3; k++) c[s][k][0] += tail->position[k].track == splines[s];
+            for (int i = 0; i < tail->channel_count; i++) {
+                const struct channel *channel = &tail->channels[i];
+                if (channel->spline == splines[s] && channel->axis == AXIS_STRETCH)
+                    pinning_add_channel(channel, 1, 1, way, c[s]);
+            }
+        }
+    }
+    return true;
+}
+
+static void strand_weigh(const struct posing *posing, int rig, const int *splines, int count, double *weights)
+{
+    const wiggly_value values[RIG_MAX_INPUTS] = {{0}};
+    struct strand strand;
+    struct path path;
+    if (!path_find(posing, rig, 0, NULL, &path) ||
+        !strand_find(posing, rig_body(posing->document, rig), rig, &strand))
+        return;
+    for (int n = 0; n < strand.joints; n++) {
+        path_arms(&path, n);
+        for (int i = 0; i < count; i++) {
+            pin_pull c[1] = {{{0}}};
+            add_bends(&path, n, &strand, values, &splines[i], 1, c);
+            weights[i] += pinning_square(c[0]) / strand.joints;
+        }
+    }
+}
+
+static const struct pinning_functions strand_pinning = {strand_find_pin, strand_weigh};
+
+const struct posing_functions tail_posing = {tail_pose, tail_bounds, &strand_pinning};
+const struct posing_functions chain_posing = {strand_pose, NULL, &strand_pinning};

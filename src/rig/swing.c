@@ -9,8 +9,6 @@ static const double LEAST_DAMPING = 0.05; ///< as in the cost of the start
 static const double STILL = 1e-4;         ///< metres of swing that are invisible
 static const double RADIANS = 0.017453292519943295;
 
-static cplx divide(cplx a, cplx b) { return cplx_scale(1 / cplx_norm(b), cplx_mul(a, cplx_conj(b))); }
-
 static cplx pole(const struct swing_filter *filter, int k) { return (cplx){filter->s[k][0], filter->s[k][1]}; }
 
 /// φ(t); for equal poles the limit t·e^{st}.
@@ -19,7 +17,8 @@ static cplx response(const struct swing_filter *filter, double t)
     const cplx apart = cplx_sub(pole(filter, 0), pole(filter, 1));
     const cplx first = cplx_exp(cplx_scale(t, pole(filter, 0)));
     if (cplx_norm(apart) * t * t < 1e-12) return cplx_scale(t, first);
-    return divide(cplx_sub(first, cplx_exp(cplx_scale(t, pole(filter, 1)))), apart);
+    const cplx rise = cplx_sub(first, cplx_exp(cplx_scale(t, pole(filter, 1))));
+    return cplx_scale(1 / cplx_norm(apart), cplx_mul(rise, cplx_conj(apart)));
 }
 
 /// The response to a step of the base is φ̇, at most about ω_n φ. Two complex poles at −σ + j(ω ± β) ring up together:
@@ -48,20 +47,17 @@ bool swing_filter(const struct spline *spline, const double parameter[PARAMETER_
     return true;
 }
 
-/// The solver's response, with the imaginary part at the end of the step, before the next kick.
-static void step_oscillator(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
+void swing_step(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
 {
-    const step_matrix m = oscillator_step(filter->of, dt);
-    const double q = swing->x[0], v = swing->z[0] - kick;
-    swing->x[0] = m.q_q * q + m.q_v * v;
-    swing->z[0] = m.v_q * q + m.v_v * v;
-    swing->x[1] =
-        filter->is_complex ? oscillator_turn(filter->of, INFINITY) * (swing->z[0] + filter->of.d * swing->x[0]) : 0;
-    swing->z[1] = 0;
-}
-
-static void step_filter(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
-{
+    if (filter->oscillates) { // the imaginary part is at the end of the step, before the next kick
+        const step_matrix m = oscillator_step(filter->of, dt);
+        const double q = swing->x[0], v = swing->z[0] - kick, turn = oscillator_turn(filter->of, INFINITY);
+        swing->x[0] = m.q_q * q + m.q_v * v;
+        swing->z[0] = m.v_q * q + m.v_v * v;
+        swing->x[1] = filter->is_complex ? turn * (swing->z[0] + filter->of.d * swing->x[0]) : 0;
+        swing->z[1] = 0;
+        return;
+    }
     const cplx x = {swing->x[0], swing->x[1]}, z = {swing->z[0] - kick, swing->z[1]};
     const cplx later =
         cplx_add(cplx_mul(cplx_exp(cplx_scale(dt, pole(filter, 1))), x), cplx_mul(response(filter, dt), z));
@@ -70,15 +66,6 @@ static void step_filter(struct swing *swing, const struct swing_filter *filter, 
     swing->x[1] = filter->is_complex ? later.im : 0;
     swing->z[0] = kept.re;
     swing->z[1] = kept.im;
-}
-
-void swing_step(struct swing *swing, const struct swing_filter *filter, double kick, double dt)
-{
-    if (filter->oscillates) {
-        step_oscillator(swing, filter, kick, dt);
-    } else {
-        step_filter(swing, filter, kick, dt);
-    }
 }
 
 bool swing_settled(const struct swing *swing, const struct swing_filter *filter)
@@ -97,20 +84,13 @@ bool swing_hangs(const struct channel *channels, int count, const struct channel
     return true;
 }
 
-/// Metres that a straight tail's tip moves per unit of the channel's spline: each joint turns everything after it.
-static double lever(const struct swing_arm *arm, const struct channel *channel)
-{
-    double sum = 0;
-    for (int n = 0; n < arm->joints; n++) {
-        sum += RADIANS * angles_at(&channel->gain, n, arm->joints) * (1 - (double)n / arm->joints);
-    }
-    return sum * arm->length;
-}
-
 double swing_scale(const struct swing_arm *arm, const struct channel *channel, const struct swing_filter *filter)
 {
     if (channel->of == PART_DISPLACEMENT) return 1;
-    const double metres = lever(arm, channel);
+    double sum = 0; // each joint turns everything after it
+    for (int n = 0; n < arm->joints; n++)
+        sum += RADIANS * angles_at(&channel->gain, n, arm->joints) * (1 - (double)n / arm->joints);
+    const double metres = sum * arm->length; // that a straight tail's tip moves per unit of the channel's spline
     return fabs(metres) > 1e-6 ? 1 / (metres * filter->peak) : 0;
 }
 
