@@ -1,8 +1,6 @@
 /// Chains made for a character of somebody's: names, splines and channels that suit it, motion that follows its clip, one step to undo.
 #include "gltf_builder.h"
-#include "rig/chain_make.h"
 #include "rig/import.h"
-#include "rig/opened.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 

@@ -1,9 +1,7 @@
 /// Clips of other programs, in and out: they begin and end where their own keys do, and loop where they do.
 #include "export/export.h"
 #include "gltf_builder.h"
-#include "rig/chain_make.h"
 #include "rig/import.h"
-#include "rig/opened.h"
 #include "rig/posing.h"
 #include "scene/edit.h"
 #include <jansson.h>

@@ -1,8 +1,6 @@
 /// Two ears by one spline move as mirror images, wherever they point and whichever way the character looks.
 #include "gltf_builder.h"
-#include "rig/chain_make.h"
 #include "rig/import.h"
-#include "rig/opened.h"
 
 enum { BONES = 3 };
 

@@ -3,7 +3,7 @@
 
 #include "base/file.h"
 #include "model/figure.h"
-#include "rig/opened.h"
+#include "rig/import.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 #include "scene/load.h"

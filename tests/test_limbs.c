@@ -2,7 +2,7 @@
 #include "model/fox.h"
 #include "model/vector.h"
 #include "posed_tail.h"
-#include "rig/opened.h"
+#include "rig/import.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 

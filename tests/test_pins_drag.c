@@ -1,7 +1,7 @@
 /// Drags of pins out of reach: the motion is a continuous function of where a pin is to be.
 #include "near.h"
 
-#include "rig/opened.h"
+#include "rig/import.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 

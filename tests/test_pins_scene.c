@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "model/figure.h"
-#include "rig/opened.h"
+#include "rig/import.h"
 #include "scene/edit.h"
 #include "scene/history.h"
 #include "scene/load.h"

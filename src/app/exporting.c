@@ -2,7 +2,7 @@
 #include "app/film.h"
 #include "app/state.h"
 #include "base/need.h"
-#include "rig/opened.h"
+#include "rig/import.h"
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <threads.h>

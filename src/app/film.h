@@ -3,7 +3,7 @@
 #define APP_FILM_H
 
 #include "export/export.h"
-#include "rig/opened.h"
+#include "rig/import.h"
 
 #define FILM_ENDINGS ".mp4, .webm, .gif and .png"
 

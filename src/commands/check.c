@@ -4,7 +4,6 @@
 #include "commands/options.h"
 #include "commands/report.h"
 #include "rig/import.h"
-#include "rig/opened.h"
 #include "scene/load.h"
 #include "scene/warnings.h"
 #include <math.h>

@@ -8,7 +8,7 @@
 #include "commands/options.h"
 #include "commands/progress.h"
 #include "platform/process.h"
-#include "rig/opened.h"
+#include "rig/import.h"
 #include "scene/paint.h"
 #include "ui/theme.h"
 #include <stdio.h>

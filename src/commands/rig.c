@@ -6,9 +6,7 @@
 #include "commands/options.h"
 #include "commands/report.h"
 #include "export/export.h"
-#include "rig/chain_make.h"
 #include "rig/import.h"
-#include "rig/opened.h"
 #include "scene/load.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "commands/commands.h"
 #include "commands/options.h"
 #include "commands/report.h"
-#include "rig/opened.h"
+#include "rig/import.h"
 #include "scene/evaluate.h"
 #include "scene/text.h"
 #include <errno.h>

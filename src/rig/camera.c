@@ -72,20 +72,6 @@ void camera_matrices(const struct camera *camera, float aspect, float view[16], 
     projection[14] = 2.0f * far * near / (near - far);
 }
 
-/// The centre of an edge of the box, relative to the box's centre.
-static vec3s edge_middle(int edge, vec3s size)
-{
-    vec3s middle;
-    const int axis = edge / 4;
-    const float sign[2] = {edge & 1 ? 0.5f : -0.5f, edge & 2 ? 0.5f : -0.5f};
-    middle.raw[axis] = 0.0f;
-    for (int k = 0; k < 2; k++) {
-        const int other = (axis + 1 + k) % 3;
-        middle.raw[other] = sign[k] * size.raw[other];
-    }
-    return middle;
-}
-
 /// For one axis of the picture, with points at (across, depth towards the eye) from the target: how far the eye must be to see all of them
 /// within `slope`, and how to shift the target to centre them.
 static float fit_axis(const float across[EDGES], const float depth[EDGES], float slope, float *shift)
@@ -110,7 +96,11 @@ void camera_fit(struct camera *camera, const float lo[3], const float hi[3], flo
     const struct axes axes = camera_axes(camera);
     float right[EDGES], up[EDGES], depth[EDGES], shift_right, shift_up;
     for (int e = 0; e < EDGES; e++) {
-        const vec3s middle = edge_middle(e, size);
+        vec3s middle; // of an edge, relative to the box's centre
+        const int axis = e / 4;
+        middle.raw[axis] = 0.0f;
+        middle.raw[(axis + 1) % 3] = (e & 1 ? 0.5f : -0.5f) * size.raw[(axis + 1) % 3];
+        middle.raw[(axis + 2) % 3] = (e & 2 ? 0.5f : -0.5f) * size.raw[(axis + 2) % 3];
         right[e] = glms_vec3_dot(axes.right, middle);
         up[e] = glms_vec3_dot(axes.up, middle);
         depth[e] = glms_vec3_dot(axes.back, middle);

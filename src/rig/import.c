@@ -1,12 +1,14 @@
-/// Makes scenes for glTF characters.
+/// Makes scenes for glTF characters, and chains of their bones; opens and solves scenes for commands.
 #include "rig/import.h"
 #include "base/file.h"
 #include "base/need.h"
 #include "maths/maths.h"
 #include "model/character.h"
-#include "rig/posing.h"
+#include "rig/strand.h"
 #include "scene/edit.h"
+#include "scene/load.h"
 #include "scene/pins.h"
+#include <ctype.h>
 #include <fcntl.h>
 #include <math.h>
 #include <stdio.h>
@@ -20,10 +22,10 @@ static const double SLOWEST_RATE = 0.01; ///< frames a second of the longest cli
 static const double NEAR = 0.01;         ///< frames between a key and the frame that it counts for
 static const double SMALLEST = 0.3, LARGEST = 4, USUAL = 1.6; ///< metres: characters between these keep their size
 
-/// Whether a file begins like a .glb, whatever its name.
-static bool is_glb(const char *path)
+bool import_suits(const char *path)
 {
-    char start[4] = "";
+    if (path_has_end(path, ".glb") || path_has_end(path, ".gltf") || path_has_end(path, ".fbx")) return true;
+    char start[4] = "";                                             // of a .glb, whatever its name
     const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC); // a FIFO would wait for a writer
     if (file < 0) return false;
     const bool is_read = read(file, start, sizeof start) == sizeof start;
@@ -31,26 +33,8 @@ static bool is_glb(const char *path)
     return is_read && memcmp(start, "glTF", sizeof start) == 0;
 }
 
-bool import_suits(const char *path)
-{
-    return path_has_end(path, ".glb") || path_has_end(path, ".gltf") || path_has_end(path, ".fbx") || is_glb(path);
-}
-
 /// How far a time may be from its frame, in frames: keys have single precision.
 static double near_frame(double time, double fps) { return NEAR + 1.2e-7 * fabs(time) * fps; }
-
-/// Number of a clip's keys that are whole frames after its first.
-static int keys_on_frames(const struct gltf_clip *clip, double fps)
-{
-    int count = 0;
-    for (int c = 0; c < clip->channel_count; c++) {
-        for (int k = 0; k < clip->channels[c].key_count; k++) {
-            const double time = (double)clip->channels[c].times[k], frame = (time - clip->first) * fps;
-            count += fabs(frame - round(frame)) < near_frame(time, fps);
-        }
-    }
-    return count;
-}
 
 /// The first of some usual rates, and the one of its densest channel, that has most of a clip's keys on frames.
 static double frame_rate(const struct gltf_clip *clip)
@@ -67,22 +51,18 @@ static double frame_rate(const struct gltf_clip *clip)
     const double whole = fabs(many - round(many)) < 1e-5 * many ? round(many) : many;
     for (int r = 0; r <= USUAL_RATES; r++) {
         const double rate = r < USUAL_RATES ? usual[r] : whole;
-        const int count = rate <= SCENE_MAX_FPS ? keys_on_frames(clip, rate) : 0;
+        int count = 0; // keys that are whole frames after the clip's first
+        for (int c = 0; c < clip->channel_count && rate <= SCENE_MAX_FPS; c++) {
+            for (int k = 0; k < clip->channels[c].key_count; k++) {
+                const double time = (double)clip->channels[c].times[k], frame = (time - clip->first) * rate;
+                count += fabs(frame - round(frame)) < near_frame(time, rate);
+            }
+        }
         if (count <= most) continue;
         most = count;
         best = rate;
     }
     return best;
-}
-
-/// The scale, to one digit, that gives a tiny or huge character the usual size; else 1.
-static double scale_of(const struct gltf *gltf)
-{
-    double size = 0;
-    for (int k = 0; k < 3; k++) size = fmax(size, (double)(gltf->hi[k] - gltf->lo[k]));
-    if (!(size > 0) || (size >= SMALLEST && size <= LARGEST)) return 1;
-    const double scale = USUAL / size, digit = maths_power_of_ten(maths_decade(scale));
-    return round(scale / digit) * digit;
 }
 
 /// Gives a document the frame rate and the range of a clip, from its first key or just before it to its last or just after; of one that loops,
@@ -122,43 +102,40 @@ static bool fit_to_clip(struct document *document, int rig, const struct gltf_cl
     return true;
 }
 
-/// A coordinate's spline: the given one, or a new one with the coordinate's frequency and damping and a knot at frame 0.
-static int spline_for(struct document *document, int spline, const struct coordinate *coordinate, struct error *error)
-{
-    const struct {
-        enum parameter parameter;
-        double value;
-    } swing[] = {{PARAMETER_FREQUENCY, round(coordinate->frequency * 100) / 100},
-                 {PARAMETER_DAMPING, round(coordinate->damping * 1000) / 1000}};
-    if (spline >= 0) return spline;
-    const int added = document->spline_count;
-    const struct knot first = {.frame = document->first_frame, .value = 0.5}; // so that it swings at once
-    if (!edit_spline_add(document, -1, NULL, &first, error)) return -1;
-    for (size_t i = 0; i < sizeof swing / sizeof swing[0]; i++) {
-        const struct param value = param_number(swing[i].value);
-        if (swing[i].value > 0 && !edit_parameter(document, added, swing[i].parameter, &value, error)) return -1;
-    }
-    return added;
-}
-
-/// A soft character, its first coordinate driven.
+/// A soft character. Its first coordinate is driven by a spline: -1: a new one, with the coordinate's frequency and damping and a first knot.
 static bool add_soft(struct document *document, char *file, int spline, const struct character *character,
                      struct error *error)
 {
     const struct coordinate *first = &character->coordinates[0];
-    const int driver = spline_for(document, spline, first, error);
-    struct drive drive = {.name = first->name, .spline = driver, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+    if (spline < 0) {
+        const struct knot start = {.frame = document->first_frame, .value = 0.5}; // so that it swings at once
+        const struct param frequency = param_number(round(first->frequency * 100) / 100),
+                           damping = param_number(round(first->damping * 1000) / 1000);
+        spline = document->spline_count;
+        if (!edit_spline_add(document, -1, NULL, &start, error)) return false;
+        if (frequency.value > 0 && !edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error))
+            return false;
+        if (damping.value > 0 && !edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error)) return false;
+    }
+    struct drive drive = {.name = first->name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
     const struct rig rig = {.kind = RIG_CHARACTER,
                             .character = {.model = file, .phases = -1, .drives = &drive, .drive_count = 1}};
-    return driver >= 0 && edit_rig_add(document, &rig, error);
+    return edit_rig_add(document, &rig, error);
 }
 
 /// A stiff character, or one with bones. An empty document takes the clip's frame rate and range.
 static bool add_imported(struct document *document, char *file, const struct gltf *gltf, struct error *error)
 {
     const struct gltf_clip *clip = gltf->clip_count > 0 ? &gltf->clips[0] : NULL;
-    const struct rig rig = {.kind = RIG_MODEL,
-                            .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = scale_of(gltf)}};
+    struct rig rig = {.kind = RIG_MODEL, .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = 1}};
+
+    // A tiny or huge character gets the usual size, by a scale of one digit.
+    double size = 0;
+    for (int k = 0; k < 3; k++) size = fmax(size, (double)(gltf->hi[k] - gltf->lo[k]));
+    if (size > 0 && !(size >= SMALLEST && size <= LARGEST)) {
+        const double scale = USUAL / size, digit = maths_power_of_ten(maths_decade(scale));
+        rig.model.scale = round(scale / digit) * digit;
+    }
     if (document->spline_count == 0 && document->rig_count == 0) {
         if (!set_range(document, &rig.model, clip, error)) return false;
     }
@@ -202,23 +179,20 @@ static bool set_clip(struct document *document, int rig, const char *clip, enum 
     return done;
 }
 
-/// Whether nothing in the scene belongs to a frame: there are no knots or pins, and no splines or some that follow the clip.
-static bool is_of_clip(const struct document *document)
-{
-    bool follows = document->spline_count == 0;
-    for (int s = 0; s < document->spline_count; s++) {
-        if (document->splines[s]->knot_count > 0) return false;
-        follows = follows || follows_clip(document->splines[s]);
-    }
-    return follows && pins_count(document) == 0;
-}
-
 bool import_choose_clip(struct document *document, int rig, const struct gltf *gltf, const char *clip,
                         enum clip_repeat repeat, struct error *error)
 {
     const int found = gltf_find_clip(gltf, clip);
     if (!set_clip(document, rig, clip, repeat, error)) return false;
-    return found < 0 || !is_of_clip(document) || fit_to_clip(document, rig, &gltf->clips[found], error);
+
+    // The frames are the clip's if nothing belongs to one: there are no knots or pins, and no splines or some that follow the clip.
+    bool follows = document->spline_count == 0, has_knots = false;
+    for (int s = 0; s < document->spline_count; s++) {
+        has_knots |= document->splines[s]->knot_count > 0;
+        follows |= follows_clip(document->splines[s]);
+    }
+    return found < 0 || has_knots || !follows || pins_count(document) > 0 ||
+           fit_to_clip(document, rig, &gltf->clips[found], error);
 }
 
 /// Removes knots and pins that were set for another clip.
@@ -244,4 +218,222 @@ struct document *import_with_clip(const struct document *document, int rig, cons
         return copy;
     document_destroy(copy);
     return NULL;
+}
+
+// --- chains
+
+static const double USUAL_LENGTH = 0.5, USUAL_FREQUENCY = 1.5; ///< longer chains swing slower, like a pendulum
+static const double SLOWEST = 0.8, FASTEST = 3.5, USUAL_DAMPING = 0.12;
+static const double WHOLE_LAG = 110;  ///< degrees from the first bone to the tip
+static const double WHOLE_BEND = 110; ///< degrees for 1 of a spline whose knots plan_set it
+static const double DEGREES = 57.29577951308232;
+static const double SHORTEST = 1e-3; ///< of the character's size; less cannot be bent
+static const double LEAF = 0.03;     ///< of that size: length of a bone without a child, at least
+
+/// The diagonal of the character's box, metres.
+static double size_of(const struct imported *imported, double scale)
+{
+    double square = 0;
+    for (int k = 0; k < 3; k++) square += pow((double)imported->gltf.hi[k] - (double)imported->gltf.lo[k], 2);
+    return scale * sqrt(square);
+}
+
+/// Length along the bones at rest, metres.
+static double length_of(const struct imported *imported, const struct chain_bones *bones, double scale)
+{
+    float point[ANGLES_MAX_JOINTS + 1][3];
+    double sum = 0;
+    chain_points_at_rest(imported, bones, point);
+    for (int n = 1; n <= bones->count; n++) {
+        const float *a = point[n - 1], *b = point[n];
+        sum += maths_hypot(maths_hypot((double)(b[0] - a[0]), (double)(b[1] - a[1])), (double)(b[2] - a[2]));
+    }
+    const bool is_leaf = bones->count == 1 && imported->gltf.nodes[bones->node[0]].child < 0; // its tip is a guess
+    return is_leaf ? fmax(scale * sum, LEAF * size_of(imported, scale)) : scale * sum;
+}
+
+double chain_bend_a_metre(const struct imported *imported, const struct chain_bones *bones, double scale)
+{
+    // A bend of g at each of n bones moves the tip by g · length · (n + 1) / 2.
+    const double length = fmax(length_of(imported, bones, scale), fmax(SHORTEST * size_of(imported, scale), 1e-6));
+    return DEGREES * 2 / (length * (bones->count + 1));
+}
+
+/// Properties shared by all splines of a new chain.
+struct plan {
+    struct document *document;
+    const struct chain_wish *wish;
+    char *model; ///< its name, else its file
+    bool by_file;
+    char *chain, *from, *to; ///< the names of the chain, its first bone and its last
+    double frequency, damping;
+    bool loops;
+};
+
+static bool plan_set(const struct plan *plan, int spline, enum parameter parameter, struct param param,
+                     struct error *error)
+{
+    return edit_parameter(plan->document, spline, parameter, &param, error);
+}
+
+/// Appends a spline for one axis.
+static bool add_spline(const struct plan *plan, const char *axis, struct error *error)
+{
+    char *name;
+    const int spline = plan->document->spline_count;
+    if (asprintf(&name, "%s %s", plan->chain, axis) < 0) need_failed();
+    const bool added = edit_spline_add(plan->document, spline, name, NULL, error);
+    free(name);
+    return added && plan_set(plan, spline, PARAMETER_FREQUENCY, param_number(plan->frequency), error) &&
+           plan_set(plan, spline, PARAMETER_DAMPING, param_number(plan->damping), error) &&
+           plan_set(plan, spline, PARAMETER_START, param_number(plan->loops ? WIGGLY_LOOP : WIGGLY_REST), error);
+}
+
+/// Makes a spline's equilibrium follow the stiff chain's tip through the clip.
+static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, struct error *error)
+{
+    struct joint_motion motion = {
+        .model = plan->model, .by_file = plan->by_file, .joint = plan->to, .of = of, .gain = 1, .chain = plan->chain};
+    const struct param equilibrium = {.track = -1, .motion = &motion};
+    return plan_set(plan, spline, PARAMETER_EQUILIBRIUM, equilibrium, error);
+}
+
+static bool add_chain(const struct plan *plan, const struct chain *chain, int *rig, struct error *error)
+{
+    const struct rig contents = {.kind = RIG_CHAIN, .name = plan->chain, .chain = *chain};
+    *rig = plan->document->rig_count;
+    return edit_rig_add(plan->document, &contents, error);
+}
+
+/// Adds two splines, and a chain of `bones` bones that each bend by `bend` degrees.
+static bool add_whole(const struct plan *plan, struct chain *chain, int bones, double bend, int *rig,
+                      struct error *error)
+{
+    const struct chain_wish *wish = plan->wish;
+    struct channel channels[2];
+    for (int c = 0; c < 2; c++) {
+        channels[c] = (struct channel){.spline = plan->document->spline_count + c,
+                                       .axis = c == 0 ? AXIS_SIDE : AXIS_UP,
+                                       .of = wish->follows ? PART_DISPLACEMENT : PART_TOTAL,
+                                       .lag.value = {wish->lag > 0 ? wish->lag : round(WHOLE_LAG / bones)},
+                                       .gain.value = {round(10 * bend) / 10}};
+    }
+    chain->channels = channels;
+    chain->channel_count = 2;
+    const int first = channels[0].spline;
+    if (!add_spline(plan, "side", error) || !add_spline(plan, "up", error) || !add_chain(plan, chain, rig, error))
+        return false;
+    return !wish->follows ||
+           (follow_tip(plan, first, MOTION_ACROSS, error) && follow_tip(plan, first + 1, MOTION_UP, error));
+}
+
+bool chain_make(struct document *document, const struct models *models, const struct chain_wish *wish, int *rig,
+                struct error *error)
+{
+    const struct rig *model = document->rigs[wish->model];
+    const struct imported *imported = models_imported(models, document, wish->model);
+    struct chain_bones bones;
+    if (!imported)
+        return fail(error, ERROR_INPUT, "%s: it could not be read, so it has no bones", model->model.model);
+    const struct gltf *gltf = &imported->gltf;
+    const int from = gltf_find_node(gltf, wish->from);
+    const int last = wish->to || from < 0 ? -1 : chain_end(imported, from, error);
+    if (from >= 0 && !wish->to && last < 0) return false;
+    const char *to = wish->to ? wish->to : last < 0 ? wish->from : gltf->nodes[last].name;
+    if (!chain_find(gltf, wish->from, to, &bones, error)) return false;
+    const int clip = gltf_find_clip(gltf, model->model.clip);
+    struct clip_play play = {0};
+    if (clip >= 0) play = clip_play(&model->model, &gltf->clips[clip]);
+    const double length = length_of(imported, &bones, model->model.scale);
+    if (!(length > SHORTEST * size_of(imported, model->model.scale)))
+        return fail(error, ERROR_INPUT,
+                    "%s: the bones \"%s\" to \"%s\" lie at one place, so there is nothing to bend: choose others",
+                    model->model.model, wish->from, to);
+    const double frequency = fmin(fmax(USUAL_FREQUENCY * sqrt(USUAL_LENGTH / length), SLOWEST), FASTEST);
+
+    // The first bone's name without the number at the end, made unique.
+    char other[BONE_NAME_SIZE], *stem = need_text(wish->from);
+    const bool has_side = bone_other_side(wish->from, other); // ear_1_L keeps its whole name
+    size_t letters = strlen(stem);
+    while (!has_side && letters > 1 && isdigit((unsigned char)stem[letters - 1])) letters--;
+    while (!has_side && letters > 1 && strchr("_-. ", stem[letters - 1])) letters--;
+    stem[letters] = '\0';
+    char *name = edit_rig_free_name(document, stem);
+    free(stem);
+
+    const struct plan plan = {.document = document,
+                              .wish = wish,
+                              .model = model->name ? model->name : model->model.model,
+                              .by_file = !model->name,
+                              .chain = name,
+                              .from = gltf->nodes[bones.node[0]].name,
+                              .to = gltf->nodes[bones.node[bones.count - 1]].name,
+                              .frequency = wish->frequency > 0 ? wish->frequency : round(10 * frequency) / 10,
+                              .damping = wish->damping > 0 ? wish->damping : USUAL_DAMPING,
+                              .loops = document_loops(document) || posing_clip_loops(document, &play)};
+    struct chain chain = {.model = plan.model, .by_file = plan.by_file, .from = plan.from, .to = plan.to};
+    const struct chain *twin = NULL;
+    for (int r = -1; has_side && !wish->own && !twin && (r = document_next_chain(document, wish->model, r)) >= 0;) {
+        if (strcmp(document->rigs[r]->chain.from, other) == 0) twin = &document->rigs[r]->chain;
+    }
+    const double bend =
+        wish->follows ? chain_bend_a_metre(imported, &bones, model->model.scale) : WHOLE_BEND / bones.count;
+    bool done;
+    if (twin) {
+        chain.turn = -twin->turn;
+        chain.mirror = !twin->mirror;
+        chain.channels = twin->channels;
+        chain.channel_count = twin->channel_count;
+        done = add_chain(&plan, &chain, rig, error);
+    } else {
+        done = add_whole(&plan, &chain, bones.count, bend, rig, error);
+    }
+    free(name);
+    return done;
+}
+
+// --- opened for a command
+
+static bool read_models(struct opened *opened, struct error *error)
+{
+    opened->models = models_create();
+    if (scene_read_paint(opened->document, error) && models_update(opened->models, opened->document, error))
+        return true;
+    opened_free(opened);
+    return false;
+}
+
+bool opened_read_splines(struct opened *opened, const char *path, struct error *error)
+{
+    *opened =
+        (struct opened){.document = import_suits(path) ? import_scene(path, error) : scene_load(path, NULL, error)};
+    if (!opened->document) return false;
+    document_note_models(opened->document);
+    const bool needs_models = document_has_motions(opened->document) || pins_hold_any(opened->document);
+    return !needs_models || read_models(opened, error);
+}
+
+bool opened_read(struct opened *opened, const char *path, struct error *error)
+{
+    return opened_read_splines(opened, path, error) && (opened->models || read_models(opened, error));
+}
+
+void opened_solve(struct opened *opened, enum solver_choice solver)
+{
+    opened->evaluation.solver = solver;
+    opened->evaluation.models = models_source(opened->models);
+    evaluation_update(&opened->evaluation, opened->document, false);
+}
+
+void opened_free(struct opened *opened)
+{
+    evaluation_free(&opened->evaluation);
+    models_destroy(opened->models);
+    document_destroy(opened->document);
+    *opened = (struct opened){0};
+}
+
+struct posing opened_posing(const struct opened *opened)
+{
+    return (struct posing){.document = opened->document, .evaluation = &opened->evaluation, .models = opened->models};
 }

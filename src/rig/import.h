@@ -1,9 +1,9 @@
-/// A scene for a glTF character: it stands on the stage and plays its first clip.
+/// Scenes for glTF characters: one stands on the stage and plays its first clip; chains of its bones, with splines and channels that suit its size.
+/// And scenes opened for commands.
 #ifndef RIG_IMPORT_H
 #define RIG_IMPORT_H
 
-#include "model/gltf.h"
-#include "scene/document.h"
+#include "rig/posing.h"
 
 /// Whether a file is a character: by its name, .glb or .gltf, or by its first bytes.
 bool import_suits(const char *path);
@@ -25,5 +25,51 @@ bool import_choose_clip(struct document *document, int rig, const struct gltf *g
 /// splines that follow the clip, because those were set for the first clip. NULL with a sentence.
 struct document *import_with_clip(const struct document *document, int rig, const struct gltf *gltf, int clip,
                                   struct error *error);
+
+// --- chains
+
+/// A request for a chain; numbers that are 0 are chosen by its length.
+struct chain_wish {
+    int model;        ///< index of the model rig
+    const char *from; ///< its first bone
+    const char *to;   ///< its last; NULL: the only way down to a tip
+    bool own;         ///< it shares no splines with its twin
+    bool follows;     ///< its splines' equilibria follow its tip through the clip, so that it swings without knots
+    double frequency; ///< Hz
+    double damping;   ///< ratio
+    double lag;       ///< degrees a bone
+};
+
+/// Adds the chain and its splines (side and up). If its twin on the other side, by the bones' names, is already a chain, it shares the twin's
+/// splines, mirrored, unless the request is for its own. `rig` receives its index. After a failure some of its splines may remain: the caller
+/// undoes them.
+bool chain_make(struct document *document, const struct models *models, const struct chain_wish *wish, int *rig,
+                struct error *error);
+
+/// Degrees that each of its bones must bend to move the tip by a metre; `scale`: the character's.
+double chain_bend_a_metre(const struct imported *imported, const struct chain_bones *bones, double scale);
+
+// --- opened for a command
+
+/// A scene: the document, its models, and its splines solved.
+struct opened {
+    struct document *document;
+    struct models *models;
+    struct evaluation evaluation;
+};
+
+/// Reads a scene, or makes one for a glTF character, and reads its models and paint. On failure nothing is left to free.
+bool opened_read(struct opened *opened, const char *path, struct error *error);
+
+/// The same for commands that need only the splines: models are read only if an equilibrium follows a joint or a point is pinned.
+bool opened_read_splines(struct opened *opened, const char *path, struct error *error);
+
+/// Solves all splines, with the motions that they follow; again after edits.
+void opened_solve(struct opened *opened, enum solver_choice solver);
+
+void opened_free(struct opened *opened);
+
+/// The context for posing its rigs.
+struct posing opened_posing(const struct opened *opened);
 
 #endif

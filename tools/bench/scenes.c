@@ -2,7 +2,7 @@
 #include "base/error.h"
 #include "base/need.h"
 #include "bench/bench.h"
-#include "rig/opened.h"
+#include "rig/import.h"
 #include "scene/evaluate.h"
 #include <glob.h>
 #include <math.h>

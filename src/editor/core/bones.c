@@ -3,7 +3,6 @@
 #include "base/names.h"
 #include "base/need.h"
 #include "editor/core/core.h"
-#include "rig/chain_make.h"
 #include "rig/import.h"
 #include "rig/models.h"
 #include <math.h>
