@@ -60,8 +60,44 @@ static bool is_hidden(const struct gltf *gltf, const struct skeleton *skeleton, 
     return !seen;
 }
 
-static void skeleton_create(struct imported *imported)
+void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3])
 {
+    vec3s end = bone->child >= 0 ? place_of(pose, bone->child)
+                                 : glms_mat4_mulv3(mat4_from(pose->world[bone->node]), vec3_from(bone->tip), 1.0f);
+    memcpy(ends[0], pose->world[bone->from] + 12, sizeof ends[0]);
+    memcpy(ends[1], end.raw, sizeof ends[1]);
+}
+
+bool imported_back(const struct imported *imported, float back[2])
+{
+    const struct gltf *gltf = &imported->gltf;
+    const float *lo = gltf->lo, *hi = gltf->hi;
+    float farthest = BESIDE * (hi[2] - lo[2]);
+    bool found = false;
+    for (int b = 0; b < imported->skeleton.count; b++) {
+        const struct bone *bone = &imported->skeleton.bones[b];
+        float ends[2][3];
+        if (!strcasestr(gltf->nodes[bone->node].name, "tail")) continue;
+        skeleton_ends(bone, &imported->rest, ends);
+        const float x = ends[1][0] - 0.5f * (lo[0] + hi[0]), z = ends[1][2] - 0.5f * (lo[2] + hi[2]);
+        if (maths_hypotf(x, z) <= farthest) continue;
+        farthest = maths_hypotf(x, z);
+        back[0] = x;
+        back[1] = z;
+        found = true;
+    }
+    if (found) return true;
+    back[0] = 0;
+    back[1] = -1;
+    return gltf->skin_count > 0 && hi[2] - lo[2] > hi[0] - lo[0];
+}
+
+bool imported_complete(struct imported *imported)
+{
+    if (!gltf_pose_create(&imported->gltf, &imported->rest) ||
+        !gltf_bounds_create(&imported->gltf, &imported->bounds))
+        return false;
+
     const struct gltf *gltf = &imported->gltf;
     const struct gltf_bounds *bounds = &imported->bounds;
     const size_t count = (size_t)gltf->node_count + 1;
@@ -113,46 +149,6 @@ static void skeleton_create(struct imported *imported)
         }
     }
     free(is_bone);
-}
-
-void skeleton_ends(const struct bone *bone, const struct gltf_pose *pose, float ends[2][3])
-{
-    vec3s end = bone->child >= 0 ? place_of(pose, bone->child)
-                                 : glms_mat4_mulv3(mat4_from(pose->world[bone->node]), vec3_from(bone->tip), 1.0f);
-    memcpy(ends[0], pose->world[bone->from] + 12, sizeof ends[0]);
-    memcpy(ends[1], end.raw, sizeof ends[1]);
-}
-
-bool imported_back(const struct imported *imported, float back[2])
-{
-    const struct gltf *gltf = &imported->gltf;
-    const float *lo = gltf->lo, *hi = gltf->hi;
-    float farthest = BESIDE * (hi[2] - lo[2]);
-    bool found = false;
-    for (int b = 0; b < imported->skeleton.count; b++) {
-        const struct bone *bone = &imported->skeleton.bones[b];
-        float ends[2][3];
-        if (!strcasestr(gltf->nodes[bone->node].name, "tail")) continue;
-        skeleton_ends(bone, &imported->rest, ends);
-        const float x = ends[1][0] - 0.5f * (lo[0] + hi[0]), z = ends[1][2] - 0.5f * (lo[2] + hi[2]);
-        if (maths_hypotf(x, z) <= farthest) continue;
-        farthest = maths_hypotf(x, z);
-        back[0] = x;
-        back[1] = z;
-        found = true;
-    }
-    if (found) return true;
-    back[0] = 0;
-    back[1] = -1;
-    return gltf->skin_count > 0 && hi[2] - lo[2] > hi[0] - lo[0];
-}
-
-bool imported_complete(struct imported *imported)
-{
-    if (!gltf_pose_create(&imported->gltf, &imported->rest) ||
-        !gltf_bounds_create(&imported->gltf, &imported->bounds))
-        return false;
-    skeleton_create(imported);
     return true;
 }
 
@@ -304,8 +300,8 @@ static void file_destroy(struct model_file *file)
 }
 
 /// The model in a file, read again only if the file has changed; NULL and an error if it cannot be read.
-static const struct model_file *obtain(struct model_files *files, const char *path, enum model_kind kind,
-                                       struct error *error)
+static const struct model_file *read_model(struct model_files *files, const char *path, enum model_kind kind,
+                                           struct error *error)
 {
     struct stat about = {0};
     const bool is_there = stat(path, &about) == 0;
@@ -415,7 +411,8 @@ bool models_paint_fits(const struct paint *paint, const struct figure *figure)
            paint->vertices == figure->character.vertex_count;
 }
 
-static bool resolve(const struct document *document, const char *model, char path[PATH_LIMIT], struct error *error)
+static bool resolve_model(const struct document *document, const char *model, char path[PATH_LIMIT],
+                          struct error *error)
 {
     return path_resolve(document->folder, model, path) || fail(error, ERROR_INPUT, "%s: the path is too long", model);
 }
@@ -438,8 +435,8 @@ static const struct figure *find_figure(struct models *models, const struct docu
 {
     const struct character_rig *rig = &of->character;
     char path[PATH_LIMIT];
-    if (!resolve(document, rig->model, path, error)) return NULL;
-    const struct model_file *file = obtain(&models->files, path, MODEL_FIGURE, error);
+    if (!resolve_model(document, rig->model, path, error)) return NULL;
+    const struct model_file *file = read_model(&models->files, path, MODEL_FIGURE, error);
     const struct figure *figure = file ? &file->figure : NULL;
     if (!figure) return NULL;
     const struct character *c = &figure->character;
@@ -478,8 +475,8 @@ static bool place_model(struct models *models, const struct document *document, 
 {
     char path[PATH_LIMIT];
     *placed = (struct placed_model){.path = need_text(rig->model)};
-    if (!resolve(document, rig->model, path, error)) return false;
-    const struct model_file *file = obtain(&models->files, path, MODEL_IMPORTED, error);
+    if (!resolve_model(document, rig->model, path, error)) return false;
+    const struct model_file *file = read_model(&models->files, path, MODEL_IMPORTED, error);
     if (!file) return false;
     if (!make_poses(placed, &file->imported)) return fail_no_memory(error, rig->model);
     const struct gltf *gltf = &file->imported.gltf;

@@ -197,7 +197,7 @@ struct smoothing {
     double ring[2 * SCENE_MAX_SUBSTEPS]; ///< samples around the next one
 };
 
-static double *raw(struct smoothing *smoothing, int sample)
+static double *smoothing_at(struct smoothing *smoothing, int sample)
 {
     const int size = 2 * smoothing->substeps;
     return &smoothing->ring[((sample % size) + size) % size];
@@ -208,7 +208,7 @@ static void sample_raw(struct smoothing *smoothing, const struct document *docum
 {
     const int end = document_samples(document) - 1;
     const int held = followed->play.loops ? sample : sample < 0 ? 0 : sample > end ? end : sample;
-    *raw(smoothing, sample) = followed_at(followed, posing_clip_time(document, held, &followed->play));
+    *smoothing_at(smoothing, sample) = followed_at(followed, posing_clip_time(document, held, &followed->play));
 }
 
 bool clip_follow(void *context, const struct document *document, const struct joint_motion *motion, double *samples)
@@ -243,7 +243,7 @@ bool clip_follow(void *context, const struct document *document, const struct jo
         }
         sample_raw(&smoothing, document, &followed, s + substeps - 1);
         double sum = 0;
-        for (int k = 1 - substeps; k < substeps; k++) sum += (substeps - abs(k)) * *raw(&smoothing, s + k);
+        for (int k = 1 - substeps; k < substeps; k++) sum += (substeps - abs(k)) * *smoothing_at(&smoothing, s + k);
         samples[s] = sum / substeps / substeps - mean;
     }
     return true;

@@ -38,7 +38,7 @@ void chain_points_at_rest(const struct imported *imported, const struct chain_bo
 }
 
 /// The unit vector from the first bone to the tip at rest.
-static vec3s direction(const struct imported *imported, const struct chain_bones *bones)
+static vec3s chain_direction(const struct imported *imported, const struct chain_bones *bones)
 {
     float point[ANGLES_MAX_JOINTS + 1][3];
     chain_points_at_rest(imported, bones, point);
@@ -55,7 +55,7 @@ static vec3s perpendicular(vec3s vector, vec3s along)
 /// The side axis without a turn.
 static vec3s side_of(const struct imported *imported, const struct chain_bones *bones)
 {
-    const vec3s up = {.raw = {0, 1, 0}}, front = {.raw = {0, 0, 1}}, along = direction(imported, bones);
+    const vec3s up = {.raw = {0, 1, 0}}, front = {.raw = {0, 0, 1}}, along = chain_direction(imported, bones);
     return perpendicular(fabsf(glms_vec3_dot(along, up)) > UPRIGHT ? front : up, along);
 }
 
@@ -64,7 +64,7 @@ struct chain_axes chain_axes_at_rest(const struct imported *imported, const stru
 {
     struct chain_bones twin;
     const bool has_twin = chain->mirror && chain_find_twin(&imported->gltf, chain->from, chain->to, &twin);
-    const vec3s along = direction(imported, bones);
+    const vec3s along = chain_direction(imported, bones);
     vec3s straight = side_of(imported, bones);
     if (has_twin) { // The mirror image of the twin's. Both use the same one of up and front; back mirrors front if they are apart along z.
         const vec3s apart = glms_vec3_sub(place_of(imported->rest.world[bones->node[0]]),
@@ -316,7 +316,8 @@ bool path_find(const struct posing *posing, int rig, double position, const stru
     return true;
 }
 
-const double *path_end(const struct path *path, int joint)
+/// The end of the strand's joint in the world.
+static const double *path_end(const struct path *path, int joint)
 {
     const int next = path->first + joint + 1;
     return next < path->count ? path->nodes[next].at : path->end;

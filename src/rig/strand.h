@@ -70,9 +70,6 @@ struct path {
 bool path_find(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                struct path *path);
 
-/// The end of the strand's joint in the world.
-const double *path_end(const struct path *path, int joint);
-
 /// Finds the arms of all nodes up to one of the strand's joints, to that joint's end.
 void path_arms(struct path *path, int joint);
 

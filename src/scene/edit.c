@@ -656,22 +656,7 @@ bool edit_rig_remove(struct document *document, int rig, struct error *error)
     return true;
 }
 
-/// Whether a chain or a spline refers to a model by that file. A rig with that name would take its place.
-static bool is_file_of_any(const struct document *document, const char *name)
-{
-    bool any = false;
-    for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = document->rigs[r];
-        any |= rig->kind == RIG_CHAIN && rig->chain.by_file && strcmp(rig->chain.model, name) == 0;
-    }
-    for (int s = 0; s < document->spline_count; s++) {
-        const struct joint_motion *motion = motion_of_spline(document, s);
-        any |= motion && motion->by_file && strcmp(motion->model, name) == 0;
-    }
-    return any;
-}
-
-static void take(struct names *names, const char *name)
+static void take_name(struct names *names, const char *name)
 {
     if (name && !names_has(names, name)) names_add(names, name);
 }
@@ -681,12 +666,12 @@ char *edit_rig_free_name(const struct document *document, const char *wanted)
     struct names names = {0};
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
-        take(&names, rig->name);
-        if (rig->kind == RIG_CHAIN && rig->chain.by_file) take(&names, rig->chain.model);
+        take_name(&names, rig->name);
+        if (rig->kind == RIG_CHAIN && rig->chain.by_file) take_name(&names, rig->chain.model);
     }
     for (int s = 0; s < document->spline_count; s++) {
         const struct joint_motion *motion = motion_of_spline(document, s);
-        if (motion && motion->by_file) take(&names, motion->model);
+        if (motion && motion->by_file) take_name(&names, motion->model);
     }
     char *name = need_text(names_add(&names, wanted));
     names_free(&names);
@@ -710,7 +695,18 @@ bool edit_rig_name(struct document *document, int rig, const char *name, struct 
         if (r != rig && other && strcmp(other, name) == 0)
             return fail(error, ERROR_INPUT, "there is a rig called %s already", name);
     }
-    if (kind == RIG_MODEL && is_file_of_any(document, name))
+
+    // A rig with that name would take the place of a file by which a chain or a spline refers to a model.
+    bool is_file = false;
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *chain = document->rigs[r];
+        is_file |= chain->kind == RIG_CHAIN && chain->chain.by_file && strcmp(chain->chain.model, name) == 0;
+    }
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct joint_motion *motion = motion_of_spline(document, s);
+        is_file |= motion && motion->by_file && strcmp(motion->model, name) == 0;
+    }
+    if (kind == RIG_MODEL && is_file)
         return fail(error, ERROR_INPUT, "expected a name that is no model's file, got %s", name);
     char *const old = document->rigs[rig]->name ? need_text(document->rigs[rig]->name) : NULL;
     if (old && strcmp(old, name) == 0) {

@@ -308,7 +308,7 @@ static void pinned_resize(struct evaluation *evaluation, const struct document *
 }
 
 /// Computes the weights of splines that are new in a group, or of all.
-static void weigh(struct pinned *pinned, bool all)
+static void weigh_splines(struct pinned *pinned, bool all)
 {
     const struct document *document = pinned->document;
     const struct model_source *source = &pinned->evaluation->models;
@@ -350,7 +350,7 @@ static bool pinned_begin(struct evaluation *evaluation, const struct document *d
     const bool anew = serves != pinned->served || pinned->version != evaluation->models.version;
     const bool differs = anew || rigs_differ(pinned, false);
     for (int s = 0; s < count && differs; s++) storage->state[s].forced |= pinned->was[s] || pinned->which[s] >= 0;
-    weigh(pinned, anew || rigs_differ(pinned, true));
+    weigh_splines(pinned, anew || rigs_differ(pinned, true));
     for (int s = 0; s < count; s++) pinned->was[s] = pinned->which[s] >= 0;
     pinned->served = serves;
     pinned->version = evaluation->models.version;
@@ -360,18 +360,6 @@ static bool pinned_begin(struct evaluation *evaluation, const struct document *d
         return false;
     for (int s = 0; s < count; s++) pinned->placed[s] = false;
     return true;
-}
-
-/// Makes a group the current one. Returns whether something solved in this update moves it.
-static bool pinned_take(struct pinned *pinned, int which)
-{
-    const struct evaluation *evaluation = pinned->evaluation;
-    bool moved = false;
-    pinned->group = which;
-    pin_groups_find_bases(pinned->document, pinned->which, which, pinned->bases);
-    for (int s = 0; s < evaluation->count; s++)
-        moved |= pinned->bases[s] && pinned->placed[s] && evaluation->storage->state[s].solved;
-    return moved;
 }
 
 /// Finds a pin's point on the present curves and, unless `c` is NULL, the members' pulls on it.
@@ -769,28 +757,6 @@ static bool pinned_solve(struct pinned *pinned, wiggly_status *status)
     return *status < WIGGLY_ERROR_ARGUMENT;
 }
 
-/// Measures the remaining offsets of all pins.
-static void pinned_measure(struct pinned *pinned)
-{
-    const struct document *document = pinned->document;
-    pinned->left_count = 0;
-    if (!pinned->solver || !pinned->evaluation->models.find) return;
-    for (int r = 0; r < document->rig_count; r++) {
-        for (int i = 0; i < document->rigs[r]->pin_count; i++) {
-            const struct pin *pin = &document->rigs[r]->pins[i];
-            struct pin_left *left = &pinned->left[pinned->left_count++];
-            struct pin_point now;
-            *left = (struct pin_left){.is_found = find_point(pinned, r, pin, NULL, &now)};
-            if (!left->is_found) continue;
-            left->size = now.size;
-            for (int k = 0; k < 3; k++) {
-                left->at[k] = now.at[k];
-                left->way[k] = pin->to[k] - now.at[k];
-            }
-        }
-    }
-}
-
 const struct pin_left *evaluation_pin(const struct evaluation *evaluation, const struct document *document, int rig,
                                       int pin)
 {
@@ -823,7 +789,7 @@ static void free_storage(struct evaluation *evaluation)
 }
 
 /// Makes room for the document's splines.
-static void resize(struct evaluation *evaluation, const struct document *document)
+static void make_room(struct evaluation *evaluation, const struct document *document)
 {
     const int splines = document->spline_count, samples = document_samples(document);
     int needed = 0, knots = FIRST_KNOTS;
@@ -881,7 +847,7 @@ static void count_solved(struct evaluation *evaluation, const struct document *d
     evaluation->solved_knots += document->splines[spline]->knot_count;
 }
 
-static void solve(struct evaluation *evaluation, const struct document *document, int spline, bool cubic)
+static void solve_alone(struct evaluation *evaluation, const struct document *document, int spline, bool cubic)
 {
     struct storage *storage = evaluation->storage;
     wiggly_curve *curve = &evaluation->curves[spline];
@@ -925,8 +891,11 @@ static int update_group(struct evaluation *evaluation, const struct document *do
     struct pinned *pinned = &evaluation->storage->pinned;
     int count = 0;
     wiggly_status status = WIGGLY_OK;
-    bool due = pinned_take(pinned, pinned->which[order[0]]);
+    bool due = false;
+    pinned->group = pinned->which[order[0]];
+    pin_groups_find_bases(document, pinned->which, pinned->group, pinned->bases);
     for (int s = 0; s < evaluation->count; s++) {
+        due |= pinned->bases[s] && pinned->placed[s] && evaluation->storage->state[s].solved; // it moves the group
         if (pinned->which[s] != pinned->group) continue;
         count++;
         due |= is_due(evaluation, document, s);
@@ -936,7 +905,7 @@ static int update_group(struct evaluation *evaluation, const struct document *do
         pinned->placed[order[i]] = true;
         if (due) mark_solved(evaluation->storage, document, order[i]);
         if (together) count_solved(evaluation, document, order[i], status);
-        if (due && !together) solve(evaluation, document, order[i], false);
+        if (due && !together) solve_alone(evaluation, document, order[i], false);
     }
     return count;
 }
@@ -956,30 +925,6 @@ static uint64_t hash_text(uint64_t hash, const char *text)
 
 static uint64_t hash_number(uint64_t hash, double number) { return hash_bytes(hash, &number, sizeof number); }
 
-/// A hash of everything that the samples depend on; never 0.
-static uint64_t key_of(const struct document *document, const struct joint_motion *motion,
-                       const struct model_source *source)
-{
-    const int model = document_find_model(document, motion->model, motion->by_file);
-    const int chain = motion->chain ? document_find_chain(document, motion->chain) : -1;
-    uint64_t hash = hash_text(HASH_START, motion->joint);
-    hash = hash_word(hash_number(hash, document->fps), (uint64_t)document->substeps);
-    hash = hash_word(hash_word(hash, (uint64_t)document->first_frame), (uint64_t)document->last_frame);
-    hash = hash_word(hash, (uint64_t)motion->of);
-    hash = hash_word(hash_word(hash, source->follow ? 1 : 0), source->version);
-    if (model >= 0) {
-        const struct model_rig *of = &document->rigs[model]->model;
-        hash = hash_text(hash_text(hash, of->model), of->clip);
-        hash = hash_number(hash_number(hash, of->scale), of->turn);
-    }
-    if (chain >= 0) {
-        const struct chain *of = &document->rigs[chain]->chain;
-        hash = hash_text(hash_text(hash_text(hash, of->model), of->from), of->to);
-        hash = hash_word(hash_number(hash, of->turn), of->mirror);
-    }
-    return hash | 1;
-}
-
 /// Reads motions again if the document's frames, model, clip or chain, or the source's version, have changed; their splines are then
 /// solved. An unreadable motion is 0 throughout.
 static void motions_bake(struct evaluation *evaluation, const struct document *document)
@@ -989,21 +934,42 @@ static void motions_bake(struct evaluation *evaluation, const struct document *d
         const struct param *param = &document->splines[s]->parameter[PARAMETER_EQUILIBRIUM];
         struct baked *baked = &evaluation->storage->state[s].baked;
         if (!param->motion) continue;
-        const uint64_t key = key_of(document, param->motion, &evaluation->models);
-        if (key == baked->key && param->motion->gain == baked->gain) continue;
+
+        // A hash of everything that the samples depend on; never 0.
+        const struct joint_motion *motion = param->motion;
+        const struct model_source *source = &evaluation->models;
+        const int model = document_find_model(document, motion->model, motion->by_file);
+        const int chain = motion->chain ? document_find_chain(document, motion->chain) : -1;
+        uint64_t key = hash_text(HASH_START, motion->joint);
+        key = hash_word(hash_number(key, document->fps), (uint64_t)document->substeps);
+        key = hash_word(hash_word(key, (uint64_t)document->first_frame), (uint64_t)document->last_frame);
+        key = hash_word(key, (uint64_t)motion->of);
+        key = hash_word(hash_word(key, source->follow ? 1 : 0), source->version);
+        if (model >= 0) {
+            const struct model_rig *of = &document->rigs[model]->model;
+            key = hash_text(hash_text(key, of->model), of->clip);
+            key = hash_number(hash_number(key, of->scale), of->turn);
+        }
+        if (chain >= 0) {
+            const struct chain *of = &document->rigs[chain]->chain;
+            key = hash_text(hash_text(hash_text(key, of->model), of->from), of->to);
+            key = hash_word(hash_number(key, of->turn), of->mirror);
+        }
+        key |= 1;
+
+        if (key == baked->key && motion->gain == baked->gain) continue;
         if (!baked->raw) {
             baked->raw = pool_take(&evaluation->storage->pool, (size_t)count, sizeof *baked->raw);
             baked->samples = pool_take(&evaluation->storage->pool, (size_t)count, sizeof *baked->samples);
         }
         if (key != baked->key) {
-            const struct model_source *source = &evaluation->models;
-            bool good = source->follow && source->follow(source->context, document, param->motion, baked->raw);
+            bool good = source->follow && source->follow(source->context, document, motion, baked->raw);
             for (int i = 0; good && i < count; i++) good = isfinite(baked->raw[i]);
             for (int i = 0; !good && i < count; i++) baked->raw[i] = 0;
         }
-        for (int i = 0; i < count; i++) baked->samples[i] = param->motion->gain * baked->raw[i];
+        for (int i = 0; i < count; i++) baked->samples[i] = motion->gain * baked->raw[i];
         baked->key = key;
-        baked->gain = param->motion->gain;
+        baked->gain = motion->gain;
         baked->is_new = true;
     }
 }
@@ -1020,7 +986,7 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     if (evaluation_is_of(evaluation, document) && evaluation->cubic == cubic &&
         evaluation->storage->version == evaluation->models.version)
         return;
-    resize(evaluation, document);
+    make_room(evaluation, document);
 
     struct storage *storage = evaluation->storage;
     struct pinned *pinned = &storage->pinned;
@@ -1046,31 +1012,29 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
         }
         if (is_due(evaluation, document, order[i])) {
             mark_solved(storage, document, order[i]);
-            solve(evaluation, document, order[i], cubic);
+            solve_alone(evaluation, document, order[i], cubic);
         }
         if (grouped) pinned->placed[order[i]] = true;
         i++;
     }
-    pinned_measure(pinned);
     storage->is_new = false;
-}
 
-/// Samples of a spline's longest stretch without a knot: between two, round a loop, from rest, and after the last where jets reach there.
-static int longest_gap(const wiggly_desc *desc)
-{
-    const int knots = desc->knot_count, last = desc->samples - 1;
-    int longest = 0;
-    for (int k = 1; k < knots; k++) {
-        const int gap = desc->knots[k].sample - desc->knots[k - 1].sample;
-        longest = gap > longest ? gap : longest;
+    // The remaining offsets of all pins.
+    pinned->left_count = 0;
+    for (int r = 0; pinned->solver && evaluation->models.find && r < document->rig_count; r++) {
+        for (int i = 0; i < document->rigs[r]->pin_count; i++) {
+            const struct pin *pin = &document->rigs[r]->pins[i];
+            struct pin_left *left = &pinned->left[pinned->left_count++];
+            struct pin_point now;
+            *left = (struct pin_left){.is_found = find_point(pinned, r, pin, NULL, &now)};
+            if (!left->is_found) continue;
+            left->size = now.size;
+            for (int k = 0; k < 3; k++) {
+                left->at[k] = now.at[k];
+                left->way[k] = pin->to[k] - now.at[k];
+            }
+        }
     }
-    const int before = knots > 0 ? desc->knots[0].sample : last,
-              after = knots > 0 ? last - desc->knots[knots - 1].sample : 0;
-    const bool reaches = desc->mode == WIGGLY_REAL || desc->passive == WIGGLY_FILTER;
-    const int seam = desc->start == WIGGLY_LOOP ? before + after : 0, rest = desc->start == WIGGLY_REST ? before : 0,
-              end = reaches ? after : 0, outer = seam > rest ? seam : rest;
-    longest = outer > longest ? outer : longest;
-    return end > longest ? end : longest;
 }
 
 static bool is_band(const struct evaluation *evaluation)
@@ -1082,8 +1046,22 @@ static bool is_band(const struct evaluation *evaluation)
 wiggly_method evaluation_method(const struct evaluation *evaluation, const wiggly_desc *desc)
 {
     if (!is_band(evaluation)) return WIGGLY_CHAIN;
-    const bool by_length = evaluation->solver == SOLVER_BY_LENGTH;
-    return by_length && longest_gap(desc) > SOLVER_LONGEST_GAP ? WIGGLY_CHAIN : WIGGLY_BAND;
+    if (evaluation->solver != SOLVER_BY_LENGTH) return WIGGLY_BAND;
+
+    // The longest stretch without a knot: between two, round a loop, from rest, and after the last where jets reach there.
+    const int knots = desc->knot_count, last = desc->samples - 1;
+    int longest = 0;
+    for (int k = 1; k < knots; k++) {
+        const int gap = desc->knots[k].sample - desc->knots[k - 1].sample;
+        longest = gap > longest ? gap : longest;
+    }
+    const int before = knots > 0 ? desc->knots[0].sample : last,
+              after = knots > 0 ? last - desc->knots[knots - 1].sample : 0;
+    const bool reaches = desc->mode == WIGGLY_REAL || desc->passive == WIGGLY_FILTER;
+    if (desc->start == WIGGLY_LOOP && before + after > longest) longest = before + after;
+    if (desc->start == WIGGLY_REST && before > longest) longest = before;
+    if (reaches && after > longest) longest = after;
+    return longest > SOLVER_LONGEST_GAP ? WIGGLY_CHAIN : WIGGLY_BAND;
 }
 
 const char *evaluation_solver(const struct evaluation *evaluation) { return is_band(evaluation) ? "band" : "chain"; }

@@ -338,69 +338,70 @@ bool model_find(const struct document *document, const char *text, bool *by_file
            fail(error, ERROR_INPUT, "expected the name or file of a model rig, got \"%s\"", text);
 }
 
-static bool check_field(const struct document *document, int joints, const struct field *field, void *object,
-                        struct error *error)
-{
-    void *at = inside(object, field->place);
-    const char *text = is_text(field) ? text_of(field, object) : NULL;
-    struct param *params = at;
-    double *numbers = at;
-    switch (field->kind) {
-    case FIELD_NUMBER:
-    case FIELD_NUMBERS:
-        for (int i = 0; i < number_count(field); i++) {
-            if (!isfinite(numbers[i]) || !range_has(field->range, numbers[i])) return fail_range(field, error);
-            numbers[i] += 0.0;
-        }
-        return true;
-    case FIELD_WHOLE:
-        return range_has(field->range, *(int *)at) || fail_range(field, error);
-    case FIELD_WORD: {
-        const int word = *(int *)at;
-        char words[WORDS_TEXT];
-        if (field->is_quiet && word == (int)field->usual[0]) return true;
-        for (int i = 0; field->words[i]; i++) {
-            if (i == word && field->words[i][0]) return true;
-        }
-        return fail(error, ERROR_INPUT, "the %s must be %s", field->key, list_words(field->words, words));
-    }
-    case FIELD_TEXT:
-    case FIELD_PATH:
-        return field->is_apart || (text ? text[0] != '\0' : !field->is_required) ||
-               fail(error, ERROR_INPUT, "\"%s\" must not be empty", field->key);
-    case FIELD_MODEL:
-        return model_find(document, text, inside(object, field->flag), error);
-    case FIELD_SPLINE:
-        return document_has_spline(document, *(int *)at, error);
-    case FIELD_PLACE:
-        for (int k = 0; k < 3; k++) {
-            if (params[k].motion) return fail(error, ERROR_INPUT, "only an equilibrium follows a joint");
-            if (params[k].track >= document->spline_count)
-                return fail(error, ERROR_INPUT, "there is no spline to follow");
-            if (!isfinite(params[k].value)) return fail(error, ERROR_INPUT, "the %s must be finite", field->key);
-            params[k].value += 0.0;
-        }
-        return true;
-    case FIELD_ANGLES:
-        return check_angles(joints, at, error);
-    case FIELD_LIST: {
-        const int count = count_of(field, object), most = (int)field->range.maximum;
-        if (count > most) return fail(error, ERROR_INPUT, "at most %d %s fit", most, field->key);
-        for (int i = 0; i < count; i++) {
-            if (!fields_check(document, joints, field->rows, element_of(field, object, i), error)) return false;
-        }
-        return true;
-    }
-    default:
-        return true;
-    }
-}
-
 bool fields_check(const struct document *document, int joints, const struct field *fields, void *object,
                   struct error *error)
 {
     for (const struct field *field = fields; field->key; field++) {
-        if (!check_field(document, joints, field, object, error)) return false;
+        void *at = inside(object, field->place);
+        const char *text = is_text(field) ? text_of(field, object) : NULL;
+        struct param *params = at;
+        double *numbers = at;
+        bool good = true;
+        switch (field->kind) {
+        case FIELD_NUMBER:
+        case FIELD_NUMBERS:
+            for (int i = 0; good && i < number_count(field); i++) {
+                good = isfinite(numbers[i]) && range_has(field->range, numbers[i]);
+                numbers[i] += 0.0;
+            }
+            if (!good) return fail_range(field, error);
+            break;
+        case FIELD_WHOLE:
+            if (!range_has(field->range, *(int *)at)) return fail_range(field, error);
+            break;
+        case FIELD_WORD: {
+            const int word = *(int *)at;
+            char words[WORDS_TEXT];
+            good = field->is_quiet && word == (int)field->usual[0];
+            for (int i = 0; field->words[i]; i++) good |= i == word && field->words[i][0];
+            if (!good)
+                return fail(error, ERROR_INPUT, "the %s must be %s", field->key, list_words(field->words, words));
+            break;
+        }
+        case FIELD_TEXT:
+        case FIELD_PATH:
+            if (!field->is_apart && !(text ? text[0] != '\0' : !field->is_required))
+                return fail(error, ERROR_INPUT, "\"%s\" must not be empty", field->key);
+            break;
+        case FIELD_MODEL:
+            good = model_find(document, text, inside(object, field->flag), error);
+            break;
+        case FIELD_SPLINE:
+            good = document_has_spline(document, *(int *)at, error);
+            break;
+        case FIELD_PLACE:
+            for (int k = 0; k < 3; k++) {
+                if (params[k].motion) return fail(error, ERROR_INPUT, "only an equilibrium follows a joint");
+                if (params[k].track >= document->spline_count)
+                    return fail(error, ERROR_INPUT, "there is no spline to follow");
+                if (!isfinite(params[k].value)) return fail(error, ERROR_INPUT, "the %s must be finite", field->key);
+                params[k].value += 0.0;
+            }
+            break;
+        case FIELD_ANGLES:
+            good = check_angles(joints, at, error);
+            break;
+        case FIELD_LIST: {
+            const int count = count_of(field, object), most = (int)field->range.maximum;
+            if (count > most) return fail(error, ERROR_INPUT, "at most %d %s fit", most, field->key);
+            for (int i = 0; good && i < count; i++)
+                good = fields_check(document, joints, field->rows, element_of(field, object, i), error);
+            break;
+        }
+        default:
+            break;
+        }
+        if (!good) return false;
     }
     return true;
 }

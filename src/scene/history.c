@@ -104,24 +104,6 @@ void history_restart(struct history *history)
     history->document->next_id = history->next_id; // so that an object inserted again gets the same id
 }
 
-/// Drops the oldest steps while they exceed the limit, an eighth at a time, so that the others rarely move.
-static void drop_oldest(struct history *history)
-{
-    const size_t room = history->limit - history->limit / 8;
-    size_t drop = 0;
-    if (history->bytes <= history->limit) return;
-    while (drop + 1 < history->step_count && history->bytes > room) {
-        document_destroy(history->states[drop].document);
-        history->bytes -= history->states[++drop].bytes;
-        history->states[drop].bytes = 0;
-    }
-    history->dropped += drop;
-    history->step_count -= drop;
-    history->done -= drop;
-    memmove(history->states, history->states + drop, (history->step_count + 1) * sizeof *history->states);
-    history->states[0].label = NULL;
-}
-
 void history_end(struct history *history)
 {
     assert(history->is_open);
@@ -153,7 +135,21 @@ void history_end(struct history *history)
     history->bytes += current(history)->bytes;
     history->can_merge = true;
     history->is_open = false;
-    drop_oldest(history);
+
+    // The oldest steps go while they exceed the limit, an eighth at a time, so that the others rarely move.
+    if (history->bytes <= history->limit) return;
+    const size_t room = history->limit - history->limit / 8;
+    size_t drop = 0;
+    while (drop + 1 < history->step_count && history->bytes > room) {
+        document_destroy(history->states[drop].document);
+        history->bytes -= history->states[++drop].bytes;
+        history->states[drop].bytes = 0;
+    }
+    history->dropped += drop;
+    history->step_count -= drop;
+    history->done -= drop;
+    memmove(history->states, history->states + drop, (history->step_count + 1) * sizeof *history->states);
+    history->states[0].label = NULL;
 }
 
 bool history_is_open(const struct history *history) { return history->is_open; }

@@ -83,14 +83,14 @@ struct csv {
     struct error *error;
 };
 
-static bool bad(const struct csv *csv, const char *expected, const char *got)
+static bool csv_fail(const struct csv *csv, const char *expected, const char *got)
 {
     return fail(csv->error, ERROR_INPUT, "%s:%d: expected %s, got %s%.60s%s", csv->name, csv->line.number, expected,
                 got && *got ? "\"" : "", got && *got ? got : "nothing", got && *got ? "\"" : "");
 }
 
 /// Splits a line at semicolons, else tabs, else commas. With semicolons or tabs, a comma in a number is the decimal point.
-static void split(struct line *line, const char *text, size_t length)
+static void csv_split(struct line *line, const char *text, size_t length)
 {
     static const char around[] = " \t\r\"";
     char separator = memchr(text, ';', length) ? ';' : memchr(text, '\t', length) ? '\t' : ',';
@@ -123,7 +123,7 @@ static bool is_number(const char *field, double *number)
 }
 
 /// Reads a field's number. A missing optional field is left unchanged.
-static bool read_field(const struct csv *csv, enum column column, bool *given, double *number)
+static bool csv_read_field(const struct csv *csv, enum column column, bool *given, double *number)
 {
     static const char *const expected[] = {
         [COLUMN_FRAME] = "a frame from -1000000000 to 1000000000",
@@ -138,29 +138,17 @@ static bool read_field(const struct csv *csv, enum column column, bool *given, d
     bool good = is_number(field, number);
     if (column == COLUMN_FRAME) good = good && fabs(*number) <= SCENE_MAX_FRAME;
     if (column == COLUMN_STIFFNESS) good = good && *number > 0;
-    return good || bad(csv, expected[column], field);
-}
-
-static bool add_knot(struct csv *csv, const struct knot *knot)
-{
-    struct knot_list *list = csv->list;
-    if (list->count == SCENE_MAX_KNOTS) return bad(csv, "at most 100000 knots", "more");
-    if (list->count == csv->capacity) {
-        csv->capacity = csv->capacity > 0 ? 2 * csv->capacity : FIRST_KNOTS;
-        list->knots = need_more(list->knots, (size_t)csv->capacity, sizeof *list->knots);
-    }
-    list->knots[list->count++] = *knot;
-    return true;
+    return good || csv_fail(csv, expected[column], field);
 }
 
 /// Reads a knot, or a header: its columns have names; frame and value default to the first and second column.
-static bool read_line(struct csv *csv, const char *text, size_t length, bool *started)
+static bool csv_read_line(struct csv *csv, const char *text, size_t length, bool *started)
 {
     const struct line *line = &csv->line;
     double number;
     size_t blank = strspn(text, " \t\r");
     if (blank >= length || text[blank] == '#') return true;
-    split(&csv->line, text, length);
+    csv_split(&csv->line, text, length);
     bool is_header =
         !*started && line->count > 1 && !is_number(line->field[0], &number) && !is_number(line->field[1], &number);
     *started = true;
@@ -179,13 +167,21 @@ static bool read_line(struct csv *csv, const char *text, size_t length, bool *st
     const int at = csv->at[COLUMN_VALUE];
     knot.still = at < line->count && strcasecmp(line->field[at], "still") == 0;
     if (knot.still) knot.value = NAN;
-    bool good = read_field(csv, COLUMN_FRAME, &given, &knot.frame);
+    bool good = csv_read_field(csv, COLUMN_FRAME, &given, &knot.frame);
     if (!knot.still)
-        good = good && read_field(csv, COLUMN_VALUE, &given, &knot.value) &&
-               read_field(csv, COLUMN_STIFFNESS, &given, &knot.stiffness) &&
-               read_field(csv, COLUMN_SLOPE, &knot.has_slope, &knot.slope) &&
-               read_field(csv, COLUMN_IM, &knot.has_phase, &knot.phase);
-    return good && add_knot(csv, &knot);
+        good = good && csv_read_field(csv, COLUMN_VALUE, &given, &knot.value) &&
+               csv_read_field(csv, COLUMN_STIFFNESS, &given, &knot.stiffness) &&
+               csv_read_field(csv, COLUMN_SLOPE, &knot.has_slope, &knot.slope) &&
+               csv_read_field(csv, COLUMN_IM, &knot.has_phase, &knot.phase);
+    if (!good) return false;
+    struct knot_list *list = csv->list;
+    if (list->count == SCENE_MAX_KNOTS) return csv_fail(csv, "at most 100000 knots", "more");
+    if (list->count == csv->capacity) {
+        csv->capacity = csv->capacity > 0 ? 2 * csv->capacity : FIRST_KNOTS;
+        list->knots = need_more(list->knots, (size_t)csv->capacity, sizeof *list->knots);
+    }
+    list->knots[list->count++] = knot;
+    return true;
 }
 
 static bool knots_parse_csv(const char *name, const char *text, struct knot_list *list, struct error *error)
@@ -197,10 +193,10 @@ static bool knots_parse_csv(const char *name, const char *text, struct knot_list
     while (good && *text) {
         size_t length = strcspn(text, "\n");
         csv.line.number++;
-        good = read_line(&csv, text, length, &started);
+        good = csv_read_line(&csv, text, length, &started);
         text += length + (text[length] == '\n');
     }
-    if (good && list->count == 0) good = bad(&csv, "knots as JSON or as lines frame,value", "");
+    if (good && list->count == 0) good = csv_fail(&csv, "knots as JSON or as lines frame,value", "");
     if (!good) knot_list_free(list);
     return good;
 }

@@ -269,8 +269,9 @@ static void load_domain(struct reader *reader, const struct value *scene)
     int frames[2] = {0, 0};
     bool good = reader_number(reader, reader_member(scene, "fps"), false, fps_range, &document->fps);
     good &= reader_integer(reader, reader_member(scene, "substeps"), 1, SCENE_MAX_SUBSTEPS, &document->substeps);
-    bool has_frames = reader_array(reader, range, 2, "[first, last]");
-    for (int i = 0; i < 2 && json_is_array(range.json) && json_array_size(range.json) == 2; i++)
+    const bool is_pair = reader_array(reader, range, 2, "[first, last]");
+    bool has_frames = is_pair;
+    for (int i = 0; i < 2 && is_pair; i++)
         has_frames &=
             reader_integer(reader, reader_element(&range, i), -SCENE_MAX_FRAME, SCENE_MAX_FRAME, &frames[i]);
     if (has_frames && frames[1] < frames[0])

@@ -14,8 +14,8 @@ bool spline_uses(const struct spline *spline, enum parameter parameter, bool cub
 }
 
 /// Depth-first search from one spline; not recursive, because a chain of tracks may be as long as the scene.
-static bool visit(const struct document *document, struct order_space space, int root, int *order, int *ordered,
-                  struct order_cycle *cycle)
+static bool order_from(const struct document *document, struct order_space space, int root, int *order, int *ordered,
+                       struct order_cycle *cycle)
 {
     int depth = 0;
     space.stack[0] = root;
@@ -47,7 +47,7 @@ bool scene_order(const struct document *document, struct order_space space, int 
     int ordered = 0;
     if (document->spline_count > 0) memset(space.next, UNSEEN, (size_t)document->spline_count);
     for (int i = 0; i < document->spline_count; i++) {
-        if (space.next[i] == UNSEEN && !visit(document, space, i, order, &ordered, cycle)) return false;
+        if (space.next[i] == UNSEEN && !order_from(document, space, i, order, &ordered, cycle)) return false;
     }
     return true;
 }

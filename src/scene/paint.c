@@ -11,7 +11,7 @@
 static const size_t LARGEST = (size_t)1 << 30; ///< bytes of a file
 
 /// Changes its version, because its values have changed.
-static void touch(struct paint *paint)
+static void paint_touch(struct paint *paint)
 {
     static uint64_t last;
     paint->version = ++last;
@@ -24,7 +24,7 @@ struct paint *paint_create(int coordinates, int vertices)
     paint->coordinates = coordinates;
     paint->vertices = vertices;
     paint->values = need_zeroed((size_t)coordinates * (size_t)vertices, sizeof *paint->values);
-    touch(paint);
+    paint_touch(paint);
     return paint;
 }
 
@@ -80,7 +80,7 @@ void paint_dab(struct paint **paint, const struct dab *dab)
     const size_t first = (size_t)dab->coordinate * (size_t)(*paint)->vertices;
     for (int i = 0; i < dab->count; i++)
         memcpy((*paint)->values[first + (size_t)dab->vertices[i]], dab->values[i], sizeof *dab->values);
-    touch(*paint);
+    paint_touch(*paint);
 }
 
 bool paint_check(const struct paint *paint, int coordinate, struct error *error)

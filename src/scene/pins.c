@@ -205,7 +205,7 @@ void pin_groups_find(const struct document *document, int *group)
 }
 
 /// Marks a spline (−1: none) outside the group.
-static void mark(const int *group, int which, int spline, bool *bases)
+static void mark_base(const int *group, int which, int spline, bool *bases)
 {
     if (spline >= 0 && group[spline] != which) bases[spline] = true;
 }
@@ -217,15 +217,17 @@ void pin_groups_find_bases(const struct document *document, const int *group, in
         const struct rig *rig = document->rigs[r];
         const int spline = is_held(rig) ? rig_point_spline(rig) : -1;
         if (spline < 0 || group[spline] != which) continue;
-        for (int k = 0; rig->kind == RIG_TAIL && k < 3; k++) mark(group, which, rig->tail.position[k].track, bases);
+        for (int k = 0; rig->kind == RIG_TAIL && k < 3; k++)
+            mark_base(group, which, rig->tail.position[k].track, bases);
         for (int c = 0; rig->kind == RIG_TAIL && c < rig->tail.channel_count; c++) {
-            if (rig->tail.channels[c].axis == AXIS_STRETCH) mark(group, which, rig->tail.channels[c].spline, bases);
+            if (rig->tail.channels[c].axis == AXIS_STRETCH)
+                mark_base(group, which, rig->tail.channels[c].spline, bases);
         }
         if (rig->kind != RIG_CHAIN) continue;
         const int model = document_find_model(document, rig->chain.model, rig->chain.by_file);
         for (int on = -1; (on = document_next_chain(document, model, on)) >= 0;) { // everything that bends its model
             const struct chain *chain = &document->rigs[on]->chain;
-            for (int c = 0; c < chain->channel_count; c++) mark(group, which, chain->channels[c].spline, bases);
+            for (int c = 0; c < chain->channel_count; c++) mark_base(group, which, chain->channels[c].spline, bases);
         }
     }
 }

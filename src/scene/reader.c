@@ -57,7 +57,8 @@ static struct cursor source_start(const struct source *source)
     return c;
 }
 
-bool source_check_limits(const struct source *source, struct error *error)
+/// Refuses text that would take too much memory or stack to parse, by counting brackets and commas.
+static bool source_check_limits(const struct source *source, struct error *error)
 {
     struct cursor c = source_start(source);
     int depth = 0;
@@ -132,6 +133,7 @@ static struct cursor enter_array(struct finger *finger, struct cursor array, siz
     return finger->cursor;
 }
 
+/// The place in a parsed text; if there is no such key, the nearest above.
 static struct cursor locate(struct source *source, const struct where *where, int *depth)
 {
     if (!where->parent) {
@@ -142,12 +144,6 @@ static struct cursor locate(struct source *source, const struct where *where, in
     if (*depth == SOURCE_MAX_DEPTH) return parent;
     struct finger *finger = &source->fingers[(*depth)++];
     return where->key ? enter_object(parent, where->key) : enter_array(finger, parent, where->index);
-}
-
-int source_line(struct source *source, const struct where *where)
-{
-    int depth;
-    return locate(source, where, &depth).line;
 }
 
 static void append_key(char path[PATH_TEXT_SIZE], const char *dot, const char *key, size_t length)
@@ -162,6 +158,7 @@ static void append_index(char path[PATH_TEXT_SIZE], size_t index)
     snprintf(path + used, PATH_TEXT_SIZE - used, "[%zu]", index);
 }
 
+/// "splines[0].knots[2].frame"
 static void append_where(const struct where *where, char path[PATH_TEXT_SIZE])
 {
     if (!where->parent) return;
@@ -173,13 +170,6 @@ static void append_where(const struct where *where, char path[PATH_TEXT_SIZE])
     }
 }
 
-void where_path(const struct where *where, char path[PATH_TEXT_SIZE])
-{
-    path[0] = '\0';
-    append_where(where, path);
-    if (!path[0]) append_key(path, "", "scene", 5);
-}
-
 /// A bracket open at an offset.
 struct level {
     bool is_object;
@@ -187,20 +177,8 @@ struct level {
     size_t key_length, index;
 };
 
-static void print_levels(const struct level *levels, int depth, char path[PATH_TEXT_SIZE])
-{
-    path[0] = '\0';
-    for (int i = 0; i < depth; i++) {
-        if (!levels[i].is_object) {
-            append_index(path, levels[i].index);
-        } else if (levels[i].key) {
-            append_key(path, ".", levels[i].key, levels[i].key_length);
-        }
-    }
-    if (!path[0]) append_key(path, "", "scene", 5);
-}
-
-void source_path_at(const struct source *source, size_t offset, char path[PATH_TEXT_SIZE])
+/// The path of the value that is open at byte `offset`; the text need only be valid up to there.
+static void source_path_at(const struct source *source, size_t offset, char path[PATH_TEXT_SIZE])
 {
     struct level levels[SOURCE_MAX_DEPTH];
     struct cursor c = source_start(source);
@@ -224,24 +202,36 @@ void source_path_at(const struct source *source, size_t offset, char path[PATH_T
         }
         skip_space(&c);
     }
-    print_levels(levels, depth, path);
+
+    path[0] = '\0';
+    for (int i = 0; i < depth; i++) {
+        if (!levels[i].is_object) {
+            append_index(path, levels[i].index);
+        } else if (levels[i].key) {
+            append_key(path, ".", levels[i].key, levels[i].key_length);
+        }
+    }
+    if (!path[0]) append_key(path, "", "scene", 5);
 }
 
 // --- problems and values
 
 const struct range range_any = {-INFINITY, INFINITY, false};
 
-static void compose(struct reader *reader, const struct where *where, struct error *error, const char *format,
-                    va_list arguments)
+/// "file:line: path: sentence". The line is that of a place or, if there is no such key, of the nearest place above.
+static void compose_problem(struct reader *reader, const struct where *where, struct error *error, const char *format,
+                            va_list arguments)
 {
-    char path[PATH_TEXT_SIZE], sentence[sizeof error->text];
-    where_path(where, path);
+    char path[PATH_TEXT_SIZE] = "", sentence[sizeof error->text];
+    int depth;
+    append_where(where, path);
+    if (!path[0]) append_key(path, "", "scene", 5);
     vsnprintf(sentence, sizeof sentence, format, arguments);
-    fail(error, ERROR_INPUT, "%s:%d: %s: %s", reader->source.name, source_line(&reader->source, where), path,
+    fail(error, ERROR_INPUT, "%s:%d: %s: %s", reader->source.name, locate(&reader->source, where, &depth).line, path,
          sentence);
 }
 
-static void report(struct reader *reader, bool is_error, const char *sentence)
+static void report_problem(struct reader *reader, bool is_error, const char *sentence)
 {
     struct problems *problems = reader->problems;
     if (!problems) return;
@@ -256,7 +246,7 @@ static void report(struct reader *reader, bool is_error, const char *sentence)
 bool reader_report(struct reader *reader, const struct error *error)
 {
     if (reader->errors++ == 0 && reader->error) *reader->error = *error;
-    report(reader, true, error->text);
+    report_problem(reader, true, error->text);
     return false;
 }
 
@@ -266,7 +256,7 @@ bool reader_fail(struct reader *reader, const struct where *where, const char *f
     struct error error;
     va_list arguments;
     va_start(arguments, format);
-    compose(reader, where, &error, format, arguments);
+    compose_problem(reader, where, &error, format, arguments);
     va_end(arguments);
     return reader_report(reader, &error);
 }
@@ -277,9 +267,9 @@ void reader_warn(struct reader *reader, const struct where *where, const char *f
     struct error warning;
     va_list arguments;
     va_start(arguments, format);
-    compose(reader, where, &warning, format, arguments);
+    compose_problem(reader, where, &warning, format, arguments);
     va_end(arguments);
-    report(reader, false, warning.text);
+    report_problem(reader, false, warning.text);
 }
 
 static const char *kind_of(const json_t *value)

@@ -38,7 +38,7 @@ enum { BYTE_LETTER = 0x10FE00, FIRST_BYTE = 0x80, LAST_BYTE = 0xFF };
 
 static bool is_byte_letter(uint32_t c) { return c >= BYTE_LETTER + FIRST_BYTE && c <= BYTE_LETTER + LAST_BYTE; }
 
-static void quote(struct text *text, const char *string, bool is_path)
+static void text_quote(struct text *text, const char *string, bool is_path)
 {
     char escape[8];
     text_string(text, "\"");
@@ -64,9 +64,9 @@ static void quote(struct text *text, const char *string, bool is_path)
     text_string(text, "\"");
 }
 
-void text_quoted(struct text *text, const char *string) { quote(text, string, false); }
+void text_quoted(struct text *text, const char *string) { text_quote(text, string, false); }
 
-void text_path(struct text *text, const char *path) { quote(text, path, true); }
+void text_path(struct text *text, const char *path) { text_quote(text, path, true); }
 
 void text_read_path(char *path)
 {

@@ -129,7 +129,7 @@ struct look {
     struct warnings *found;
 };
 
-static void add(const struct look *look, struct warning warning)
+static void add_warning(const struct look *look, struct warning warning)
 {
     struct warnings *found = look->found;
     warning.spline = look->of;
@@ -239,7 +239,7 @@ static void find_far(const struct look *look)
     const double digits = maths_power_of_ten(1 - maths_decade(room));
     warning.low = floor((all.low - room) * digits) / digits;
     warning.high = ceil((all.high + room) * digits) / digits;
-    add(look, warning);
+    add_warning(look, warning);
 }
 
 /// The highest frequency of the spline in Hz.
@@ -377,7 +377,7 @@ void warnings_add_forced(const struct document *document, const struct evaluatio
         if (!take_span(&look, k, &span)) continue;
         struct warning warning = in_middle(&look, &span, WARNING_FORCED);
         warning.amount = degrees_forced(&look, &span, largest);
-        if (warning.amount > FORCED_TURN) add(&look, warning);
+        if (warning.amount > FORCED_TURN) add_warning(&look, warning);
     }
 }
 
@@ -395,35 +395,35 @@ void warnings_add(const struct document *document, const struct evaluation *eval
         const struct knot *knot = &spline->knots[k];
         const char *why = knot_idle_slope(document, of, k);
         struct warning idle = {.kind = WARNING_PHASE, .frame = knot->frame, .value = knot->value, .why = why};
-        if (k == pose) add(&look, idle);
+        if (k == pose) add_warning(&look, idle);
         idle.kind = WARNING_SLOPE;
-        if (why) add(&look, idle);
+        if (why) add_warning(&look, idle);
     }
 
     const double wind_up = spline->parameter[PARAMETER_WIND_UP].value, frequency = frequency_of(&look);
     const double samples = wind_up / (frequency * document_step(document));
     const char *why = spline_idle_wind_up(document, of);
     if (why && spline_mode(spline) == WIGGLY_COMPLEX)
-        add(&look, (struct warning){.kind = WARNING_WIND_UP, .why = why});
+        add_warning(&look, (struct warning){.kind = WARNING_WIND_UP, .why = why});
     if (wind_up > 0 && !why && samples < LEAST_WIND_UP)
-        add(&look, (struct warning){.kind = WARNING_SUDDEN,
-                                    .amount = samples,
-                                    .remedy = ceil(100 * wind_up * LEAST_WIND_UP / samples) / 100});
+        add_warning(&look, (struct warning){.kind = WARNING_SUDDEN,
+                                            .amount = samples,
+                                            .remedy = ceil(100 * wind_up * LEAST_WIND_UP / samples) / 100});
 
     for (int k = 0; k < spline->knot_count && is_cubic; k++) {
         const struct knot *knot = &spline->knots[k];
         if (!knot->settles) continue;
-        add(&look, (struct warning){.kind = WARNING_SETTLES, .frame = knot->frame, .value = knot->value});
+        add_warning(&look, (struct warning){.kind = WARNING_SETTLES, .frame = knot->frame, .value = knot->value});
         break;
     }
     if (is_cubic) return;
 
     const double edge = edge_of(&look), allowed = edge_allowed(&look);
     if (edge > allowed)
-        add(&look, (struct warning){.kind = WARNING_RATE,
-                                    .amount = edge,
-                                    .limit = allowed,
-                                    .remedy = ceil(edge / (FAST_RATE * document->fps))});
+        add_warning(&look, (struct warning){.kind = WARNING_RATE,
+                                            .amount = edge,
+                                            .limit = allowed,
+                                            .remedy = ceil(edge / (FAST_RATE * document->fps))});
     if (spline_winds_up(document, of)) return; // what follows is about the whole curve
 
     struct warning drift = {0}; // only the worst, because its remedy cures the others, too
@@ -438,7 +438,7 @@ void warnings_add(const struct document *document, const struct evaluation *eval
         drift.limit = bandwidth_of(spline);
         drift.remedy = floor(1000 * WIDE_TURN / periods) / 1000;
     }
-    if (drift.amount > 0) add(&look, drift);
+    if (drift.amount > 0) add_warning(&look, drift);
     warnings_add_forced(document, evaluation, of, found);
 }
 
