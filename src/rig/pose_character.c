@@ -126,8 +126,8 @@ static void character_weigh(const struct posing *posing, int rig, const int *spl
 
 static const struct pinning_functions character_pinning = {character_find, character_weigh};
 
-static bool character_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                           struct rig_pose *posed)
+static bool character_rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                               struct rig_pose *posed)
 {
     const struct character_rig *character = &posing->document->rigs[rig]->character;
     const struct figure *figure = figure_of(posing, rig);
@@ -142,7 +142,7 @@ static bool character_pose(const struct posing *posing, int rig, double position
     return true;
 }
 
-static void character_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
+static void character_rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
 {
     const struct figure *figure = posed->character.figure;
     morph_bounds(figure, &posed->character.morph, lo, hi);
@@ -320,4 +320,4 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
     return true;
 }
 
-const struct posing_functions character_posing = {character_pose, character_bounds, &character_pinning};
+const struct posing_functions character_posing = {character_rig_pose, character_rig_bounds, &character_pinning};

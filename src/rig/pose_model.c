@@ -101,7 +101,7 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
     return true;
 }
 
-static void model_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
+static void model_rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
 {
     const struct imported *imported = posed->model.imported;
     vec3 box[2];
@@ -249,4 +249,4 @@ bool clip_follow(void *context, const struct document *document, const struct jo
     return true;
 }
 
-const struct posing_functions model_posing = {rig_pose_body, model_bounds, NULL};
+const struct posing_functions model_posing = {rig_pose_body, model_rig_bounds, NULL};

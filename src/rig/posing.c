@@ -29,7 +29,8 @@ void posing_values(const struct posing *posing, int index, double position, cons
     add_hands(posing, index, by_hand, &sum);
     int count;
     const struct channel *channels = rig_channels(rig, &count);
-    for (int i = 0; i < rig_input_count(rig); i++) {
+    const int inputs = rig_input_count(rig);
+    for (int i = 0; i < inputs; i++) {
         values[i] = i < count ? channel_value(posing, &channels[i], position)
                               : evaluation_at(posing->evaluation, rig_input(rig, i), position);
         values[i].y += sum.input[i].y;

@@ -417,8 +417,8 @@ struct limbs tail_base(const struct posing *posing, int rig, double position, co
     return limbs;
 }
 
-static bool strand_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                        struct rig_pose *posed)
+static bool strand_rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                            struct rig_pose *posed)
 {
     struct pose *strand = &posed->strand;
     struct path path;
@@ -435,8 +435,8 @@ static bool strand_pose(const struct posing *posing, int rig, double position, c
     return true;
 }
 
-static bool tail_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                      struct rig_pose *posed)
+static bool tail_rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                          struct rig_pose *posed)
 {
     const struct tail *tail = &posing->document->rigs[rig]->tail;
     wiggly_value values[RIG_MAX_INPUTS];
@@ -445,10 +445,10 @@ static bool tail_pose(const struct posing *posing, int rig, double position, con
     posed->strand.ground = tail_ground(tail);
     posed->strand.scale = (float)(tail->length / (double)FOX_TAIL_LENGTH);
     posed->strand.limbs = tail_base(posing, rig, position, values, by_hand, base);
-    return strand_pose(posing, rig, position, by_hand, posed);
+    return strand_rig_pose(posing, rig, position, by_hand, posed);
 }
 
-static void tail_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
+static void tail_rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
 {
     pose_bounds(&posed->strand, lo, hi);
 }
@@ -542,5 +542,5 @@ static void strand_weigh(const struct posing *posing, int rig, const int *spline
 
 static const struct pinning_functions strand_pinning = {strand_find_pin, strand_weigh};
 
-const struct posing_functions tail_posing = {tail_pose, tail_bounds, &strand_pinning};
-const struct posing_functions chain_posing = {strand_pose, NULL, &strand_pinning};
+const struct posing_functions tail_posing = {tail_rig_pose, tail_rig_bounds, &strand_pinning};
+const struct posing_functions chain_posing = {strand_rig_pose, NULL, &strand_pinning};

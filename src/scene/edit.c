@@ -436,7 +436,7 @@ static bool check_limit(const struct document *document, const struct spline *sp
     return true;
 }
 
-/// Sets a parameter, whatever follows what then.
+/// Sets a parameter, but does not check whether splines then follow each other in a circle.
 static bool set_parameter(struct document *document, int index, enum parameter parameter, const struct param *param,
                           struct error *error)
 {

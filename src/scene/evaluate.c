@@ -2,7 +2,6 @@
 #include "scene/evaluate.h"
 #include "base/hash.h"
 #include "base/need.h"
-#include "base/need.h"
 #include "maths/maths.h"
 #include "scene/order.h"
 #include "scene/pins.h"
