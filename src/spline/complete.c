@@ -12,9 +12,9 @@ WIDEST extent extent_of(const double *values, int count)
     enum { LANES = 8 };
     double low[LANES], high[LANES];
     for (int k = 0; k < LANES; k++) low[k] = high[k] = values[0];
-    for (int i = 0; i < count; i += LANES) {
-        const int lanes = count - i < LANES ? count - i : LANES;
-        for (int k = 0; k < lanes; k++) {
+    int i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        for (int k = 0; k < LANES; k++) {
             low[k] = values[i + k] < low[k] ? values[i + k] : low[k];
             high[k] = values[i + k] > high[k] ? values[i + k] : high[k];
         }
@@ -23,6 +23,10 @@ WIDEST extent extent_of(const double *values, int count)
     for (int k = 1; k < LANES; k++) {
         all.low = low[k] < all.low ? low[k] : all.low;
         all.high = high[k] > all.high ? high[k] : all.high;
+    }
+    for (; i < count; i++) {
+        all.low = values[i] < all.low ? values[i] : all.low;
+        all.high = values[i] > all.high ? values[i] : all.high;
     }
     return all;
 }
