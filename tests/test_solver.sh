@@ -13,9 +13,9 @@ done
 # --- the same curves, not the same bits
 
 for solver in chain band; do
-    expect 0 "solve by the $solver" "$WIGGLY" solve --solver $solver -o "$scratch/$solver.csv" assets/scenes/tail.json
+    expect 0 "solve by the $solver" "$WIGGLY" solve --solver $solver -o "$scratch/$solver.csv" assets/scenes/figure4.json
 done
-"$WIGGLY" solve assets/scenes/tail.json | cmp - "$scratch/band.csv"
+"$WIGGLY" solve assets/scenes/figure4.json | cmp - "$scratch/band.csv"
 ok "the band is the default" $?
 long() { printf '{"frames": [0, %s], "splines": [{"name": "s", "frequency": 1, "knots": [{"frame": 9, "value": 1}, {"frame": 99, "value": 2}, {"frame": %s, "value": 1}]}]}' "$1" "$2"; }
 by_default() # way last knot

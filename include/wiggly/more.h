@@ -113,7 +113,7 @@ void wiggly_evaluate_float(const wiggly_curve *curve, double from, double by, in
 
 /// How a solver solves; the curves are the same but for rounding.
 typedef enum wiggly_method {
-    WIGGLY_CHAIN = 0, ///< fast: from knot to knot where the parameters are constant, else the band
+    WIGGLY_CHAIN = 0, ///< fast: from knot to knot; loops, tracks, still knots and knots side by side by the band
     WIGGLY_BAND       ///< reference: always the band of all samples, as in the paper
 } wiggly_method;
 

@@ -1047,7 +1047,7 @@ wiggly_method evaluation_method(const struct evaluation *evaluation, const wiggl
     if (!is_band(evaluation)) return WIGGLY_CHAIN;
     if (evaluation->solver != SOLVER_BY_LENGTH) return WIGGLY_BAND;
 
-    // The longest stretch without a knot: between two, round a loop, from rest, and after the last where jets reach there.
+    // The longest stretch without a knot: between two, from rest, and after the last where jets reach there.
     const int knots = desc->knot_count, last = desc->samples - 1;
     int longest = 0;
     for (int k = 1; k < knots; k++) {
@@ -1057,7 +1057,6 @@ wiggly_method evaluation_method(const struct evaluation *evaluation, const wiggl
     const int before = knots > 0 ? desc->knots[0].sample : last,
               after = knots > 0 ? last - desc->knots[knots - 1].sample : 0;
     const bool reaches = desc->mode == WIGGLY_REAL || desc->passive == WIGGLY_FILTER;
-    if (desc->start == WIGGLY_LOOP && before + after > longest) longest = before + after;
     if (desc->start == WIGGLY_REST && before > longest) longest = before;
     if (reaches && after > longest) longest = after;
     return longest > SOLVER_LONGEST_GAP ? WIGGLY_CHAIN : WIGGLY_BAND;

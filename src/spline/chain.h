@@ -4,202 +4,112 @@
 
 #include "spline/poles.h"
 
-/// A complex array, real and imaginary parts apart; im is not used outside complex mode.
-typedef struct cplx_array {
-    double *re, *im;
-} cplx_array;
-
-/// Block sizes: powers are computed, and samples filled, this many at a time.
-enum { CHAIN_BLOCK = 8 };
-
-/// F^k = p + q [0 1; δ² 0] and W_k = [w00 w01; w01* w11] for k = 0 … longest stretch, in whole blocks.
+/// F^k = [p q; δ²q p] and W_k = [w00 w01; w01* w11] by k, real and imaginary parts apart.
 typedef struct chain_powers {
-    cplx_array p, q, w01;
-    double *w00, *w11;
+    double *p_re, *p_im, *q_re, *q_im, *w01_re, *w01_im, *w00, *w11;
+    int count;
 } chain_powers;
-
-/// Indices of the entries of a stretch's form; the complex ones are two numbers, re and im.
-enum {
-    FORM_V00,
-    FORM_V11,
-    FORM_P00,
-    FORM_P11,
-    FORM_V01,
-    FORM_P01 = FORM_V01 + 2,
-    FORM_C00 = FORM_P01 + 2,
-    FORM_C01 = FORM_C00 + 2,
-    FORM_C10 = FORM_C01 + 2,
-    FORM_C11 = FORM_C10 + 2,
-    FORM_SIZE = FORM_C11 + 2
-};
 
 /// A stretch of a given length, condensed: s_q* V s_q − 2 Re s_q* C s_p + s_p* P s_p.
 typedef struct chain_stretch {
     int length;
     bool settles; ///< the jet of its last sample counts twice
-    double form[FORM_SIZE];
-    double power[3];  ///< what |F^L|'s entries may be off by, in units of rounding: 00 and 11, 01, 10
-    double size[5];   ///< of C and of P₀₁
-    double column[4]; ///< the largest of each column that a run is filled from
+    cplx p, q, r; ///< F^L = [p q; r p]
+    double v00, v11, p00, p11;
+    cplx v01, p01, c00, c01, c10, c11;
+    double loss;                   ///< rounding of its powers, a share of 1, `reach` and `turn`
+    double reach, turn;            ///< at least |q| and |r|
+    double weight0, weight1, open; ///< √2V₀₀, √2V₁₁, √W₀₀
+    double half_reach, half_open;  ///< of half the stretch
+    double growth;                 ///< at least |p| and |q| / reach of F⁻ᵏ for that half
+    double ratio;                  ///< W₀₀W₁₁ / det W
+    double w00, w01, w11;          ///< sizes
 } chain_stretch;
 
-/// The known parts of a node's state (x, d) besides Re x.
-enum {
-    NODE_FIXED_E = 1,     ///< Re e: the next sample is keyed
-    NODE_AT_REST = 2,     ///< all of it
-    NODE_FROM_REST = 4,   ///< x, and d costs twice what a jet does
-    NODE_SETTLED = 8,     ///< d, from x: the motion after it is free
-    NODE_POSE = 16,       ///< Im x
-    NODE_FIXED_E_IM = 32, ///< Im e: the next sample is a pose
-    NODE_STILL = 64,      ///< d of the stretch before it is 0, and its two sides are independent
-
-    NODE_KNOWN_X = NODE_AT_REST | NODE_FROM_REST | NODE_POSE,
-    NODE_KNOWN_D = NODE_AT_REST | NODE_FIXED_E | NODE_SETTLED,
-    NODE_KNOWN_D_IM = NODE_AT_REST | NODE_FIXED_E_IM | NODE_SETTLED,
-};
-
-/// From which side a node's speed is seen: the sample ahead, both neighbours, the sample behind, or the free motion.
-typedef enum chain_view { VIEW_AHEAD, VIEW_BOTH, VIEW_BEHIND, VIEW_TAIL, VIEW_COUNT } chain_view;
-
-/// h times a speed: Re(on_x x + on_d d − on_r r), r the jet at the node itself.
-typedef struct chain_speed {
-    cplx on_x, on_d, on_r;
-} chain_speed;
-
-/// A node: the state (x, d) at a sample k of the system, of which Re x is known. e is x_{k+1} − x_k.
-typedef struct chain_node {
+/// What the nodes' matrix depends on, by node.
+typedef struct chain_place {
     int sample;
-    unsigned fixed;
-    double value;   ///< Re x
-    double im;      ///< Im x of a pose, else 0
-    double e;       ///< Re e if it is known
-    double next_im; ///< Im x of the next sample where Im e is fixed
-    chain_view view;
-    double slope, slope_weight; ///< slope_weight (h speed − slope)²
-    int stretch;                ///< to the next node
-    double x_im, d_re, d_im;    ///< solution
+    double free[3]; ///< 1 for each of Im x, Re d and Im d that is unknown, else 0
+    cplx tie;       ///< change of d with Im x, where d is not free
+    double slope_weight;
+    cplx on_x, on_d, on_r; ///< slope_weight (Re(on_x x + on_d d − on_r r) − slope)², r the jet at the node itself
+} chain_place;
+
+/// A node: the state (x, d) at a sample of the system, of which Re x is known.
+typedef struct chain_node {
+    chain_place at;
+    double slope, slope_error; ///< of that row; and what the rounding of `slope` may be,
+    double loss_x, loss_d;     ///< of on_x and on_d
+    cplx x, d;                 ///< what is known → solution
 } chain_node;
 
-/// One block row of the nodes' system: unknowns (Im x, Re d, Im d), outside complex mode the middle one alone.
+/// One block row of the nodes' system, L D Lᵀ, with unknowns Im x, Re d, Im d.
 typedef struct chain_row {
-    double diagonal[6]; ///< 00 01 02 11 12 22 → inverse of the pivot block
-    double below[9];    ///< A_{j+1,j}, row-major → L_{j+1,j}
-    double right[3];    ///< → solution
-    double entry[3];    ///< the diagonal before
-    double spread[3];   ///< √ of the inverse's diagonal, 0 for what is known; of d also where it is tied to Im x
+    const chain_stretch *stretch; ///< to the next node
+    double lower[3];              ///< 10 20 21 of L's own block
+    double inverse[3];            ///< of D
+    double below[9];              ///< of the next row: L's block times L's own block of this row, row-major
+    double right[3];              ///< the gradient, times L⁻¹
+    double entry[3];              ///< the matrix's diagonal
+    double spread[2];             ///< √ of its inverse's diagonal: of Im x, and both of d
+    double reach;                 ///< R of these (chain_nodes.c)
+    double end[2], pull;          ///< sizes of ν and the slope's pull at the stretch's end
 } chain_row;
 
-enum { CHAIN_RUN = 64 }; ///< the most samples that are filled from one state
-
 typedef struct chain {
-    bool is_complex;
-    bool cyclic;         ///< a loop: the first node follows the last
-    int count;           ///< samples of the system; a loop's are counted from its first node on
-    int turned;          ///< a loop's: sample of its first node
     cplx lambda, delta2; ///< mean of the poles, square of half their difference
-    start_cost start;    ///< times calm; on the first node
+    start_cost start;    ///< on the first node
+    int count;           ///< samples of the system
     double im_weight;    ///< of (Im x)² at every sample; 0 if negligible
-    chain_speed speed[VIEW_COUNT];
-    cplx tail;       ///< d / x of a settled node
-    bool oscillates; ///< speeds are those given by the poles
-    bool settles;    ///< the last node is settled, or the second sample of a last pair is
-    bool posed;      ///< some Im x is known
-    int run;         ///< samples of a stretch that are filled from one state and costate
+    double loss;         ///< rounding of the poles' powers, of a sample
+    double fade;         ///< how fast the faster pole decays, a sample
+    double tail_loss;    ///< of the free motion's step
+    double noise;        ///< of the level that values are measured from
     chain_powers powers;
-    cplx_array pulled[2]; ///< first row of W_i F*^{−i}, i = 0 … run − 1
-    cplx_array back;      ///< (det F)*^{−i}, for these
-    int *stretch_of[2];   ///< by length: 1 + index of the stretch, 0: none yet; the second are those that settle
-    chain_stretch *stretches;
-    int stretch_count, stretch_capacity;
-    int powers_count; ///< k for which there are powers
+    chain_stretch *stretches; ///< by the node before; of a stretch as long as the one before unused
     chain_node *nodes;
-    int node_count;
     chain_row *rows;
-    /// A loop's: for each row but the first, the inverse of its pivot times its coupling to the first, 3×3 or 1.
-    double *to_first;
-    bool kept; ///< tables and factor are those of the nodes' samples, fixed and slope_weight, and of everything above
-    bool sound;         ///< the factor's pivots are positive
-    double loss;        ///< rounding of the poles' powers, of a sample
-    double noise;       ///< rounding of the level that values are measured from
-    double lost;        ///< entries over pivots of the factor, the largest of its rows
-    double rounding;    ///< ρ of the factor
-    double error;       ///< bound of x's error
-    double size;        ///< of the solution
-    double cubic_bound; ///< both poles at 1: a bound for |x|
+    int node_count, stretch_count; ///< stretch_count: as far as they are used
+    bool kept;                     ///< tables and factor are those of the filter, the start and all places
+    bool sound;                    ///< the factor's pivots are positive
+    double rounding;               ///< ρ of the factor
+    double spread;                 ///< the largest √ of the inverse's diagonal, also between nodes
+    double error;                  ///< bound of x's error
+    double size;                   ///< of the solution
 } chain;
 
-/// Solves for the nodes and writes x of every sample of the system (x_im only in complex mode). If `kept` is set, only values have changed
-/// since the last solve, and its factor is reused. false if the nodes' system has no factor, or numbers are so large that sums might overflow.
+/// Solves for the nodes and writes x of every sample of the system; outside complex mode x_im receives zeros. If `kept` is set, only values
+/// have changed since the last solve, and its factor is reused. false if the nodes' system has no factor.
 bool chain_solve(chain *chain, double *x_re, double *x_im);
 
 /// Clears tables and factor, because the filter has changed or their memory was used otherwise.
 void chain_forget(chain *chain);
 
-/// A form [h00 h01; h01* h11] of a state.
-typedef struct state_form {
-    double h00, h11;
-    cplx h01;
-} state_form;
-
-/// The start's cost on the first state; and the jet's cost of a settled sample that is the second of the last node's pair, else 0.
-state_form chain_start_form(const chain *chain);
-state_form chain_end_form(const chain *chain);
-/// From rest d is the jet there, and counts twice.
-static inline state_form chain_node_form(const chain_node *node)
+/// At least |q| of F^k for k up to a length, as |λ ± δ| ≤ 1; |p| is at most 1.
+static inline double chain_reach(const chain *c, double length)
 {
-    return (state_form){.h11 = node->fixed & NODE_FROM_REST ? 2 : 0};
+    const double delta2 = cplx_norm(c->delta2); // |δ|⁴
+    return length * length * (length * length) * delta2 < 1 ? length : 1 / sqrt(sqrt(delta2));
 }
 
-/// How much Re d and Im d of a node change with its Im x.
-static inline cplx chain_node_tie(const chain *c, const chain_node *node)
-{
-    if (node->fixed & NODE_SETTLED) return (cplx){-c->tail.im, c->tail.re};
-    return (cplx){node->fixed & NODE_FIXED_E && c->is_complex ? c->lambda.im : 0,
-                  node->fixed & NODE_FIXED_E_IM ? -c->lambda.re : 0};
-}
+// --- the nodes' system (chain_nodes.c) ---
 
-/// d of a node, as the end of the stretch before it.
-static inline cplx chain_end_d(const chain_node *node)
-{
-    if (node->fixed & NODE_STILL) return (cplx){0, 0};
-    return (cplx){node->d_re, node->d_im};
-}
+/// At the nodes' present state, the costate ν at the end of the stretch after node j, and F*^L ν at its start; and how hard the slope at its
+/// end pulls.
+typedef struct chain_costates {
+    cplx end[2], start[2];
+    double pull;
+} chain_costates;
 
-/// Weight times the excess of a slope's speed at the nodes' present state. `jet` is the jet from the stretch before, and V₁₁ of its form how
-/// much it is held; 0 and 1 if there is no stretch.
-double chain_slope_pull(const chain *chain, const chain_node *node, cplx jet, double v11);
+chain_costates chain_costates_of(const chain *chain, int j);
 
-/// An entry of a table of powers.
-static inline cplx chain_power(const chain *c, const cplx_array *table, int k)
-{
-    return (cplx){table->re[k], c->is_complex ? table->im[k] : 0};
-}
-
-/// An entry of a stretch's form.
-static inline cplx chain_entry(const chain_stretch *stretch, int at)
-{
-    return (cplx){stretch->form[at], stretch->form[at + 1]};
-}
-
-/// The steps of chain_solve().
-void chain_make_tables(chain *chain);
-void chain_assemble(chain *chain);
+/// Factors the system; false if that fails or leaves no bound.
 bool chain_factor(chain *chain);
-/// rows' right ← solution; returns b·A⁻¹b.
-double chain_solve_nodes(chain *chain);
-/// rows' right ← the right-hand side: −½ of the energy's gradient with all unknowns 0.
-void chain_pull_known(chain *chain);
-/// The same at the nodes' present state.
-void chain_pull(chain *chain);
-/// rows' spread, and ρ.
-void chain_find_spread(chain *chain);
-/// Of a stretch what the bound needs.
-void chain_measure(const chain *chain, chain_stretch *stretch);
-/// A bound of the error of x, for the energy that chain_solve_nodes() returned of the last correction.
-double chain_bound(const chain *chain, double energy, const double *x_im);
-/// The costate ν at a stretch's end.
-void chain_costate(const chain *chain, const chain_node *p, const chain_node *q, cplx nu[2]);
-static inline int chain_next(const chain *c, int j) { return j + 1 < c->node_count ? j + 1 : 0; }
-/// Number of stretches: one less than nodes, in a loop the same.
-static inline int chain_stretches(const chain *c) { return c->cyclic ? c->node_count : c->node_count - 1; }
+
+/// Corrects the nodes' unknowns by the gradient at their present state; returns the norm of the correction, that of the energy. Sets `size`.
+double chain_correct(chain *chain);
+
+/// A bound of the error of x, if the factor has left that of a last correction.
+double chain_bound(const chain *chain, double left, const double *x_im);
+
 #endif

@@ -1,269 +1,423 @@
-/// The block-tridiagonal system of a spline's nodes: assembled from stretches, start and slopes, factored and solved (chain.c has the
-/// mathematics, chain_nodes.h the rows).
-#include "spline/chain_nodes.h"
+/// The block-tridiagonal system of a chain's nodes, and the bound of its error.
+//
+// An unknown is Im x, Re d or Im d of a node; Re x is known, and so may others be. Known ones are removed by 0 instead of 1 in `free`. A
+// stretch adds its form to the blocks of its ends, the start its two rows to the first one's. The gradient goes by the costates, so through
+// the rows before they are squared.
+//
+// A slope at s_q acts on h times a speed, φ = Re(on_x x_q + on_d d_q − on_r r_q), where r_q is the last jet of the stretch before. Given both
+// ends, that jet is ν_d = B* ν ± √(1 − V₁₁). So with s = weight / (1 + weight |on_r|² (1 − V₁₁)) the slope costs
+// s (Re(on_x x_q + on_d d_q − on_r ν_d) − target)², a row of the two nodes alone. In the stretch it moves r_q from B* ν by
+// η = s (φ − target) on_r*, and the samples follow the costate ν − V B η.
+//
+// The bound is that of the band (minimise.c), with the stretches for rows and D the diagonal of the inverse. At a sample between nodes √D is at
+// most |p| √D_x + |q| √D_d + √W₀₀ from the node before, because the jets cost no more than everything does; from the node after it is the same
+// with the powers of F⁻¹, so half the stretch is enough. The rows of a stretch are W^{−½} (s_q − F^L s_p). Their powers and Gramian are known to
+// u, some ε for every sample. Let R(s) = (√2V₀₀ + √2V₁₁) (|s_q| + |F^L| |s_p|), by components, of sizes or of √D. Rounding
+//
+//     moves the rows by  u R(s)  and, by W, by  u (8 W₀₀V₀₀ ν* diag(W) ν)^½;
+//     pulls with  u |F^L|* |ν|  on s_p and, as the gradient is summed, with  8 ε R(s) R(√D);
+//     and adds  8 ε R(√D)²  to  ρ = 80 ε Σ D_k A_kk,  as the forms are.
+//
+// The imaginary rows are left out: they pull with ω |Im x_j| at every sample.
+#include "spline/chain.h"
+#include "spline/wide.h"
+#include <float.h>
+#include <math.h>
 
-/// Each row's |on_x x + on_e e|² with e = x_1 − x_0 = d + (λ−1) x.
-state_form chain_start_form(const chain *c)
+#define ALWAYS_INLINE static inline __attribute__((always_inline))
+
+/// Rounding of an L D Lᵀ and its solve, as the band's; of sums of the gradient and of the forms; and of a coefficient.
+static const double of_factor = 80 * DBL_EPSILON, of_sums = 8 * DBL_EPSILON, of_coefficient = 32 * DBL_EPSILON;
+static const double most = 0.5; ///< ρ from which on no bound is left
+
+static inline double square(double x) { return x * x; }
+static inline double larger(double a, double b) { return a >= b ? a : b; }
+
+/// At least |z|.
+static inline double size_of(cplx z) { return fabs(z.re) + fabs(z.im); }
+
+/// Re(a x + b d).
+ALWAYS_INLINE double seen(cplx a, cplx b, const chain_node *node)
 {
-    state_form form = {0};
-    const cplx growth = {c->lambda.re - 1, c->lambda.im};
+    return (a.re * node->x.re - a.im * node->x.im) + (b.re * node->d.re - b.im * node->d.im);
+}
+
+/// d += [h00 h01; h01* h11] of a state: 00 01 02 11 12 22 of the unknowns.
+ALWAYS_INLINE void add_form(double *d, double h00, cplx h01, double h11)
+{
+    d[0] += h00, d[1] += h01.im, d[2] += h01.re, d[3] += h11, d[5] += h11;
+}
+
+/// A row Re(a x + b d) by unknowns.
+typedef struct real_row {
+    double on[3];
+} real_row;
+
+ALWAYS_INLINE real_row row_of(cplx a, cplx b) { return (real_row){{-a.im, b.re, -b.im}}; }
+
+/// d += w g gᵀ.
+ALWAYS_INLINE void add_square(double *d, double w, real_row g)
+{
+    for (int r = 0, i = 0; r < 3; r++) {
+        for (int v = r; v < 3; v++, i++) d[i] += w * g.on[r] * g.on[v];
+    }
+}
+
+/// The start's rows on the first state: on_x x + on_e e with e = x_1 − x_0 = d + (λ − 1) x.
+static cplx start_on_x(const chain *c, const struct start_row *row)
+{
+    return cplx_add(row->on_x, cplx_mul(row->on_e, (cplx){c->lambda.re - 1, c->lambda.im}));
+}
+
+static cplx start_at(cplx on_x, const struct start_row *row, const chain_node *first)
+{
+    return cplx_add(cplx_mul(on_x, first->x), cplx_mul(row->on_e, first->d));
+}
+
+/// The weight of a slope at a stretch's end, where the jet there is free but for V₁₁; without a stretch for 1.
+static double slope_weight(const chain_place *at, double v11)
+{
+    return at->slope_weight / (1 + at->slope_weight * cplx_norm(at->on_r) * (1 - v11));
+}
+
+/// How hard the first node's slope pulls.
+static double first_pull(const chain_node *node)
+{
+    return slope_weight(&node->at, 1) * (seen(node->at.on_x, node->at.on_d, node) - node->slope);
+}
+
+/// Adds the first node's rows: the start's, and its slope's.
+static void add_first(const chain *c, double *d)
+{
     for (int i = 0; i < 2; i++) {
         const struct start_row *row = &c->start.row[i];
-        cplx on_x = cplx_add(row->on_x, cplx_mul(row->on_e, growth)), on_d = row->on_e;
-        form.h00 += row->weight * cplx_norm(on_x);
-        form.h01 = cplx_add(form.h01, cplx_scale(row->weight, cplx_mul(cplx_conj(on_x), on_d)));
-        form.h11 += row->weight * cplx_norm(on_d);
+        const cplx on_x = start_on_x(c, row), on_d = row->on_e;
+        add_form(d, row->weight * cplx_norm(on_x), cplx_scale(row->weight, cplx_mul(cplx_conj(on_x), on_d)),
+                 row->weight * cplx_norm(on_d));
     }
-    return form;
+    const chain_place *at = &c->nodes[0].at;
+    if (at->slope_weight > 0) add_square(d, slope_weight(at, 1), row_of(at->on_x, at->on_d));
 }
 
-/// r_L = x_{L+1} − a x_L − b x_{L−1} for (x_{L−1}, x_L) = (x, λ x + d) and x_{L+1} = (λ + tail) x_L, counted twice.
-state_form chain_end_form(const chain *c)
+/// Adds a stretch, and the slope at its end, to the blocks of its nodes; n is the coupling, row-major, of the later to the earlier.
+ALWAYS_INLINE void add_stretch(const chain_stretch *s, const chain_place *end, double *d, double *n, double *entering)
 {
-    const chain_node *last = &c->nodes[c->node_count - 1];
-    if (!c->settles || last->fixed & NODE_SETTLED) return (state_form){0};
-    cplx on_x = cplx_sub(cplx_mul(c->tail, c->lambda), c->delta2), on_d = cplx_sub(c->tail, c->lambda);
-    return (state_form){.h00 = 2 * cplx_norm(on_x),
-                        .h01 = cplx_scale(2, cplx_mul(cplx_conj(on_x), on_d)),
-                        .h11 = 2 * cplx_norm(on_d)};
-}
-
-ALWAYS_INLINE kernel_node kernel_node_of(const chain *c, const chain_node *node)
-{
-    const unsigned fixed = node->fixed;
-    const cplx tie = chain_node_tie(c, node);
-    return (kernel_node){.x = node->value,
-                         .x_im = node->x_im,
-                         .d = node->d_re,
-                         .d_im = node->d_im,
-                         .tie = tie.re,
-                         .tie_im = tie.im,
-                         .keep_x = fixed & NODE_KNOWN_X ? 0 : 1,
-                         .keep_d = fixed & NODE_KNOWN_D ? 0 : 1,
-                         .keep_i = fixed & NODE_KNOWN_D_IM ? 0 : 1};
-}
-
-static kernel_slope kernel_slope_of(const chain *c, const chain_node *node)
-{
-    const chain_speed *s = &c->speed[node->view];
-    return (kernel_slope){node->slope, node->slope_weight, s->on_x.re, s->on_x.im,
-                          s->on_d.re,  s->on_d.im,         s->on_r.re, s->on_r.im};
-}
-
-static const double *form_after(const chain *c, int j) { return c->stretches[c->nodes[j].stretch].form; }
-
-/// Adds a stretch and the slope at its end to the block of its first node, the coupling and the block of its last.
-ALWAYS_INLINE void assemble_stretch(const chain *c, int j, const kernel_node *p, const kernel_node *q, double *d,
-                                    double *n, double *entering)
-{
-    const double *form = form_after(c, j);
-    const chain_node *end = &c->nodes[chain_next(c, j)];
-    kernel_leave(d, n, form);
-    kernel_enter(entering, form);
-    if (end->slope_weight > 0) {
-        const kernel_slope slope = kernel_slope_of(c, end);
-        const kernel_link link = kernel_link_of(false, &slope, form, p, q);
-        kernel_add_square(d, link.weight, link.before);
-        kernel_add_square(entering, link.weight, link.at);
-        kernel_add_coupling(n, &link);
-    }
-    if (end->fixed & NODE_STILL) {
-        for (int i = 0; i < 6; i++) entering[i] = 0;
-        for (int i = 0; i < 9; i++) n[i] = 0;
-    }
-    kernel_hold_columns(n, p);
-    kernel_hold_rows(n, q);
-}
-
-/// The first node's block: the start and its slope, in a loop also the last stretch.
-ALWAYS_INLINE void assemble_first(const chain *c, const kernel_node *node, double *d)
-{
-    if (c->cyclic) {
-        const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
-        double leaving[6] = {0}, n[9];
-        assemble_stretch(c, c->node_count - 1, &last, node, leaving, n, d);
-        return;
-    }
-    const state_form h = chain_start_form(c);
-    kernel_form(d, h.h00, h.h01.re, h.h01.im, h.h11);
-    if (c->nodes[0].slope_weight > 0) {
-        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
-        const kernel_link link = kernel_link_first(false, &slope, node);
-        kernel_add_square(d, link.weight, link.at);
+    add_form(d, s->p00, s->p01, s->p11);
+    add_form(entering, s->v00, s->v01, s->v11);
+    n[0] = -s->c00.re, n[1] = -s->c01.im, n[2] = -s->c01.re;
+    n[3] = s->c10.im, n[4] = -s->c11.re, n[5] = s->c11.im;
+    n[6] = -s->c10.re, n[7] = -s->c11.im, n[8] = -s->c11.re;
+    if (!(end->slope_weight > 0)) return;
+    const double weight = slope_weight(end, s->v11);
+    const real_row before = row_of(cplx_mul(end->on_r, s->c10), cplx_mul(end->on_r, s->c11));
+    const real_row at = row_of(cplx_sub(end->on_x, cplx_mul(end->on_r, cplx_conj(s->v01))),
+                               cplx_sub(end->on_d, cplx_scale(s->v11, end->on_r)));
+    add_square(d, weight, before);
+    add_square(entering, weight, at);
+    for (int r = 0; r < 3; r++) {
+        for (int v = 0; v < 3; v++) n[3 * r + v] += weight * at.on[r] * before.on[v];
     }
 }
 
-/// Row by row in local arrays, so that the compiler keeps them in registers.
-ALWAYS_INLINE void assemble(chain *c, const bool is_complex)
+/// Moves a tied d to Im x, and puts 1 on the diagonal for what is known.
+ALWAYS_INLINE void hold(double *d, const chain_place *at)
 {
-    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
-    double d[6] = {0};
-    assemble_first(c, &node, d);
-    for (int j = 0; j < c->node_count; j++, node = next) {
-        const state_form own = chain_node_form(&c->nodes[j]);
-        double n[9] = {0}, entering[6] = {0};
-        next = node;
-        if (j < chain_stretches(c)) {
-            next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
-            assemble_stretch(c, j, &node, &next, d, n, entering);
-        } else {
-            const state_form end = chain_end_form(c);
-            kernel_form(d, end.h00, end.h01.re, end.h01.im, end.h11);
+    const double fx = at->free[0], fd = at->free[1], fi = at->free[2], t = at->tie.re, s = at->tie.im;
+    const double d1 = d[1] + t * d[3] + s * d[4], d2 = d[2] + t * d[4] + s * d[5];
+    d[0] = (d[0] + (t * (d[1] + d1) + s * (d[2] + d2))) * fx + (1 - fx);
+    d[1] = d1 * (fx * fd), d[2] = d2 * (fx * fi);
+    d[3] = d[3] * fd + (1 - fd);
+    d[4] = d[4] * (fd * fi);
+    d[5] = d[5] * fi + (1 - fi);
+}
+
+ALWAYS_INLINE void hold_coupling(double *n, const chain_place *before, const chain_place *at)
+{
+    for (int v = 0; v < 3; v++) {
+        n[v] = (n[v] + (at->tie.re * n[3 + v] + at->tie.im * n[6 + v])) * (before->free[v] * at->free[0]);
+        n[3 + v] *= before->free[v] * at->free[1];
+        n[6 + v] *= before->free[v] * at->free[2];
+    }
+}
+
+/// Factors one block, d, and the coupling n to the next row: n ← n l⁻ᵀ. False if a pivot is not positive.
+ALWAYS_INLINE bool factor_row(chain_row *row, double *d, double *n)
+{
+    const double i0 = 1 / d[0], l10 = d[1] * i0, l20 = d[2] * i0;
+    const double p1 = d[3] - l10 * d[1], i1 = 1 / p1, below = d[4] - l10 * d[2], l21 = below * i1;
+    const double p2 = (d[5] - l20 * d[2]) - l21 * below, i2 = 1 / p2;
+    row->lower[0] = l10, row->lower[1] = l20, row->lower[2] = l21;
+    row->inverse[0] = i0, row->inverse[1] = i1, row->inverse[2] = i2;
+    for (int v = 0; v < 9; v += 3) {
+        n[v + 1] -= l10 * n[v];
+        n[v + 2] -= l20 * n[v] + l21 * n[v + 1];
+        row->below[v] = n[v] * i0, row->below[v + 1] = n[v + 1] * i1, row->below[v + 2] = n[v + 2] * i2;
+    }
+    return d[0] > 0 && p1 > 0 && p2 > 0 && d[0] + d[3] + d[5] < INFINITY;
+}
+
+static bool factor(chain *c)
+{
+    bool sound = true;
+    double d[6] = {0}, less[6] = {0};
+    add_first(c, d);
+    for (int j = 0; j < c->node_count; j++) {
+        chain_row *row = &c->rows[j];
+        const chain_place *at = &c->nodes[j].at;
+        double n[9] = {0}, next[6] = {0};
+        if (j + 1 < c->node_count) {
+            add_stretch(row->stretch, &c->nodes[j + 1].at, d, n, next);
+            hold_coupling(n, at, &c->nodes[j + 1].at);
         }
-        d[3] += own.h11, d[5] += own.h11;
-        kernel_hold(d, &node);
-        c->rows[j].entry[0] = d[0], c->rows[j].entry[1] = d[3], c->rows[j].entry[2] = d[5];
-        for (int i = 0; i < 6; i++) {
-            if (is_complex || i == 3) c->rows[j].diagonal[i] = d[i];
-            d[i] = entering[i];
+        hold(d, at);
+        row->entry[0] = d[0], row->entry[1] = d[3], row->entry[2] = d[5];
+        for (int i = 0; i < 6; i++) d[i] -= less[i];
+        sound = factor_row(row, d, n) && sound;
+        const double *k = row->below;
+        for (int r = 0, i = 0; r < 3; r++) {
+            for (int v = r; v < 3; v++, i++)
+                less[i] = n[3 * r] * k[3 * v] + n[3 * r + 1] * k[3 * v + 1] + n[3 * r + 2] * k[3 * v + 2];
         }
-        for (int i = 0; i < 9; i++) {
-            if (is_complex || i == 4) c->rows[j].below[i] = n[i];
+        for (int i = 0; i < 6; i++) d[i] = next[i];
+    }
+    return sound;
+}
+
+/// z, the inverse's block of a row, from that of the next: P + Hᵀ z H, with P the inverse of the row's own pivots.
+ALWAYS_INLINE void invert_row(const chain_row *row, double *z)
+{
+    const double *i = row->inverse, *l = row->lower;
+    const double t10 = -l[0], t21 = -l[2], t20 = l[0] * l[2] - l[1];
+    const double full[9] = {z[0], z[1], z[2], z[1], z[3], z[4], z[2], z[4], z[5]};
+    const double own[6] = {i[0] + t10 * t10 * i[1] + t20 * t20 * i[2],
+                           t10 * i[1] + t20 * t21 * i[2],
+                           t20 * i[2],
+                           i[1] + t21 * t21 * i[2],
+                           t21 * i[2],
+                           i[2]};
+    double h[9], zh[9];
+    for (int v = 0; v < 9; v += 3) {
+        const double a = row->below[v], b = row->below[v + 1], c = row->below[v + 2];
+        h[v] = a + b * t10 + c * t20, h[v + 1] = b + c * t21, h[v + 2] = c;
+    }
+    for (int r = 0; r < 3; r++) {
+        for (int v = 0; v < 3; v++)
+            zh[3 * r + v] = full[3 * r] * h[v] + full[3 * r + 1] * h[3 + v] + full[3 * r + 2] * h[6 + v];
+    }
+    for (int r = 0, n = 0; r < 3; r++) {
+        for (int v = r; v < 3; v++, n++) z[n] = own[n] + h[r] * zh[v] + h[3 + r] * zh[3 + v] + h[6 + r] * zh[6 + v];
+    }
+}
+
+/// R of sizes at both ends.
+ALWAYS_INLINE double rows_of(const chain_stretch *s, double xp, double dp, double xq, double dq)
+{
+    return s->weight0 * (xq + xp + s->reach * dp) + s->weight1 * (dq + s->turn * xp + dp);
+}
+
+/// How far the energy lets x stray at the nodes and between them; and ρ.
+static void find_spread(chain *c)
+{
+    double z[6] = {0};
+    const int last = c->node_count - 1;
+    c->rounding = c->spread = 0;
+    for (int j = last; j >= 0; j--) {
+        chain_row *row = &c->rows[j];
+        const chain_place *at = &c->nodes[j].at;
+        invert_row(row, z);
+        const double x = at->free[0] * z[0], d = at->free[1] * z[3], i = at->free[2] * z[5], of_x = sqrt(x);
+        c->rounding += of_factor * (x * row->entry[0] + d * row->entry[1] + i * row->entry[2]);
+        row->spread[0] = of_x;
+        row->spread[1] = sqrt(d + i) + size_of(at->tie) * of_x;
+        double between = of_x + chain_reach(c, c->count - 1 - at->sample) * row->spread[1];
+        if (j < last) {
+            const chain_stretch *s = row->stretch;
+            row->reach = rows_of(s, row->spread[0], row->spread[1], row[1].spread[0], row[1].spread[1]);
+            c->rounding += of_sums * square(row->reach);
+            const double ahead = of_x + s->reach * row->spread[1] + s->open,
+                         half = of_x + s->half_reach * row->spread[1] + s->half_open,
+                         behind = s->growth * (row[1].spread[0] + s->half_reach * row[1].spread[1] + s->half_open);
+            between = larger(half, ahead < behind ? ahead : behind);
         }
+        c->spread = larger(between, c->spread);
     }
-}
-
-void chain_assemble(chain *c)
-{
-    if (c->is_complex) {
-        assemble(c, true);
-    } else {
-        assemble(c, false);
-    }
-}
-
-static kernel_rank factor_blocks(chain *c)
-{
-    kernel_rank all = {true, 1};
-    double n[9] = {0}, l[9] = {0};
-    for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
-        kernel_rank rank = kernel_pivot(row->diagonal, l, n);
-        chain_add_rank(&all, rank);
-        for (int i = 0; i < 9; i++) n[i] = row->below[i];
-        kernel_lower(l, n, row->diagonal);
-        for (int i = 0; i < 9; i++) row->below[i] = l[i];
-    }
-    return all;
-}
-
-static kernel_rank factor_scalars(chain *c)
-{
-    kernel_rank all = {true, 1};
-    double n = 0, s = 1;
-    for (chain_row *row = c->rows; row < c->rows + c->node_count; row++) {
-        kernel_rank rank = kernel_pivot_one(&s, row->diagonal[3], n);
-        chain_add_rank(&all, rank);
-        n = row->below[4];
-        row->diagonal[3] = 1.0 / s;
-        row->below[4] = n * row->diagonal[3];
-    }
-    return all;
 }
 
 bool chain_factor(chain *c)
 {
-    const kernel_rank rank = c->cyclic ? chain_close(c) : c->is_complex ? factor_blocks(c) : factor_scalars(c);
-    c->lost = rank.lost;
-    return rank.sound;
+    if (!factor(c)) return false;
+    find_spread(c);
+    return c->rounding < most;
 }
 
-ALWAYS_INLINE double solve(chain *c, const bool is_complex)
+chain_costates chain_costates_of(const chain *c, int j)
 {
-    chain_row *last = &c->rows[c->node_count - 1];
-    double energy = 0;
-    for (chain_row *row = c->rows; row < last; row++)
-        kernel_forward(is_complex, row[1].right, row->below, row->right);
-    const double none[3] = {0};
-    for (chain_row *row = last; row >= c->rows; row--) {
-        energy += kernel_energy(is_complex, row->right, row->diagonal);
-        kernel_backward(is_complex, row->right, row->diagonal, row->below, row < last ? row[1].right : none);
+    const chain_node *p = &c->nodes[j], *q = p + 1;
+    const chain_stretch *s = c->rows[j].stretch;
+    const cplx x = cplx_sub(q->x, cplx_add(cplx_mul(s->p, p->x), cplx_mul(s->q, p->d)));
+    const cplx d = cplx_sub(q->d, cplx_add(cplx_mul(s->r, p->x), cplx_mul(s->p, p->d)));
+    chain_costates nu = {.end = {cplx_add(cplx_scale(s->v00, x), cplx_mul(s->v01, d)),
+                                 cplx_add(cplx_mul(cplx_conj(s->v01), x), cplx_scale(s->v11, d))}};
+    if (q->at.slope_weight > 0) {
+        const cplx on_r = q->at.on_r;
+        const double jet = on_r.re * nu.end[1].re - on_r.im * nu.end[1].im;
+        nu.pull = slope_weight(&q->at, s->v11) * (seen(q->at.on_x, q->at.on_d, q) - jet - q->slope);
+        const cplx eta = cplx_scale(nu.pull, cplx_conj(on_r));
+        nu.end[0] = cplx_sub(nu.end[0], cplx_mul(s->v01, eta));
+        nu.end[1] = cplx_sub(nu.end[1], cplx_scale(s->v11, eta));
     }
-    return energy;
+    const cplx p_conj = cplx_conj(s->p);
+    nu.start[0] = cplx_add(cplx_mul(p_conj, nu.end[0]), cplx_mul(cplx_conj(s->r), nu.end[1]));
+    nu.start[1] = cplx_add(cplx_mul(cplx_conj(s->q), nu.end[0]), cplx_mul(p_conj, nu.end[1]));
+    return nu;
 }
 
-double chain_solve_nodes(chain *c)
+/// −½ of the gradient at the first node, of its own rows.
+static void pull_first(const chain *c, cplx g[2])
 {
-    if (c->cyclic) return chain_solve_loop(c);
-    return c->is_complex ? solve(c, true) : solve(c, false);
-}
-
-/// The pull of a stretch and the slope at its end.
-ALWAYS_INLINE void pull_along(const chain *c, int j, const kernel_node *p, const kernel_node *q, bool is_complex,
-                              bool posed, double *right, double *entering)
-{
-    const double *form = form_after(c, j);
-    const chain_node *end = &c->nodes[chain_next(c, j)];
-    kernel_node at_rest = *q;
-    if (end->fixed & NODE_STILL) at_rest.d = at_rest.d_im = 0, q = &at_rest;
-    kernel_leave_pull(is_complex, posed, right, form, p, q);
-    kernel_enter_pull(is_complex, posed, entering, form, p, q);
-    if (end->slope_weight > 0) {
-        const kernel_slope slope = kernel_slope_of(c, end);
-        const kernel_link link = kernel_link_of(posed, &slope, form, p, q);
-        kernel_add_pull(right, link.miss, link.before);
-        kernel_add_pull(entering, link.miss, link.at);
+    const chain_node *node = &c->nodes[0];
+    for (int i = 0; i < 2; i++) {
+        const struct start_row *row = &c->start.row[i];
+        const cplx on_x = start_on_x(c, row), at = start_at(on_x, row, node);
+        g[0] = cplx_sub(g[0], cplx_scale(row->weight, cplx_mul(cplx_conj(on_x), at)));
+        g[1] = cplx_sub(g[1], cplx_scale(row->weight, cplx_mul(cplx_conj(row->on_e), at)));
     }
-    if (end->fixed & NODE_STILL) entering[0] = entering[1] = entering[2] = 0;
-}
-
-ALWAYS_INLINE void pull_first(const chain *c, const kernel_node *node, bool is_complex, bool posed, double *right)
-{
-    if (c->cyclic) {
-        const kernel_node last = kernel_node_of(c, &c->nodes[c->node_count - 1]);
-        double leaving[3] = {0};
-        pull_along(c, c->node_count - 1, &last, node, is_complex, posed, leaving, right);
-        return;
-    }
-    const state_form h = chain_start_form(c);
-    kernel_form_pull(posed, right, h.h00, h.h01.re, h.h01.im, h.h11, node);
-    if (c->nodes[0].slope_weight > 0) {
-        const kernel_slope slope = kernel_slope_of(c, &c->nodes[0]);
-        const kernel_link link = kernel_link_first(posed, &slope, node);
-        kernel_add_pull(right, link.miss, link.at);
+    if (node->at.slope_weight > 0) {
+        const double pull = first_pull(node);
+        g[0] = cplx_sub(g[0], cplx_scale(pull, cplx_conj(node->at.on_x)));
+        g[1] = cplx_sub(g[1], cplx_scale(pull, cplx_conj(node->at.on_d)));
     }
 }
 
-ALWAYS_INLINE void pull_known(chain *c, const bool is_complex, const bool posed)
+double chain_correct(chain *c)
 {
-    kernel_node node = kernel_node_of(c, &c->nodes[0]), next;
-    double entering[3] = {0};
-    pull_first(c, &node, is_complex, posed, entering);
-    for (int j = 0; j < c->node_count; j++, node = next) {
-        double right[3];
-        for (int i = 0; i < 3; i++) right[i] = entering[i], entering[i] = 0;
-        next = node;
-        if (j < chain_stretches(c)) {
-            next = kernel_node_of(c, &c->nodes[chain_next(c, j)]);
-            pull_along(c, j, &node, &next, is_complex, posed, right, entering);
-        } else {
-            const state_form end = chain_end_form(c);
-            kernel_form_pull(posed, right, end.h00, end.h01.re, end.h01.im, end.h11, &node);
+    double energy = 0, y[3] = {0}, u[3] = {0};
+    cplx g[2] = {{0, 0}, {0, 0}};
+    chain_row *const last = &c->rows[c->node_count - 1], *row = c->rows;
+    chain_node *node = c->nodes;
+    pull_first(c, g);
+    for (;; row++, node++) {
+        cplx ahead[2] = {{0, 0}, {0, 0}};
+        if (row < last) {
+            const chain_costates nu = chain_costates_of(c, (int)(row - c->rows));
+            const chain_place *end = &node[1].at;
+            g[0] = cplx_add(g[0], nu.start[0]), g[1] = cplx_add(g[1], nu.start[1]);
+            ahead[0] = (cplx){-nu.end[0].re - nu.pull * end->on_x.re, nu.pull * end->on_x.im - nu.end[0].im};
+            ahead[1] = (cplx){-nu.end[1].re - nu.pull * end->on_d.re, nu.pull * end->on_d.im - nu.end[1].im};
         }
-        const double own = chain_node_form(&c->nodes[j]).h11;
-        right[1] -= own * node.d, right[2] -= own * node.d_im;
-        kernel_hold_pull(right, &node);
-        for (int i = 0; i < 3; i++) {
-            if (is_complex || i == 1) c->rows[j].right[i] = right[i];
+        const chain_place *at = &node->at;
+        const double *l = row->lower, *i = row->inverse, *f = at->free;
+        u[0] = f[0] * (g[0].im + (at->tie.re * g[1].re + at->tie.im * g[1].im)) - u[0];
+        u[1] = f[1] * g[1].re - u[1];
+        u[2] = f[2] * g[1].im - u[2];
+        y[0] = u[0], y[1] = u[1] - l[0] * y[0], y[2] = u[2] - (l[1] * y[0] + l[2] * y[1]);
+        energy += i[0] * square(y[0]) + i[1] * square(y[1]) + i[2] * square(y[2]);
+        for (int v = 0; v < 3; v++) {
+            const double *k = row->below + 3 * v;
+            row->right[v] = y[v];
+            u[v] = k[0] * y[0] + k[1] * y[1] + k[2] * y[2];
         }
+        if (row == last) break;
+        g[0] = ahead[0], g[1] = ahead[1];
     }
+    c->size = 0;
+    for (u[0] = u[1] = u[2] = 0; row >= c->rows; row--, node--) {
+        const double *l = row->lower, *i = row->inverse, *k = row->below;
+        for (int v = 0; v < 3; v++) y[v] = i[v] * row->right[v] - (k[v] * u[0] + k[3 + v] * u[1] + k[6 + v] * u[2]);
+        u[2] = y[2];
+        u[1] = y[1] - l[2] * u[2];
+        u[0] = y[0] - (l[0] * u[1] + l[1] * u[2]);
+        node->x.im += u[0];
+        node->d.re += u[1] + node->at.tie.re * u[0];
+        node->d.im += u[2] + node->at.tie.im * u[0];
+        c->size = larger(larger(size_of(node->x), size_of(node->d)), c->size);
+    }
+    return sqrt(energy);
 }
 
-void chain_pull_known(chain *c)
+/// What is summed over the rows: the squares that rounding moves them by, and how it pulls on the unknowns, times √D.
+typedef struct row_sums {
+    double misses, pulls;
+} row_sums;
+
+/// The slope at node j, of coefficients that are known to a share. The jet before it, where there is one, has that size and √D. However stiff the
+/// slope is, it moves x no farther than its pull.
+static void add_slope(const chain *c, int j, double share, double jet, double jet_reach, double pull, row_sums *sums)
 {
-    if (!c->is_complex) {
-        pull_known(c, false, false);
-    } else if (c->posed) {
-        pull_known(c, true, true);
-    } else {
-        pull_known(c, true, false);
-    }
+    const chain_node *node = &c->nodes[j];
+    const double *spread = c->rows[j].spread, on_x = size_of(node->at.on_x), on_d = size_of(node->at.on_d),
+                 on_r = size_of(node->at.on_r);
+    const double off_x = share * on_x + node->loss_x, off_d = share * on_d + node->loss_d, off_r = share * on_r;
+    const double off = off_x * size_of(node->x) + off_d * size_of(node->d) + off_r * jet + share * fabs(node->slope) +
+                       node->slope_error + c->noise * (1 + on_x);
+    const double root = sqrt(node->at.slope_weight),
+                 moved = root * (on_x * spread[0] + on_d * spread[1] + on_r * jet_reach);
+    sums->misses += square(root * off * (moved < 1 ? moved : 1));
+    sums->pulls += fabs(pull) * (off_x * spread[0] + off_d * spread[1] + off_r * jet_reach);
 }
 
-void chain_pull(chain *c)
+static void add_stretch_errors(const chain *c, int j, double *steps, row_sums *sums)
 {
-    if (c->is_complex) {
-        pull_known(c, true, true);
-    } else {
-        pull_known(c, false, false);
+    const chain_row *row = &c->rows[j];
+    const chain_node *p = &c->nodes[j], *q = p + 1;
+    const chain_stretch *s = row->stretch;
+    const double x = size_of(p->x), d = size_of(p->d), to = size_of(q->x), rows = rows_of(s, x, d, to, size_of(q->d));
+    const double n0 = row->end[0], n1 = row->end[1], *spread = row->spread;
+    sums->misses += square(s->loss * rows + c->noise * (2 * s->weight0 + s->turn * s->weight1));
+    sums->misses += 8 * s->ratio * square(s->loss) * (s->w00 * n0 * n0 + s->w11 * n1 * n1);
+    sums->pulls += s->loss * (n0 * (spread[0] + s->reach * spread[1]) + n1 * (s->turn * spread[0] + spread[1]));
+    sums->pulls += of_sums * rows * row->reach;
+    *steps =
+        larger(s->loss * (x + s->reach * d + s->w00 * (n0 + s->turn * n1) + s->w01 * (s->reach * n0 + n1)), *steps);
+    if (s->settles) {
+        sums->misses += square(s->weight1 * c->tail_loss * to);
+        sums->pulls += n1 * c->tail_loss * row[1].spread[0];
     }
+    if (q->at.slope_weight > 0)
+        add_slope(c, j + 1, s->loss, s->weight1 * rows, s->weight1 * row->reach, row->pull, sums);
+}
+
+static void add_first_errors(const chain *c, row_sums *sums)
+{
+    const chain_node *node = &c->nodes[0];
+    const double *spread = c->rows[0].spread, growth = size_of((cplx){c->lambda.re - 1, c->lambda.im});
+    const double x = size_of(node->x), e = size_of(node->d) + growth * x;
+    for (int i = 0; i < 2; i++) {
+        const struct start_row *row = &c->start.row[i];
+        const double on_x = size_of(row->on_x), on_e = size_of(row->on_e),
+                     off_x = row->loss.x + of_coefficient * on_x, off_e = row->loss.e + of_coefficient * on_e;
+        sums->misses += row->weight * square(off_x * x + off_e * e + c->noise * (on_x + growth * on_e));
+        sums->pulls += row->weight * size_of(start_at(start_on_x(c, row), row, node)) *
+                       (off_x * spread[0] + off_e * (spread[1] + growth * spread[0]));
+    }
+    if (node->at.slope_weight > 0) add_slope(c, 0, of_coefficient, 0, 0, first_pull(node), sums);
+}
+
+/// Σ x².
+WIDEST static double sum_squares(const double *x, int count)
+{
+    enum { LANES = 8 };
+    double sum[LANES] = {0}, all = 0;
+    int i = 0;
+    for (; i + LANES <= count; i += LANES) {
+        for (int n = 0; n < LANES; n++) sum[n] += x[i + n] * x[i + n];
+    }
+    for (; i < count; i++) all += x[i] * x[i];
+    for (int n = 0; n < LANES; n++) all += sum[n];
+    return all;
+}
+
+double chain_bound(const chain *c, double left, const double *x_im)
+{
+    row_sums sums = {0, 0};
+    const chain_node *last = &c->nodes[c->node_count - 1];
+    const double after = c->count - last->at.sample;
+    double steps = c->loss * (after + 16) * (size_of(last->x) + chain_reach(c, after) * size_of(last->d));
+    add_first_errors(c, &sums);
+    for (int j = 0; j + 1 < c->node_count; j++) add_stretch_errors(c, j, &steps, &sums);
+    if (c->im_weight > 0) { // as rows that miss, or as pulls
+        const double root = sqrt(c->im_weight), moved = root * c->spread * sqrt(c->count);
+        sums.pulls += root * sqrt(sum_squares(x_im, c->count)) * (moved < 1 ? moved : 1);
+    }
+    return c->spread * (left + sqrt(sums.misses) + sums.pulls) + steps;
 }

@@ -48,10 +48,9 @@ static double problem_scale(const problem *p)
     return scale;
 }
 
-bool problem_blew_up(const problem *p, const chain *solved, const wiggly_curve *curve)
+bool problem_blew_up(const problem *p, const wiggly_curve *curve)
 {
     double scale = problem_scale(p);
-    if (solved && p->desc->mode == WIGGLY_CUBIC && solved->cubic_bound <= blow_up * scale) return false;
     bool is_complex = p->desc->mode == WIGGLY_COMPLEX;
     const double *re = curve->re + p->first, *im = curve->im + p->first;
     double bound = extent_size(extent_of(re, p->count));

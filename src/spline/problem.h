@@ -120,9 +120,6 @@ void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from
 /// The same for all samples after the latest knot; arrays of the whole spline.
 void problem_settle(wiggly_solver *solver, const problem *p, double *re, double *im);
 
-/// Whether the chain may solve it: constant parameters and, for the paper's filter, a constant equilibrium.
-bool problem_fits_chain(wiggly_solver *solver, const problem *p);
-
 /// Whether a description has noise that its knots are solved over: some amount, an oscillator of constant poles that has a frequency.
 bool variation_is_set(const wiggly_desc *desc);
 
@@ -154,8 +151,8 @@ void scale_values(wiggly_solver *solver, double scale, wiggly_desc *desc);
 /// Divides a curve that was solved so, with all arrays, by it; `desc` has the unscaled values.
 void scale_back(const wiggly_desc *desc, double scale, wiggly_curve *curve);
 
-/// Solves by the chain: x of the system, M numbers each (x_im in complex mode). false if the chain cannot: a single knot with nothing else,
-/// digits lost, or numbers so large that something might overflow.
+/// Solves by the chain: x of the system, M numbers each. false if the chain cannot: parameters that vary, loops, still knots, knots side by
+/// side, the paper's filter on a moving equilibrium, a single knot with nothing else, digits lost.
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im);
 
 /// w of a posed spline into re and im of the curve, and its status. If the problem is singular, solves the nearest one that is not, and `p`
@@ -189,8 +186,8 @@ extent extent_of(const double *values, int count);
 /// The largest magnitude.
 static inline double extent_size(extent e) { return fmax(fabs(e.low), fabs(e.high)); }
 
-/// Whether max |x| is implausible for the knots. `solved` is the chain if that found x, else NULL.
-bool problem_blew_up(const problem *p, const chain *solved, const wiggly_curve *curve);
+/// Whether max |x| is implausible for the knots.
+bool problem_blew_up(const problem *p, const wiggly_curve *curve);
 
 /// Computes the rest from x: samples outside the system, the total, the equilibrium, the band's centre.
 void problem_complete(wiggly_solver *solver, const problem *p, wiggly_curve *curve);

@@ -21,7 +21,7 @@ void *arena_take(arena *a, size_t count, size_t size)
     return at;
 }
 
-enum { LINE = 64, RUN_COLUMNS = 6, POWER_COLUMNS = 8 }; ///< LINE: size of a cache line, to which columns are aligned
+enum { LINE = 64, POWER_COLUMNS = 8 }; ///< LINE: size of a cache line, to which columns are aligned
 
 /// Columns of `numbers` each, one after the other.
 static void lay_out_columns(unsigned char *at, double **const *columns, int count, size_t numbers)
@@ -39,7 +39,6 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
 {
     system_rows *rows = &at->rows;
     band_matrix *m = &at->band;
-    chain *c = &at->chain;
     limit_memory *l = &at->limits;
     const struct {
         double **array;
@@ -80,8 +79,9 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
                   {&l->stiffness, 1},
                   {&l->by_push, 2},
                   {&l->search, 4}};
-    double **const powers[POWER_COLUMNS] = {&c->powers.p.re,   &c->powers.p.im,   &c->powers.q.re, &c->powers.q.im,
-                                            &c->powers.w01.re, &c->powers.w01.im, &c->powers.w00,  &c->powers.w11};
+    chain_powers *t = &at->chain.powers;
+    double **const powers[POWER_COLUMNS] = {&t->p_re,   &t->p_im,   &t->q_re, &t->q_im,
+                                            &t->w01_re, &t->w01_im, &t->w00,  &t->w11};
     for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++) {
         if (arrays[i].array) {
             *arrays[i].array = arena_take(a, samples, arrays[i].each * sizeof(double));
@@ -99,15 +99,10 @@ static wiggly_solver *lay_out(arena *a, int samples, int knots)
     const size_t n = (size_t)samples, k = (size_t)knots + 1;
     system_rows *rows = &at->rows;
     chain *c = &at->chain;
-    double **const runs[RUN_COLUMNS] = {&c->pulled[0].re, &c->pulled[0].im, &c->pulled[1].re,
-                                        &c->pulled[1].im, &c->back.re,      &c->back.im};
     at->samples = samples;
     at->knots = knots;
     at->longest_squared = INT_MAX;
-    c->stretch_capacity =
-        knots; // with the start at rest there is one node more than knots, and one stretch less than nodes
     lay_out_numbers(at, a, n);
-    lay_out_columns(arena_take(a, RUN_COLUMNS, CHAIN_RUN * sizeof(double) + LINE), runs, RUN_COLUMNS, CHAIN_RUN);
     rows->rest = arena_take(a, n, sizeof *rows->rest);
     at->band.own = arena_take(a, n, sizeof *at->band.own);
     at->band.kept_own = arena_take(a, n, sizeof *at->band.kept_own);
@@ -118,8 +113,6 @@ static wiggly_solver *lay_out(arena *a, int samples, int knots)
     c->stretches = arena_take(a, k, sizeof *c->stretches);
     c->nodes = arena_take(a, k, sizeof *c->nodes);
     c->rows = arena_take(a, k, sizeof *c->rows);
-    c->to_first = arena_take(a, k, 9 * sizeof *c->to_first);
-    for (int i = 0; i < 2; i++) c->stretch_of[i] = arena_take(a, n, sizeof *c->stretch_of[i]);
     at->limits.own = arena_take(a, k, sizeof *at->limits.own);
     at->limits.all = arena_take(a, k, sizeof *at->limits.all);
     at->limits.held = arena_take(a, n, sizeof *at->limits.held);
@@ -174,17 +167,6 @@ void wiggly_destroy(wiggly_solver *solver)
 
 _Static_assert(RESPONSE_ROOM <= BAND_RECORD + BAND_SEAM, "the matrix has too little room for a loop's response");
 
-/// Limits over a run, as exponents of e: how differently the poles may decay, and how much both together.
-static const double most_unlike = 5, most_decay = 50;
-
-/// After this many samples the chain computes a state anew.
-static int run_of(const poles *at, double step)
-{
-    double decay = step * fabs(fmin(at->s[0].re, at->s[1].re)), unlike = step * fabs(at->s[0].re - at->s[1].re);
-    double run = fmin(most_unlike / unlike, most_decay / decay); // infinite for undamped poles
-    return run < CHAIN_RUN ? (int)fmax(run, 1) : CHAIN_RUN;
-}
-
 const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor)
 {
     constant_filter *f = &solver->filter;
@@ -192,7 +174,6 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
     const poles own = poles_at(desc, 0, floor);
     *f = (constant_filter){.known = true, .desc = desc_settings(desc), .floor = floor, .at = own};
     poles_mean(&f->at, desc->step, &f->lambda, &f->delta2);
-    f->run = run_of(&f->at, desc->step);
     poles damped = poles_at(desc, 0, fmax(floor, LEAST_DAMPING));
     f->start = poles_start_cost(&damped, desc->step);
     if (desc->passive != WIGGLY_OSCILLATOR) return f;

@@ -19,7 +19,6 @@ typedef struct constant_filter {
     start_cost start; ///< at calm 1; the oscillator's is in units of the jets' weight
     double cut;       ///< of the speeds that it sees
     cplx lambda, delta2;
-    int run;          ///< samples of a stretch that the chain fills from one state
     speed_form ahead; ///< the speed that the poles give from a sample and the next
     double unit;      ///< |g|² of the oscillator: unit of all weights but the jets'
     cplx passive;     ///< h p of the free motion

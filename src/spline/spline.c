@@ -37,9 +37,8 @@ static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
 {
     const chain *c = &solver->chain;
-    if (!p->by_band && problem_fits_chain(solver, p) &&
-        problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first) &&
-        c->error <= tolerance(p->desc->mode) * c->size)
+    if (!p->by_band && problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first) &&
+        c->size < INFINITY && c->error <= tolerance(p->desc->mode) * c->size)
         return (minimum){.by_chain = true, .solved = true, .largest = c->size, .error = c->error};
     problem_set_rows(solver, p);
     const minimum result = solver_minimise(solver);
@@ -82,8 +81,7 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
         *result = attempt(solver, p, curve);
         bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
         if (result->solved && is_told(solver, p, curve) &&
-            !(may_be_singular &&
-              (result->lost || problem_blew_up(p, result->by_chain ? &solver->chain : NULL, curve))))
+            !(may_be_singular && (result->lost || problem_blew_up(p, curve))))
             return status;
         if (may_be_singular && p->calm == 0) {
             problem_set_calm(solver, p, FALLBACK_CALM);
