@@ -1,24 +1,54 @@
 /// Solves q'' + 2d q' + k q = −y'' for an equilibrium y that is linear between samples, in closed form from sample to sample.
 //
-// At a sample q' jumps by −(y_{i+1} − 2 y_i + y_{i−1}) / h; over an interval, with r = √(d² − k) and the mean d, k of its ends,
+// In place of q' it runs z = h (y + q)', which does not jump where y bends. Over an interval in which y moves by g, with the mean d, k of its ends,
 //
-//     q  ← e^{−dh} ((cosh rh + d sinh(rh)/r) q + (sinh(rh)/r) q')
-//     q' ← e^{−dh} (−k (sinh(rh)/r) q + (cosh rh − d sinh(rh)/r) q').
+//     q ← q − L_qq q − L_qv (z − g),      z ← z − L_vq q − L_vv (z − g),      L = I − exp [0 1; −kh² −2dh].
 //
-// Run forward round a loop whose frequency varies, an error may grow as fast as a swing that the frequency pumps up: such a loop's states are
-// solved for together.
+// What is small, L and the differences from sample to sample, keeps its own digits. So what rounding makes each interval miss, Δ, is of the order of
+// ε times the motion over it. From rest the errors spread by C ← M C M' + diag Δ², M = I − L, and after i steps √(2i C_qq) bounds that of q (Cauchy
+// and Schwarz). Round a loop all states are solved for together, and bounded likewise; see below.
 //
 // u is q with the imaginary part that an oscillation on one side of the axis has, u' = p u: Im u = −(q' + d q)/ω_d.
 #include "spline/forced_response.h"
-#include "spline/dd.h"
 #include "spline/oscillator.h"
 #include "spline/problem.h"
-#include "spline/wide.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
 
+/// Rounding of L, of d and k, and of a step's sums: shares of what they are of.
+static const double unit = 4 * DBL_EPSILON;
+
+/// A loop whose response is as many times larger than y has none.
 static const double blow_up = 1e4;
+
+/// A pull that moves q back by a smaller share per round, against a constant brake, is none.
+static const double faint = 1e-12;
+
+/// A number for q and one for z.
+typedef struct pair {
+    double q, z;
+} pair;
+
+/// A symmetric matrix of q and z.
+typedef struct spread {
+    double qq, qz, zz;
+} spread;
+
+/// From a sample to the next: L, and ω_n h and d h.
+typedef struct interval {
+    step_matrix loss;
+    double rate, brake;
+} interval;
+
+/// The intervals one after the other; constant parameters have a single one.
+typedef struct path {
+    const wiggly_desc *desc;
+    double floor;
+    bool constant;
+    oscillator here; ///< of the sample before
+    interval now;
+} path;
 
 static oscillator oscillator_at(const wiggly_desc *desc, int sample, double floor)
 {
@@ -26,510 +56,333 @@ static oscillator oscillator_at(const wiggly_desc *desc, int sample, double floo
     return (oscillator){at.decay, at.natural * at.natural};
 }
 
-/// y at a sample. Before the start it is y₀, as if at rest; after the end it continues linearly; a loop wraps.
-static double y_beyond(const wiggly_desc *desc, const double *y, int i)
+static interval interval_of(oscillator o, double h)
 {
-    int n = desc->samples;
-    if (desc->start == WIGGLY_LOOP) return y[(i + n - 1) % (n - 1)];
-    if (i < 0) return y[0];
-    return i < n ? y[i] : 2 * y[n - 1] - y[n > 1 ? n - 2 : 0];
+    interval m = {oscillator_loss(o, h), sqrt(o.k) * h, o.d * h};
+    m.loss.q_v /= h, m.loss.v_q *= h;
+    return m;
 }
-
-/// Minus the jump of q' at each sample.
-WIDEST static void bends(const double *restrict y, int from, int to, double step, double *restrict out)
-{
-    for (int i = from; i < to; i++) out[i] = ((y[i] - y[i - 1]) - (y[i + 1] - y[i])) / step;
-}
-
-static void set_kicks(const wiggly_desc *desc, const double *y, double *out)
-{
-    const int last = desc->samples - 1;
-    bends(y, 1, last, desc->step, out);
-    const int ends[] = {0, last};
-    for (int e = 0; e < 2; e++) {
-        int i = ends[e];
-        double before = y_beyond(desc, y, i - 1), after = y_beyond(desc, y, i + 1);
-        out[i] = last > 0 ? ((y[i] - before) - (after - y[i])) / desc->step : 0;
-    }
-}
-
-/// The steps of the state from sample to sample; constant parameters have a single one.
-typedef struct path {
-    const wiggly_desc *desc;
-    double floor;
-    bool constant;
-    oscillator here; ///< of the sample before, if they vary
-    step_matrix step, loss;
-} path;
 
 static path begin(const wiggly_desc *desc, double floor)
 {
-    path p = {
-        .desc = desc, .floor = floor, .constant = poles_are_constant(desc), .here = oscillator_at(desc, 0, floor)};
-    p.step = oscillator_step(p.here, desc->step);
-    return p;
+    const oscillator first = oscillator_at(desc, 0, floor);
+    return (path){desc, floor, poles_are_constant(desc), first, interval_of(first, desc->step)};
 }
 
-/// The mean parameters of the interval after sample i.
-static oscillator mean_over(path *p, int i)
+/// The interval after sample i, in order.
+static const interval *next(path *p, int i)
 {
-    if (p->constant) return p->here;
-    bool closes = p->desc->start == WIGGLY_LOOP && i + 2 == p->desc->samples;
-    oscillator next = oscillator_at(p->desc, closes ? 0 : i + 1, p->floor);
-    oscillator mean = {0.5 * (p->here.d + next.d), 0.5 * (p->here.k + next.k)};
-    p->here = next;
-    return mean;
+    if (p->constant) return &p->now;
+    const bool closes = p->desc->start == WIGGLY_LOOP && i + 2 == p->desc->samples;
+    const oscillator after = oscillator_at(p->desc, closes ? 0 : i + 1, p->floor);
+    p->now = interval_of((oscillator){0.5 * (p->here.d + after.d), 0.5 * (p->here.k + after.k)}, p->desc->step);
+    p->here = after;
+    return &p->now;
 }
 
-/// Writes q to `total`, and q' in the middle of its jumps to `speed`, from a state before sample 0, with the jumps in `im`. Returns the state
-/// after the last step.
-static void run(const wiggly_desc *desc, double floor, double q, double v, const forced_response *u, double end[2])
+static inline pair times(const step_matrix *m, pair s)
 {
-    path p = begin(desc, floor);
-    int n = desc->samples;
-    for (int i = 0; i < n; i++) {
-        double kick = u->im[i];
-        u->total[i] = q;
-        u->speed[i] = v + 0.5 * kick;
-        if (i + 1 == n) break;
-        step_matrix m = p.constant ? p.step : oscillator_step(mean_over(&p, i), desc->step);
-        v += kick;
-        double moved = m.q_q * q + m.q_v * v;
-        v = m.v_q * q + m.v_v * v;
-        q = moved;
-    }
-    end[0] = q, end[1] = v;
+    return (pair){m->q_q * s.q + m->q_v * s.z, m->v_q * s.q + m->v_v * s.z};
 }
 
-/// What the step over the interval after sample i takes from the state; a constant one is computed once.
-static step_matrix next_loss(path *p, int i)
+/// What rounding may make a step miss, in `unit`: of its sums and of L, and of k and d, which act as a force. A fast brake stops that force's motion.
+static inline pair rounding(const interval *m, pair s, pair t, double g)
 {
-    if (!p->constant || i == 0) p->loss = oscillator_loss(mean_over(p, i), p->desc->step);
-    return p->loss;
+    const double q = fabs(s.q), v = fabs(s.z - g), moved = v + fabs(g);
+    const double force = 2 * (m->rate * m->rate * (q + v) + m->brake * (v + m->rate * q));
+    const double felt = m->brake > 2 ? force * 2 / m->brake : force;
+    return (pair){fabs(t.q - s.q) + fabs(m->loss.q_q) * q + fabs(m->loss.q_v) * moved + felt,
+                  fabs(t.z - s.z) + fabs(m->loss.v_q) * q + fabs(m->loss.v_v) * moved + felt};
 }
 
-/// I − (I − d)(I − e) = d + e − d e.
-static step_matrix compose(step_matrix d, step_matrix e)
+/// M C Mᵀ.
+static inline spread spread_by(const step_matrix *m, spread c)
 {
-    return (step_matrix){
-        .q_q = d.q_q + e.q_q - (d.q_q * e.q_q + d.q_v * e.v_q),
-        .q_v = d.q_v + e.q_v - (d.q_q * e.q_v + d.q_v * e.v_v),
-        .v_q = d.v_q + e.v_q - (d.v_q * e.q_q + d.v_v * e.v_q),
-        .v_v = d.v_v + e.v_v - (d.v_q * e.q_v + d.v_v * e.v_v),
-    };
+    const pair q = times(m, (pair){c.qq, c.qz}), z = times(m, (pair){c.qz, c.zz}); // M C
+    const pair of_q = times(m, (pair){q.q, z.q}), of_z = times(m, (pair){q.z, z.z});
+    return (spread){of_q.q, of_q.z, of_z.z};
 }
 
-/// I − the product of a loop's steps, which for slow poles is a small difference. Equal steps by squaring.
-static step_matrix around(const wiggly_desc *desc, double floor)
+/// q from rest to `total`, z to `speed`, and a bound of z's error to `im`.
+static void run(const wiggly_desc *desc, const double *y, double range, forced_response *u)
 {
-    path p = begin(desc, floor);
-    const int period = desc->samples - 1;
-    step_matrix all = {0};
-    if (!p.constant) {
-        for (int i = 0; i < period; i++) all = compose(next_loss(&p, i), all);
-        return all;
-    }
-    step_matrix some = next_loss(&p, 0);
-    for (int bit = 1; bit <= period && bit > 0; bit *= 2) {
-        if (period & bit) all = compose(all, some);
-        some = compose(some, some);
-    }
-    return all;
-}
-
-/// run() of a loop, with sums and jumps in double-double, and h q' in place of q'. Does not read u's `im`. `missed` receives the change of the
-/// state over the round.
-static void run_exactly(const wiggly_desc *desc, const double *y, double floor, const double from[2],
-                        const forced_response *u, double missed[2])
-{
-    path p = begin(desc, floor);
+    path p = begin(desc, 0);
     const int last = desc->samples - 1;
-    const double h = desc->step;
-    const dd q0 = dd_from(from[0]), v0 = dd_product(h, from[1]);
-    dd q = q0, v = v0, behind = dd_difference(y[0], y[last - 1]);
+    const double in_range = 1 / range, share = unit * range * sqrt(2);
+    pair s = {0, 0};
+    spread c = {0, 0, 0};
+    double most = 0;
     for (int i = 0;; i++) {
-        const dd ahead = dd_difference(y[i < last ? i + 1 : 1], y[i]), kick = dd_subtract(behind, ahead);
-        u->total[i] = q.hi;
-        u->speed[i] = (v.hi + 0.5 * kick.hi) / h;
+        u->total[i] = s.q;
+        u->speed[i] = s.z;
+        u->im[i] = share * sqrt(i * (c.zz > 0 ? c.zz : 0));
+        if (i * c.qq > most) most = i * c.qq;
         if (i == last) break;
-        const step_matrix loss = next_loss(&p, i);
-        behind = ahead;
-        v = dd_add(v, kick);
-        const double of_q = loss.q_q * q.hi + loss.q_v / h * v.hi, of_v = loss.v_q * h * q.hi + loss.v_v * v.hi;
-        q = dd_subtract(q, dd_from(of_q));
-        v = dd_subtract(v, dd_from(of_v));
+        const interval *m = next(&p, i);
+        const double g = y[i + 1] - y[i];
+        const pair by = times(&m->loss, (pair){s.q, s.z - g}), t = {s.q - by.q, s.z - by.z};
+        const pair off = rounding(m, s, t, g);
+        const double of_q = (off.q + fabs(t.q)) * in_range, of_z = (off.z + fabs(t.z)) * in_range;
+        const step_matrix step = {1 - m->loss.q_q, -m->loss.q_v, -m->loss.v_q, 1 - m->loss.v_v};
+        c = spread_by(&step, c);
+        c.qq += of_q * of_q, c.zz += of_z * of_z;
+        s = t;
     }
-    missed[0] = dd_subtract(q, q0).hi, missed[1] = dd_subtract(v, v0).hi / h;
+    u->error = share * sqrt(most);
 }
 
-/// A pull that brings q back by less than this per round cannot close a circle.
-static const double faint = 1e-12;
-
-/// The effect of a loop's parameters over a whole round: pulling q back, and braking it.
-typedef struct forces {
-    bool pull, brake;
-    double k, d; ///< maxima
-} forces;
-
-static forces forces_of(const wiggly_desc *desc, double floor)
-{
-    forces f = {.pull = false};
-    const bool constant = poles_are_constant(desc);
-    const double seconds = (desc->samples - 1) * desc->step;
-    for (int i = 0; i < (constant ? 1 : desc->samples - 1); i++) {
-        oscillator o = oscillator_at(desc, i, floor);
-        f.pull = f.pull || o.k > (constant ? faint * 2 * o.d / seconds : 0);
-        f.brake = f.brake || o.d > 0;
-        f.k = fmax(f.k, o.k), f.d = fmax(f.d, o.d);
-    }
-    return f;
-}
-
-static double determinant(const step_matrix *a) { return a->q_q * a->v_v - a->q_v * a->v_q; }
-
-/// The state that is `missed` more after a round without y. If nothing pulls back, only q' returns. False if there is no such state.
-static bool close_circle(double seconds, forces f, const step_matrix *a, const double missed[2], double state[2])
-{
-    if (!f.pull) {
-        state[0] = 0, state[1] = f.brake ? missed[1] / a->v_v : -missed[0] / seconds;
-        return true;
-    }
-    const double det = determinant(a);
-    if (!(fabs(det) > 1e-16 * (fabs(a->q_q * a->v_v) + fabs(a->q_v * a->v_q)))) return false;
-    state[0] = (a->v_v * missed[0] - a->q_v * missed[1]) / det;
-    state[1] = (a->q_q * missed[1] - a->v_q * missed[0]) / det;
-    return true;
-}
-
-/// How far the rounding of steps, jumps and parameters (which a resonance amplifies) may change the periodic q. `rounding`: of its sums.
-static double error_of_circle(const forced_response *u, int period, double step, forces f, const step_matrix *a,
-                              double rounding)
-{
-    const double seconds = period * step, small = 2 * DBL_EPSILON * step;
-    double q = 0, v = 0;
-    for (int i = 0; i < period; i++) q += fabs(u->total[i]), v += fabs(u->speed[i]) + fabs(u->im[i]);
-    const double of_q = rounding * q + small * v, of_v = rounding * v + small * (f.k * q + 2 * f.d * v);
-    if (!f.pull) return of_q + seconds * of_v * (1 + (f.brake ? 1 / fabs(a->v_v) : 0));
-    return (fabs(a->v_v) * of_q + fabs(a->q_v) * of_v + seconds * (fabs(a->q_q) * of_v + fabs(a->v_q) * of_q)) /
-           fabs(determinant(a));
-}
-
-// --- a loop of varying parameters: all states together ---
+// --- a loop: all states together ---
 //
-// With s_i = (q, h q') before the jump of sample i, each interval is an equation s_{i+1} − M_i s_i = f_i. Rotations of two neighbouring equations
-// eliminate s_1, s_2, … in turn, until one equation is left, for s_0. The rows that they set aside give the other states, from the last on:
+// With s = (q, z) and σ_i = s_i − s_0, each interval is an equation σ_{i+1} − (I − L_i) σ_i + L_i s_0 = r_i; a pull that is faint beside 1 has a column
+// of its own. Each is divided by what rounding may be of it. Reflections of two neighbouring equations eliminate σ_1, σ_2, … in turn, until one
+// equation is left, for s_0. The rows that they set aside give the other states, from the last on:
 //
-//     s_i  s_0  s_{i+1}             s_i  s_0  s_{i+1}
-//     | B    A    0   |     →      | R    U    V  |         R s_i = c − U s_0 − V s_{i+1}
-//     | −M_i 0    I   |            | 0    A'   B' |
+//     σ_i  s_0  σ_{i+1}             σ_i  s_0  σ_{i+1}
+//     | A    B    0   |     →      | R    U    V  |         R σ_i = c − U s_0 − V σ_{i+1}
+//     | L−I  L    I   |            | 0    B'   A' |
 //
-// No number grows on the way, however fast the states would. Residuals in double-double refine them.
+// No number grows on the way, however fast a swing would that a varying frequency pumps up. The second solution corrects the first by what the
+// equations then miss, r. With D = diag (AᵀA)⁻¹ by the same rows, each state is within √D (ρ ‖r‖ + ‖Δ‖) / (1 − ρ), where ρ bounds the
+// reflections' own rounding.
 
-enum { OF_ITSELF = 0, OF_FIRST = 2, OF_NEXT = 4, RIGHT = 6, ENTRIES };
+enum { FIRST = 2, NEXT = 4, RIGHT = 6, ENTRIES };
 
-/// A sample's interval, and its state.
+/// A sample of a loop.
 typedef struct waypoint {
-    step_matrix loss;  ///< of q and h q'
-    double root[3];    ///< R
-    double kept[2][5]; ///< U, V and c
-    double state[2];   ///< the equation's right side, then the solution
+    interval after;
+    step_matrix root, first, next; ///< R, U, V
+    pair right;                    ///< c
 } waypoint;
 
 _Static_assert(sizeof(waypoint) == RESPONSE_ROOM * sizeof(double), "the room for a loop");
 
-/// Turns two rows so that the second one begins with 0, from a column on.
-static void rotate(double *a, double *b, int column)
+/// Reflects rows from `column` on so that all but the first begin with 0 there (Householder); the zeros are not written.
+static inline void reflect(double row[4][ENTRIES], int column)
 {
-    if (b[column] == 0) return;
-    const double size = fmax(fabs(a[column]), fabs(b[column])), x = a[column] / size, y = b[column] / size;
-    const double length = sqrt(x * x + y * y), c = x / length, s = y / length;
-    for (int k = column; k < ENTRIES; k++) {
-        const double above = c * a[k] + s * b[k];
-        b[k] = c * b[k] - s * a[k];
-        a[k] = above;
+    double square = 0;
+    for (int k = column; k < 4; k++) square += row[k][column] * row[k][column];
+    if (square == 0) return;
+    const double size = copysign(sqrt(square), row[column][column]), pivot = row[column][column] + size,
+                 share = 1 / (pivot * size);
+    for (int j = column + 1; j < ENTRIES; j++) {
+        double sum = pivot * row[column][j];
+        for (int k = column + 1; k < 4; k++) sum += row[k][column] * row[k][j];
+        sum *= share;
+        row[column][j] -= sum * pivot;
+        for (int k = column + 1; k < 4; k++) row[k][j] -= sum * row[k][column];
     }
+    row[column][column] = -size;
 }
 
-/// The equation of a sample's interval as two rows, with −M_i at a column.
-static void set_equation(const waypoint *at, int column, double row[2][ENTRIES])
+/// Eliminates the first two unknowns of four rows; the first two rows are then the waypoint's.
+static inline void eliminate(double row[4][ENTRIES], waypoint *at)
 {
-    memset(row, 0, 2 * sizeof *row);
-    row[0][column] = at->loss.q_q - 1, row[0][column + 1] = at->loss.q_v;
-    row[1][column] = at->loss.v_q, row[1][column + 1] = at->loss.v_v - 1;
-    for (int k = 0; k < 2; k++) row[k][RIGHT] = at->state[k];
+    reflect(row, 0);
+    reflect(row, 1);
+    at->root = (step_matrix){row[0][0], row[0][1], 0, row[1][1]};
+    at->first = (step_matrix){row[0][FIRST], row[0][FIRST + 1], row[1][FIRST], row[1][FIRST + 1]};
+    at->next = (step_matrix){row[0][NEXT], row[0][NEXT + 1], row[1][NEXT], row[1][NEXT + 1]};
+    at->right = (pair){row[0][RIGHT], row[1][RIGHT]};
 }
 
-/// Solves R s = right.
-static bool solve_root(const double root[3], const double right[2], double s[2])
+/// Factors the equations of q in `total` and z in `speed`. `least`: what z's rounding is at least, as a share of q's; 0: all equations weigh alike.
+/// Returns ‖r‖.
+static double factor(waypoint *way, const double *y, int period, double range, double least, bool pulled,
+                     const forced_response *u)
 {
-    if (root[0] == 0 || root[2] == 0) return false;
-    s[1] = right[1] / root[2];
-    s[0] = (right[0] - root[1] * s[1]) / root[0];
-    return isfinite(s[0]) && isfinite(s[1]);
-}
-
-/// Solves for all states. False if no state, or more than one, returns to itself.
-static bool solve_round(waypoint *way, int period)
-{
-    double row[4][ENTRIES]; // the equation that is left, and the next one
-    set_equation(&way[0], OF_FIRST, row);
-    row[0][0] = row[1][1] = 1;
-    for (int i = 1; i < period; i++) {
-        set_equation(&way[i], OF_ITSELF, row + 2);
-        row[2][OF_NEXT] = row[3][OF_NEXT + 1] = 1;
-        for (int column = 0; column < 2; column++) {
-            for (int k = column + 1; k < 4; k++) rotate(row[column], row[k], column);
-        }
-        way[i].root[0] = row[0][0], way[i].root[1] = row[0][1], way[i].root[2] = row[1][1];
-        for (int k = 0; k < 2; k++) {
-            const double *left = row[2 + k];
-            const double moved[ENTRIES] = {left[4], left[5], left[2], left[3], 0, 0, left[RIGHT]};
-            memcpy(way[i].kept[k], row[k] + OF_FIRST, sizeof way[i].kept[k]);
-            memcpy(row[k], moved, sizeof moved);
-        }
-    }
-    for (int k = 0; k < 4; k++) row[k / 2][k % 2] += row[k / 2][OF_FIRST + k % 2]; // s_P is s_0
-    rotate(row[0], row[1], 0);
-    const double last[3] = {row[0][0], row[0][1], row[1][1]}, right[2] = {row[0][RIGHT], row[1][RIGHT]};
-    double *first = way[0].state;
-    if (!solve_root(last, right, first)) return false;
-    for (int i = period - 1; i > 0; i--) {
-        const double *next = i + 1 < period ? way[i + 1].state : first;
-        double rest[2];
-        for (int k = 0; k < 2; k++) {
-            const double *r = way[i].kept[k];
-            rest[k] = r[4] - (r[0] * first[0] + r[1] * first[1]) - (r[2] * next[0] + r[3] * next[1]);
-        }
-        if (!solve_root(way[i].root, rest, way[i].state)) return false;
-    }
-    return true;
-}
-
-/// What each equation misses at q and h q', with the jumps in double-double.
-static void find_missed(waypoint *way, const double *y, int period, const double *q, const double *v)
-{
-    dd behind = dd_difference(y[0], y[period - 1]);
+    double row[4][ENTRIES] = {{0}}, square = 0;
     for (int i = 0; i < period; i++) {
+        const interval *m = &way[i].after;
+        const step_matrix *l = &m->loss;
         const int next = i + 1 < period ? i + 1 : 0;
-        const step_matrix *loss = &way[i].loss;
-        const dd ahead = dd_difference(y[i + 1], y[i]), moved = dd_add(dd_subtract(behind, ahead), dd_from(v[i]));
-        const dd of_q = dd_add(dd_product(loss->q_q, q[i]), dd_scale(loss->q_v, moved)),
-                 of_v = dd_add(dd_product(loss->v_q, q[i]), dd_scale(loss->v_v, moved));
-        way[i].state[0] = dd_subtract(dd_difference(q[i], q[next]), of_q).hi;
-        way[i].state[1] = dd_subtract(dd_subtract(moved, dd_from(v[next])), of_v).hi;
-        behind = ahead;
+        const pair s = {u->total[i], u->speed[i]}, t = {u->total[next], u->speed[next]};
+        const double g = y[i + 1] - y[i];
+        const pair by = times(l, (pair){s.q, s.z - g}), off = rounding(m, s, t, g);
+        const double of_q = off.q + 0x1p-10 * range, of_z = off.z + least * of_q; // none is 0
+        const double a = least > 0 ? range / of_q : 1, b = least > 0 ? range / of_z : 1;
+        const double equation[2][ENTRIES] = {
+            {a * (l->q_q - 1), a * l->q_v, a * l->q_q, a * l->q_v, a, 0, a * (s.q - t.q - by.q)},
+            {b * l->v_q, b * (l->v_v - 1), b * l->v_q, b * l->v_v, 0, b, b * (s.z - t.z - by.z)}};
+        memcpy(row[2], equation, sizeof equation);
+        square += row[2][RIGHT] * row[2][RIGHT] + row[3][RIGHT] * row[3][RIGHT];
+        if (i > 0) eliminate(row, &way[i]);
+        for (int k = 0; k < 2; k++) {
+            const double *r = row[k + 2];
+            const double left[ENTRIES] = {r[NEXT], r[NEXT + 1], r[FIRST], r[FIRST + 1], 0, 0, r[RIGHT]};
+            memcpy(row[k], left, sizeof left);
+        }
     }
+    for (int k = 0; k < 2; k++) { // σ_P is 0
+        const double last[ENTRIES] = {row[k][FIRST], row[k][FIRST + 1], [RIGHT] = row[k][RIGHT]};
+        memcpy(row[k], last, sizeof last);
+    }
+    memset(row[2], 0, 2 * sizeof row[2]);
+    row[2][0] = pulled ? 0 : 1; // any q₀ will do
+    eliminate(row, &way[0]);
+    return sqrt(square);
 }
 
-/// How far q and Im u move if the steps are rounded differently, each by this share: all alike, or each in its own direction.
-static double error_of_round(const wiggly_desc *desc, double floor, waypoint *way, const forced_response *u,
-                             double share)
+/// The squares of a matrix's columns.
+static pair columns(const step_matrix *m)
 {
-    const int period = desc->samples - 1;
-    double largest = 0;
-    for (int alike = 0; alike < 2; alike++) {
-        for (int i = 0; i < period; i++) {
-            const step_matrix *l = &way[i].loss;
-            const double q = u->total[i], v = u->speed[i], sign = i * 7 % 5 < 2 ? -share : share;
-            way[i].state[0] =
-                alike ? share * (l->q_q * q + l->q_v * v) : sign * (fabs(l->q_q * q) + fabs(l->q_v * v));
-            way[i].state[1] =
-                alike ? share * (l->v_q * q + l->v_v * v) : -sign * (fabs(l->v_q * q) + fabs(l->v_v * v));
-        }
-        if (!solve_round(way, period)) return INFINITY;
-        double most = 0;
-        for (int i = 0; i < period; i++) {
-            const oscillator o = oscillator_at(desc, i, floor);
-            const double q = fabs(way[i].state[0]), v = fabs(way[i].state[1]) / desc->step;
-            const double turn = desc->mode == WIGGLY_COMPLEX ? fabs(oscillator_turn(o, period * desc->step)) : 0;
-            most = fmax(most, q + turn * (v + o.d * q));
-        }
-        largest += most;
-    }
-    return largest;
+    return (pair){m->q_q * m->q_q + m->v_q * m->v_q, m->q_v * m->q_v + m->v_v * m->v_v};
 }
 
-/// If corrections stop at a larger share of q, the rotations lost the pull: then it is too slow for a swing to grow.
-static const double lost = 1e-10;
-
-/// q to `total` and q', in the middle of its jumps, to `speed`. False if there is none, or the rotations cannot find it.
-static bool run_round(const wiggly_desc *desc, const double *y, double floor, double fastest, forced_response *u)
+/// C's diagonal, with two columns of its factor apart.
+static pair diagonal(const pair column[2], spread c)
 {
-    enum { SWEEPS = 8 };
+    return (pair){column[0].q * column[0].q + column[1].q * column[1].q + c.qq,
+                  column[0].z * column[0].z + column[1].z * column[1].z + c.zz};
+}
+
+/// Adds the solution to `total` and `speed`. √D of z goes to `im`, the largest of q to `error`. Returns ρ, infinite if there is no solution.
+static double solve(const waypoint *way, int period, forced_response *u)
+{
+    enum { SOLUTION = 2 }; // behind two columns that are what the last equation's own noise does
+    pair first[3] = {{0}}, s[3] = {{0}}, of_first = columns(&way[0].root);
+    spread c = {0, 0, 0}; // of the noise of all others
+    double sum = 0, most = 0;
+    for (int n = 0; n < period; n++) {
+        const int i = n > 0 ? period - n : 0;
+        const waypoint *at = &way[i];
+        const step_matrix *r = &at->root, inverse = {1 / r->q_q, -r->q_v / (r->q_q * r->v_v), 0, 1 / r->v_v};
+        for (int k = 0; k <= SOLUTION; k++) {
+            const pair right = k == SOLUTION ? at->right : (pair){k == 0 && i == 0, k == 1 && i == 0};
+            const pair a = times(&at->first, first[k]), b = times(&at->next, s[k]);
+            s[k] = times(&inverse, (pair){right.q - a.q - b.q, right.z - a.z - b.z});
+        }
+        if (i == 0) {
+            memcpy(first, s, sizeof s);
+            memset(s, 0, sizeof s);
+        } else {
+            c = spread_by(&at->next, c);
+            c.qq += 1, c.zz += 1;
+            c = spread_by(&inverse, c);
+            const pair of_this = columns(&at->root), of_s0 = columns(&at->first), d = diagonal(s, c);
+            const pair of_before = i > 1 ? columns(&way[i - 1].next) : (pair){0, 0};
+            sum += d.q * (of_this.q + of_before.q) + d.z * (of_this.z + of_before.z);
+            of_first.q += of_s0.q, of_first.z += of_s0.z;
+        }
+        pair state[3];
+        for (int k = 0; k <= SOLUTION; k++) state[k] = (pair){first[k].q + s[k].q, first[k].z + s[k].z};
+        const pair d = diagonal(state, c);
+        if (d.q > most) most = d.q;
+        u->im[i] = sqrt(d.z);
+        u->total[i] += state[SOLUTION].q;
+        u->speed[i] += state[SOLUTION].z;
+    }
+    const pair d = diagonal(first, (spread){0, 0, 0});
+    sum += d.q * of_first.q + d.z * of_first.z;
+    u->error = sqrt(most);
+    return 10 * DBL_EPSILON * (period + 2) * (1 + sqrt(sum));
+}
+
+/// The periodic q to `total`, z to `speed` and a bound of z's error to `im`. False if there is none, or only one far too large.
+static bool close_loop(const wiggly_desc *desc, const double *y, double floor, double range, forced_response *u)
+{
+    enum { SWEEPS = 4 };
     const int period = desc->samples - 1;
-    const double h = desc->step;
+    const double own = unit * range * sqrt(2.0 * period); // ‖Δ‖
     waypoint *way = (waypoint *)(void *)u->room;
     path p = begin(desc, floor);
+    bool pulled = false;
     for (int i = 0; i < period; i++) {
-        way[i].loss = next_loss(&p, i);
-        way[i].loss.q_v /= h, way[i].loss.v_q *= h;
+        const interval *m = next(&p, i);
+        pulled = pulled || period * m->rate * m->rate > (p.constant ? faint * m->brake : 0);
+        way[i].after = *m;
         u->total[i] = u->speed[i] = 0;
     }
-    double before = INFINITY, change = 0, size = 0;
-    for (int sweep = 0; sweep < SWEEPS; sweep++) {
-        find_missed(way, y, period, u->total, u->speed);
-        if (!solve_round(way, period)) return false;
-        change = 0;
-        for (int i = 0; i < period; i++) change = fmax(change, fmax(fabs(way[i].state[0]), fabs(way[i].state[1])));
-        if (change > 0.5 * before) break; // in the last digits
-        for (int i = 0; i < period; i++) {
-            u->total[i] += way[i].state[0], u->speed[i] += way[i].state[1];
-            size = fmax(size, fmax(fabs(u->total[i]), fabs(u->speed[i])));
-        }
-        before = change;
-        if (change <= DBL_EPSILON * size) break;
+    double error = INFINITY, least = 0;
+    for (int sweep = 0; sweep < SWEEPS && !(error < 2 * own); sweep++) {
+        const double missed = factor(way, y, period, range, least, pulled, u), share = solve(way, period, u);
+        if (sweep > 0) error = share < 0.5 ? (share * missed + own) / (1 - share) : INFINITY;
+        least = sweep > 0 ? least * 0x1p12 : 0x1p-40;
     }
-    if (change > lost * size) return false;
-    u->error = 4 * change + 8 * error_of_round(desc, floor, way, u, 4 * DBL_EPSILON * (1 + fastest * h));
-    u->total[period] = u->total[0], u->speed[period] = u->speed[0];
-    for (int i = 0; i <= period; i++) u->speed[i] = u->speed[i] / h + 0.5 * u->im[i];
-    return true;
+    double mean = 0;
+    for (int i = 0; i < period; i++) {
+        if (!isfinite(u->total[i]) || !isfinite(u->speed[i])) u->total[i] = u->speed[i] = 0, error = INFINITY;
+        mean += u->total[i] / period;
+        u->im[i] = error * u->im[i] + DBL_EPSILON * fabs(u->speed[i]);
+    }
+    for (int i = 0; i < period && !pulled; i++) u->total[i] -= mean; // determined up to a constant
+    u->total[period] = u->total[0], u->speed[period] = u->speed[0], u->im[period] = u->im[0];
+    const double largest = extent_size(extent_of(u->total, period));
+    const double sums = pulled ? DBL_EPSILON : period * DBL_EPSILON + faint;
+    u->error = error < INFINITY ? error * u->error + sums * largest : INFINITY;
+    return error < INFINITY && (!pulled || largest <= blow_up * range);
 }
 
-/// As a share of y's range: a loop whose error may be larger is refined.
-static const double narrow = 1e-11;
-
-/// The periodic q. False if there is none, or only one far too large.
-static bool run_loop(const wiggly_desc *desc, const double *y, double floor, forced_response *u)
+/// Half the change from the sample before to the one after. A loop wraps; an end is level.
+static double half_change(const wiggly_desc *desc, const double *a, int i)
 {
-    const forces f = forces_of(desc, floor);
-    const int period = desc->samples - 1;
-    const extent all = extent_of(y, period);
-    const double range = all.high - all.low;
-    const double seconds = period * desc->step;
-    if (f.pull && !poles_are_constant(desc) && run_round(desc, y, floor, sqrt(f.k), u))
-        return extent_size(extent_of(u->total, period)) <= blow_up * range;
-    const step_matrix a = around(desc, floor);
-    double end[2], state[2], more[2];
-    run(desc, floor, 0, 0, u, end);
-    u->error = INFINITY;
-    if (!close_circle(seconds, f, &a, end, state)) return false;
-    run(desc, floor, state[0], state[1], u, end);
-    u->error = error_of_circle(u, period, desc->step, f, &a, 2 * DBL_EPSILON);
-    if (u->error > narrow * range) {
-        run_exactly(desc, y, floor, state, u, end);
-        close_circle(seconds, f, &a, end, more);
-        state[0] += more[0], state[1] += more[1];
-        run_exactly(desc, y, floor, state, u, end);
-        u->error = error_of_circle(u, period, desc->step, f, &a, 0);
-    }
-    if (!f.pull) { // it is determined up to a constant: take mean 0
-        dd mean = {0, 0};
-        for (int i = 0; i < period; i++) mean = dd_add(mean, dd_from(u->total[i]));
-        for (int i = 0; i <= period; i++) u->total[i] -= mean.hi / period;
-        return true;
-    }
-    return extent_size(extent_of(u->total, period)) <= blow_up * range;
-}
-
-WIDEST static void imaginary_constant(const double *restrict q, const double *restrict speed, double gain, double d,
-                                      int count, double *restrict im)
-{
-    for (int i = 0; i < count; i++) im[i] = gain * (speed[i] + d * q[i]);
-}
-
-/// Lets Im u see the offset's speed: a part that lags follows a move later, and does not see the mass that stays behind.
-static void add_offset(const wiggly_desc *desc, double floor, const forced_response *u)
-{
-    const double *o = u->offset, t = (desc->samples - 1) * desc->step;
     const int last = desc->samples - 1;
-    const bool loops = desc->start == WIGGLY_LOOP;
-    for (int i = 0; i <= last; i++) {
-        const int before = i > 0 ? i - 1 : loops ? last - 1 : 0, after = i < last ? i + 1 : loops ? 1 : last;
-        if (o[after] == o[before]) continue;
-        u->im[i] += oscillator_turn(oscillator_at(desc, i, floor), t) * (o[after] - o[before]) / (2 * desc->step);
-    }
+    const bool loops = desc->start == WIGGLY_LOOP && last > 0;
+    return 0.5 * (a[i < last ? i + 1 : loops ? 1 : last] - a[i > 0 ? i - 1 : loops ? last - 1 : 0]);
 }
 
-static void set_imaginary(const wiggly_desc *desc, double floor, const forced_response *u)
+/// The same of y, which goes on as it ends.
+static double half_change_of_y(const wiggly_desc *desc, const double *y, int i)
 {
-    double t = (desc->samples - 1) * desc->step;
-    if (poles_are_constant(desc)) {
-        oscillator o = oscillator_at(desc, 0, floor);
-        imaginary_constant(u->total, u->speed, oscillator_turn(o, t), o.d, desc->samples, u->im);
-        return;
-    }
-    for (int i = 0; i < desc->samples; i++) {
-        oscillator o = oscillator_at(desc, i, floor);
-        u->im[i] = oscillator_turn(o, t) * (u->speed[i] + o.d * u->total[i]);
-    }
+    return half_change(desc, y, i) * (i + 1 == desc->samples && desc->start != WIGGLY_LOOP ? 2 : 1);
 }
 
-WIDEST static void add(double *restrict total, const double *restrict y, int count)
-{
-    for (int i = 0; i < count; i++) total[i] += y[i];
-}
-
-/// A bound of what rounding has done to q and to Im u on the way from rest. The free motion of an error never grows in the norm of its energy,
-/// k q² + q'²; where k is constant and swings, (ω_d q)² + (q' + d q)² falls with the damping. To that each step adds its own rounding.
-static double error_of_run(const wiggly_desc *desc, const forced_response *u)
+/// u from q and z, and a bound of both its parts. Im u sees the offset's speed, too: a part that lags follows a move later, and does not see the
+/// mass that stays behind.
+static void finish(const wiggly_desc *desc, const double *y, double floor, forced_response *u)
 {
     const bool constant = poles_are_constant(desc);
-    const double h = desc->step, t = (desc->samples - 1) * h, unit = 2 * DBL_EPSILON;
-    oscillator o = oscillator_at(desc, 0, 0);
-    const double swing = o.k - o.d * o.d;
-    const bool falls = constant && swing > 0.5 * o.k;
-    double decay = falls ? maths_exp(-o.d * h) : 1, size = falls ? swing : o.k, turn = fabs(oscillator_turn(o, t));
-    double norm = 0, of_q = 0, most = 0;
-    if (desc->mode != WIGGLY_COMPLEX) turn = 0;
+    const double h = desc->step, seconds = (desc->samples - 1) * h, of_q = u->error;
+    oscillator o = {0};
+    double turn = 0, loss = 0;
     for (int i = 0; i < desc->samples; i++) {
-        const double q = fabs(u->total[i]), v = fabs(u->speed[i]);
-        if (!constant && i > 0) {
-            o = oscillator_at(desc, i, 0);
-            if (o.k > size) norm = sqrt(norm * norm + (o.k - size) * of_q * of_q);
-            size = o.k;
-            if (desc->mode == WIGGLY_COMPLEX) turn = fabs(oscillator_turn(o, t));
+        const double q = u->total[i], z = u->speed[i], moved = half_change_of_y(desc, y, i);
+        u->total[i] = q + y[i];
+        u->speed[i] = z / h;
+        if (desc->mode != WIGGLY_COMPLEX) {
+            u->im[i] = 0;
+            continue;
         }
-        const double root = sqrt(size), own = unit * (v + (o.k * h + o.d) * q);
-        norm = decay * norm + own + unit * root * q;
-        const double held = root > 0 ? norm / root : INFINITY, run = of_q + h * norm + unit * q;
-        of_q = held < run ? held : run;
-        const double im = turn * (norm + (falls ? 0 : o.d * of_q)) + (turn > 0 ? unit * turn * (v + o.d * q) : 0);
-        most = fmax(most, fmax(of_q, im));
+        if (i == 0 || !constant) {
+            o = oscillator_at(desc, i, floor);
+            turn = oscillator_turn(o, seconds);
+            loss = turn < 0 ? 8 * unit * o.k / (o.k - o.d * o.d) : 0;
+        }
+        const double of_z = u->im[i] + DBL_EPSILON * (fabs(z) + 2 * fabs(moved));
+        const double speed = ((z - moved) + (u->offset ? half_change(desc, u->offset, i) : 0)) / h;
+        u->im[i] = turn * (speed + o.d * q);
+        u->error = fmax(u->error, -turn * (of_z / h + o.d * (of_q + unit * fabs(q))) + loss * fabs(u->im[i]));
     }
-    return most;
 }
 
 wiggly_status forced_response_find(const wiggly_desc *desc, const double *y, double calm, forced_response *u)
 {
+    const bool loops = desc->start == WIGGLY_LOOP;
+    const extent all = extent_of(y, desc->samples);
+    const double range = all.high - all.low;
+    if (!(range > 0)) {
+        forced_response_rest(desc, y, u);
+        return WIGGLY_OK;
+    }
+    double floor = loops ? LEAST_DAMPING * calm : 0;
     wiggly_status status = WIGGLY_OK;
-    u->error = 0;
-    set_kicks(desc, y, u->im);
-    double end[2], floor = desc->start == WIGGLY_LOOP ? LEAST_DAMPING * calm : 0;
-    if (desc->start != WIGGLY_LOOP) {
-        run(desc, floor, 0, 0, u, end);
-        u->error = error_of_run(desc, u);
-    } else if (!run_loop(desc, y, floor, u) && calm == 0) {
+    if (!loops) {
+        run(desc, y, range, u);
+    } else if (!close_loop(desc, y, floor, range, u) && calm == 0) {
         floor = LEAST_DAMPING * FALLBACK_CALM;
-        run_loop(desc, y, floor, u);
+        close_loop(desc, y, floor, range, u);
         status = WIGGLY_CALMED;
     }
-    if (desc->mode == WIGGLY_COMPLEX) {
-        set_imaginary(desc, floor, u);
-        if (u->offset) add_offset(desc, floor, u);
-    } else {
-        for (int i = 0; i < desc->samples; i++) u->im[i] = 0;
-    }
-    add(u->total, y, desc->samples);
-    if (desc->start == WIGGLY_LOOP) { // rounding must not make a difference between turns
-        u->total[desc->samples - 1] = u->total[0];
-        u->im[desc->samples - 1] = u->im[0];
-    }
+    finish(desc, y, floor, u);
+    if (loops) u->total[desc->samples - 1] = u->total[0], u->im[desc->samples - 1] = u->im[0];
     return status;
 }
 
 void forced_response_rest(const wiggly_desc *desc, const double *y, forced_response *u)
 {
-    const size_t size = sizeof(double) * (size_t)desc->samples;
     u->error = 0;
-    memcpy(u->total, y, size);
-    memset(u->im, 0, size);
-    memset(u->speed, 0, size);
-}
-
-double forced_response_speed(const wiggly_desc *desc, const double *y, const forced_response *u, int sample)
-{
-    int n = desc->samples;
-    if (n < 2) return 0;
-    return u->speed[sample] + (y_beyond(desc, y, sample + 1) - y_beyond(desc, y, sample - 1)) / (2 * desc->step);
+    for (int i = 0; i < desc->samples; i++) {
+        u->total[i] = y[i];
+        u->im[i] = 0;
+        u->speed[i] = half_change_of_y(desc, y, i) / desc->step;
+    }
 }

@@ -142,8 +142,6 @@ static void set_about(wiggly_solver *solver, problem *p)
         p->response.offset = p->settled ? solver->offset : NULL;
         p->about = p->response.total;
         if (desc->equilibrium.track || p->settled) {
-            if (desc->start == WIGGLY_LOOP && !poles_are_constant(desc))
-                solver_forget_factors(solver); // the response is found in their memory
             p->status = forced_response_find(desc, p->y, p->calm, &p->response);
         } else {
             forced_response_rest(desc, p->y, &p->response);

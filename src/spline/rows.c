@@ -208,8 +208,7 @@ static slope_row oscillator_slope(const problem *p, int k, double slope, double 
     const wiggly_desc *desc = p->desc;
     const sides from = sides_of(p, k);
     const int count = from.ahead + from.behind;
-    double h = desc->step,
-           known = p->response.speed ? forced_response_speed(desc, p->y, &p->response, p->first + k) : 0;
+    double h = desc->step, known = p->response.speed ? p->response.speed[p->first + k] : 0;
     slope_row row = {.sample = k, .target = h * (slope - known), .weight = stiffness * h};
     if (!from.tied) {
         if (count == 0) return (slope_row){.sample = k};

@@ -1,6 +1,5 @@
 /// The slope of a solved curve at a sample.
 #include "spline/slope.h"
-#include "spline/forced_response.h"
 #include "spline/poles.h"
 #include <string.h>
 
@@ -29,15 +28,15 @@ double curve_slope(const wiggly_desc *desc, const wiggly_curve *curve, int sampl
     double known = 0;
     if (desc->equilibrium.track && last > 0) {
         const size_t n = (size_t)curve->samples;
-        forced_response u = {.total = room, .im = room + n, .speed = room + 2 * n};
+        forced_response u = {.total = room, .im = room + n, .speed = room + 2 * n, .room = room + 3 * n};
         response = room;
         memset(room, 0, CURVE_SLOPE_ROOM * n * sizeof *room);
         if (desc->mode == WIGGLY_CUBIC) {
-            memcpy(u.total, curve->y, n * sizeof *room);
+            forced_response_rest(desc, curve->y, &u);
         } else {
             forced_response_find(desc, curve->y, desc->calm, &u);
         }
-        known = forced_response_speed(desc, curve->y, &u, sample);
+        known = u.speed[sample];
     }
 
     // As in the solver's slope rows (rows.c): the speed from both sides, at an end from one; after the last knot, which alone moves it, its own.

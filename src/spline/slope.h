@@ -2,10 +2,10 @@
 #ifndef SPLINE_SLOPE_H
 #define SPLINE_SLOPE_H
 
-#include <wiggly/wiggly.h>
+#include "spline/forced_response.h"
 
 /// Numbers a sample that it needs where the equilibrium follows a track.
-enum { CURVE_SLOPE_ROOM = 3 };
+enum { CURVE_SLOPE_ROOM = 3 + RESPONSE_ROOM };
 
 /// That slope, per second. `desc` is what was solved; of its knots only the last is read. `room` has CURVE_SLOPE_ROOM numbers a sample; NULL
 /// where the equilibrium is constant.

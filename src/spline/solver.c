@@ -33,8 +33,8 @@ static void lay_out_columns(unsigned char *at, double **const *columns, int coun
     }
 }
 
-/// Arrays of `samples` numbers. The factor comes first: the chain's tables share its memory, and are larger for few samples. The response to a
-/// moving equilibrium, which is found before, uses it as one array.
+/// Arrays of `samples` numbers. The factor comes first: the chain's tables share its memory, and are larger for few samples. A loop's
+/// response to a moving equilibrium is found before all that is in x and the arrays after it.
 static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
 {
     system_rows *rows = &at->rows;
@@ -60,14 +60,14 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
                   {&rows->loss_p, 1},
                   {&rows->jet_weight, 1},
                   {&rows->im_weight, 1},
-                  {&rows->x, 2},
-                  {&rows->gradient, 2},
-                  {&rows->jet, 2},
                   {&at->y, 1},
                   {&at->offset, 1},
                   {&at->response.total, 1},
                   {&at->response.im, 1},
                   {&at->response.speed, 1},
+                  {&rows->x, 2}, // RESPONSE_ROOM from here on
+                  {&rows->gradient, 2},
+                  {&rows->jet, 2},
                   {&l->pull, 1},
                   {&l->spare, 1},
                   {&l->re, 1},
@@ -89,7 +89,7 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
             arena_take(a, POWER_COLUMNS + 1, LINE); // the chain's columns begin on lines
         }
     }
-    at->response.room = m->record;
+    at->response.room = rows->x;
     lay_out_columns((unsigned char *)m->record, powers, POWER_COLUMNS, samples);
 }
 
@@ -165,7 +165,6 @@ void wiggly_destroy(wiggly_solver *solver)
     if (solver && solver->owned) free(solver);
 }
 
-_Static_assert(RESPONSE_ROOM <= BAND_RECORD + BAND_SEAM, "the matrix has too little room for a loop's response");
 
 const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor)
 {
@@ -192,15 +191,10 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
 
 void wiggly_set_method(wiggly_solver *solver, wiggly_method method) { solver->method = method; }
 
-void solver_forget_factors(wiggly_solver *solver)
-{
-    solver->band.is_kept = false;
-    chain_forget(&solver->chain);
-}
-
 void solver_forget(wiggly_solver *solver)
 {
     solver->filter.known = false;
     solver->wind.is_kept = false;
-    solver_forget_factors(solver);
+    solver->band.is_kept = false;
+    chain_forget(&solver->chain);
 }

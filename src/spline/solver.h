@@ -156,9 +156,6 @@ const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *d
 /// Forgets everything that is kept for the case that little changes: the next solve is a whole one. Changes no result.
 void solver_forget(wiggly_solver *solver);
 
-/// The same of the chain's tables and of factors, whose memory is used for something else.
-void solver_forget_factors(wiggly_solver *solver);
-
 /// x behind the row `from` ≥ 1, from that and the one before: the filter run forward (r_i = 0, Figure 5).
 void solver_run_forward(wiggly_solver *solver, int from);
 

@@ -53,7 +53,7 @@ static double fade_of(const poles *at)
 /// The slope that w must have.
 static double slope_of(const problem *p, const wiggly_knot *knot)
 {
-    return knot->slope - (p->y ? forced_response_speed(p->desc, p->y, &p->response, knot->sample) : 0);
+    return knot->slope - (p->y ? p->response.speed[knot->sample] : 0);
 }
 
 static goal goal_of(const wiggly_solver *solver, const problem *p, const wiggly_knot *knot)
