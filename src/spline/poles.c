@@ -1,7 +1,6 @@
 /// Poles, coefficients and cost of the start from parameters: for one sample, and for a block.
 #include "spline/poles.h"
 #include "maths/maths.h"
-#include "spline/dd.h"
 #include "spline/desc.h"
 #include "spline/host.h"
 #include "spline/wide.h"
@@ -9,6 +8,50 @@
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+
+/// An unevaluated sum hi + lo, |lo| ≤ ulp(hi)/2, about 106 bits (Dekker 1971, Knuth). Needs round-to-nearest and no contraction or reassociation: built
+/// with -ffp-contract=off, never with -ffast-math.
+typedef struct dd {
+    double hi, lo;
+} dd;
+
+static inline dd dd_from(double a) { return (dd){a, 0}; }
+
+/// a + b exactly.
+static inline dd dd_sum(double a, double b)
+{
+    const double s = a + b, t = s - a;
+    return (dd){s, (a - (s - t)) + (b - t)};
+}
+
+/// The upper 26 bits of a.
+static inline double dd_upper(double a)
+{
+    const double c = 0x8000001p0 * a;
+    return c - (c - a);
+}
+
+/// a·b exactly (where it neither overflows nor underflows), by the factors' halves: for loops that vectorise, which a call of fma() would not.
+static inline dd dd_product(double a, double b)
+{
+    const double p = a * b, a1 = dd_upper(a), b1 = dd_upper(b), a2 = a - a1, b2 = b - b1;
+    return (dd){p, ((a1 * b1 - p) + a1 * b2 + a2 * b1) + a2 * b2};
+}
+
+static inline dd dd_add(dd a, dd b)
+{
+    const dd s = dd_sum(a.hi, b.hi);
+    const double lo = s.lo + (a.lo + b.lo), hi = s.hi + lo;
+    return (dd){hi, lo - (hi - s.hi)};
+}
+
+static inline dd dd_subtract(dd a, dd b) { return dd_add(a, (dd){-b.hi, -b.lo}); }
+
+static inline dd dd_multiply(dd a, dd b)
+{
+    const dd p = dd_product(a.hi, b.hi);
+    return dd_sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
+}
 
 static inline uint64_t bits_of(double x)
 {
@@ -50,7 +93,7 @@ static inline poles complex_poles(double omega, double zeta, double bandwidth)
 {
     const double root = sqrt((1 - zeta) * (1 + zeta)), centre = omega * root, turn = omega * bandwidth;
     // √(1−ζ²) − β = (1 − ζ² − β²) / (√(1−ζ²) + β), whose numerator may be near 0
-    const dd exact = dd_subtract(dd_subtract(dd_from(1), dd_square(zeta)), dd_square(bandwidth));
+    const dd exact = dd_subtract(dd_subtract(dd_from(1), dd_product(zeta, zeta)), dd_product(bandwidth, bandwidth));
     const double plain = (1 - bandwidth) * (1 + bandwidth) - zeta * zeta, sum = root + bandwidth,
                  lower = (plain > 0.5 ? plain : exact.hi + exact.lo) / (sum > 0 ? sum : 1);
     return (poles){
@@ -61,14 +104,38 @@ static inline poles complex_poles(double omega, double zeta, double bandwidth)
     };
 }
 
+/// 2π cycles without whole multiples of a turn.
+static double angle_beyond(dd cycles, double turn)
+{
+    return 2 * pi * ((cycles.hi - turn * floor(cycles.hi / turn + 0.5)) + cycles.lo);
+}
+
+/// The poles' angles, from f h cycles a sample: beyond a quarter turn exactly, as only the rest of a turn matters.
+static void set_angles(poles *at, double f, double h, double zeta, double bandwidth, bool is_complex)
+{
+    for (int k = 0; k < 2; k++) at->angle[k] = at->s[k].im * h;
+    at->half = 0.5 * (at->s[0].im - at->s[1].im) * h;
+    if (!(at->angle[0] > 0.5 * pi)) return;
+    const dd square = dd_subtract(dd_from(1), dd_product(zeta, zeta)), rate = dd_product(f, h);
+    const double hi = sqrt(square.hi), lo = hi > 0 ? dd_subtract(square, dd_product(hi, hi)).hi / (2 * hi) : 0;
+    const dd root = dd_sum(hi, lo), half = is_complex ? dd_from(bandwidth) : root,
+             centre = is_complex ? root : dd_from(0);
+    at->angle[0] = angle_beyond(dd_multiply(rate, dd_add(centre, half)), 1);
+    at->angle[1] = angle_beyond(dd_multiply(rate, dd_subtract(centre, half)), 1);
+    at->half = angle_beyond(dd_multiply(rate, half), 0.5);
+}
+
 poles poles_at(const wiggly_desc *desc, int sample, double floor)
 {
     if (desc->mode == WIGGLY_CUBIC) return (poles){0};
-    double omega = 2 * pi * at_sample(desc->frequency, sample, sqrt(largest));
-    double zeta = at_sample(desc->damping, sample, sqrt(largest));
+    const double f = at_sample(desc->frequency, sample, sqrt(largest)), omega = 2 * pi * f;
+    const bool is_complex = desc->mode == WIGGLY_COMPLEX;
+    double zeta = at_sample(desc->damping, sample, sqrt(largest)), bandwidth = 0;
     zeta = zeta > floor ? zeta : floor;
-    if (desc->mode == WIGGLY_REAL) return real_poles(zeta * omega, omega);
-    return complex_poles(omega, zeta < 1 ? zeta : 1, at_sample(desc->bandwidth, sample, 1.0));
+    if (is_complex) zeta = zeta < 1 ? zeta : 1, bandwidth = at_sample(desc->bandwidth, sample, 1.0);
+    poles at = is_complex ? complex_poles(omega, zeta, bandwidth) : real_poles(zeta * omega, omega);
+    set_angles(&at, f, desc->step, zeta, bandwidth, is_complex);
+    return at;
 }
 
 /// Bits of the largest number: positive numbers have the order of their bits, above negative ones.
@@ -126,9 +193,9 @@ static void distances(const poles *at, double step, cplx mu[2])
     const cplx *s = at->s;
     double grown = maths_expm1(s[0].re * step);
     bool alike = s[1].re == s[0].re, conjugate = alike && s[1].im == -s[0].im;
-    mu[0] = cplx_expm1_of(grown, s[0].im * step);
+    mu[0] = cplx_expm1_of(grown, at->angle[0]);
     if (!alike) grown = maths_expm1(s[1].re * step);
-    mu[1] = conjugate ? cplx_conj(mu[0]) : cplx_expm1_of(grown, s[1].im * step);
+    mu[1] = conjugate ? cplx_conj(mu[0]) : cplx_expm1_of(grown, at->angle[1]);
 }
 
 /// exact − (whole + m + p) in one part.
@@ -149,8 +216,9 @@ coefficients poles_coefficients(const poles *at, double step)
         .g = cplx_exp(cplx_scale(0.5, sum)),
     };
     if (-sum.re > FAST) {
-        cplx a = cplx_add(cplx_exp(cplx_scale(step, at->s[0])), cplx_exp(cplx_scale(step, at->s[1])));
-        cplx b = cplx_exp(sum);
+        cplx a = cplx_add(cplx_exp((cplx){step * at->s[0].re, at->angle[0]}),
+                          cplx_exp((cplx){step * at->s[1].re, at->angle[1]}));
+        cplx b = cplx_exp((cplx){sum.re, at->angle[0] + at->angle[1]});
         if (-sum.re >
             FASTEST) { // both are below the last digit of 1, and the rests would be, beside what m and p leave
             if (fabs(a.re) + fabs(a.im) < DBL_EPSILON) c.m = (cplx){-2, 0};
@@ -187,7 +255,7 @@ start_cost poles_start_cost(const poles *at, double step)
     cplx sum = {-mp.re - cplx_norm(p), 2 * p.im - mp.im};
     double decay = -maths_expm1(2 * step * s[0].re),
            other = s[1].re == s[0].re ? decay : -maths_expm1(2 * step * s[1].re);
-    double det = decay * other * distance_from_one((cplx){step * (s[0].re + s[1].re), step * (s[0].im - s[1].im)});
+    double det = decay * other * distance_from_one((cplx){step * (s[0].re + s[1].re), 2 * at->half});
     cplx e = {sum.re / h00, -sum.im / h00}; // |x₀ + (e−1) x₁|², x₁ = x₀ + e₀
     const double unit = 16 * DBL_EPSILON,
                  of_e = unit * (cplx_size(sum) + cplx_norm(p) + sqrt(cplx_norm(p) * cplx_norm(m))) / h00;
@@ -200,12 +268,12 @@ double poles_weight_exponent(const poles *at, double step)
     return fmin(-step * (at->s[0].re + at->s[1].re), HEAVIEST);
 }
 
-/// z / sinh z of a z whose square is real.
+/// z / sinh z from z².
 static double z_over_sinh(double z2)
 {
-    if (fabs(z2) < 1e-4) return 1 - z2 * (1.0 / 6 - z2 * (7.0 / 360 - z2 * (31.0 / 15120)));
-    double z = sqrt(fabs(z2));
-    return z2 > 0 ? -2 * z * maths_exp(-z) / maths_expm1(-2 * z) : z / maths_sin(z);
+    if (z2 < 1e-4) return 1 - z2 * (1.0 / 6 - z2 * (7.0 / 360 - z2 * (31.0 / 15120)));
+    double z = sqrt(z2);
+    return -2 * z * maths_exp(-z) / maths_expm1(-2 * z);
 }
 
 /// Limit for the coefficient of a speed; it would be infinite if two poles alias to the same λ. What it is then multiplied by may be any number, but
@@ -213,7 +281,7 @@ static double z_over_sinh(double z2)
 static const double steepest = 1e8;
 
 // With μ = λ − 1, w' = s₀ w + Q (w₁ − λ₀ w) = (s₀ − Q μ₀) w + Q e, and Q = (s₀−s₁)/(λ₀−λ₁) = z / sinh z · exp(−(s₀+s₁)h/2) / h with
-// z = (s₀−s₁)h/2, which is real or imaginary.
+// z = (s₀−s₁)h/2, which is real or imaginary. What whole half turns of Im z change in sign, they change in exp(Im (s₀+s₁)h/2) = exp(Im s₀h − Im z), too.
 speed_form poles_speed(const poles *at, double step, bool backwards)
 {
     double h = backwards ? -step : step;
@@ -221,15 +289,19 @@ speed_form poles_speed(const poles *at, double step, bool backwards)
         at->s[0].re == at->s[1].re; // else the second pole fades faster, and the first determines the slope
     cplx s0 = {fmax(at->s[0].re * step, -DEEPEST) / step, at->s[0].im};
     cplx s1 = {fmax(at->s[1].re * step, alike ? -DEEPEST : -3 * DEEPEST) / step, at->s[1].im};
-    cplx z = cplx_scale(0.5 * h, cplx_sub(s0, s1)), mean = cplx_scale(0.5 * h, cplx_add(s0, s1));
-    const double exact = z_over_sinh(z.re * z.re - z.im * z.im), ratio = fmin(fmax(exact, -steepest), steepest);
+    const double turn = backwards ? -at->angle[0] : at->angle[0], half = backwards ? -at->half : at->half;
+    const double half_turns = floor((0.5 * h * (s0.im - s1.im) - half) / pi + 0.5);
+    const cplx z = {0.5 * h * (s0.re - s1.re), half_turns * pi + half},
+               mean = {0.5 * h * (s0.re + s1.re), turn - half};
+    const double exact = z.im == 0 ? z_over_sinh(z.re * z.re) : z.im / maths_sin(half),
+                 ratio = fmin(fmax(exact, -steepest), steepest);
     const double cut = fabs(exact) < steepest ? 0 : 2 * cplx_size(z) / steepest;
     cplx q = cplx_scale(ratio, cplx_exp(cplx_scale(-1, mean)));
-    cplx on_x = cplx_sub(cplx_scale(h, s0), cplx_mul(q, cplx_expm1(cplx_scale(h, s0))));
+    cplx on_x = cplx_sub(cplx_scale(h, s0), cplx_mul(q, cplx_expm1((cplx){h * s0.re, turn})));
     if (s0.im == -s1.im) on_x.im = q.im = 0; // conjugate or real poles: not even rounding may couple Im x to Re x
-    // the ratio is the less exact, the nearer the poles alias; what remains of on_x is a difference
-    const double size = cplx_size(q), part = 8 * DBL_EPSILON * (1 + cplx_size(z) * fabs(ratio));
-    const double first = cplx_size(s0) * fabs(h), moved = first < 2 ? first : 2;
+    // what remains of on_x is a difference
+    const double size = cplx_size(q), part = 8 * DBL_EPSILON * (2 + fabs(z.re) + fabs(mean.re));
+    const double first = cplx_size(s0) * fabs(h), moved = fmin(fabs(h * s0.re) + fabs(turn), 2);
     const speed_loss loss = {8 * DBL_EPSILON * first + part * size * moved + cut * size, part * size, cut};
     return (speed_form){backwards ? cplx_scale(-1, on_x) : on_x, q, cut, loss};
 }
@@ -288,8 +360,8 @@ wiggly_poles wiggly_poles_at(const wiggly_desc *desc, int sample)
 //
 //     λ − 1 = expm1 α − 2 e^α sin² φ + 2j e^α sin φ cos φ.
 
-/// The mathematics library handles larger angles and exponents.
-static const double largest_angle = 1e4, largest_exponent = 600;
+/// The mathematics library handles larger angles and exponents; poles_at() those of more than half a turn a sample.
+static const double largest_angle = 1e4, largest_exponent = 600, largest_half = 0.5 * 3.14159265358979323846;
 
 /// Adding it rounds to an integer, which is then in the lowest bits.
 #define ROUNDER 0x1.8p52
@@ -375,14 +447,15 @@ static void load(wiggly_param param, int from, int count, double *out)
     }
 }
 
-static inline void put_poles(const poles *at, double h, int i, bool pair, poles_block *restrict block,
+static inline void put_poles(poles *at, double h, int i, bool pair, poles_block *restrict block,
                              exponents *restrict e)
 {
-    const coefficient_loss loss = poles_loss(at->decay * h, h * at->s[0].im, h * at->natural, pair);
+    for (int k = 0; k < 2; k++) at->angle[k] = at->s[k].im * h;
+    const coefficient_loss loss = poles_loss(at, h, pair);
     block->loss_m[i] = loss.m, block->loss_p[i] = loss.p;
     block->natural[i] = at->natural;
     block->centre[i] = at->centre;
-    for (int k = 0; k < 2; k++) e->real[k][i] = at->s[k].re * h, e->half[k][i] = 0.5 * h * at->s[k].im;
+    for (int k = 0; k < 2; k++) e->real[k][i] = at->s[k].re * h, e->half[k][i] = 0.5 * at->angle[k];
 }
 
 WIDEST static void set_complex(const double *restrict f, const double *restrict z, const double *restrict b,
@@ -390,7 +463,7 @@ WIDEST static void set_complex(const double *restrict f, const double *restrict 
 {
     for (int i = 0; i < count; i++) {
         const double zeta = z[i] > floor ? z[i] : floor;
-        const poles at = complex_poles(2 * pi * f[i], zeta < 1 ? zeta : 1, b[i] < 1 ? b[i] : 1);
+        poles at = complex_poles(2 * pi * f[i], zeta < 1 ? zeta : 1, b[i] < 1 ? b[i] : 1);
         put_poles(&at, h, i, false, block, e);
     }
 }
@@ -400,7 +473,7 @@ WIDEST static void set_real(const double *restrict f, const double *restrict z, 
 {
     for (int i = 0; i < count; i++) {
         const double omega = 2 * pi * f[i];
-        const poles at = real_poles((z[i] > floor ? z[i] : floor) * omega, omega);
+        poles at = real_poles((z[i] > floor ? z[i] : floor) * omega, omega);
         put_poles(&at, h, i, true, block, e);
     }
 }
@@ -444,9 +517,7 @@ static void fill_each(const wiggly_desc *desc, int from, int count, double floor
         block->natural[i] = at.natural;
         block->centre[i] = at.centre;
         block->exponent[i] = poles_weight_exponent(&at, desc->step);
-        const bool pair = desc->mode == WIGGLY_REAL;
-        const coefficient_loss loss =
-            poles_loss(at.decay * desc->step, fabs(at.s[0].im) * desc->step, at.natural * desc->step, pair);
+        const coefficient_loss loss = poles_loss(&at, desc->step, desc->mode == WIGGLY_REAL);
         block->m_re[i] = c.m.re, block->m_im[i] = c.m.im;
         block->p_re[i] = c.p.re, block->p_im[i] = c.p.im;
         block->loss_m[i] = loss.m, block->loss_p[i] = loss.p;
@@ -457,7 +528,7 @@ WIDEST static bool is_within_reach(const exponents *e, int count)
 {
     int64_t beyond = 0; // same width as the comparison
     for (int k = 0; k < 2; k++) {
-        for (int i = 0; i < count; i++) beyond |= fabs(e->half[k][i]) <= largest_angle ? 0 : 1;
+        for (int i = 0; i < count; i++) beyond |= fabs(e->half[k][i]) <= largest_half ? 0 : 1;
         for (int i = 0; i < count; i++) beyond |= -e->real[k][i] <= largest_exponent ? 0 : 1;
     }
     return beyond == 0;

@@ -20,9 +20,11 @@ static inline double cplx_size(cplx a) { return sqrt(cplx_norm(a)); }
 /// Continuous poles in 1/s, natural frequency and band centre in rad/s.
 typedef struct poles {
     cplx s[2];
-    double natural; ///< ω_n
-    double centre;  ///< ω_c
-    double decay;   ///< ζω_n
+    double natural;  ///< ω_n
+    double centre;   ///< ω_c
+    double decay;    ///< ζω_n
+    double angle[2]; ///< Im s h without whole turns, −π … π
+    double half;     ///< Im (s₀−s₁) h / 2 without whole half turns
 } poles;
 
 /// Coefficients of r_i = x_{i+1} − a x_i − b x_{i−1} + g ÿ, kept as distances from the cubic's a = 2, b = −1:
@@ -106,11 +108,14 @@ bool poles_are_constant(const wiggly_desc *desc);
 
 coefficients poles_coefficients(const poles *at, double step);
 
-/// What rounding leaves of m and p, to first order: of each λ the angle's and the decay's, 4ε (|s h| |λ| + |λ − 1|). Of a conjugate pair the
-/// angle's is of second order, and what a critical damping does to both poles cancels. `pair`: conjugate or real poles.
-static inline coefficient_loss poles_loss(double decay, double turn, double natural, bool pair)
+/// What rounding leaves of m and p, to first order: of each λ the angle's and the decay's, 4ε (|s h| |λ| + |λ − 1|), whole turns left out. Of a
+/// conjugate pair the angle's is of second order, and what a critical damping does to both poles cancels. `pair`: conjugate or real poles.
+static inline coefficient_loss poles_loss(const poles *at, double step, bool pair)
 {
-    const double unit = 0x1p-50, fade = decay < 1 ? decay : 1, square = natural * natural; // 4 ε
+    const double decay = at->decay * step, natural = at->natural * step,
+                 turn = fmax(fabs(at->angle[0]), fabs(at->angle[1]));
+    const double unit = 0x1p-50, fade = decay < 1 ? decay : 1; // 4 ε
+    const double whole = natural * natural, rest = decay * decay + turn * turn, square = whole < rest ? whole : rest;
     const double bend = square < 4 + natural ? square : 4 + natural, reach = fade + turn,
                  most = reach < 2 ? reach : 2;
     return pair ? (coefficient_loss){2 * unit * (fade + bend), 4 * unit * bend}
@@ -128,11 +133,12 @@ static inline cplx poles_passive(const poles *at) { return (cplx){-at->decay, at
 cplx poles_tail(cplx passive, const speed_form *ahead, double step);
 cplx cplx_exp(cplx z);
 
-/// The same of poles that fade within a sample, from a and b, which are kept apart.
-static inline coefficient_loss poles_fast_loss(const coefficients *at, double decay, double turn)
+/// The same of poles that fade within a sample, from their a and b, which are kept apart.
+static inline coefficient_loss poles_fast_loss(const poles *at, double step, const coefficients *c)
 {
-    const double unit = 2 * 0x1p-50 * (1 + 2 * decay + turn), of_a = unit * cplx_size(coefficients_a(at));
-    return (coefficient_loss){of_a, of_a + unit * cplx_size(coefficients_b(at))};
+    const double turn = fmax(fabs(at->angle[0]), fabs(at->angle[1]));
+    const double unit = 2 * 0x1p-50 * (1 + 2 * at->decay * step + turn), of_a = unit * cplx_size(coefficients_a(c));
+    return (coefficient_loss){of_a, of_a + unit * cplx_size(coefficients_b(c))};
 }
 
 // --- many samples at once, for parameters that vary ---

@@ -127,8 +127,7 @@ static void set_varying(system_rows *rows, const problem *p, bool weighted)
             rows->rest[k + i] = at.rest;
             rows->m_re[k + i] = at.m.re, rows->m_im[k + i] = at.m.im;
             rows->p_re[k + i] = at.p.re, rows->p_im[k + i] = at.p.im;
-            const double h = desc->step;
-            const coefficient_loss loss = poles_fast_loss(&at, own.decay * h, fabs(own.s[0].im) * h);
+            const coefficient_loss loss = poles_fast_loss(&own, desc->step, &at);
             rows->loss_m[k + i] = loss.m, rows->loss_p[k + i] = loss.p;
         }
         for (int i = 0; i < count && rows->driven; i++)
@@ -158,12 +157,11 @@ static void set_filter(wiggly_solver *solver, const problem *p)
         return;
     }
     const poles *at = &problem_filter(solver, p)->at;
-    const double h = desc->step, turn = fmax(fabs(at->s[0].im), fabs(at->s[1].im));
-    rows->own = poles_coefficients(at, h);
-    rows->own_loss = poles_loss(at->decay * h, turn * h, at->natural * h, !rows->is_complex);
+    rows->own = poles_coefficients(at, desc->step);
+    rows->own_loss = poles_loss(at, desc->step, !rows->is_complex);
     rows->own_im = weighted ? problem_im_weight(p, at->natural) * p->unit : 0;
     rows->fast = cplx_norm(rows->own.rest.a) + cplx_norm(rows->own.rest.b) > 0;
-    if (rows->fast) rows->own_loss = poles_fast_loss(&rows->own, at->decay * h, turn * h);
+    if (rows->fast) rows->own_loss = poles_fast_loss(at, desc->step, &rows->own);
     for (int k = 0; k < rows->count && rows->driven; k++) set_drive(rows, p, k, rows->own.g, 1);
 }
 

@@ -144,6 +144,7 @@ static void let_go(walk *w, const wiggly_desc *desc)
     if (desc->mode == WIGGLY_COMPLEX) {
         own.s[0] = poles_passive(&own);
         own.s[1] = cplx_conj(own.s[0]);
+        for (int k = 0; k < 2; k++) own.angle[k] = own.s[k].im * desc->step;
     }
     const coefficients c = poles_coefficients(&own, desc->step);
     w->m = c.m, w->p = c.p, w->gain = (cplx){0, 0};
