@@ -71,3 +71,23 @@ TEST(test_the_nearest_handle_is_pulled)
         session_close(&s);
     }
 }
+
+static const char LOOP[] =
+    "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"sway\", \"start\": \"loop\","
+    "\"frequency\": {\"spline\": \"pace\"}, \"equilibrium\": {\"spline\": \"base\"},"
+    "\"knots\": [{\"frame\": 8, \"value\": 1}, {\"frame\": 30, \"value\": -1}]},"
+    "{\"name\": \"pace\", \"mode\": \"cubic\", \"start\": \"loop\", \"knots\": [{\"frame\": 0, \"value\": 1},"
+    "{\"frame\": 24, \"value\": 2}]}, {\"name\": \"base\", \"mode\": \"cubic\", \"start\": \"loop\","
+    "\"knots\": [{\"frame\": 5, \"value\": 0}, {\"frame\": 20, \"value\": 1}]}]}";
+
+/// The slope that a curve has does not change it, in a loop that swings about a moving equilibrium with a varying frequency, too.
+SESSION_TEST(test_a_slope_of_a_varying_loop_is_the_curves, session_open(s, LOOP))
+{
+    double before[49];
+    memcpy(before, s->table.evaluation.curves[0].total, sizeof before);
+    session_key(s, 'A', MOD_CTRL);
+    session_key(s, 'T', 0);
+    assert_true(spline(s, 0)->knots[0].has_slope && spline(s, 0)->knots[0].slope != 0);
+    for (int i = 0; i < 49; i++)
+        assert_near(s->table.evaluation.curves[0].total[i], before[i], 1e-4); // slopes are rounded
+}
