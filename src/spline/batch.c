@@ -109,8 +109,7 @@ static wiggly_status solve_of_many(wiggly_solver *solver, const wiggly_desc *des
     own.knots = solver->filled;
     own.knot_count = fill_knots(many, spline, solver->filled, solver->knots);
     // Where a solve itself keeps them if the caller does not want them.
-    double *const total = solver->rows.jet, *const y = solver->y, *const re = solver->limits.re,
-                  *const im = solver->limits.im;
+    double *const total = solver->rows.jet, *const y = solver->y, *const re = solver->re, *const im = solver->im;
     wiggly_curve curve = {.size = sizeof curve,
                           .total = row_of(&many->total, spline, total),
                           .y = row_of(&many->y, spline, y),

@@ -439,10 +439,8 @@ static wiggly_status solve_splines(wiggly_group *g)
 /// x of a solved spline: from the caller's arrays, else from the solver's.
 static cplx solved_x(const pulled *of, int sample)
 {
-    const wiggly_solver *solver = of->solver;
     const wiggly_curve *curve = of->curve;
-    return (cplx){(curve->re ? curve->re : solver->rows.gradient)[sample],
-                  (curve->im ? curve->im : solver->rows.gradient + solver->samples)[sample]};
+    return (cplx){(curve->re ? curve->re : of->solver->re)[sample], (curve->im ? curve->im : of->solver->im)[sample]};
 }
 
 /// Re(c x) at a bound's point.

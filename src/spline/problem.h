@@ -155,6 +155,18 @@ void scale_back(const wiggly_desc *desc, double scale, wiggly_curve *curve);
 /// side, the paper's filter on a moving equilibrium, a single knot with nothing else, digits lost.
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im);
 
+static inline bool limits_are_set(const wiggly_desc *desc) { return desc->low > -INFINITY || desc->high < INFINITY; }
+
+/// Sorts the knots of a limited spline that was just posed into the solver's memory, with room for held samples between them: its
+/// description becomes `ordered`. Returns the index of a still knot whose total is beyond a limit, else -1.
+int limits_prepare(wiggly_solver *solver, problem *p, wiggly_desc *ordered);
+
+/// problem_find() for a limited spline. WIGGLY_ERROR_CAPACITY if more samples must be held than there is room for.
+wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);
+
+/// Rounds the completed total to the limits where it exceeds them in the last digits.
+void limits_clamp(const wiggly_solver *solver, const problem *p, wiggly_curve *curve);
+
 /// w of a posed spline into re and im of the curve, and its status. If the problem is singular, solves the nearest one that is not, and `p`
 /// becomes that.
 wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result);
@@ -163,8 +175,8 @@ wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curv
 static inline bool problem_winds_up(const problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    const bool is_limited = desc->low > -INFINITY || desc->high < INFINITY;
-    return desc->wind_up > 0 && desc->mode == WIGGLY_COMPLEX && problem_oscillates(p) && !p->pulls && !is_limited;
+    return desc->wind_up > 0 && desc->mode == WIGGLY_COMPLEX && problem_oscillates(p) && !p->pulls &&
+           !limits_are_set(desc);
 }
 
 /// The samples of the wind-up before a knot with these poles; infinite at frequency 0.

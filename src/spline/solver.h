@@ -25,16 +25,16 @@ typedef struct constant_filter {
     cplx tail;        ///< relative change of the free motion in one sample, as the poles give it
 } constant_filter;
 
-/// Memory for limits (limits.h).
+/// Memory for limits (limits.c).
 typedef struct limit_memory {
     wiggly_knot *own, *all; ///< the knots by sample; with held samples
-    signed char *held;      ///< per sample
+    int from, to;           ///< samples that may be held; to < from: none
+    signed char *held;      ///< per sample: -1, at the low limit, 0, 1, at the high one, or 2, a knot
     double *pull;           ///< per held sample: how hard the limit holds it
     double *spare;          ///< for the search for them
     double *by_push;        ///< the same, two numbers a sample
     double *search;         ///< the same, four
     double *stiffness;      ///< the same
-    double *re, *im;        ///< for arrays that the curve lacks
     double *free[2];        ///< after the last knot: the free Re w, and the effect of an Im w of 1 there
     double *pushed[2];      ///< the limits' effect on each of them
     int solves;             ///< after the first one, of the last limited spline
@@ -81,7 +81,6 @@ typedef struct wind_memory {
 struct wiggly_solver {
     int samples, knots; ///< capacity
     bool owned;
-    bool is_grouped;           ///< of a group, whose pins and bounds compare last digits
     const system_pulls *pulls; ///< on the splines to be solved, or NULL
     wiggly_method method;
     int longest_squared; ///< longer domains are factored without squaring: none, but tests set it
@@ -93,7 +92,7 @@ struct wiggly_solver {
     wind_memory wind;
     free_powers powers;
     forced_response response; ///< to the moving equilibrium
-    double *y;                ///< equilibrium, if the curve has no array for it
+    double *y, *re, *im;      ///< arrays of a solve if the curve lacks them
     double *offset;           ///< what settling knots add to it
     wiggly_knot *filled;      ///< the knots of one of many
     wiggly_knot *scaled;      ///< the knots in other units

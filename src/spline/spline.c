@@ -1,7 +1,6 @@
 /// Solves one spline by the chain or by the band; if the problem is singular, solves the nearest one that is not (docs/mathematics.md, last
 /// rule of Constraints).
 #include "spline/host.h"
-#include "spline/limits.h"
 #include "spline/problem.h"
 #include <float.h>
 #include <math.h>
@@ -188,8 +187,8 @@ static wiggly_curve read_curve(const wiggly_curve *curve)
 static wiggly_curve with_arrays(const wiggly_solver *solver, const wiggly_curve *curve)
 {
     wiggly_curve all = read_curve(curve);
-    if (!all.re) all.re = solver->rows.gradient;
-    if (!all.im) all.im = solver->rows.gradient + solver->samples;
+    if (!all.re) all.re = solver->re;
+    if (!all.im) all.im = solver->im;
     if (!all.total) all.total = solver->rows.jet;
     return all;
 }
@@ -267,7 +266,7 @@ wiggly_status solver_solve_scaled(wiggly_solver *solver, const wiggly_desc *desc
     const bool limited = limits_are_set(desc) && !solver->pulls; // pins have priority
     problem_pose(solver, desc, all.y && !limited ? all.y : solver->y, &p);
     wiggly_desc ordered;
-    curve->knot = limited ? limits_begin(solver, &p, &ordered, curve, &all) : -1;
+    curve->knot = limited ? limits_prepare(solver, &p, &ordered) : -1;
     if (curve->knot >= 0) return WIGGLY_ERROR_KNOT_LIMIT;
     for (;;) {
         minimum result = {0};
