@@ -451,8 +451,7 @@ static double catch (limits_work *w, double slack)
         any = any || force[i] != 0;
     }
     if (!any) return 0;
-    w->fresh = true;
-    if (!limits_factor(w, NULL)) return INFINITY; // sets the rows
+    set_matrix(w);
     for (int i = 0; i < w->search.count; i++) {
         const bool stays = is_held(w, w->from + i) || force[i] != 0;
         const int k = w->from - w->first + i;

@@ -29,163 +29,142 @@ static const double surer = 1e-4;  ///< factor of that at the next attempt
 static const double least = 1e-10; ///< undecided at this share: neither gap nor push
 static const double balanced = 1e-3; ///< share of the initial error in S⁻¹ d
 
-/// The relative change of a value's gap and push when their product is to become `aim`. Lengths are relative to the farthest excess over a
-/// limit, pushes to the push that moves that value as far.
-typedef struct change {
-    double gap, push;
-} change;
-
-static inline change change_of(const one_sided_limit *s, double gap, double push, double aim, double value,
-                               double move, double is_open)
-{
-    const double miss = s->sign * (value - s->at) - gap, part = (s->sign * move + is_open * miss) / gap;
-    return (change){part, aim / (gap * push) - 1 - part};
-}
-
 /// The target of gap times push: μ minus the second order; 1 if there is no limit.
 static inline double aim_of(double mean, double second, double is_open)
 {
     return is_open * (mean - second) + (1 - is_open);
 }
 
-/// Adds a limit's part to Newton's right-hand side, with or without the second order.
-WIDEST static void add_force(const one_sided *o, const one_sided_limit *s, double mean, double part,
-                             double *restrict force)
+/// Σ x, in lanes.
+WIDEST static double sum_of(const double *x, int count)
 {
-    const double *restrict gap = s->gap, *restrict push = s->push, *restrict second = s->by_push,
-                           *restrict value = o->value, *restrict is_open = o->is_open;
-    for (int i = 0; i < o->count; i++) {
-        const double miss = is_open[i] * (s->sign * (value[i] - s->at) - gap[i]);
-        const double aim = aim_of(mean, part * second[i], is_open[i]);
-        force[i] += s->sign * ((aim - push[i] * miss) / gap[i] - push[i]);
+    double sum[LANES] = {0}, all = 0;
+    for (int i = 0; i < count; i += LANES) {
+        const int lanes = count - i < LANES ? count - i : LANES;
+        for (int n = 0; n < lanes; n++) sum[n] += x[i + n];
     }
-}
-
-WIDEST static void add_stiffness(const one_sided_limit *s, int count, double *restrict stiffness)
-{
-    for (int i = 0; i < count; i++) stiffness[i] += s->push[i] / s->gap[i];
-}
-
-WIDEST static void scale(double *restrict x, int count, double by)
-{
-    for (int i = 0; i < count; i++) x[i] *= by;
-}
-
-/// Writes the second order of a step towards μ = 0 to `by_push` and returns its sum. `fall`: the largest relative fall of a gap or push.
-WIDEST static double look_ahead(const one_sided *o, const one_sided_limit *s, double *fall)
-{
-    const double *restrict gap = s->gap, *restrict push = s->push, *restrict value = o->value,
-                           *restrict move = o->move, *restrict is_open = o->is_open;
-    double *restrict second = s->by_push;
-    double most[LANES] = {0}, sum[LANES] = {0}, all = 0;
-    for (int i = 0; i < o->count; i += LANES) {
-        const int lanes = o->count - i < LANES ? o->count - i : LANES;
-        for (int n = 0; n < lanes; n++) {
-            const int k = i + n;
-            const change c = change_of(s, gap[k], push[k], 0, value[k], move[k], is_open[k]);
-            const double by = -c.gap > -c.push ? -c.gap : -c.push;
-            second[k] = is_open[k] * (c.gap * c.push * gap[k] * push[k]);
-            sum[n] += second[k];
-            most[n] = by > most[n] ? by : most[n];
-        }
-    }
-    for (int n = 0; n < LANES; n++) *fall = fmax(*fall, most[n]), all += sum[n];
+    for (int n = 0; n < LANES; n++) all += sum[n];
     return all;
 }
 
-/// Computes the step; returns the largest relative fall of a gap or push.
+/// S⁻¹ + Σ q/g.
+WIDEST static bool factor(const one_sided *o)
+{
+    double *restrict stiffness = o->move;
+    for (int i = 0; i < o->count; i++) stiffness[i] = 0;
+    for (int n = 0; n < o->limits; n++) {
+        const double *restrict gap = o->limit[n].gap, *restrict push = o->limit[n].push;
+        for (int i = 0; i < o->count; i++) stiffness[i] += push[i] / gap[i];
+    }
+    for (int i = 0; i < o->count; i++) stiffness[i] *= 1 / o->soft;
+    return o->factor(o->user, stiffness);
+}
+
+/// Newton's step for products of `mean`, less `part` of the second order.
+WIDEST static void find_move(const one_sided *o, double mean, double part)
+{
+    const double *restrict value = o->value, *restrict is_open = o->is_open;
+    double *restrict force = o->move;
+    for (int i = 0; i < o->count; i++) force[i] = o->lack_left * o->lack[i];
+    for (int n = 0; n < o->limits; n++) {
+        const one_sided_limit *s = &o->limit[n];
+        const double *restrict gap = s->gap, *restrict push = s->push, *restrict second = s->by_push;
+        for (int i = 0; i < o->count; i++) {
+            const double miss = is_open[i] * (s->sign * (value[i] - s->at) - gap[i]);
+            const double aim = aim_of(mean, part * second[i], is_open[i]);
+            force[i] += s->sign * ((aim - push[i] * miss) / gap[i] - push[i]);
+        }
+    }
+    for (int i = 0; i < o->count; i++) force[i] *= 1 / o->soft;
+    o->solve(o->user, force);
+}
+
+/// The relative changes of a limit's gaps and pushes in that step, with lengths relative to the farthest excess over a limit, and pushes to the
+/// push that moves that value as far. Returns the largest fall.
 WIDEST static double find_changes(const one_sided *o, const one_sided_limit *s, double mean, double part)
 {
     const double *restrict gap = s->gap, *restrict push = s->push, *restrict value = o->value,
                            *restrict move = o->move, *restrict is_open = o->is_open;
     double *restrict by_gap = s->by_gap, *restrict by_push = s->by_push;
+    const double sign = s->sign, at = s->at;
+    for (int i = 0; i < o->count; i++) {
+        const double miss = sign * (value[i] - at) - gap[i];
+        by_gap[i] = (sign * move[i] + is_open[i] * miss) / gap[i];
+    }
+    for (int i = 0; i < o->count; i++) {
+        const double aim = aim_of(mean, part * by_push[i], is_open[i]);
+        by_push[i] = aim / (gap[i] * push[i]) - 1 - by_gap[i];
+    }
     double most[LANES] = {0}, all = 0;
     for (int i = 0; i < o->count; i += LANES) {
         const int lanes = o->count - i < LANES ? o->count - i : LANES;
         for (int n = 0; n < lanes; n++) {
-            const int k = i + n;
-            const double aim = aim_of(mean, part * by_push[k], is_open[k]);
-            const change c = change_of(s, gap[k], push[k], aim, value[k], move[k], is_open[k]);
-            const double by = -c.gap > -c.push ? -c.gap : -c.push;
-            most[n] = by > most[n] ? by : most[n];
-            by_gap[k] = c.gap, by_push[k] = c.push;
+            const double by = by_gap[i + n] < by_push[i + n] ? by_gap[i + n] : by_push[i + n];
+            most[n] = -by > most[n] ? -by : most[n];
         }
     }
     for (int n = 0; n < LANES; n++) all = fmax(all, most[n]);
     return all;
 }
 
-/// Takes that share of a step; returns Σ gap · push. `unclear`: adds the pairs whose gap and push fall too similarly to decide.
-WIDEST static double advance(const one_sided *o, const one_sided_limit *s, double way, double *unclear)
+/// Replaces the changes of pushes by the second order of the step, and returns its sum.
+WIDEST static double find_second(const one_sided *o, const one_sided_limit *s)
+{
+    const double *restrict gap = s->gap, *restrict push = s->push, *restrict by_gap = s->by_gap,
+                           *restrict is_open = o->is_open;
+    double *restrict second = s->by_push;
+    for (int i = 0; i < o->count; i++) second[i] = is_open[i] * (by_gap[i] * second[i] * gap[i] * push[i]);
+    return sum_of(second, o->count);
+}
+
+/// Takes a share of the step; returns Σ gap · push.
+WIDEST static double advance(const one_sided *o, const one_sided_limit *s)
 {
     const double *restrict by_gap = s->by_gap, *restrict by_push = s->by_push, *restrict is_open = o->is_open;
-    double *restrict gap = s->gap, *restrict push = s->push;
-    double sum[LANES] = {0}, alike[LANES] = {0}, all = 0;
-    for (int i = 0; i < o->count; i += LANES) {
-        const int lanes = o->count - i < LANES ? o->count - i : LANES;
-        for (int n = 0; n < lanes; n++) {
-            const int k = i + n;
-            gap[k] += way * by_gap[k] * gap[k], push[k] += way * by_push[k] * push[k];
-            sum[n] += is_open[k] * (gap[k] * push[k]);
-            alike[n] += fabs(way * (by_push[k] - by_gap[k])) < apart ? is_open[k] : 0;
+    double *restrict gap = s->gap, *restrict push = s->push, *restrict product = o->move;
+    const double way = o->way;
+    for (int i = 0; i < o->count; i++) {
+        gap[i] += way * by_gap[i] * gap[i], push[i] += way * by_push[i] * push[i];
+        product[i] = is_open[i] * (gap[i] * push[i]);
+    }
+    return sum_of(product, o->count);
+}
+
+/// Whether no gap and push fell too similarly to decide which of them stays.
+static bool is_clear(const one_sided *o)
+{
+    for (int n = 0; n < o->limits; n++) {
+        const one_sided_limit *s = &o->limit[n];
+        for (int i = 0; i < o->count; i++) {
+            if (o->is_open[i] > 0 && fabs(o->way * (s->by_push[i] - s->by_gap[i])) < apart) return false;
         }
     }
-    for (int n = 0; n < LANES; n++) *unclear += alike[n], all += sum[n];
-    return all;
+    return true;
 }
 
-/// Newton's step for products of `mean`, with or without the second order.
-static void find_move(one_sided *o, double mean, double part)
-{
-    for (int i = 0; i < o->count; i++) o->move[i] = o->lack_left * o->lack[i];
-    for (int s = 0; s < o->limits; s++) add_force(o, &o->limit[s], mean, part, o->move);
-    scale(o->move, o->count, 1 / o->soft);
-    o->solve(o->user, o->move);
-}
-
-static bool factor(one_sided *o)
-{
-    memset(o->move, 0, sizeof *o->move * (size_t)o->count);
-    for (int s = 0; s < o->limits; s++) add_stiffness(&o->limit[s], o->count, o->move);
-    scale(o->move, o->count, 1 / o->soft);
-    return o->factor(o->user, o->move);
-}
-
-/// One step. `unclear` receives the number of undecided values and limits. False if numbers overflow.
-static bool go_on(one_sided *o, double *unclear)
+/// One step. False if numbers overflow.
+static bool go_on(one_sided *o)
 {
     const bool bold = o->way > tiny_step || !o->bold;
     o->bold = bold;
     double fall = 1, ahead = 0, sum = 0;
     if (!factor(o)) return false;
     find_move(o, 0, 0);
-    for (int s = 0; s < o->limits; s++) ahead += look_ahead(o, &o->limit[s], &fall);
+    for (int s = 0; s < o->limits; s++) {
+        fall = fmax(fall, find_changes(o, &o->limit[s], 0, 0));
+        ahead += find_second(o, &o->limit[s]);
+    }
     const double left = (1 - 1 / fall) + ahead / (fall * fall) / (o->pairs * o->mean), left3 = left * left * left;
     const double aim = (bold ? left3 : fmax(left3, together)) * o->mean;
     find_move(o, aim, bold);
     fall = short_of;
     for (int s = 0; s < o->limits; s++) fall = fmax(fall, find_changes(o, &o->limit[s], aim, bold));
     o->way = short_of / fall;
-    *unclear = 0;
-    for (int s = 0; s < o->limits; s++) sum += advance(o, &o->limit[s], o->way, unclear);
     for (int i = 0; i < o->count; i++) o->value[i] += o->way * o->move[i];
+    for (int s = 0; s < o->limits; s++) sum += advance(o, &o->limit[s]);
     o->lack_left *= 1 - o->way;
     o->mean = sum / o->pairs;
     return o->mean > 0 && o->mean < INFINITY;
-}
-
-/// Takes steps until it is clear which gaps and pushes stay. False if numbers overflow.
-static bool find_what_stays(one_sided *o, double until)
-{
-    for (int step = 0; step < STEPS; step++) {
-        const double before = o->mean;
-        double unclear;
-        if (!go_on(o, &unclear)) return false;
-        const bool shows = o->mean < good * before && o->lack_left < balanced;
-        if (shows && (o->mean < fmin(least, until) * o->narrow || (unclear == 0 && o->mean < until * o->narrow)))
-            break;
-    }
-    return true;
 }
 
 /// The value farthest beyond a limit, by more than `slack`; -1: none.
@@ -216,12 +195,23 @@ static double find_soft(one_sided *o, int at)
     return o->move[at];
 }
 
-/// Starts with lengths in units of `size` and every gap at least 1.
-static void start(one_sided *o, double size)
+double one_sided_holds(const one_sided *o, int i)
+{
+    double sign = 0;
+    for (int n = 0; n < o->limits && o->is_open[i] > 0; n++) {
+        const one_sided_limit *s = &o->limit[n];
+        if (o->way * (s->by_push[i] - s->by_gap[i]) > apart && sign == 0) sign = s->sign;
+    }
+    return sign;
+}
+
+/// Takes steps until it is clear which gaps and pushes stay, with lengths in units of `size` and every gap at least 1 at first. False if numbers
+/// overflow.
+static bool find_what_stays(one_sided *o, double size, double until)
 {
     o->pairs = 0;
     for (int i = 0; i < o->count; i++) o->value[i] /= size, o->pairs += o->limits * (o->is_open[i] > 0);
-    o->narrow = o->limits < 2 ? 1 : fmin(1, fabs(o->limit[1].at - o->limit[0].at) / size);
+    const double narrow = o->limits < 2 ? 1 : fmin(1, fabs(o->limit[1].at - o->limit[0].at) / size);
     memset(o->lack, 0, sizeof *o->lack * (size_t)o->count);
     for (int n = 0; n < o->limits; n++) {
         one_sided_limit *s = &o->limit[n];
@@ -237,16 +227,13 @@ static void start(one_sided *o, double size)
     o->bold = true;
     o->lack_left = o->way = 1;
     o->mean = at_first;
-}
-
-double one_sided_holds(const one_sided *o, int i)
-{
-    double sign = 0;
-    for (int n = 0; n < o->limits && o->is_open[i] > 0; n++) {
-        const one_sided_limit *s = &o->limit[n];
-        if (o->way * (s->by_push[i] - s->by_gap[i]) > apart && sign == 0) sign = s->sign;
+    for (int step = 0; step < STEPS; step++) {
+        const double before = o->mean;
+        if (!go_on(o)) return false;
+        const bool shows = o->mean < good * before && o->lack_left < balanced;
+        if (shows && (o->mean < fmin(least, until) * narrow || (o->mean < until * narrow && is_clear(o)))) break;
     }
-    return sign;
+    return true;
 }
 
 bool one_sided_solve(one_sided *o, double slack)
@@ -257,9 +244,7 @@ bool one_sided_solve(one_sided *o, double slack)
         const int farthest = find_farthest(o, slack, &size);
         if (farthest < 0) return true;
         o->soft = find_soft(o, farthest);
-        if (!(o->soft > 0)) return false;
-        start(o, size);
-        if (!find_what_stays(o, until)) return false;
+        if (!(o->soft > 0) || !find_what_stays(o, size, until)) return false;
         if (o->finish(o->user)) return true;
     }
     return false;

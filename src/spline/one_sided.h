@@ -30,7 +30,6 @@ typedef struct one_sided {
 
     // in progress
     double soft;      ///< response to a force of 1 of the value farthest beyond a limit
-    double narrow;    ///< distance between the limits, up to 1
     double lack_left; ///< share of `lack`
     double mean;      ///< mean of gap times push
     double way;       ///< share of the last step that was taken
