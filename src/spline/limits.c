@@ -186,7 +186,7 @@ static void add_slope(const limits_work *w, wiggly_knot *last, const double on_t
     const double stiffness = 0.5 * on_turn[1] / (pole.im * pole.im), w_re = last->value - problem_about(p, p->latest);
     if (!(stiffness > 0 && stiffness < INFINITY)) return;
     double speed = pole.re * w_re + pole.im * on_turn[0] / on_turn[1];
-    if (p->response.speed) speed += forced_response_speed(p->desc, p->y, &p->response, p->latest);
+    if (p->response.speed) speed += p->response.speed[p->latest];
     const double own = last->has_slope ? knot_stiffness(last) : 0;
     last->slope = (own * (last->has_slope ? last->slope : 0) + stiffness * speed) / (own + stiffness);
     last->stiffness = own + stiffness;
