@@ -2,13 +2,77 @@
 /// not depend on the thread, because a solver's caches change no bit of them.
 #include "spline/host.h"
 #include "spline/solver.h"
-#include "spline/thread.h"
 #include <limits.h>
 #include <math.h>
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+
+// --- threads, locks and signals. Several C libraries lack C11's <threads.h>, and the thread sanitizer does not support it ---
+
+#ifdef _WIN32
+#define WIN32_LEAN_AND_MEAN
+#include <windows.h>
+
+typedef HANDLE thread;
+typedef SRWLOCK thread_lock;
+typedef CONDITION_VARIABLE thread_signal;
+typedef DWORD thread_result;
+#define THREAD_CALL WINAPI ///< before the name of a thread's function
+
+static inline bool thread_start(thread *t, thread_result(THREAD_CALL *run)(void *), void *argument)
+{
+    *t = CreateThread(NULL, 0, run, argument, 0, NULL);
+    return *t != NULL;
+}
+
+static inline void thread_join(thread t)
+{
+    WaitForSingleObject(t, INFINITE);
+    CloseHandle(t);
+}
+
+static inline void thread_lock_create(thread_lock *lock) { InitializeSRWLock(lock); }
+static inline void thread_lock_destroy(thread_lock *lock) { (void)lock; }
+static inline void thread_acquire(thread_lock *lock) { AcquireSRWLockExclusive(lock); }
+static inline void thread_release(thread_lock *lock) { ReleaseSRWLockExclusive(lock); }
+static inline void thread_signal_create(thread_signal *signal) { InitializeConditionVariable(signal); }
+static inline void thread_signal_destroy(thread_signal *signal) { (void)signal; }
+static inline void thread_wake(thread_signal *signal) { WakeAllConditionVariable(signal); }
+
+/// Releases the lock until the signal comes; may also return without one.
+static inline void thread_wait(thread_signal *signal, thread_lock *lock)
+{
+    SleepConditionVariableSRW(signal, lock, INFINITE, 0);
+}
+
+#else
+#include <pthread.h>
+
+typedef pthread_t thread;
+typedef pthread_mutex_t thread_lock;
+typedef pthread_cond_t thread_signal;
+typedef void *thread_result;
+#define THREAD_CALL
+
+static inline bool thread_start(thread *t, thread_result (*run)(void *), void *argument)
+{
+    return pthread_create(t, NULL, run, argument) == 0;
+}
+
+static inline void thread_join(thread t) { pthread_join(t, NULL); }
+static inline void thread_lock_create(thread_lock *lock) { pthread_mutex_init(lock, NULL); }
+static inline void thread_lock_destroy(thread_lock *lock) { pthread_mutex_destroy(lock); }
+static inline void thread_acquire(thread_lock *lock) { pthread_mutex_lock(lock); }
+static inline void thread_release(thread_lock *lock) { pthread_mutex_unlock(lock); }
+static inline void thread_signal_create(thread_signal *signal) { pthread_cond_init(signal, NULL); }
+static inline void thread_signal_destroy(thread_signal *signal) { pthread_cond_destroy(signal); }
+static inline void thread_wake(thread_signal *signal) { pthread_cond_broadcast(signal); }
+
+/// Releases the lock until the signal comes; may also return without one.
+static inline void thread_wait(thread_signal *signal, thread_lock *lock) { pthread_cond_wait(signal, lock); }
+#endif
 
 enum { MAX_THREADS = 256, AT_A_TIME = 16 };
 
@@ -49,13 +113,6 @@ static double number(const wiggly_numbers *of, int spline, int k)
     return of->at ? of->at[spline * of->by_spline + k * of->by_number] : NAN;
 }
 
-/// The nearest sample; outside the range if an int cannot hold it.
-static int nearest(double sample)
-{
-    const double whole = floor(sample + 0.5);
-    return fabs(whole) < INT_MAX ? (int)whole : -1;
-}
-
 /// Returns the number of knots, at most one more than there is room for.
 static int fill_knots(const wiggly_many *many, int spline, wiggly_knot *knots, int room)
 {
@@ -64,7 +121,8 @@ static int fill_knots(const wiggly_many *many, int spline, wiggly_knot *knots, i
         const double sample = number(&many->sample, spline, k), slope = number(&many->slope, spline, k),
                      phase = number(&many->phase, spline, k), stiffness = number(&many->stiffness, spline, k);
         if (isnan(sample)) continue;
-        knots[count++] = (wiggly_knot){.sample = nearest(sample),
+        const double whole = floor(sample + 0.5); // the nearest; outside the range if an int cannot hold it
+        knots[count++] = (wiggly_knot){.sample = fabs(whole) < INT_MAX ? (int)whole : -1,
                                        .has_slope = !isnan(slope),
                                        .has_phase = !isnan(phase),
                                        .still = number(&many->still, spline, k) > 0,
@@ -128,12 +186,6 @@ static wiggly_status solve_of_many(wiggly_solver *solver, const wiggly_desc *des
 
 // --- threads
 
-static wiggly_status solve_one(const job *now, wiggly_solver *solver, int i)
-{
-    if (now->many) return solve_of_many(solver, now->desc, now->many, i);
-    return wiggly_solve(solver, desc_at(now->desc, i), curve_at(now->curve, now->curve_size, i));
-}
-
 static void work(worker *w)
 {
     wiggly_batch *batch = w->batch;
@@ -144,7 +196,9 @@ static void work(worker *w)
         int from = atomic_fetch_add(&batch->next, AT_A_TIME), to = from + AT_A_TIME;
         if (from >= now->count) break;
         for (int i = from; i < to && i < now->count; i++) {
-            wiggly_status status = solve_one(now, w->solver, i);
+            const wiggly_status status =
+                now->many ? solve_of_many(w->solver, now->desc, now->many, i)
+                          : wiggly_solve(w->solver, desc_at(now->desc, i), curve_at(now->curve, now->curve_size, i));
             if (now->status) now->status[i] = status;
             if (status > w->worst) w->worst = status;
         }
@@ -171,16 +225,6 @@ static thread_result THREAD_CALL run(void *argument)
     return 0;
 }
 
-static bool add_worker(wiggly_batch *batch, wiggly_solver *own)
-{
-    worker *w = &batch->workers[batch->threads];
-    w->batch = batch;
-    w->solver = own;
-    if (batch->threads > 0 && !thread_start(&w->thread, run, w)) return false;
-    batch->threads++;
-    return true;
-}
-
 /// Bytes of everything except the solvers.
 static size_t head_size(int threads) { return sizeof(wiggly_batch) + sizeof(worker) * (size_t)threads; }
 
@@ -203,12 +247,13 @@ static wiggly_status start(void *memory, int samples, int knots, int threads, bo
     thread_lock_create(&batch->lock);
     thread_signal_create(&batch->given);
     thread_signal_create(&batch->done);
-    while (batch->threads < threads) {
-        void *room = solvers + each * (size_t)batch->threads;
-        if (!add_worker(batch, solver_lay_out(room, samples, knots))) {
-            wiggly_batch_destroy(batch);
-            return WIGGLY_ERROR_MEMORY;
-        }
+    for (; batch->threads < threads; batch->threads++) {
+        worker *w = &batch->workers[batch->threads];
+        w->batch = batch;
+        w->solver = solver_lay_out(solvers + each * (size_t)batch->threads, samples, knots);
+        if (batch->threads == 0 || thread_start(&w->thread, run, w)) continue;
+        wiggly_batch_destroy(batch);
+        return WIGGLY_ERROR_MEMORY;
     }
     *out = batch;
     return WIGGLY_OK;

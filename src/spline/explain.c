@@ -23,31 +23,24 @@ typedef struct sight {
     bool is_real;
 } sight;
 
-/// Keeps the earliest MOST knots.
-static void sight_add(sight *s, double time, double value)
-{
-    int at = s->count;
-    if (at == MOST && !(time < s->time[MOST - 1])) return;
-    if (at == MOST) at--;
-    for (; at > 0 && s->time[at - 1] > time; at--) {
-        s->time[at] = s->time[at - 1];
-        s->value[at] = s->value[at - 1];
-    }
-    s->time[at] = time;
-    s->value[at] = value;
-    if (s->count < MOST) s->count++;
-}
-
+/// The earliest MOST knots.
 static sight sight_of(const wiggly_desc *desc)
 {
     const wiggly_param *y = &desc->equilibrium;
     sight s = {.is_real = desc->mode == WIGGLY_REAL, .smallest = INFINITY};
+    double size = 0;
     for (int k = 0; k < desc->knot_count; k++) {
         const wiggly_knot *knot = &desc->knots[k];
-        if (knot->still) continue;
-        sight_add(&s, knot->sample * desc->step, knot->value - (y->track ? y->track[knot->sample] : y->value));
+        const double time = knot->sample * desc->step;
+        if (knot->still || (s.count == MOST && !(time < s.time[MOST - 1]))) continue;
+        int at = s.count < MOST ? s.count++ : MOST - 1;
+        for (; at > 0 && s.time[at - 1] > time; at--) {
+            s.time[at] = s.time[at - 1];
+            s.value[at] = s.value[at - 1];
+        }
+        s.time[at] = time;
+        s.value[at] = knot->value - (y->track ? y->track[knot->sample] : y->value);
     }
-    double size = 0;
     for (int k = 0; k < s.count; k++) size = fmax(size, fabs(s.value[k]));
     for (int k = 0; k < s.count; k++) s.value[k] *= scale_for(size); // their squares are a double's
     for (int k = 1; k < s.count; k++) s.smallest = fmin(s.smallest, s.time[k] - s.time[k - 1]);
@@ -85,16 +78,6 @@ static double cost_of(const sight *s, double frequency, double damping)
     return size > 0 ? 0.5 * n * maths_log(size) + volume : INFINITY;
 }
 
-static wiggly_explanation explain_at(const sight *s, double frequency)
-{
-    wiggly_explanation best = {frequency, 0, INFINITY};
-    for (int d = 0; d < DAMPINGS; d++) {
-        const double cost = cost_of(s, frequency, dampings[d]);
-        if (cost < best.cost) best = (wiggly_explanation){frequency, dampings[d], cost};
-    }
-    return best;
-}
-
 /// Descends from the grid's best point in steps that halve.
 static wiggly_explanation refine(const sight *s, wiggly_explanation at, double ratio)
 {
@@ -125,7 +108,14 @@ static int explain(const wiggly_desc *desc, wiggly_explanation best[2])
     const double pitch = maths_log(highest / lowest) / (PITCHES - 1), ratio = maths_exp(pitch);
     wiggly_explanation all[PITCHES];
     int count = 0;
-    for (int n = 0; n < PITCHES; n++) all[n] = explain_at(&s, lowest * maths_exp(pitch * n));
+    for (int n = 0; n < PITCHES; n++) { // each with its best damping
+        const double frequency = lowest * maths_exp(pitch * n);
+        all[n] = (wiggly_explanation){frequency, 0, INFINITY};
+        for (int d = 0; d < DAMPINGS; d++) {
+            const double cost = cost_of(&s, frequency, dampings[d]);
+            if (cost < all[n].cost) all[n] = (wiggly_explanation){frequency, dampings[d], cost};
+        }
+    }
     for (int n = 0; n < PITCHES; n++) {
         const double below = n > 0 ? all[n - 1].cost : INFINITY, above = n + 1 < PITCHES ? all[n + 1].cost : INFINITY;
         if (!isfinite(all[n].cost) || !(all[n].cost < below && all[n].cost <= above)) continue;

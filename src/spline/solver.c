@@ -34,7 +34,7 @@ static void lay_out_columns(unsigned char *at, double **const *columns, int coun
 }
 
 /// Arrays of `samples` numbers. The factor comes first: the chain's tables share its memory, and are larger for few samples. A loop's
-/// response to a moving equilibrium is found before all that is in x and the arrays after it.
+/// response to a moving equilibrium is found before all that is in im_weight and the arrays after it.
 static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
 {
     system_rows *rows = &at->rows;
@@ -59,7 +59,6 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
                   {&rows->loss_m, 1},
                   {&rows->loss_p, 1},
                   {&rows->jet_weight, 1},
-                  {&rows->im_weight, 1},
                   {&at->y, 1},
                   {&at->re, 1},
                   {&at->im, 1},
@@ -67,7 +66,8 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
                   {&at->response.total, 1},
                   {&at->response.im, 1},
                   {&at->response.speed, 1},
-                  {&rows->x, 2}, // RESPONSE_ROOM from here on
+                  {&rows->im_weight, 1}, // RESPONSE_ROOM from here on
+                  {&rows->x, 2},
                   {&rows->gradient, 2},
                   {&rows->jet, 2},
                   {&l->pull, 1},
@@ -89,7 +89,7 @@ static void lay_out_numbers(wiggly_solver *at, arena *a, size_t samples)
             arena_take(a, POWER_COLUMNS + 1, LINE); // the chain's columns begin on lines
         }
     }
-    at->response.room = rows->x;
+    at->response.room = rows->im_weight;
     lay_out_columns((unsigned char *)m->record, powers, POWER_COLUMNS, samples);
 }
 

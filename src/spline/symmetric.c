@@ -9,15 +9,6 @@ enum { MAX_SWEEPS = 40 };
 /// A pivot below this share of its diagonal entry has no digit left.
 static const double lost = 64 * DBL_EPSILON;
 
-static double off_diagonal(int n, const double *a)
-{
-    double sum = 0;
-    for (int i = 0; i < n; i++) {
-        for (int j = 0; j < i; j++) sum += a[n * i + j] * a[n * i + j];
-    }
-    return sum;
-}
-
 /// Rotates rows and columns p and q so that a_pq becomes 0.
 static void rotate(int n, double *a, double *vectors, int p, int q)
 {
@@ -42,8 +33,13 @@ void symmetric_eigen(int n, double *a, double *values, double *vectors)
         trace += a[n * i + i];
         for (int j = 0; j < n; j++) vectors[n * i + j] = i == j;
     }
-    double enough = trace * trace * DBL_EPSILON * DBL_EPSILON;
-    for (int sweep = 0; sweep < MAX_SWEEPS && off_diagonal(n, a) > enough; sweep++) {
+    const double enough = trace * trace * DBL_EPSILON * DBL_EPSILON;
+    for (int sweep = 0; sweep < MAX_SWEEPS; sweep++) {
+        double apart = 0; // from a diagonal
+        for (int i = 0; i < n; i++) {
+            for (int j = 0; j < i; j++) apart += a[n * i + j] * a[n * i + j];
+        }
+        if (!(apart > enough)) break;
         for (int p = 0; p < n; p++) {
             for (int q = p + 1; q < n; q++) rotate(n, a, vectors, p, q);
         }

@@ -93,30 +93,6 @@ double variation_farthest(const wiggly_desc *desc)
     return farthest;
 }
 
-static source source_of(const problem *p, const poles *at)
-{
-    const wiggly_desc *desc = p->desc;
-    source s = {.key = mixed((uint64_t)desc->variation_seed + GOLDEN),
-                .is_complex = desc->mode == WIGGLY_COMPLEX,
-                .at = INT64_MIN / 2};
-    s.cell = fmax(1, 2 * 3.14159265358979323846 / (CELLS * at->natural * desc->step));
-    if (p->start == WIGGLY_LOOP) {
-        s.wrap = llround(fmax(1, p->count / s.cell));
-        s.cell = (double)p->count / (double)s.wrap;
-    }
-    s.rate = 1 / s.cell;
-    return s;
-}
-
-/// n and e of the stationary process, from the start's cost reversed in time: |x₀|² and |x₁ + on_e* x₀|² have variance 1 over the weights.
-static void draw_start(walk *w, const source *s, const start_cost *cost, double size)
-{
-    const struct start_row *row = cost->row;
-    const cplx apart = cplx_scale(size * sqrt(row[1].weight / row[0].weight), chances(s, s->wrap - 101));
-    w->n = cplx_scale(size, chances(s, s->wrap - 100));
-    w->e = cplx_sub(cplx_sub(apart, cplx_mul(cplx_conj(row[0].on_e), w->n)), w->n);
-}
-
 static cplx determinant(cplx a, cplx b, cplx c, cplx d) { return cplx_sub(cplx_mul(a, d), cplx_mul(b, c)); }
 
 /// n and e that return to themselves after `count` samples.
@@ -137,52 +113,56 @@ static void close_loop(walk *w, source *s, int count)
     w->e = cplx_mul(inverse, determinant(a, forced.n, c, forced.e));
 }
 
-/// After the last knot the force stops, and the oscillator moves both parts.
-static void let_go(walk *w, const wiggly_desc *desc)
-{
-    poles own = poles_at(desc, 0, 0);
-    if (desc->mode == WIGGLY_COMPLEX) {
-        own.s[0] = poles_passive(&own);
-        own.s[1] = cplx_conj(own.s[0]);
-        for (int k = 0; k < 2; k++) own.angle[k] = own.s[k].im * desc->step;
-    }
-    const coefficients c = poles_coefficients(&own, desc->step);
-    w->m = c.m, w->p = c.p, w->gain = (cplx){0, 0};
-}
-
-static void add_sample(const forced_response *u, int i, cplx n, double speed)
-{
-    u->total[i] += n.re;
-    u->im[i] += n.im;
-    u->speed[i] += speed;
-}
-
 void variation_add(problem *p)
 {
     const wiggly_desc *desc = p->desc;
+    const forced_response *u = &p->response;
     const bool loops = p->start == WIGGLY_LOOP;
     const poles at = poles_at(desc, 0, LEAST_DAMPING);
     const coefficients c = poles_coefficients(&at, desc->step);
     const start_cost cost = poles_start_cost(&at, desc->step);
-    source s = source_of(p, &at);
+    source s = {.key = mixed((uint64_t)desc->variation_seed + GOLDEN),
+                .cell = fmax(1, 2 * 3.14159265358979323846 / (CELLS * at.natural * desc->step)),
+                .is_complex = desc->mode == WIGGLY_COMPLEX,
+                .at = INT64_MIN / 2};
+    if (loops) {
+        s.wrap = llround(fmax(1, p->count / s.cell));
+        s.cell = (double)p->count / (double)s.wrap;
+    }
+    s.rate = 1 / s.cell;
     const double farthest = variation_farthest(desc), half_rate = 0.5 / desc->step;
     const double size = desc->variation * (farthest > 0 ? farthest : 1);
     if (!(cost.row[0].weight > 0 && cost.row[1].weight > 0)) return;
     walk w = {.m = c.m, .p = c.p, .gain = cplx_scale(size * sqrt(cost.row[1].weight / s.cell), c.g)};
     if (loops) close_loop(&w, &s, p->count);
-    if (p->start == WIGGLY_FREE) draw_start(&w, &s, &cost, size);
+    if (p->start == WIGGLY_FREE) {
+        // The stationary process, by the start's cost reversed in time: |x₀|² and |x₁ + on_e* x₀|² have variance 1 over the weights.
+        const struct start_row *row = cost.row;
+        const cplx apart = cplx_scale(size * sqrt(row[1].weight / row[0].weight), chances(&s, s.wrap - 101));
+        w.n = cplx_scale(size, chances(&s, s.wrap - 100));
+        w.e = cplx_sub(cplx_sub(apart, cplx_mul(cplx_conj(row[0].on_e), w.n)), w.n);
+    }
     if (p->start == WIGGLY_REST) w.e = cplx_mul(w.gain, force(&s, 0));
     p->held = w.n;
-    for (int i = 0; i < p->first; i++) add_sample(&p->response, i, w.n, 0);
+    for (int i = 0; i < p->first; i++) u->total[i] += w.n.re, u->im[i] += w.n.im;
     double before = w.e.re;
     for (int i = p->first; i < p->first + p->count; i++) {
-        add_sample(&p->response, i, w.n, half_rate * (before + w.e.re));
+        u->total[i] += w.n.re, u->im[i] += w.n.im;
+        u->speed[i] += half_rate * (before + w.e.re);
         before = w.e.re;
-        if (!loops && p->latest >= 0 && i + 1 >= p->latest && i <= p->latest) let_go(&w, desc);
+        if (!loops && p->latest >= 0 && i + 1 >= p->latest && i <= p->latest) { // the oscillator moves both parts
+            poles own = poles_at(desc, 0, 0);
+            if (desc->mode == WIGGLY_COMPLEX) {
+                own.s[0] = poles_passive(&own);
+                own.s[1] = cplx_conj(own.s[0]);
+                for (int k = 0; k < 2; k++) own.angle[k] = own.s[k].im * desc->step;
+            }
+            const coefficients alone = poles_coefficients(&own, desc->step);
+            w.m = alone.m, w.p = alone.p, w.gain = (cplx){0, 0};
+        }
         advance(&w, force(&s, loops && i + 1 == p->count ? 0 : i + 1));
     }
     if (!loops) return;
-    p->response.speed[0] += half_rate * (before - w.e.re); // w is back where it began
-    const forced_response *u = &p->response;
+    u->speed[0] += half_rate * (before - w.e.re); // w is back where it began
     u->total[p->count] = u->total[0], u->im[p->count] = u->im[0], u->speed[p->count] = u->speed[0];
 }
