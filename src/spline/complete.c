@@ -1,4 +1,5 @@
-/// The steps after x is found: a plausibility check, the samples outside the system, the total and the rest of the curve.
+/// The steps after x is found: the free motion after the last knot, a plausibility check, the samples outside the system, the total and the
+/// rest of the curve.
 #include "maths/maths.h"
 #include "spline/problem.h"
 #include "spline/wide.h"
@@ -6,6 +7,68 @@
 #include <string.h>
 
 static const double blow_up = 1e4;
+
+// --- the free motion after the last knot: w_{i+1} = e^{ph} w_i, p = −ζω_n + jω_n√(1−ζ²); a cubic holds its total ---
+
+WIDEST static void scale_powers(const double *restrict power_re, const double *restrict power_im, cplx w, int count,
+                                double *restrict re, double *restrict im)
+{
+    for (int i = 0; i < count; i++) {
+        re[i] = power_re[i] * w.re - power_im[i] * w.im;
+        im[i] = power_re[i] * w.im + power_im[i] * w.re;
+    }
+}
+
+/// Fills each run of samples on its own, counted from the knot, so that the result does not depend on `from`. The powers of the motion before
+/// are kept.
+static void fill_constant(free_powers *power, cplx exponent, cplx w, int from, int count, double *re, double *im)
+{
+    const int end = from % FREE_RUN + count, needed = end < FREE_RUN ? end : FREE_RUN;
+    if (power->count < needed || power->exponent.re != exponent.re || power->exponent.im != exponent.im) {
+        const cplx turn = cplx_exp(exponent);
+        cplx at = {1, 0};
+        *power = (free_powers){.exponent = exponent, .count = needed};
+        for (int i = 0; i < needed; i++) {
+            power->re[i] = at.re, power->im[i] = at.im;
+            at = cplx_mul(at, turn);
+        }
+    }
+    for (int i = 0; i < count;) {
+        const int run = (from + i) / FREE_RUN, begin = (from + i) % FREE_RUN, rest = FREE_RUN - begin;
+        const int n = rest < count - i ? rest : count - i;
+        cplx base = w;
+        if (run > 0) base = cplx_mul(cplx_exp(cplx_scale(run * (double)FREE_RUN, exponent)), w);
+        scale_powers(power->re + begin, power->im + begin, base, n, re + i, im + i);
+        i += n;
+    }
+}
+
+void problem_fill_tail(wiggly_solver *solver, const problem *p, cplx w, int from, int count, double *re, double *im)
+{
+    if (p->desc->mode != WIGGLY_COMPLEX) {
+        problem_fill(re, w.re, count);
+    } else if (poles_are_constant(p->desc)) {
+        fill_constant(&solver->powers, problem_filter(solver, p)->passive, w, from, count, re, im);
+    } else {
+        poles here = poles_at(p->desc, p->latest, 0);
+        for (int k = 1; k < from + count; k++) { // p of an interval is the mean at its ends
+            const poles next = poles_at(p->desc, p->latest + k, 0);
+            const cplx both = cplx_add(poles_passive(&here), poles_passive(&next));
+            w = cplx_mul(cplx_exp(cplx_scale(0.5 * p->desc->step, both)), w);
+            here = next;
+            if (k >= from) re[k - from] = w.re, im[k - from] = w.im;
+        }
+    }
+}
+
+void problem_settle(wiggly_solver *solver, const problem *p, double *re, double *im)
+{
+    const int after = p->latest + 1, count = p->desc->samples - after;
+    if (!p->settles || count < 1) return;
+    problem_fill_tail(solver, p, (cplx){re[p->latest], im[p->latest]}, 1, count, re + after, im + after);
+}
+
+// --- the curve -------------------------------------------------------------------------------------------------------
 
 WIDEST extent extent_of(const double *values, int count)
 {
@@ -31,27 +94,23 @@ WIDEST extent extent_of(const double *values, int count)
     return all;
 }
 
-/// The scale to compare max |x| with: the largest of |w| over knots, T·|slope| over slopes, and y's range.
-static double problem_scale(const problem *p)
-{
-    const extent y = p->y ? extent_of(p->y, p->desc->samples) : (extent){0, 0};
-    double scale = y.high - y.low;
-    double t = (p->start == WIGGLY_LOOP ? p->count : p->count - 1) * p->desc->step;
-    for (int k = 0; k < p->desc->knot_count; k++) {
-        const wiggly_knot *knot = &p->desc->knots[k];
-        if (knot->still) continue;
-        double size = fabs(problem_knot_re(p, knot));
-        if (size > scale) scale = size;
-        if (problem_is_whole(p, knot)) scale = fmax(scale, fabs(problem_knot_im(p, knot)));
-        if (knot->has_slope && t * fabs(knot->slope) > scale) scale = t * fabs(knot->slope);
-    }
-    return scale;
-}
-
 bool problem_blew_up(const problem *p, const wiggly_curve *curve)
 {
-    double scale = problem_scale(p);
-    bool is_complex = p->desc->mode == WIGGLY_COMPLEX;
+    const wiggly_desc *desc = p->desc;
+    const double t = (p->start == WIGGLY_LOOP ? p->count : p->count - 1) * desc->step;
+    const bool is_complex = desc->mode == WIGGLY_COMPLEX;
+    double scale = 0; // the largest of y's range, |w| over knots, and T·|slope| over slopes
+    if (p->y) {
+        const extent y = extent_of(p->y, desc->samples);
+        scale = y.high - y.low;
+    }
+    for (int k = 0; k < desc->knot_count; k++) {
+        const wiggly_knot *knot = &desc->knots[k];
+        if (knot->still) continue;
+        scale = fmax(scale, fabs(problem_knot_re(p, knot)));
+        if (problem_is_whole(p, knot)) scale = fmax(scale, fabs(problem_knot_im(p, knot)));
+        if (knot->has_slope) scale = fmax(scale, t * fabs(knot->slope));
+    }
     const double *re = curve->re + p->first, *im = curve->im + p->first;
     double bound = extent_size(extent_of(re, p->count));
     if (is_complex) bound = maths_hypot(bound, extent_size(extent_of(im, p->count)));
@@ -62,104 +121,56 @@ bool problem_blew_up(const problem *p, const wiggly_curve *curve)
     return !is_complex;
 }
 
-WIDEST static void fill(double *x, double value, int count)
+WIDEST void problem_fill(double *x, double value, int count)
 {
     for (int i = 0; i < count; i++) x[i] = value;
 }
 
-WIDEST static void add_constant(double *restrict total, double y, const double *restrict re, int count)
-{
-    for (int i = 0; i < count; i++) total[i] = y + re[i];
-}
-
-WIDEST static void add_to(double *restrict total, const double *restrict about, const double *restrict re, int count)
-{
-    for (int i = 0; i < count; i++) total[i] = about[i] + re[i];
-}
-
-/// w + u from w, where u is about − y.
-WIDEST static void add_swing(double *restrict re, const double *restrict about, const double *restrict y, int count)
-{
-    for (int i = 0; i < count; i++) re[i] += about[i] - y[i];
-}
-
-/// The same of a constant.
-WIDEST static void take_bend(double *restrict re, double level, const double *restrict y, int count)
-{
-    for (int i = 0; i < count; i++) re[i] += level - y[i];
-}
-
-WIDEST static void add(double *restrict im, const double *restrict u, int count)
-{
-    for (int i = 0; i < count; i++) im[i] += u[i];
-}
-
 /// Fills the total, about + w; x, w + u, if it differs; and y, if the caller wants it.
-static void add_equilibrium(const problem *p, wiggly_curve *curve)
+WIDEST static void add_equilibrium(const problem *p, const wiggly_curve *curve)
 {
-    int n = p->desc->samples;
-    if (curve->y && !p->y) fill(curve->y, p->level, n);
-    if (curve->y && p->y && curve->y != p->y) memcpy(curve->y, p->y, sizeof *p->y * (size_t)n);
-    if (!p->about) {
-        add_constant(curve->total, p->level, curve->re, n);
-    } else {
-        add_to(curve->total, p->about, curve->re, n);
-    }
+    const int n = p->desc->samples;
+    const double *const about = p->about, *const y = p->y, *const u = p->response.im, level = p->level;
+    double *restrict total = curve->total, *restrict re = curve->re, *restrict im = curve->im;
+    if (curve->y && !y) problem_fill(curve->y, level, n);
+    if (curve->y && y && curve->y != y) memcpy(curve->y, y, sizeof *y * (size_t)n);
+    for (int i = 0; i < n; i++) total[i] = (about ? about[i] : level) + re[i];
     for (int k = 0; k < p->desc->knot_count; k++) {
         const wiggly_knot *knot = &p->desc->knots[k];
-        if (knot->still && p->about) continue; // the sum is exact
-        curve->total[knot->sample] = knot->still ? problem_y(p, knot->sample) : knot->value;
+        if (knot->still && about) continue; // the sum is exact
+        total[knot->sample] = knot->still ? problem_y(p, knot->sample) : knot->value;
     }
-    if (p->start == WIGGLY_LOOP) curve->total[n - 1] = curve->total[0];
-    if (p->y && !p->about) take_bend(curve->re, p->level, p->y, n);
-    if (p->y && p->about && p->about != p->y) add_swing(curve->re, p->about, p->y, n);
-    if (p->response.im) add(curve->im, p->response.im, n);
-}
-
-static void add_floats(const wiggly_curve *curve, int count)
-{
-    size_t stride = curve->stride ? curve->stride : 1;
-    for (int i = 0; i < count; i++) curve->floats[(size_t)i * stride] = (float)curve->total[i];
-}
-
-static void set_centre(wiggly_solver *solver, const problem *p, double *omega)
-{
-    const wiggly_desc *desc = p->desc;
-    if (poles_are_constant(desc)) {
-        fill(omega, problem_filter(solver, p)->at.centre, desc->samples);
-    } else {
-        poles_block_centres(desc, 0, desc->samples, problem_least_damping(p), omega);
-    }
-}
-
-/// Before the first knot w is constant; for a cubic solved for its total, x is.
-static void hold_before_first(const problem *p, wiggly_curve *curve)
-{
-    int first = p->first;
-    bool total = p->y && !p->about;
-    curve->before[0] = total ? curve->re[first] + (p->level - p->y[first]) : curve->re[first];
-    curve->before[1] = curve->im[first];
-    for (int i = 0; i < first; i++) {
-        curve->re[i] = total ? curve->re[first] + (p->y[i] - p->y[first]) : curve->re[first];
-        curve->im[i] = curve->im[first];
-    }
-    curve->before[0] += p->held.re;
-    curve->before[1] += p->held.im;
+    if (p->start == WIGGLY_LOOP) total[n - 1] = total[0];
+    for (int i = 0; i < n && y && about != y; i++) re[i] += (about ? about[i] : level) - y[i];
+    for (int i = 0; i < n && u; i++) im[i] += u[i];
 }
 
 void problem_complete(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const wiggly_desc *desc = p->desc;
-    int n = desc->samples;
-    if (desc->mode != WIGGLY_COMPLEX) fill(curve->im, 0, n);
-    hold_before_first(p, curve);
-    if (p->start == WIGGLY_LOOP) curve->re[n - 1] = curve->re[0], curve->im[n - 1] = curve->im[0];
+    const int n = desc->samples, first = p->first;
+    double *const re = curve->re, *const im = curve->im;
+    if (desc->mode != WIGGLY_COMPLEX) problem_fill(im, 0, n);
+    // Before the first knot w is constant; for a cubic solved for its total, x is.
+    const bool is_total = p->y && !p->about;
+    curve->before[0] = p->held.re + (is_total ? re[first] + (p->level - p->y[first]) : re[first]);
+    curve->before[1] = p->held.im + im[first];
+    for (int i = 0; i < first; i++) {
+        re[i] = is_total ? re[first] + (p->y[i] - p->y[first]) : re[first];
+        im[i] = im[first];
+    }
+    if (p->start == WIGGLY_LOOP) re[n - 1] = re[0], im[n - 1] = im[0];
     add_equilibrium(p, curve);
-    if (curve->floats) add_floats(curve, n);
-    if (curve->omega) set_centre(solver, p, curve->omega);
+    const size_t stride = curve->stride ? curve->stride : 1;
+    for (int i = 0; i < n && curve->floats; i++) curve->floats[(size_t)i * stride] = (float)curve->total[i];
+    if (curve->omega && poles_are_constant(desc)) {
+        problem_fill(curve->omega, problem_filter(solver, p)->at.centre, n);
+    } else if (curve->omega) {
+        poles_block_centres(desc, 0, n, problem_least_damping(p), curve->omega);
+    }
     curve->samples = n;
     curve->step = desc->step;
-    curve->first = p->first;
+    curve->first = first;
     curve->mode = desc->mode;
     curve->start = p->start;
 }

@@ -426,7 +426,7 @@ static double pull_of(const limits_work *w, int sample)
 }
 
 /// How far x would move if samples pulled by limits were freed; 0 if none is.
-static double release(limits_work *w)
+static double moved_if_freed(limits_work *w)
 {
     double *force = w->search.move;
     bool any = false;
@@ -441,7 +441,7 @@ static double release(limits_work *w)
 }
 
 /// How far x would move if free samples beyond a limit by more than `slack` were held there; 0 if none is.
-static double catch (limits_work *w, double slack)
+static double moved_if_held(limits_work *w, double slack)
 {
     double *force = w->search.move, *stiffness = w->search.lack;
     bool any = false;
@@ -532,9 +532,9 @@ static bool limits_finish(void *user)
         w->has_room = solve_held(w);
         if (!w->has_room) return true;
         const double slack = find_slack(w);
-        w->missed = fmax(find_excess(w), release(w));
+        w->missed = fmax(find_excess(w), moved_if_freed(w));
         const bool is_right = w->missed <= slack;
-        if (is_right && (n == EXCHANGES || catch (w, rounded *slack) <= slack)) return true;
+        if (is_right && (n == EXCHANGES || moved_if_held(w, rounded * slack) <= slack)) return true;
         if (n == EXCHANGES) return false;
         exchange(w, is_right ? rounded * slack : slack);
     }
@@ -552,7 +552,7 @@ static bool rests_on_one(limits_work *w)
     if (at < 0 || problem_is_asked(w->p)) return false;
     w->solver->limits.held[at] = excess_of(w, at, 0) > 0 ? LIMITS_HIGH : LIMITS_LOW;
     w->attempts++; // held samples have to be freed
-    return solve_held(w) && find_excess(w) <= slack && release(w) <= slack;
+    return solve_held(w) && find_excess(w) <= slack && moved_if_freed(w) <= slack;
 }
 
 int limits_prepare(wiggly_solver *solver, problem *p, wiggly_desc *ordered)
@@ -626,7 +626,8 @@ wiggly_status limits_find(wiggly_solver *solver, problem *p, wiggly_curve *curve
     if (p->desc->high < INFINITY) w.search.limit[w.search.limits++] = high;
     const bool found = rests_on_one(&w) || one_sided_solve(&w.search, find_slack(&w));
     if (!w.has_room) return WIGGLY_ERROR_CAPACITY;
-    result->error += found ? 2 * catch (&w, rounded *find_slack(&w)) : reach * fmax(w.missed, find_excess(&w));
+    result->error +=
+        found ? 2 * moved_if_held(&w, rounded * find_slack(&w)) : reach * fmax(w.missed, find_excess(&w));
     return w.status;
 }
 

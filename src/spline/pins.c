@@ -640,7 +640,10 @@ static void soften(wiggly_group *g)
 
 // --- which bounds push -----------------------------------------------------------------------------------------------
 
-static double *reduced_row(const wiggly_group *g, int i) { return g->reduced + g->rows * (g->fixed + i) + g->fixed; }
+static double *reduced_row_of(const wiggly_group *g, int i)
+{
+    return &g->reduced[g->rows * (g->fixed + i) + g->fixed];
+}
 
 /// The conditions of the search are the bounds; where λ holds the pins, they are S' λ ≥ want'.
 static bool bounds_begin(void *user)
@@ -648,7 +651,7 @@ static bool bounds_begin(void *user)
     wiggly_group *g = user;
     for (int i = 0; i < g->search.count; i++) {
         g->search.value[i] = -g->want[g->fixed + i];
-        g->search.is_open[i] = reduced_row(g, i)[i] > 0;
+        g->search.is_open[i] = reduced_row_of(g, i)[i] > 0;
     }
     g->search.limit[0].at = 0;
     return true;
@@ -660,7 +663,7 @@ static bool bounds_factor(void *user, const double *stiffness)
     wiggly_group *g = user;
     const int m = g->search.count;
     for (int i = 0; i < m; i++) {
-        const double *row = reduced_row(g, i);
+        const double *row = reduced_row_of(g, i);
         g->root[i] = sqrt(stiffness[i]);
         for (int j = 0; j <= i; j++) g->square[m * i + j] = (i == j) + g->root[i] * row[j] * g->root[j];
     }
@@ -672,14 +675,14 @@ static void bounds_solve(void *user, double *force)
 {
     const wiggly_group *g = user;
     const int m = g->search.count;
-    symmetric_multiply(m, g->rows, reduced_row(g, 0), force, g->product);
+    symmetric_multiply(m, g->rows, reduced_row_of(g, 0), force, g->product);
     memcpy(force, g->product, sizeof *force * (size_t)m);
     for (int i = 0; i < m; i++) g->product[i] *= g->root[i];
     symmetric_solve(m, g->square, g->product);
     for (int i = 0; i < m; i++) g->product[i] *= g->root[i];
     for (int i = 0; i < m; i++) {
         for (int j = 0; j < m; j++)
-            force[i] -= (i >= j ? reduced_row(g, i)[j] : reduced_row(g, j)[i]) * g->product[j];
+            force[i] -= (i >= j ? reduced_row_of(g, i)[j] : reduced_row_of(g, j)[i]) * g->product[j];
     }
 }
 
@@ -700,13 +703,13 @@ static bool bounds_finish(void *user)
         }
         for (int i = 0; i < count; i++) {
             g->product[i] = want[g->pressing[i]];
-            for (int j = 0; j <= i; j++) g->square[count * i + j] = reduced_row(g, g->pressing[i])[g->pressing[j]];
+            for (int j = 0; j <= i; j++) g->square[count * i + j] = reduced_row_of(g, g->pressing[i])[g->pressing[j]];
         }
         symmetric_reduce(count, count, g->square);
         symmetric_solve(count, g->square, g->product);
         memset(lambda, 0, sizeof *lambda * (size_t)m);
         for (int i = 0; i < count; i++) lambda[g->pressing[i]] = g->product[i];
-        symmetric_multiply(m, g->rows, reduced_row(g, 0), lambda, g->product);
+        symmetric_multiply(m, g->rows, reduced_row_of(g, 0), lambda, g->product);
         for (int i = 0; i < m; i++) {
             const double miss = g->presses[i] ? -lambda[i] : want[i] - g->product[i];
             if (g->scale[i] > 0 && miss / g->scale[i] > most) most = miss / g->scale[i], worst = i;

@@ -1,5 +1,5 @@
-/// Sets up the problem from a description (docs/mathematics.md, Constraints): where the domain starts and ends, the level that knots are
-/// measured from, and the cost of the start.
+/// Sets up the problem from a description (docs/mathematics.md, Constraints): checks it, brings its values to a safe size, and finds where the
+/// domain starts and ends, the level that knots are measured from, and the cost of the start.
 #include "maths/maths.h"
 #include "spline/problem.h"
 #include "spline/wide.h"
@@ -8,11 +8,10 @@
 #include <stdint.h>
 #include <string.h>
 
+// --- checks ----------------------------------------------------------------------------------------------------------
+
 /// Periods.
 static const double longest_wind_up = 100;
-
-/// At a lower share of ω_n the jets, and not the free motion, meet a last knot's slope.
-static const double slowest_settling = 0.3;
 
 /// Whether all magnitudes are within a limit; false for NaN.
 WIDEST static bool are_within(const double *x, int count, double limit)
@@ -27,25 +26,22 @@ static bool param_is_within(wiggly_param param, int samples, double limit)
     return param.track ? are_within(param.track, samples, limit) : fabs(param.value) <= limit;
 }
 
-static bool is_part(double x) { return x >= 0 && x <= 1; }
-
 static wiggly_status check_settings(const wiggly_desc *desc, bool *y_is_safe)
 {
     if (desc->start == WIGGLY_LOOP && desc->samples < 2) return WIGGLY_ERROR_LOOP;
-    if (!(desc->step > 0 && desc->step < INFINITY) || !is_part(desc->calm)) return WIGGLY_ERROR_NUMBER;
-    if (!(desc->variation >= 0 && desc->variation < INFINITY)) return WIGGLY_ERROR_NUMBER;
-    if (!(desc->wind_up >= 0 && desc->wind_up <= longest_wind_up)) return WIGGLY_ERROR_NUMBER;
+    if (!(desc->step > 0 && desc->step < INFINITY) || !(desc->calm >= 0 && desc->calm <= 1) ||
+        !(desc->variation >= 0 && desc->variation < INFINITY) ||
+        !(desc->wind_up >= 0 && desc->wind_up <= longest_wind_up))
+        return WIGGLY_ERROR_NUMBER;
     if ((unsigned)desc->mode > WIGGLY_CUBIC || (unsigned)desc->start > WIGGLY_LOOP ||
         (unsigned)desc->passive > WIGGLY_FILTER)
         return WIGGLY_ERROR_NUMBER;
     for (const desc_member *m = desc_members; m->name; m++) {
         if (m->kind != DESC_PARAM) continue;
         const wiggly_param *param = desc_param(desc, m);
-        const bool is_y = param == &desc->equilibrium,
-                   is_within = param_is_within(*param, desc->samples, is_y ? SAFE_VALUE : DBL_MAX);
-        if (is_y) *y_is_safe = is_within;
-        if (!is_within && !(is_y && param_is_within(*param, desc->samples, LARGEST_VALUE)))
-            return WIGGLY_ERROR_NUMBER;
+        const bool is_y = param == &desc->equilibrium;
+        if (!param_is_within(*param, desc->samples, is_y ? LARGEST_VALUE : DBL_MAX)) return WIGGLY_ERROR_NUMBER;
+        if (is_y) *y_is_safe = param_is_within(*param, desc->samples, SAFE_VALUE);
     }
     return desc->low < desc->high ? WIGGLY_OK : WIGGLY_ERROR_LIMITS;
 }
@@ -55,9 +51,8 @@ static wiggly_status check_knot(const wiggly_desc *desc, const wiggly_knot *knot
     const int end = desc->samples - (desc->start == WIGGLY_LOOP ? 1 : 0);
     if (knot->sample < 0 || knot->sample >= end) return WIGGLY_ERROR_KNOT_OUTSIDE;
     if (knot->still) return knot->has_slope || knot->has_phase || knot->settles ? WIGGLY_ERROR_KNOT_STILL : WIGGLY_OK;
-    if (!(fabs(knot->value) <= LARGEST_VALUE)) return WIGGLY_ERROR_KNOT_NUMBER;
-    if (knot->has_phase && !(fabs(knot->phase) <= LARGEST_VALUE)) return WIGGLY_ERROR_KNOT_NUMBER;
-    if (knot->has_slope && !(isfinite(knot->slope) && knot->stiffness >= 0 && knot->stiffness < INFINITY))
+    if (!(fabs(knot->value) <= LARGEST_VALUE) || (knot->has_phase && !(fabs(knot->phase) <= LARGEST_VALUE)) ||
+        (knot->has_slope && !(isfinite(knot->slope) && knot->stiffness >= 0 && knot->stiffness < INFINITY)))
         return WIGGLY_ERROR_KNOT_NUMBER;
     return knot->value < desc->low || knot->value > desc->high ? WIGGLY_ERROR_KNOT_LIMIT : WIGGLY_OK;
 }
@@ -75,10 +70,12 @@ wiggly_status desc_check(const wiggly_desc *desc, int *knot, bool *y_is_safe)
     return status;
 }
 
-/// Fills `order`; `knot` receives one on an earlier one's sample. Knots already in order, like a document's, are visited once.
-static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
+wiggly_status problem_check(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
 {
-    bool ordered = true;
+    const wiggly_status status = desc_check(desc, knot, &solver->y_is_safe);
+    if (status != WIGGLY_OK) return status;
+    if (desc->samples > solver->samples || desc->knot_count > solver->knots) return WIGGLY_ERROR_CAPACITY;
+    bool ordered = true; // knots already in order, like a document's, are visited once
     for (int k = 0; k < desc->knot_count; k++) {
         ordered = ordered && (k == 0 || desc->knots[k].sample > desc->knots[k - 1].sample);
         solver->order[k] = k;
@@ -86,9 +83,12 @@ static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc,
     if (ordered) return WIGGLY_OK;
     for (int i = 0; i < desc->samples; i++) solver->knot_at[i] = -1;
     for (int k = 0; k < desc->knot_count; k++) {
-        *knot = k;
-        if (solver->knot_at[desc->knots[k].sample] >= 0) return WIGGLY_ERROR_KNOT_TWICE;
-        solver->knot_at[desc->knots[k].sample] = k;
+        int *const at = &solver->knot_at[desc->knots[k].sample];
+        if (*at >= 0) {
+            *knot = k;
+            return WIGGLY_ERROR_KNOT_TWICE;
+        }
+        *at = k;
     }
     for (int i = 0, n = 0; i < desc->samples; i++) {
         if (solver->knot_at[i] >= 0) solver->order[n++] = solver->knot_at[i];
@@ -96,31 +96,88 @@ static wiggly_status order_knots(wiggly_solver *solver, const wiggly_desc *desc,
     return WIGGLY_OK;
 }
 
-/// Whether w is free after the latest knot.
-static bool is_settling(const wiggly_solver *solver, const problem *p)
+// --- values whose squares a double cannot hold, in units of a power of two -------------------------------------------
+//
+// Everything that is solved for is linear in them, so only the power differs.
+
+/// The largest power of two that is a double, either way.
+enum { MOST = 1000 };
+
+static inline double larger(double a, double b) { return a > b ? a : b; }
+
+double scale_size(const wiggly_solver *solver, const wiggly_desc *desc)
 {
-    const wiggly_desc *desc = p->desc;
-    if (!problem_oscillates(p) || p->start == WIGGLY_LOOP || p->latest < 0 || p->count < 3) return false;
-    if (desc->mode == WIGGLY_REAL) return false;
-    const wiggly_knot *last = desc->knot_count > 0 ? &desc->knots[solver->order[desc->knot_count - 1]] : NULL;
-    if (!last || last->sample < p->latest || !last->has_slope) return true;
-    poles at = poles_at(desc, p->latest, 0);
-    return desc->mode == WIGGLY_COMPLEX && at.centre > slowest_settling * at.natural;
+    const wiggly_param *y = &desc->equilibrium;
+    const double n = desc->samples, n4 = n * n * n * n, seconds = n * desc->step;
+    double size = 0;
+    for (int k = 0; k < desc->knot_count; k++) {
+        const wiggly_knot *knot = &desc->knots[k];
+        if (knot->still) continue;
+        size = larger(fabs(knot->value), size);
+        if (knot->has_phase && desc->mode == WIGGLY_COMPLEX) size = larger(fabs(knot->phase), size);
+        // What a slope moves at most: its line, if it is stiff beside the jets, which bend by less than n⁴.
+        if (knot->has_slope)
+            size = larger(seconds * fabs(knot->slope) * fmin(1, knot_stiffness(knot) * desc->step * n4), size);
+    }
+    if (variation_is_set(desc)) {
+        const double farthest = variation_farthest(desc);
+        size = larger(desc->variation * (farthest > 0 ? farthest : 1), size);
+    }
+    if (!y->track || (solver->y_is_safe && size * SAFE_VALUE >= 1))
+        return larger(y->track ? 0 : fabs(y->value), size);
+    return larger(extent_size(extent_of(y->track, desc->samples)), size);
 }
+
+double scale_for(double size)
+{
+    int exponent;
+    if (!(size > 0) || (size <= SAFE_VALUE && size * SAFE_VALUE >= 1)) return 1;
+    frexp(fmin(size, DBL_MAX), &exponent);
+    return ldexp(1, exponent > MOST ? -MOST : exponent < -MOST ? MOST : -exponent);
+}
+
+void scale_values(wiggly_solver *solver, double scale, wiggly_desc *desc)
+{
+    solver->scale = scale;
+    if (scale == 1) return;
+    for (int k = 0; k < desc->knot_count; k++) {
+        wiggly_knot *knot = &solver->scaled[k];
+        *knot = desc->knots[k];
+        knot->value *= scale, knot->slope *= scale, knot->phase *= scale;
+    }
+    if (variation_is_set(desc) && variation_farthest(desc) == 0) desc->variation *= scale;
+    desc->knots = solver->scaled;
+    desc->low *= scale, desc->high *= scale;
+    desc->equilibrium.value *= scale;
+    if (!desc->equilibrium.track) return;
+    for (int i = 0; i < desc->samples; i++) solver->y[i] = scale * desc->equilibrium.track[i];
+    desc->equilibrium.track = solver->y;
+}
+
+// --- the rules of start and end ---------------------------------------------------------------------------------------
+
+/// At a lower share of ω_n the jets, and not the free motion, meet a last knot's slope.
+static const double slowest_settling = 0.3;
 
 static void set_domain(wiggly_solver *solver, problem *p)
 {
     const wiggly_desc *desc = p->desc;
-    int knots = desc->knot_count, earliest = p->pulls ? p->pulls->earliest : -1;
-    p->earliest = knots > 0 ? desc->knots[solver->order[0]].sample : -1;
-    p->latest = knots > 0 ? desc->knots[solver->order[knots - 1]].sample : -1;
+    const int knots = desc->knot_count, earliest = p->pulls ? p->pulls->earliest : -1;
+    const wiggly_knot *last = knots > 0 ? &desc->knots[solver->order[knots - 1]] : NULL;
+    p->earliest = last ? desc->knots[solver->order[0]].sample : -1;
+    p->latest = last ? last->sample : -1;
     if (earliest >= 0 && (knots == 0 || earliest < p->earliest)) p->earliest = earliest;
     if (earliest >= 0 && p->pulls->latest > p->latest) p->latest = p->pulls->latest;
     bool on_rest = p->earliest == 0 || p->earliest == 1;
     p->start = desc->start == WIGGLY_REST && on_rest ? WIGGLY_FREE : desc->start;
     p->first = p->start == WIGGLY_FREE && p->earliest > 0 ? p->earliest : 0;
     p->count = p->start == WIGGLY_LOOP ? desc->samples - 1 : desc->samples - p->first;
-    p->settles = is_settling(solver, p);
+    p->settles = problem_oscillates(p) && p->start != WIGGLY_LOOP && p->latest >= 0 && p->count >= 3 &&
+                 desc->mode != WIGGLY_REAL;
+    if (p->settles && last && last->sample == p->latest && last->has_slope) {
+        const poles at = poles_at(desc, p->latest, 0);
+        p->settles = desc->mode == WIGGLY_COMPLEX && at.centre > slowest_settling * at.natural;
+    }
     p->still = -1;
     for (int n = 0; n < knots && p->still < 0; n++) {
         const wiggly_knot *knot = &desc->knots[solver->order[n]];
@@ -150,39 +207,39 @@ static void set_about(wiggly_solver *solver, problem *p)
     }
 }
 
-/// The filter's start cost is that of the first sample. The oscillator's is that of the fastest sample up to the first still knot.
-static start_cost cost_of_start(wiggly_solver *solver, problem *p)
-{
-    const wiggly_desc *desc = p->desc;
-    if (poles_are_constant(desc)) return problem_filter(solver, p)->start;
-    const int end = p->still >= 0 && p->still < p->latest ? p->still : p->latest;
-    int at = problem_oscillates(p) ? poles_fastest(desc, p->first, end, NULL) : p->first;
-    poles damped = poles_at(desc, at, LEAST_DAMPING), here = poles_at(desc, p->first, 0);
-    start_cost cost = poles_start_cost(&damped, desc->step);
-    if (!problem_oscillates(p)) return cost;
-    double weight = maths_exp(poles_weight_exponent(&damped, desc->step) - poles_weight_exponent(&here, desc->step));
-    for (int i = 0; i < 2; i++) cost.row[i].weight *= weight;
-    return poles_start_seen_from(cost, &damped, &here, desc->step);
-}
-
-static double unit_of(wiggly_solver *solver, const problem *p)
-{
-    if (!problem_oscillates(p)) return 1;
-    if (poles_are_constant(p->desc)) return problem_filter(solver, p)->unit;
-    poles at = poles_at(p->desc, p->first, problem_least_damping(p));
-    return maths_exp(-poles_weight_exponent(&at, p->desc->step));
-}
-
-/// c·H of the start, for the problem's present calm.
+/// c·H of the start, for the problem's present calm. The filter's cost is that of the first sample, the oscillator's that of the fastest sample
+/// up to the first still knot.
 static void set_start(wiggly_solver *solver, problem *p)
 {
+    const wiggly_desc *desc = p->desc;
+    const bool oscillates = problem_oscillates(p), is_constant = poles_are_constant(desc);
     p->cost = (start_cost){0};
-    p->unit = unit_of(solver, p);
-    if (p->start == WIGGLY_FREE && p->latest >= 0 && !problem_starts_still(p)) {
-        p->cost = cost_of_start(solver, p);
-        for (int i = 0; i < 2; i++) p->cost.row[i].weight *= p->calm;
+    p->unit = 1;
+    if (oscillates && is_constant) {
+        p->unit = problem_filter(solver, p)->unit;
+    } else if (oscillates) {
+        const poles at = poles_at(desc, p->first, problem_least_damping(p));
+        p->unit = maths_exp(-poles_weight_exponent(&at, desc->step));
     }
-    p->free_end = p->start == WIGGLY_FREE && !(p->cost.row[0].weight > 0) && !problem_starts_still(p);
+    p->free_end = p->start == WIGGLY_FREE && !problem_starts_still(p);
+    if (!p->free_end || p->latest < 0) return;
+    if (is_constant) {
+        p->cost = problem_filter(solver, p)->start;
+    } else {
+        const int end = p->still >= 0 && p->still < p->latest ? p->still : p->latest;
+        const int at = oscillates ? poles_fastest(desc, p->first, end, NULL) : p->first;
+        const poles damped = poles_at(desc, at, LEAST_DAMPING);
+        p->cost = poles_start_cost(&damped, desc->step);
+        if (oscillates) {
+            const poles here = poles_at(desc, p->first, 0);
+            const double h = desc->step,
+                         weight = maths_exp(poles_weight_exponent(&damped, h) - poles_weight_exponent(&here, h));
+            for (int i = 0; i < 2; i++) p->cost.row[i].weight *= weight;
+            p->cost = poles_start_seen_from(p->cost, &damped, &here, h);
+        }
+    }
+    for (int i = 0; i < 2; i++) p->cost.row[i].weight *= p->calm;
+    p->free_end = !(p->cost.row[0].weight > 0);
 }
 
 void problem_set_calm(wiggly_solver *solver, problem *p, double calm)
@@ -191,14 +248,6 @@ void problem_set_calm(wiggly_solver *solver, problem *p, double calm)
     if (p->start == WIGGLY_LOOP && p->about) set_about(solver, p);
     set_start(solver, p);
 }
-
-static void fill(double *x, double value, int count)
-{
-    for (int i = 0; i < count; i++) x[i] = value;
-}
-
-/// From 0 to 1 with no speed and no acceleration at the ends.
-static double ease(double t) { return t > 0 ? t * t * t * (10 - 15 * t + 6 * t * t) : 0; }
 
 /// Moves the equilibrium to the values of settling knots: each takes it there over the gap before it, or the wind-up's part of that. A constant
 /// equilibrium leaves `y` unused.
@@ -212,43 +261,33 @@ static void settle(wiggly_solver *solver, problem *p, double *y)
     while (from < knots && !desc->knots[solver->order[from]].settles) from++;
     if (desc->mode == WIGGLY_CUBIC || from == knots) return;
     p->settled = true;
-    if (!p->y) fill(y, desc->equilibrium.value, samples);
+    if (!p->y) problem_fill(y, desc->equilibrium.value, samples);
     p->y = y;
     const wiggly_knot *before = &desc->knots[solver->order[loops ? from : 0]];
     double level = before->settles ? before->value - y[before->sample] : 0;
-    if (!loops) fill(o, level, before->sample);
-    for (int n = 1; n < knots + loops;
-         n++) { // the gap that ends in the next knot; a loop comes back to the first that settles
+    if (!loops) problem_fill(o, level, before->sample);
+    for (int n = 1; n < knots + loops; n++) { // the gap before each knot; a loop comes back to the first that settles
         const wiggly_knot *knot = &desc->knots[solver->order[((loops ? from : 0) + n) % knots]];
         const int gap = knot->sample - before->sample + (knot->sample <= before->sample ? period : 0);
         const double to = knot->settles ? knot->value - y[knot->sample] : level;
         const poles at = poles_at(desc, knot->sample, 0);
         const double begin = problem_winds_up(p) ? fmax(0, gap - problem_reach(desc, &at)) : 0;
         for (int i = 0; i < gap; i++) {
+            const double t = (i - begin) / (gap - begin); // no speed and no acceleration at the ends
             const int sample = before->sample + i;
             o[loops && sample >= period ? sample - period : sample] =
-                level + (to - level) * ease((i - begin) / (gap - begin));
+                level + (to - level) * (t > 0 ? t * t * t * (10 - 15 * t + 6 * t * t) : 0);
         }
         level = to;
         before = knot;
     }
-    if (!loops) fill(o + before->sample, level, samples - before->sample);
+    if (!loops) problem_fill(o + before->sample, level, samples - before->sample);
     if (loops) o[period] = o[0];
     for (int i = 0; i < samples; i++) y[i] += o[i];
     const extent all = extent_of(y, samples);
     if (all.low < all.high) return;
     p->level = all.low;
     if (!variation_is_set(desc)) p->y = NULL;
-}
-
-wiggly_status problem_check(wiggly_solver *solver, const wiggly_desc *desc, int *knot)
-{
-    wiggly_status status = desc_check(desc, knot, &solver->y_is_safe);
-    if (status == WIGGLY_OK && (desc->samples > solver->samples || desc->knot_count > solver->knots))
-        return WIGGLY_ERROR_CAPACITY;
-    if (status == WIGGLY_OK) status = order_knots(solver, desc, knot);
-    if (status == WIGGLY_OK) *knot = -1;
-    return status;
 }
 
 void problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, problem *p)
@@ -259,7 +298,7 @@ void problem_pose(wiggly_solver *solver, const wiggly_desc *desc, double *y, pro
         if (desc->start == WIGGLY_LOOP) y[desc->samples - 1] = y[0];
         p->y = y;
     } else if (variation_is_set(desc)) {
-        fill(y, desc->equilibrium.value, desc->samples);
+        problem_fill(y, desc->equilibrium.value, desc->samples);
         p->y = y;
     }
     p->level = desc->equilibrium.value;

@@ -148,9 +148,6 @@ double scale_for(double size);
 /// Multiplies all values of a description by a power of two, in the solver's memory. The rest of the solve is the same but for that.
 void scale_values(wiggly_solver *solver, double scale, wiggly_desc *desc);
 
-/// Divides a curve that was solved so, with all arrays, by it; `desc` has the unscaled values.
-void scale_back(const wiggly_desc *desc, double scale, wiggly_curve *curve);
-
 /// Solves by the chain: x of the system, M numbers each. false if the chain cannot: parameters that vary, loops, still knots, knots side by
 /// side, the paper's filter on a moving equilibrium, a single knot with nothing else, digits lost.
 bool problem_solve_chain(wiggly_solver *solver, const problem *p, double *x_re, double *x_im);
@@ -194,6 +191,8 @@ typedef struct extent {
 } extent;
 
 extent extent_of(const double *values, int count);
+
+void problem_fill(double *x, double value, int count);
 
 /// The largest magnitude.
 static inline double extent_size(extent e) { return fmax(fabs(e.low), fabs(e.high)); }

@@ -165,7 +165,6 @@ void wiggly_destroy(wiggly_solver *solver)
     if (solver && solver->owned) free(solver);
 }
 
-
 const constant_filter *solver_filter(wiggly_solver *solver, const wiggly_desc *desc, double floor)
 {
     constant_filter *f = &solver->filter;

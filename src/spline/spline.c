@@ -32,19 +32,6 @@ static void unpack(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
     problem_settle(solver, p, curve->re, curve->im);
 }
 
-/// Solves for w by the chain if that is right for sure, else by the band.
-static minimum attempt(wiggly_solver *solver, problem *p, wiggly_curve *curve)
-{
-    const chain *c = &solver->chain;
-    if (!p->by_band && problem_solve_chain(solver, p, curve->re + p->first, curve->im + p->first) &&
-        c->size < INFINITY && c->error <= tolerance(p->desc->mode) * c->size)
-        return (minimum){.by_chain = true, .solved = true, .largest = c->size, .error = c->error};
-    problem_set_rows(solver, p);
-    const minimum result = solver_minimise(solver);
-    unpack(solver, p, curve);
-    return result;
-}
-
 /// Straight lines between knots, shown if the system is singular in any case.
 static void join_knots(wiggly_solver *solver, const problem *p)
 {
@@ -63,24 +50,28 @@ static void join_knots(wiggly_solver *solver, const problem *p)
     for (int i = before + 1; before >= 0 && i < rows->count; i++) rows->x[2 * i] = rows->x[2 * before];
 }
 
-/// Whether x is a double in the caller's units, too, and its sum with the equilibrium.
-static bool is_told(const wiggly_solver *solver, const problem *p, const wiggly_curve *curve)
-{
-    if (solver->scale >= 1) return true;
-    const double most = 0.25 * DBL_MAX * solver->scale;
-    return extent_size(extent_of(curve->re + p->first, p->count)) < most &&
-           (p->desc->mode != WIGGLY_COMPLEX || extent_size(extent_of(curve->im + p->first, p->count)) < most);
-}
-
-/// Solves the problem; if it is singular, solves the nearest one that is not.
+/// Solves the problem, by the chain if that is right for sure, else by the band; if it is singular, solves the nearest one that is not.
 static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
+    const chain *c = &solver->chain;
+    const bool is_complex = p->desc->mode == WIGGLY_COMPLEX;
+    double *const re = curve->re + p->first, *const im = curve->im + p->first;
     wiggly_status status = p->status;
     for (;;) {
-        *result = attempt(solver, p, curve);
-        bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
-        if (result->solved && is_told(solver, p, curve) &&
-            !(may_be_singular && (result->lost || problem_blew_up(p, curve))))
+        if (!p->by_band && problem_solve_chain(solver, p, re, im) && c->size < INFINITY &&
+            c->error <= tolerance(p->desc->mode) * c->size) {
+            *result = (minimum){.by_chain = true, .solved = true, .largest = c->size, .error = c->error};
+        } else {
+            problem_set_rows(solver, p);
+            *result = solver_minimise(solver);
+            unpack(solver, p, curve);
+        }
+        // x must be a double in the caller's units, too, and its sum with the equilibrium
+        const double most = 0.25 * DBL_MAX * solver->scale;
+        const bool is_told = solver->scale >= 1 || (extent_size(extent_of(re, p->count)) < most &&
+                                                    (!is_complex || extent_size(extent_of(im, p->count)) < most));
+        const bool may_be_singular = p->start == WIGGLY_LOOP ? p->calm == 0 : p->free_end;
+        if (result->solved && is_told && !(may_be_singular && (result->lost || problem_blew_up(p, curve))))
             return status;
         if (may_be_singular && p->calm == 0) {
             problem_set_calm(solver, p, FALLBACK_CALM);
@@ -98,32 +89,29 @@ static wiggly_status minimise_safely(wiggly_solver *solver, problem *p, wiggly_c
     return WIGGLY_SINGULAR;
 }
 
-/// w of a knot if it is known, else 0.
-static cplx knot_w(const problem *p, const wiggly_knot *knot)
-{
-    return (cplx){problem_knot_re(p, knot), problem_is_whole(p, knot) ? problem_knot_im(p, knot) : 0};
-}
-
 /// Domains too short for a jet row (M < 3) or where nothing moves: each w is its knot's, else the earliest knot's, else 0. For a cubic solved
 /// for its total x is 0 there; with the filter x, not the total, is the earliest knot's.
 static void solve_short(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
 {
     const wiggly_desc *desc = p->desc;
-    double *re = curve->re, *im = curve->im;
-    cplx other = {0, 0};
-    if (p->earliest >= 0 && p->start != WIGGLY_REST) other = knot_w(p, &desc->knots[solver->order[0]]);
-    for (int i = p->first; i < p->first + p->count; i++) re[i] = other.re, im[i] = other.im;
-    if (p->y && !p->about && p->earliest >= 0 && !problem_oscillates(p)) {
+    const bool is_total = p->y && !p->about;
+    double *const re = curve->re, *const im = curve->im, other[2] = {0, 0};
+    if (p->earliest >= 0 && p->start != WIGGLY_REST) {
+        const wiggly_knot *knot = &desc->knots[solver->order[0]];
+        other[0] = problem_knot_re(p, knot);
+        if (problem_is_whole(p, knot)) other[1] = problem_knot_im(p, knot);
+    }
+    for (int i = p->first; i < p->first + p->count; i++) re[i] = other[0], im[i] = other[1];
+    if (is_total && p->earliest >= 0 && !problem_oscillates(p)) {
         for (int i = p->first; i < p->first + p->count; i++) re[i] += p->y[i] - p->y[p->earliest];
     }
-    if (p->y && !p->about && p->earliest < 0 && (p->start != WIGGLY_REST || p->count < 3)) {
+    if (is_total && p->earliest < 0 && (p->start != WIGGLY_REST || p->count < 3)) {
         for (int i = 0; i < desc->samples; i++) re[i] = p->y[i] - p->level;
     }
     for (int n = 0; n < desc->knot_count; n++) {
         const wiggly_knot *knot = &desc->knots[n];
-        const cplx w = knot_w(p, knot);
-        re[knot->sample] = w.re;
-        if (problem_is_whole(p, knot)) im[knot->sample] = w.im;
+        re[knot->sample] = problem_knot_re(p, knot);
+        if (problem_is_whole(p, knot)) im[knot->sample] = problem_knot_im(p, knot);
     }
 }
 
@@ -205,44 +193,21 @@ static void keep_asked(wiggly_curve *curve, wiggly_curve all)
     }
 }
 
-/// Whether there is nothing to minimise: too short, nothing moves, or nothing constrains it.
-static bool is_plain(const problem *p)
-{
-    return p->count < 3 || is_unmoved(p) || (p->start == WIGGLY_REST && !problem_is_asked(p));
-}
-
-static void solve_plain(wiggly_solver *solver, const problem *p, wiggly_curve *curve)
-{
-    if (p->count < 3 || is_unmoved(p)) {
-        solve_short(solver, p, curve);
-        return;
-    }
-    problem_set_rows(solver, p);
-    solver_run_forward(solver, 1);
-    unpack(solver, p, curve);
-}
-
 wiggly_status problem_find(wiggly_solver *solver, problem *p, wiggly_curve *curve, minimum *result)
 {
     *result = (minimum){.solved = true};
     if (problem_winds_up(p)) {
         problem_solve_gaps(solver, p, curve, result);
-        return p->status;
+    } else if (p->count < 3 || is_unmoved(p)) {
+        solve_short(solver, p, curve);
+    } else if (p->start == WIGGLY_REST && !problem_is_asked(p)) { // nothing constrains it
+        problem_set_rows(solver, p);
+        solver_run_forward(solver, 1);
+        unpack(solver, p, curve);
+    } else {
+        return minimise_safely(solver, p, curve, result);
     }
-    if (!is_plain(p)) return minimise_safely(solver, p, curve, result);
-    solve_plain(solver, p, curve);
     return p->status;
-}
-
-/// A domain without samples.
-static wiggly_status solve_nothing(const wiggly_desc *desc, wiggly_curve *curve)
-{
-    wiggly_curve all = read_curve(curve);
-    all.samples = all.first = all.refinements = 0;
-    all.error = all.before[0] = all.before[1] = 0;
-    all.step = desc->step, all.mode = desc->mode, all.start = desc->start;
-    keep_asked(curve, all);
-    return WIGGLY_OK;
 }
 
 wiggly_status wiggly_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
@@ -294,17 +259,34 @@ wiggly_status solver_add_error(const wiggly_solver *solver, wiggly_curve *curve,
 
 void solver_scale_back(const wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
 {
-    if (solver->scale != 1) {
-        wiggly_curve all = with_arrays(solver, curve);
-        scale_back(desc, solver->scale, &all);
-        keep_asked(curve, all);
+    const double scale = solver->scale;
+    if (scale != 1) {
+        const wiggly_curve all = with_arrays(solver, curve);
+        double *const arrays[] = {all.total, all.y, all.re, all.im};
+        const size_t stride = all.stride ? all.stride : 1;
+        for (int a = 0; a < 4; a++) {
+            for (int i = 0; i < desc->samples && arrays[a]; i++) arrays[a][i] /= scale;
+        }
+        for (int k = 0; k < desc->knot_count; k++) { // a small one beside large ones may have left the range
+            const wiggly_knot *knot = &desc->knots[k];
+            if (!knot->still) all.total[knot->sample] = knot->value;
+        }
+        for (int i = 0; i < desc->samples && all.floats; i++) all.floats[(size_t)i * stride] = (float)all.total[i];
+        for (int i = 0; i < 2; i++) curve->before[i] /= scale;
     }
     if (curve->slope) evaluate_slopes(desc, curve);
 }
 
 wiggly_status solver_solve(wiggly_solver *solver, const wiggly_desc *desc, wiggly_curve *curve)
 {
-    if (desc->samples == 0 && desc->knot_count == 0) return solve_nothing(desc, curve);
+    if (desc->samples == 0 && desc->knot_count == 0) {
+        wiggly_curve all = read_curve(curve);
+        all.samples = all.first = all.refinements = 0;
+        all.error = all.before[0] = all.before[1] = 0;
+        all.step = desc->step, all.mode = desc->mode, all.start = desc->start;
+        keep_asked(curve, all);
+        return WIGGLY_OK;
+    }
     wiggly_status status = problem_check(solver, desc, &curve->knot);
     if (status != WIGGLY_OK) return status;
     wiggly_desc scaled = *desc;
