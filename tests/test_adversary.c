@@ -20,7 +20,7 @@ static bool stands(wiggly_solver *solver, const char *name)
     return !v.fault;
 }
 
-/// A complaint about what is easy is no more than a nuisance: of the worst kind one in twenty-five may have it, of all together one in a
+/// A complaint about what is easy is no more than a nuisance: of the worst kind one in fifty may have it, of all together one in a
 /// hundred (make adversary).
 static void try_many(wiggly_solver *solver, adversary_kind kind, int problems)
 {
@@ -38,7 +38,7 @@ static void try_many(wiggly_solver *solver, adversary_kind kind, int problems)
         if (v.fault && !v.needless) tell(name, &v);
     }
     if (faults) fail_msg("%d of %d problems", faults, problems);
-    if (needless > 1 + problems / 25) fail_msg("%d of %d problems are called INEXACT needlessly", needless, problems);
+    if (needless > 1 + problems / 50) fail_msg("%d of %d problems are called INEXACT needlessly", needless, problems);
 }
 
 TEST(filters) { try_many(*state, ADVERSARY_FILTER, 800); }
@@ -151,7 +151,7 @@ TEST(overdamped_loops_from_frequency_0)
     assert_true(all);
 }
 
-/// Swing that costs next to nothing is held by the imaginary rows, which the chain only adds to what it has solved.
+/// Swing that costs next to nothing is held by the imaginary rows alone, and its bound may be too wide.
 TEST(starts_that_cost_next_to_nothing)
 {
     bool all = true;
@@ -165,7 +165,9 @@ TEST(starts_that_cost_next_to_nothing)
             desc->bandwidth.value = 0;
             add_knot(kind % 2 ? 77 : 16, 1);
             if (kind % 2) add_knot(191, 2);
-            all = stands(*state, "a start that costs next to nothing") && all;
+            struct adversary_verdict v;
+            adversary_judge(*state, &problem, &v);
+            if (v.fault && !v.needless) tell("a start that costs next to nothing", &v), all = false;
         }
     }
     assert_true(all);
