@@ -41,42 +41,33 @@ enum { MARKER = 0xFF, START = 0xD8, END = 0xD9, FIRST_RESTART = 0xD0, HUFFMAN_TA
 enum { LENGTHS = 16, MOST_CODES = 256 };
 enum { SIGNATURE = 8, CHUNK_HEAD = 8, CHUNK_TAIL = 4 };
 
-/// A segment's tables: an identifying byte, the number of codes of each length, the codes.
-static bool tables_fit(const unsigned char *at, const unsigned char *end)
-{
-    while (at < end) {
-        int codes = 0;
-        if (end - at < 1 + LENGTHS) return false;
-        for (int i = 1; i <= LENGTHS; i++) codes += at[i];
-        if (codes > MOST_CODES || codes > end - at - 1 - LENGTHS) return false;
-        at += 1 + LENGTHS + codes;
-    }
-    return true;
-}
-
-/// The position after the next marker, or NULL. Coded samples may lie between.
-static const unsigned char *next_marker(const unsigned char *at, const unsigned char *end, int *marker)
-{
-    at = memchr(at, MARKER, (size_t)(end - at));
-    while (at && at < end && *at == MARKER) at++;
-    if (!at || at == end) return NULL;
-    *marker = *at;
-    return at + 1;
-}
-
+/// Whether a JPEG's Huffman tables lie within their segments and have at most 256 codes: otherwise stb_image up to 2.28 writes past its tables.
 static bool jpeg_is_sound(const unsigned char *at, const unsigned char *end)
 {
-    int marker = 0;
-    while ((at = next_marker(at, end, &marker)) && marker != END) {
+    while ((at = memchr(at, MARKER, (size_t)(end - at)))) { // coded samples may lie between
+        while (at < end && *at == MARKER) at++;
+        if (at == end || *at == END) return true;
+        const int marker = *at++;
         const bool alone = marker == 0 || (marker >= FIRST_RESTART && marker <= START);
         if (alone) continue;
         const long length = end - at < 2 ? 0 : at[0] << 8 | at[1];
         if (length < 2 || length > end - at) return marker != HUFFMAN_TABLES;
-        if (marker == HUFFMAN_TABLES && !tables_fit(at + 2, at + length)) return false;
+        const unsigned char *table = at + 2;
         at += length;
+        while (marker == HUFFMAN_TABLES &&
+               table < at) { // an identifying byte, the number of codes of each length, the codes
+            int codes = 0;
+            if (at - table < 1 + LENGTHS) return false;
+            for (int i = 1; i <= LENGTHS; i++) codes += table[i];
+            if (codes > MOST_CODES || codes > at - table - 1 - LENGTHS) return false;
+            table += 1 + LENGTHS + codes;
+        }
     }
     return true;
 }
+
+/// Whether a PNG's chunks end within the file and its data does not begin with an empty one: otherwise stb_image allocates what a chunk claims,
+/// and copies an empty one to nowhere.
 
 static bool png_is_sound(const unsigned char *at, const unsigned char *end)
 {
@@ -93,40 +84,20 @@ static bool png_is_sound(const unsigned char *at, const unsigned char *end)
     return true;
 }
 
-/// Guards against stb_image. A PNG's chunks must end within the file and its data must not begin with an empty one; a JPEG's Huffman tables
-/// must lie within their segments and have at most 256 codes. Otherwise it allocates what a chunk claims, copies an empty one to nowhere,
-/// and up to 2.28 writes past its tables. True for other formats.
-static bool is_sound(const unsigned char *bytes, size_t size)
-{
-    if (size >= SIGNATURE && memcmp(bytes, "\x89PNG", 4) == 0) return png_is_sound(bytes, bytes + size);
-    if (size > 0 && bytes[0] == MARKER) return jpeg_is_sound(bytes, bytes + size); // may begin with padding
-    return true;
-}
-
 // --- pictures
 
 enum { PIXELS_A_BYTE = 8256 }; // the most that deflate packs into a byte, at one bit per pixel
-
-/// The encoded bytes. `why` receives the error.
-static bool find_bytes(struct gltf_reader *r, const json_t *image, struct glb_buffer *bytes, struct error *why)
-{
-    const char *uri = json_string_value(json_object_get(image, "uri"));
-    size_t before = r->file.room;
-    *bytes = (struct glb_buffer){0};
-    bool found = uri ? glb_read_uri(&r->file, uri, bytes, why)
-                     : glb_view(&r->file, glb_integer(image, "bufferView", -1), &bytes->bytes);
-    r->pixel_room += r->file.room - before;
-    if (!found && !uri) return fail(why, ERROR_INPUT, "no bytes in the file");
-    return found;
-}
 
 static bool fail_starved(struct error *error) { return fail(error, ERROR_ENVIRONMENT, "not enough memory"); }
 
 bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, struct gltf_image *image,
                        struct error *error)
 {
+    const unsigned char *end = bytes + size;
+    const bool is_png = size >= SIGNATURE && memcmp(bytes, "\x89PNG", 4) == 0;
+    const bool is_jpeg = !is_png && size > 0 && bytes[0] == MARKER; // may begin with padding
     int channels, length = size <= INT_MAX ? (int)size : 0;
-    if (!is_sound(bytes, size))
+    if ((is_png && !png_is_sound(bytes, end)) || (is_jpeg && !jpeg_is_sound(bytes, end)))
         return fail(error, ERROR_INPUT, "expected PNG or JPEG: a part of it is too large, or empty");
     starved = false;
     if (!stbi_info_from_memory(bytes, length, &image->width, &image->height, &channels))
@@ -141,21 +112,17 @@ bool gltf_decode_image(const unsigned char *bytes, size_t size, size_t most, str
     return starved ? fail_starved(error) : fail(error, ERROR_INPUT, "%s", stbi_failure_reason());
 }
 
-/// The name to show: the image's own, or its file's.
-static const char *name_of(const json_t *image)
-{
-    const char *name = json_string_value(json_object_get(image, "name"));
-    const char *uri = json_string_value(json_object_get(image, "uri"));
-    if (name && name[0]) return name;
-    return uri && strncmp(uri, "data:", 5) != 0 ? uri : "of no name";
-}
-
 /// Keeps the encoded bytes and, unless they are only stored, decodes them. `why` receives the error.
 static bool read_picture(struct gltf_reader *r, const json_t *json, struct gltf_image *image, struct error *why)
 {
     const char *name = json_string_value(json_object_get(json, "name"));
-    struct glb_buffer bytes;
-    if (!find_bytes(r, json, &bytes, why)) return false;
+    const char *uri = json_string_value(json_object_get(json, "uri"));
+    const size_t before = r->file.room;
+    struct glb_buffer bytes = {0};
+    const bool found = uri ? glb_read_uri(&r->file, uri, &bytes, why)
+                           : glb_view(&r->file, glb_integer(json, "bufferView", -1), &bytes.bytes);
+    r->pixel_room += r->file.room - before;
+    if (!found) return uri ? false : fail(why, ERROR_INPUT, "no bytes in the file");
     const size_t size = bytes.bytes.size;
     if (!r->stored && !gltf_decode_image(bytes.bytes.at, size, r->pixel_room, image, why)) {
         free(bytes.owned);
@@ -188,22 +155,18 @@ static bool read_image(struct gltf_reader *r, int number, int *index)
         if (!read) *image = (struct gltf_image){0};
         r->image_of[number] = read ? r->gltf->image_count++ : -1;
         if (why.kind == ERROR_ENVIRONMENT) return fail_no_memory(r->error, r->file.path);
-        if (!read && !gltf_not_shown(r, "image %.40s (%.60s)", name_of(json), why.text)) return false;
+        if (!read) { // called by its own name, or its file's
+            const char *name = json_string_value(json_object_get(json, "name"));
+            const char *uri = json_string_value(json_object_get(json, "uri"));
+            if (!name || !name[0]) name = uri && strncmp(uri, "data:", 5) != 0 ? uri : "of no name";
+            if (!gltf_not_shown(r, "image %.40s (%.60s)", name, why.text)) return false;
+        }
     }
     *index = r->image_of[number];
     return true;
 }
 
 // --- materials
-
-/// Properties of a material that are not shown: their place and name.
-static const struct {
-    const char *key, *name;
-} ignored[] = {
-    {"normalTexture", "normal maps"}, {"occlusionTexture", "occlusion maps"}, {"emissiveTexture", "emission"}};
-
-static const struct gltf_sampler usual = {
-    .wrap = {GLTF_REPEATED, GLTF_REPEATED}, .far = GLTF_READ_BETWEEN, .near = GLTF_READ_LINEAR};
 
 /// Sets a sampler's number that glTF knows. Unknown numbers by other programs are ignored.
 static void take(const json_t *json, const char *key, const int *known, int *number)
@@ -214,7 +177,8 @@ static void take(const json_t *json, const char *key, const int *known, int *num
     }
 }
 
-static void read_sampler(const json_t *json, struct gltf_sampler *sampler)
+static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_uv *uv,
+                         struct gltf_material *material)
 {
     static const int wraps[] = {GLTF_REPEATED, GLTF_MIRRORED, GLTF_CLAMPED, 0};
     static const int filters[] = {GLTF_READ_NEAREST,
@@ -225,18 +189,8 @@ static void read_sampler(const json_t *json, struct gltf_sampler *sampler)
                                   GLTF_READ_BETWEEN,
                                   0};
     static const int near[] = {GLTF_READ_NEAREST, GLTF_READ_LINEAR, 0};
-    take(json, "wrapS", wraps, &sampler->wrap[0]);
-    take(json, "wrapT", wraps, &sampler->wrap[1]);
-    take(json, "minFilter", filters, &sampler->far);
-    take(json, "magFilter", near, &sampler->near);
-}
-
-static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_uv *uv,
-                         struct gltf_material *material)
-{
     const json_t *textures = gltf_array(r, "textures"), *images = gltf_array(r, "images");
     const json_t *transform = json_object_get(json_object_get(info, "extensions"), "KHR_texture_transform");
-    float rotation = (float)json_number_value(json_object_get(transform, "rotation"));
     const json_t *samplers = gltf_array(r, "samplers");
     int texture, source, sampler;
     if (!gltf_index(r, info, "index", (int)json_array_size(textures), &texture)) return false;
@@ -244,7 +198,7 @@ static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_
     int64_t set = glb_integer(transform, "texCoord", glb_integer(info, "texCoord", 0));
     if (set < 0) return gltf_bad(r, ".texCoord: expected the number of a set of coordinates, got something else");
     uv->set = (int)set;
-    uv->rotation = rotation;
+    uv->rotation = (float)json_number_value(json_object_get(transform, "rotation"));
     if (!gltf_reals(r, transform, "offset", uv->offset, 2) || !gltf_reals(r, transform, "scale", uv->scale, 2))
         return false;
     gltf_at(r, "textures[%d]", texture);
@@ -252,23 +206,14 @@ static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_
     if (!gltf_index(r, described, "source", (int)json_array_size(images), &source) ||
         !gltf_index(r, described, "sampler", (int)json_array_size(samplers), &sampler))
         return false;
-    if (sampler >= 0) read_sampler(json_array_get(samplers, (size_t)sampler), &material->sampler);
+    if (sampler >= 0) {
+        const json_t *of = json_array_get(samplers, (size_t)sampler);
+        take(of, "wrapS", wraps, &material->sampler.wrap[0]);
+        take(of, "wrapT", wraps, &material->sampler.wrap[1]);
+        take(of, "minFilter", filters, &material->sampler.far);
+        take(of, "magFilter", near, &material->sampler.near);
+    }
     return source < 0 || read_image(r, source, &material->image);
-}
-
-/// The base colour; the older of two material descriptions calls it diffuse.
-static bool read_color(struct gltf_reader *r, const json_t *json, struct gltf_material *material, struct gltf_uv *uv)
-{
-    const json_t *metal = json_object_get(json, "pbrMetallicRoughness"),
-                 *extensions = json_object_get(json, "extensions");
-    const json_t *gloss = json_object_get(extensions, "KHR_materials_pbrSpecularGlossiness");
-    if (json_object_get(metal, "metallicRoughnessTexture") && !gltf_not_shown(r, "metal and roughness maps"))
-        return false;
-    if (metal || !gloss)
-        return gltf_reals(r, metal, "baseColorFactor", material->color, 4) &&
-               read_texture(r, json_object_get(metal, "baseColorTexture"), uv, material);
-    return gltf_reals(r, gloss, "diffuseFactor", material->color, 4) &&
-           read_texture(r, json_object_get(gloss, "diffuseTexture"), uv, material);
 }
 
 /// A factor, 1 if it is missing.
@@ -278,31 +223,16 @@ static double number_of(const json_t *object, const char *key)
     return number ? json_number_value(number) : 1;
 }
 
-static bool read_material(struct gltf_reader *r, const json_t *json, size_t number, struct gltf_material *material,
-                          struct gltf_uv *uv)
-{
-    const char *mode = json_string_value(json_object_get(json, "alphaMode"));
-    const json_t *cutoff = json_object_get(json, "alphaCutoff");
-    *material = (struct gltf_material){.color = {1, 1, 1, 1}, .image = -1, .sampler = usual};
-    *uv = (struct gltf_uv){.scale = {1, 1}};
-    material->name = gltf_name(r, json, "material", number);
-    if (!material->name) return false;
-    const json_t *metal = json_object_get(json, "pbrMetallicRoughness");
-    material->shines = metal && !json_object_get(metal, "metallicRoughnessTexture");
-    material->metallic = number_of(metal, "metallicFactor");
-    material->roughness = number_of(metal, "roughnessFactor");
-    material->double_sided = json_is_true(json_object_get(json, "doubleSided"));
-    material->blended = mode && strcmp(mode, "BLEND") == 0;
-    if (mode && strcmp(mode, "MASK") == 0) material->cutoff = cutoff ? (float)json_number_value(cutoff) : 0.5f;
-    for (size_t i = 0; i < sizeof ignored / sizeof *ignored; i++) {
-        if (json_object_get(json, ignored[i].key) && !gltf_not_shown(r, "%s", ignored[i].name)) return false;
-    }
-    return read_color(r, json, material, uv);
-}
-
 bool gltf_read_materials(struct gltf_reader *r)
 {
-    const json_t *materials = gltf_array(r, "materials"), *material;
+    /// Properties of a material that are not shown: their place and name.
+    static const struct {
+        const char *key, *name;
+    } ignored[] = {
+        {"normalTexture", "normal maps"}, {"occlusionTexture", "occlusion maps"}, {"emissiveTexture", "emission"}};
+    static const struct gltf_sampler usual = {
+        .wrap = {GLTF_REPEATED, GLTF_REPEATED}, .far = GLTF_READ_BETWEEN, .near = GLTF_READ_LINEAR};
+    const json_t *materials = gltf_array(r, "materials"), *json;
     size_t i, count = json_array_size(materials), images = json_array_size(gltf_array(r, "images"));
     gltf_at(r, "materials");
     r->gltf->materials = gltf_make(r, count, sizeof *r->gltf->materials);
@@ -311,11 +241,38 @@ bool gltf_read_materials(struct gltf_reader *r)
     r->image_of = r->gltf->images ? gltf_make(r, images, sizeof *r->image_of) : NULL;
     if (!r->image_of) return false;
     for (i = 0; i < images; i++) r->image_of[i] = -2;
-    json_array_foreach(materials, i, material)
+    json_array_foreach(materials, i, json)
     {
         gltf_at(r, "materials[%zu]", i);
-        struct gltf_material *to = &r->gltf->materials[r->gltf->material_count++];
-        if (!read_material(r, material, i, to, &r->uvs[i])) return false;
+        struct gltf_material *material = &r->gltf->materials[r->gltf->material_count++];
+        const char *mode = json_string_value(json_object_get(json, "alphaMode"));
+        const json_t *cutoff = json_object_get(json, "alphaCutoff");
+        *material = (struct gltf_material){.color = {1, 1, 1, 1}, .image = -1, .sampler = usual};
+        r->uvs[i] = (struct gltf_uv){.scale = {1, 1}};
+        material->name = gltf_name(r, json, "material", i);
+        if (!material->name) return false;
+        const json_t *metal = json_object_get(json, "pbrMetallicRoughness");
+        const json_t *maps = json_object_get(metal, "metallicRoughnessTexture");
+        material->shines = metal && !maps;
+        material->metallic = number_of(metal, "metallicFactor");
+        material->roughness = number_of(metal, "roughnessFactor");
+        material->double_sided = json_is_true(json_object_get(json, "doubleSided"));
+        material->blended = mode && strcmp(mode, "BLEND") == 0;
+        if (mode && strcmp(mode, "MASK") == 0) material->cutoff = cutoff ? (float)json_number_value(cutoff) : 0.5f;
+        for (size_t k = 0; k < sizeof ignored / sizeof *ignored; k++) {
+            if (json_object_get(json, ignored[k].key) && !gltf_not_shown(r, "%s", ignored[k].name)) return false;
+        }
+        if (maps && !gltf_not_shown(r, "metal and roughness maps")) return false;
+
+        // The base colour; the older of two material descriptions calls it diffuse.
+        const json_t *gloss =
+            json_object_get(json_object_get(json, "extensions"), "KHR_materials_pbrSpecularGlossiness");
+        const bool older = gloss && !metal;
+        const json_t *from = older ? gloss : metal;
+        if (!gltf_reals(r, from, older ? "diffuseFactor" : "baseColorFactor", material->color, 4) ||
+            !read_texture(r, json_object_get(from, older ? "diffuseTexture" : "baseColorTexture"), &r->uvs[i],
+                          material))
+            return false;
     }
     return true;
 }

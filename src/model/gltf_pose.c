@@ -1,9 +1,10 @@
 /// Poses of glTF characters: clips, matrices of nodes and joints, the vertices v′ = Σ wⱼ Jⱼ (v + Σ wₜ Δₜ v), normals by the cofactors of the
-/// same matrix, and bounding boxes.
+/// same matrix, and bounding boxes; and whether a clip loops.
 #include "maths/maths.h"
-#include "model/gltf.h"
+#include "model/gltf_read.h"
 #include "model/vector.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 bool gltf_pose_create(const struct gltf *gltf, struct gltf_pose *pose)
@@ -92,12 +93,6 @@ static void blend(const float (*joints)[16], const uint16_t *joint, const float 
     }
 }
 
-static void move(const float m[16], float v[3])
-{
-    const float x = v[0], y = v[1], z = v[2];
-    for (int k = 0; k < 3; k++) v[k] = m[k] * x + m[4 + k] * y + m[8 + k] * z + m[12 + k];
-}
-
 /// Turns a vertex's matrix into the deformation gradient: weights that change along z move the vertex, too.
 static void stretch(const float (*joints)[16], const uint16_t *joint, const float *along, const float at[3],
                     float m[16])
@@ -138,10 +133,11 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
         memcpy(m, pose->world[node], sizeof m);
         for (int i = 0; i < part->vertex_count; i++) {
             const vec3s at = vec3_from(positions[i]);
+            const float *v = at.raw;
             if (skinned) blend(joints, part->joints[i], part->weights[i], m);
-            move(m, positions[i]);
+            for (int k = 0; k < 3; k++) positions[i][k] = m[k] * v[0] + m[4 + k] * v[1] + m[8 + k] * v[2] + m[12 + k];
             if (!normals) continue;
-            if (skinned && part->along) stretch(joints, part->joints[i], part->along[i], at.raw, m);
+            if (skinned && part->along) stretch(joints, part->joints[i], part->along[i], v, m);
             gltf_turn_normal(m, normals[i]);
         }
         positions += part->vertex_count;
@@ -156,21 +152,6 @@ void gltf_pose_vertices(const struct gltf *gltf, const struct gltf_pose *pose, i
 //     (2s³ − 3s² + 1) v_k + T (s³ − 2s² + s) b_k + (3s² − 2s³) v_{k+1} + T (s³ − s²) a_{k+1}.
 
 static const double ROUNDING = 1e-7; ///< of a time: keys have single precision, and a frame must not miss its step
-
-/// The last key at or before a time, else the first.
-static int key_at(const struct gltf_channel *channel, double time)
-{
-    int low = 0, high = channel->key_count;
-    while (high - low > 1) {
-        int middle = low + (high - low) / 2;
-        if ((double)channel->times[middle] <= time) {
-            low = middle;
-        } else {
-            high = middle;
-        }
-    }
-    return low;
-}
 
 static void normalise(float q[4])
 {
@@ -203,7 +184,15 @@ static void cubic(const float *key, const float *arriving, int components, float
 void gltf_channel_at(const struct gltf_channel *channel, double time, float *out)
 {
     if (channel->interpolation == GLTF_STEP) time += ROUNDING * fabs(time);
-    int key = key_at(channel, time), n = channel->components;
+    int key = 0, n = channel->components; // the last key at or before the time, else the first
+    for (int end = channel->key_count; end - key > 1;) {
+        const int middle = key + (end - key) / 2;
+        if ((double)channel->times[middle] <= time) {
+            key = middle;
+        } else {
+            end = middle;
+        }
+    }
     bool is_cubic = channel->interpolation == GLTF_CUBIC;
     size_t stride = (size_t)(is_cubic ? 3 * n : n);
     const float *at = channel->values + (size_t)key * stride;
@@ -290,16 +279,6 @@ static void add_vertex(struct gltf_box *box, const struct gltf_mesh *mesh, const
     }
 }
 
-static void add_part(struct gltf_box *boxes, const struct gltf_mesh *mesh, const struct gltf_part *part, bool skinned)
-{
-    for (int v = 0; v < part->vertex_count; v++) {
-        for (int i = 0; i < (skinned && part->joints ? GLTF_INFLUENCES : 1); i++) {
-            int joint = skinned && part->joints ? part->joints[v][i] : 0;
-            if (!part->joints || !skinned || part->weights[v][i] > 0.0f) add_vertex(&boxes[joint], mesh, part, v);
-        }
-    }
-}
-
 static int box_count(const struct gltf *gltf, const struct gltf_node *node)
 {
     if (node->mesh < 0) return 0;
@@ -323,36 +302,21 @@ bool gltf_bounds_create(struct gltf *gltf, struct gltf_bounds *bounds)
                 first[f].hi[i / 3][i % 3] = -INFINITY;
             }
         }
-        for (int p = 0; count > 0 && p < gltf->meshes[node->mesh].part_count; p++)
-            add_part(first, &gltf->meshes[node->mesh], &gltf->meshes[node->mesh].parts[p], node->skin >= 0);
+        const struct gltf_mesh *mesh = count > 0 ? &gltf->meshes[node->mesh] : NULL;
+        for (int p = 0; mesh && p < mesh->part_count; p++) {
+            const struct gltf_part *part = &mesh->parts[p];
+            const bool skinned = node->skin >= 0 && part->joints;
+            for (int i = 0; i < part->vertex_count * (skinned ? GLTF_INFLUENCES : 1); i++) {
+                const int v = skinned ? i / GLTF_INFLUENCES : i, k = i % GLTF_INFLUENCES;
+                if (!skinned) add_vertex(first, mesh, part, v);
+                if (skinned && part->weights[v][k] > 0.0f) add_vertex(&first[part->joints[v][k]], mesh, part, v);
+            }
+        }
         for (int f = 0; f < count; f++) { // most joints of a large skin move a small part of one mesh, or nothing
             if (first[f].lo[0][0] <= first[f].hi[0][0]) bounds->boxes[bounds->count++] = first[f];
         }
     }
     return true;
-}
-
-/// The box at a pose's morph weights: part of the way from the one at rest to a larger one. Weights that are positive and together at most 1
-/// mix places that single targets reach.
-static void box_at(const struct gltf_box *box, const struct gltf *gltf, const struct gltf_pose *pose, float lo[3],
-                   float hi[3])
-{
-    const struct gltf_node *node = &gltf->nodes[box->node];
-    float sum = 0.0f, largest = 0.0f;
-    bool mixes = true;
-    for (int t = 0; t < gltf->meshes[node->mesh].target_count; t++) {
-        const float weight = pose->weights[node->first_weight + t];
-        sum += weight;
-        largest = fmaxf(largest, fabsf(weight));
-        mixes &= weight >= 0.0f;
-    }
-    mixes &= sum < 1.001f;
-    const float share = fminf(mixes ? sum : largest, 1.0f);
-    const enum gltf_reach reach = mixes ? GLTF_ONE_TARGET : GLTF_ALL_TARGETS;
-    for (int k = 0; k < 3; k++) {
-        lo[k] = box->lo[GLTF_AT_REST][k] + share * (box->lo[reach][k] - box->lo[GLTF_AT_REST][k]);
-        hi[k] = box->hi[GLTF_AT_REST][k] + share * (box->hi[reach][k] - box->hi[GLTF_AT_REST][k]);
-    }
 }
 
 void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, const struct gltf_pose *pose,
@@ -367,8 +331,25 @@ void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, c
         const struct gltf_node *node = &gltf->nodes[box->node];
         const float *m =
             box->joint < 0 ? pose->world[box->node] : pose->joints[gltf->skins[node->skin].first_joint + box->joint];
+
+        // The box at the pose's morph weights: part of the way from the one at rest to a larger one. Weights that are positive and together at
+        // most 1 mix places that single targets reach.
+        float sum = 0.0f, largest = 0.0f;
+        bool mixes = true;
+        for (int t = 0; t < gltf->meshes[node->mesh].target_count; t++) {
+            const float weight = pose->weights[node->first_weight + t];
+            sum += weight;
+            largest = fmaxf(largest, fabsf(weight));
+            mixes &= weight >= 0.0f;
+        }
+        mixes &= sum < 1.001f;
+        const float share = fminf(mixes ? sum : largest, 1.0f);
+        const enum gltf_reach larger = mixes ? GLTF_ONE_TARGET : GLTF_ALL_TARGETS;
         float from[3], to[3];
-        box_at(box, gltf, pose, from, to);
+        for (int k = 0; k < 3; k++) {
+            from[k] = box->lo[GLTF_AT_REST][k] + share * (box->lo[larger][k] - box->lo[GLTF_AT_REST][k]);
+            to[k] = box->hi[GLTF_AT_REST][k] + share * (box->hi[larger][k] - box->hi[GLTF_AT_REST][k]);
+        }
         for (int k = 0; k < 3; k++) {
             float middle = m[12 + k], reach = 0.0f;
             for (int a = 0; a < 3; a++) {
@@ -380,4 +361,183 @@ void gltf_bounds_at(const struct gltf_bounds *bounds, const struct gltf *gltf, c
         }
     }
     for (int k = 0; k < 3 && !(lo[0] <= hi[0]); k++) lo[k] = hi[k] = 0.0f;
+}
+
+// --- loops
+//
+// Judges whether a clip loops, by its pose without the travel of the root.
+//
+// A channel is closed if its last value is close to its first, in parts of its range. A translation that is open but steady, of a node that
+// no open node carries, is travel. If all others are closed, the clip loops. Over all channels together it also loops
+// - if it is cut less than half a step beside its start and goes on at the same speed there, as cycles from captured motion do;
+// - if it leaves the copy of the first key out: then the step from its last key to its first is like the steps before and after it.
+
+static const float SMALL_RANGE = 0.2f; ///< of a channel's largest value: a smaller range counts as that
+static const float MOVES = 0.1f;       ///< of SMALL_RANGE: a channel that moves less stands still
+static const float CLOSE = 0.02f;      ///< of a channel's range
+static const float STEADY = 0.4f;      ///< of the mean speed: the least at both ends of a clip that travels
+enum { PARTS = 8 };                    ///< of a clip, in which speeds are measured
+
+// Of the step from the last key to the first, all squared:
+static const double LIKE = 0.25; ///< of the steps around it: how far it may be from them,
+static const double BENT = 2.25; ///< or of how far steps within the clip are from those around them
+static const double CUT = 0.25;  ///< of the steps around it: a shorter one is a cut that nobody sees
+static const double LEAST = 0.1; ///< of the mean step: a shorter one ends near the start, but not before it
+static const double MOST = 6.25; ///< of the largest step of each channel
+enum { LEAST_STEPS = 4, FEW_STEPS = 12, MOST_STEPS = 64 }; // MOST_STEPS are looked at
+
+struct ends {
+    const float *first, *last; ///< values
+    float sign;                ///< of the last: a rotation may have the other sign
+    float range, unit;         ///< of the values; and what differences are measured in
+    bool open;
+};
+
+static double square(double x) { return x * x; }
+
+static float dot(const float *a, const float *b, int count)
+{
+    float sum = 0;
+    for (int k = 0; k < count; k++) sum += a[k] * b[k];
+    return sum;
+}
+
+static struct ends ends_of(const struct gltf_channel *channel)
+{
+    const int n = channel->components, stride = n * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
+    const bool turns = channel->path == GLTF_ROTATION;
+    struct ends ends = {.first = channel->values + (stride > n ? n : 0), .sign = 1};
+    ends.last = ends.first + (size_t)(channel->key_count - 1) * (size_t)stride;
+    if (turns && dot(ends.first, ends.last, n) < 0) ends.sign = -1;
+    float largest = 1e-6f, apart = 0;
+    for (int i = 0; i < n; i++) {
+        float lo = ends.first[i], hi = lo;
+        for (const float *key = ends.first; key <= ends.last; key += stride) {
+            const float value = turns && dot(ends.first, key, n) < 0 ? -key[i] : key[i];
+            lo = fminf(lo, value);
+            hi = fmaxf(hi, value);
+        }
+        largest = fmaxf(largest, fmaxf(-lo, hi));
+        ends.range = fmaxf(ends.range, hi - lo);
+        apart = fmaxf(apart, fabsf(ends.sign * ends.last[i] - ends.first[i]));
+    }
+    ends.unit = fmaxf(ends.range, SMALL_RANGE * largest);
+    ends.open = apart > CLOSE * ends.unit;
+    if (ends.range < MOVES * SMALL_RANGE * largest) ends.range = 0;
+    return ends;
+}
+
+/// Whether an open translation goes on at about the same speed from the beginning to the end.
+static bool is_steady(const struct gltf_channel *channel, const struct ends *ends, double first, double length)
+{
+    float way[3], at[3];
+    if (channel->path != GLTF_TRANSLATION || channel->interpolation == GLTF_STEP) return false;
+    for (int k = 0; k < 3; k++) way[k] = ends->last[k] - ends->first[k];
+    float before = 0, size = dot(way, way, 3);
+    for (int part = 1; part <= PARTS; part++) {
+        gltf_channel_at(channel, first + length * part / PARTS, at);
+        for (int k = 0; k < 3; k++) at[k] -= ends->first[k];
+        const float now = dot(at, way, 3) / size, speed = PARTS * (now - before);
+        if ((part == 1 || part == PARTS) && !(speed > STEADY && speed < 1 / STEADY)) return false;
+        before = now;
+    }
+    return true;
+}
+
+/// Squares of differences, in parts of channels' units, summed over all channels that do not travel.
+struct steps {
+    double step, around[2]; ///< the step from one key to the next, and those before and after it
+    double bend;            ///< how far it is from the mean of those
+    double change;          ///< and how far those are from each other
+};
+
+/// Adds the step between the middle two of four times. `values` holds four values of the channel.
+static void add_steps(const struct gltf_channel *channel, const struct ends *ends, const double times[4],
+                      float *values, struct steps *sum)
+{
+    const int n = channel->components;
+    for (int i = 0; i < 4; i++) {
+        float *value = values + (size_t)i * (size_t)n;
+        gltf_channel_at(channel, times[i], value);
+        const bool turned = channel->path == GLTF_ROTATION && dot(ends->first, value, n) < 0;
+        for (int k = 0; k < n; k++) value[k] = (turned ? -value[k] : value[k]) / ends->unit;
+    }
+    for (int k = 0; k < n; k++) {
+        const float *v = values + k;
+        const double before = (double)(v[n] - v[0]), step = (double)(v[2 * n] - v[n]),
+                     after = (double)(v[3 * n] - v[2 * n]);
+        sum->step += step * step;
+        sum->around[0] += before * before;
+        sum->around[1] += after * after;
+        sum->bend += square(step - (before + after) / 2);
+        sum->change += square(after - before);
+    }
+}
+
+/// Whether the way from the last key to the first is a step like others, or so short a way that nobody sees it: then there is no gap.
+static bool goes_on(struct gltf_clip *clip, const struct ends *ends, float *values)
+{
+    const double first = clip->first, last = clip->last, gap = clip->gap;
+    const int steps = (int)((last - first) / gap + 0.5), apart = 1 + steps / MOST_STEPS;
+    struct steps seam = {0}, within = {0};
+    int count = 0;
+    for (int c = 0; c < clip->channel_count; c++) {
+        const struct gltf_channel *channel = &clip->channels[c];
+        const double before = seam.step;
+        double largest = square((double)CLOSE);
+        if (channel->travels) continue;
+        add_steps(channel, &ends[c], (const double[]){last - gap, last, first, first + gap}, values, &seam);
+        count = 0;
+        for (int k = 1; k + 1 < steps; k += apart, count++) {
+            const double at = first + k * gap, so_far = within.step;
+            add_steps(channel, &ends[c], (const double[]){at - gap, at, at + gap, at + 2 * gap}, values, &within);
+            largest = fmax(largest, within.step - so_far);
+        }
+        if (seam.step - before > MOST * largest) return false;
+    }
+    const double around = fmax(seam.around[0], seam.around[1]), mean = count > 0 ? within.step / count : INFINITY;
+    if (steps >= FEW_STEPS && seam.step < CUT * around && seam.change < LIKE * around) {
+        clip->gap = 0;
+        return true;
+    }
+    if (seam.step < (steps < FEW_STEPS ? CUT : LEAST) * mean) return false;
+    return CUT * seam.step < around && (seam.bend < LIKE * around || seam.bend < BENT * within.bend / count);
+}
+
+bool gltf_judge_loop(const struct gltf *gltf, struct gltf_clip *clip)
+{
+    const double length = clip->last - clip->first;
+    int most_keys = 0, most_components = 4;
+    bool closed = true, moves = false, travels = false, done = false;
+    struct ends *ends = calloc((size_t)clip->channel_count + 1, sizeof *ends);
+    bool *is_open = calloc((size_t)gltf->node_count + 1, sizeof *is_open);
+    float *values = NULL;
+    if (!ends || !is_open) goto end;
+    for (int c = 0; c < clip->channel_count; c++) {
+        const struct gltf_channel *channel = &clip->channels[c];
+        ends[c] = ends_of(channel);
+        is_open[channel->node] |= ends[c].open;
+        if (channel->key_count > most_keys) most_keys = channel->key_count;
+        if (channel->components > most_components) most_components = channel->components;
+    }
+    for (int c = 0; c < clip->channel_count; c++) {
+        struct gltf_channel *channel = &clip->channels[c];
+        bool is_root = true; // no node above it is open
+        for (int n = gltf->nodes[channel->node].parent; n >= 0; n = gltf->nodes[n].parent) is_root &= !is_open[n];
+        channel->travels = ends[c].open && is_root && is_steady(channel, &ends[c], clip->first, length);
+        travels = travels || channel->travels;
+        closed = closed && (!ends[c].open || channel->travels);
+        moves = moves || (ends[c].range > 0 && !channel->travels);
+    }
+    clip->loops = closed && (moves || !travels);
+    clip->gap = clip->loops || most_keys < 2 ? 0 : length / (most_keys - 1);
+    values = malloc(4 * (size_t)most_components * sizeof *values);
+    if (!values) goto end;
+    if (!clip->loops && moves && clip->gap > 0 && most_keys > LEAST_STEPS) clip->loops = goes_on(clip, ends, values);
+    done = true;
+end:
+    free(values);
+    free(is_open);
+    free(ends);
+    return done;
 }

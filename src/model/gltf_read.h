@@ -44,11 +44,6 @@ bool gltf_reals(struct gltf_reader *r, const json_t *object, const char *key, fl
 char *gltf_text(struct gltf_reader *r, const char *text);
 char *gltf_name(struct gltf_reader *r, const json_t *object, const char *kind, size_t n);
 
-/// Names all things of an array, each of which begins with its `char *name`. Scenes find them by name, so a name that repeats gets a number:
-/// "bone", "bone 2"; with `by_place` its place in the file, counted from 1. A thing that is called "bone 2" in the file keeps that name.
-bool gltf_name_all(struct gltf_reader *r, const json_t *array, const char *kind, bool by_place, void *things,
-                   size_t size);
-
 /// An array of the file's root; NULL if there is none.
 const json_t *gltf_array(const struct gltf_reader *r, const char *key);
 
@@ -56,12 +51,8 @@ const json_t *gltf_array(const struct gltf_reader *r, const char *key);
 bool gltf_not_shown(struct gltf_reader *r, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 bool gltf_read_materials(struct gltf_reader *r);
-bool gltf_read_meshes(struct gltf_reader *r);
-bool gltf_read_nodes(struct gltf_reader *r);
-bool gltf_read_skins(struct gltf_reader *r);
-bool gltf_read_clips(struct gltf_reader *r);
 
-/// Finds out whether a clip loops, how long after its last key, and what travels. False if memory is short.
+/// Finds out whether a clip loops (gltf_pose.c), how long after its last key, and what travels. False if memory is short.
 bool gltf_judge_loop(const struct gltf *gltf, struct gltf_clip *clip);
 
 #endif
