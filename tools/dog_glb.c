@@ -2,7 +2,7 @@
 #include "base/file.h"
 #include "base/need.h"
 #include "base/png.h"
-#include "model/gltf_file.h"
+#include "model/gltf_write.h"
 #include "model/vector.h"
 #include "models/dog.h"
 #include <assert.h>

@@ -1,7 +1,7 @@
 /// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
 #include "export/gltf.h"
 #include "base/need.h"
-#include "model/gltf_shape.h"
+#include "model/gltf_write.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -4,7 +4,7 @@
 
 #include "export/form.h"
 #include "model/gltf.h"
-#include "model/gltf_file.h"
+#include "model/gltf_write.h"
 
 /// An animation being written. `file` must outlive it.
 struct gltf_motion {

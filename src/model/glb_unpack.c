@@ -3,7 +3,7 @@
 #include "base/npy.h"
 #include "model/draco.h"
 #include "model/glb.h"
-#include "model/gltf_file.h"
+#include "model/gltf_write.h"
 #include <stdlib.h>
 #include <string.h>
 #ifdef WITH_MESHOPT

@@ -1,0 +1,467 @@
+/// Makes and frees characters; reads characters and surfaces from glTF files, and writes characters. A character is the first mesh with morph
+/// targets, else the first with triangles.
+#include "base/file.h"
+#include "model/figure.h"
+#include "model/gltf_write.h"
+#include "model/surface_readers.h"
+#include "model/vector.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool character_create(struct character *c, struct surface *surface, int coordinates)
+{
+    *c = (struct character){
+        .vertex_count = surface->vertex_count,
+        .index_count = surface->index_count,
+        .position = surface->position,
+        .normal = malloc((size_t)surface->vertex_count * sizeof *c->normal),
+        .color = surface->color ? surface->color : malloc((size_t)surface->vertex_count * sizeof *c->color),
+        .indices = surface->indices,
+        .looks = surface->looks,
+        .coordinates = calloc((size_t)coordinates + 1, sizeof *c->coordinates),
+    };
+    bool whole = c->normal && c->color && c->coordinates;
+    for (int n = 0; whole && !surface->color && n < 3 * c->vertex_count; n++) c->color[n / 3][n % 3] = 1;
+    *surface = (struct surface){0};
+    for (int i = 0; whole && i < coordinates; i++) {
+        struct coordinate *coordinate = &c->coordinates[c->coordinate_count++];
+        coordinate->re = calloc((size_t)c->vertex_count, sizeof *coordinate->re);
+        coordinate->im = calloc((size_t)c->vertex_count, sizeof *coordinate->im);
+        whole = coordinate->re && coordinate->im;
+    }
+    if (!whole) {
+        character_free(c);
+        return false;
+    }
+
+    // Normals from triangles, weighted by area; (0, 1, 0) for a vertex without.
+    memset(c->normal, 0, (size_t)c->vertex_count * sizeof *c->normal);
+    for (int i = 0; i + 2 < c->index_count; i += 3) {
+        const uint32_t *corner = c->indices + i;
+        vec3s normal = triangle_normal(c->position[corner[0]], c->position[corner[1]], c->position[corner[2]]);
+        for (int k = 0; k < 3; k++) glm_vec3_add(c->normal[corner[k]], normal.raw, c->normal[corner[k]]);
+    }
+    for (int i = 0; i < c->vertex_count; i++) {
+        float *n = c->normal[i];
+        double length = sqrt((double)n[0] * n[0] + (double)n[1] * n[1] + (double)n[2] * n[2]);
+        bool known = length > 0 && isfinite(length);
+        for (int k = 0; k < 3; k++) n[k] = known ? (float)(n[k] / length) : (float)(k == 1);
+    }
+    return true;
+}
+
+void character_free(struct character *c)
+{
+    for (int i = 0; i < c->coordinate_count; i++) {
+        free(c->coordinates[i].name);
+        free(c->coordinates[i].re);
+        free(c->coordinates[i].im);
+    }
+    free(c->coordinates);
+    free(c->position);
+    free(c->normal);
+    free(c->color);
+    free(c->indices);
+    looks_free(&c->looks);
+    *c = (struct character){0};
+}
+
+// --- of glTF files
+
+enum { COUNT_LIMIT = 1 << 28 };
+
+static const struct gltf_mesh *choose_mesh(const struct gltf *gltf)
+{
+    const struct gltf_mesh *first = NULL;
+    for (int m = 0; m < gltf->mesh_count; m++) {
+        const struct gltf_mesh *mesh = &gltf->meshes[m];
+        if (mesh->part_count > 0 && mesh->target_count > 0) return mesh;
+        if (mesh->part_count > 0 && !first) first = mesh;
+    }
+    return first;
+}
+
+/// The character's vertex number of a part's first vertex; `next` receives the next part's.
+static int first_vertex(const struct gltf_part *part, int *next)
+{
+    const int first = part->shared ? 0 : *next;
+    *next += part->shared ? 0 : part->vertex_count;
+    return first;
+}
+
+// --- surface
+
+/// The base colour and, if it takes at most `room`, the bytes of its picture.
+static bool copy_look(const struct gltf *gltf, int number, size_t room, struct looks_material *look)
+{
+    const struct gltf_material *material = &gltf->materials[number];
+    for (int k = 0; k < 4; k++) look->color[k] = glm_clamp(material->color[k], 0, 1);
+    const struct gltf_image *image = material->image >= 0 ? &gltf->images[material->image] : NULL;
+    if (look->image || !image || image->size > room || !looks_image_kind(image->bytes, image->size)) return true;
+    look->image = malloc(image->size);
+    if (!look->image) return false;
+    memcpy(look->image, image->bytes, image->size);
+    look->image_size = image->size;
+    return true;
+}
+
+/// All parts of a mesh as one surface, with the materials and their PNG or JPEG pictures. False if memory is short.
+static bool make_surface(const struct gltf *gltf, const struct gltf_mesh *mesh, struct surface *s)
+{
+    struct looks *looks = &s->looks;
+    size_t vertices = 0, indices = 0, room = LOOKS_IMAGES_LIMIT;
+    int next = 0, index = 0;
+    bool uv = false;
+    for (int p = 0; p < mesh->part_count; p++) {
+        vertices += mesh->parts[p].shared ? 0 : (size_t)mesh->parts[p].vertex_count;
+        indices += (size_t)mesh->parts[p].index_count;
+        uv = uv || mesh->parts[p].uv;
+    }
+    if (vertices > COUNT_LIMIT || indices > COUNT_LIMIT) return false;
+    s->vertex_count = (int)vertices;
+    s->index_count = (int)indices;
+    s->position = calloc(vertices, sizeof *s->position);
+    s->color = calloc(vertices, sizeof *s->color);
+    s->indices = calloc(indices, sizeof *s->indices);
+    looks->material = calloc(indices / 3, sizeof *looks->material);
+    looks->joined = calloc(indices / 3, sizeof *looks->joined);
+    looks->uv = uv ? calloc(vertices, sizeof *looks->uv) : NULL;
+    looks->uv_count = uv ? (int)vertices : 0;
+    looks->materials = calloc((size_t)gltf->material_count + 1, sizeof *looks->materials);
+    if (!s->position || !s->color || !s->indices || !looks->material || !looks->joined || (uv && !looks->uv) ||
+        !looks->materials)
+        return false;
+
+    for (int m = 0; m < gltf->material_count; m++) {
+        struct looks_material *look = &looks->materials[looks->material_count++];
+        look->name = strdup(gltf->materials[m].name);
+        if (!look->name || !copy_look(gltf, m, room, look)) return false;
+        room -= look->image_size;
+    }
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        const int base = first_vertex(part, &next);
+        for (int i = 0; !part->shared && i < part->vertex_count; i++) {
+            memcpy(s->position[base + i], part->position[i], sizeof *s->position);
+            if (part->uv) memcpy(looks->uv[base + i], part->uv[i], sizeof *looks->uv);
+            for (int k = 0; k < 3; k++) s->color[base + i][k] = part->color ? part->color[i][k] : 1;
+        }
+        for (int i = 0; i < part->index_count; i++, index++) {
+            s->indices[index] = (uint32_t)base + part->indices[i];
+            if (i % 3 > 0) continue;
+            looks->material[index / 3] = part->material >= 0 ? (uint32_t)part->material : LOOKS_NONE;
+            looks->joined[index / 3] = gltf_joins(part, i);
+        }
+    }
+    looks_drop_unused(looks, s->index_count / 3);
+    return true;
+}
+
+// --- coordinates
+
+/// Whether a target is the real part of a coordinate, and which target is its imaginary part.
+static bool is_coordinate(const struct gltf_mesh *mesh, int target, size_t *name_length, int *im)
+{
+    const char *name = gltf_target_name(mesh, target);
+    size_t length = name ? strlen(name) : 0;
+    if (length < 4 || strcmp(name + length - 3, ".re") != 0) return false;
+    *name_length = length - 3;
+    *im = -1;
+    for (int t = 0; t < mesh->target_count && *im < 0; t++) {
+        const char *text = gltf_target_name(mesh, t);
+        if (text && strlen(text) == length && strncmp(text, name, length - 3) == 0 &&
+            strcmp(text + length - 3, ".im") == 0)
+            *im = t;
+    }
+    return *im >= 0;
+}
+
+bool gltf_is_soft(const struct gltf *gltf)
+{
+    const struct gltf_mesh *mesh = choose_mesh(gltf);
+    size_t length;
+    int im;
+    for (int t = 0; mesh && t < mesh->target_count; t++) {
+        if (is_coordinate(mesh, t, &length, &im)) return true;
+    }
+    return false;
+}
+
+static double real_of(const json_t *object, const char *key)
+{
+    return json_number_value(json_object_get(object, key));
+}
+
+/// Reads a target's vectors. An export scales targets so that weights stay within 0 … 1.
+static void take_target(const struct gltf_mesh *mesh, int target, double sign, double scale, float (*vectors)[3])
+{
+    int next = 0;
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        const int base = first_vertex(part, &next);
+        if (part->shared || !part->targets[target].position) continue;
+        for (int i = 0; i < part->vertex_count; i++) {
+            for (int k = 0; k < 3; k++)
+                vectors[base + i][k] = (float)(sign * (double)part->targets[target].position[i][k] / scale);
+        }
+    }
+}
+
+static bool take_coordinates(const struct gltf_mesh *mesh, struct character *c)
+{
+    struct coordinate *coordinate = c->coordinates;
+    for (int t = 0; t < mesh->target_count; t++) {
+        const json_t *known = NULL, *entry;
+        size_t length, i;
+        int im;
+        if (!is_coordinate(mesh, t, &length, &im)) continue;
+        coordinate->name = strndup(gltf_target_name(mesh, t), length);
+        if (!coordinate->name) return false;
+        json_array_foreach(json_object_get(json_object_get(mesh->extras, "wiggly"), "coordinates"), i, entry)
+        {
+            const char *called = json_string_value(json_object_get(entry, "name"));
+            if (!known && called && strcmp(called, coordinate->name) == 0) known = entry;
+        }
+        const double scale = real_of(known, "scale") > 0 ? real_of(known, "scale") : 1;
+        coordinate->frequency = real_of(known, "frequency");
+        coordinate->damping = real_of(known, "damping");
+        coordinate->explained = real_of(known, "explained");
+        coordinate->pca1 = real_of(known, "pca1");
+        coordinate->pca2 = real_of(known, "pca2");
+        take_target(mesh, t, 1, scale, coordinate->re);
+        take_target(mesh, im, -1, scale, coordinate->im);
+        coordinate++;
+    }
+    return true;
+}
+
+// --- its place
+
+/// Moves it where the first node that shows it is: a mirroring node reverses the triangles and their normals. Without a node it stays exactly as
+/// it is. False if memory is short.
+static bool place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh, struct character *c)
+{
+    struct gltf_pose rest;
+    bool moved = false;
+    int node = 0;
+    while (node < gltf->node_count && gltf->nodes[node].mesh != mesh - gltf->meshes) node++;
+    if (node == gltf->node_count) return true;
+    if (!gltf_pose_create(gltf, &rest)) return false;
+    for (int n = 0; n < 16; n++) moved = moved || rest.world[node][n] != (n % 5 == 0);
+    mat4s m = mat4_from(rest.world[node]);
+    gltf_pose_free(&rest);
+    if (!moved) return true;
+    for (int i = 0; i < c->vertex_count; i++) {
+        glm_mat4_mulv3(m.raw, c->position[i], 1, c->position[i]);
+        gltf_turn_normal((const float *)m.raw, c->normal[i]);
+        for (int k = 0; k < c->coordinate_count; k++) {
+            glm_mat4_mulv3(m.raw, c->coordinates[k].re[i], 0, c->coordinates[k].re[i]);
+            glm_mat4_mulv3(m.raw, c->coordinates[k].im[i], 0, c->coordinates[k].im[i]);
+        }
+    }
+    for (int i = 0; glms_mat4_det(m) < 0 && i + 2 < c->index_count; i += 3) {
+        if (c->looks.joined) c->looks.joined[i / 3] = 0; // a reversed fan begins elsewhere
+        uint32_t corner = c->indices[i + 1];
+        c->indices[i + 1] = c->indices[i + 2];
+        c->indices[i + 2] = corner;
+    }
+    return true;
+}
+
+// --- the whole character
+
+static bool read_character(const struct gltf *gltf, struct character *c, struct error *error)
+{
+    const struct gltf_mesh *mesh = choose_mesh(gltf);
+    size_t vertices = 0, coordinates = 0, length;
+    int im;
+    if (!mesh)
+        return fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got %s", gltf->path,
+                    gltf->not_shown ? gltf->not_shown : "none");
+    for (int p = 0; p < mesh->part_count; p++)
+        vertices += mesh->parts[p].shared ? 0 : (size_t)mesh->parts[p].vertex_count;
+    for (int t = 0; t < mesh->target_count; t++) coordinates += is_coordinate(mesh, t, &length, &im);
+    if (vertices * coordinates > gltf->room / (2 * sizeof *c->position))
+        return fail(error, ERROR_INPUT, "%s: expected at most %zu vertices in a file of this size, got %zu times %zu",
+                    gltf->path, gltf->room / (2 * sizeof *c->position), coordinates, vertices);
+
+    struct surface surface = {0};
+    int next = 0;
+    bool made = make_surface(gltf, mesh, &surface) && character_create(c, &surface, (int)coordinates);
+    surface_free(&surface);
+    for (int p = 0; made && p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        const int base = first_vertex(part, &next);
+        if (!part->shared && part->normal)
+            memcpy(c->normal + base, part->normal, (size_t)part->vertex_count * sizeof *part->normal);
+    }
+    made = made && take_coordinates(mesh, c) && place_as_node(gltf, mesh, c);
+    return made || fail_no_memory(error, gltf->path);
+}
+
+bool character_read(const char *path, struct character *character, struct error *error)
+{
+    struct gltf gltf;
+    *character = (struct character){0};
+    if (!gltf_read_stored(path, &gltf, error)) return false;
+    const bool done = read_character(&gltf, character, error);
+    gltf_free(&gltf);
+    if (!done) character_free(character);
+    return done;
+}
+
+// --- everything a file shows at rest, as one surface
+
+static void add_part(struct surface_builder *b, const struct gltf *gltf, const struct gltf_part *part,
+                     float (*position)[3])
+{
+    const int first = b->surface->vertex_count, first_uv = b->surface->looks.uv_count;
+    b->material = part->material >= 0 ? builder_material(b, gltf->materials[part->material].name) : LOOKS_NONE;
+    if (b->material != LOOKS_NONE) {
+        const size_t used = looks_image_bytes(&b->surface->looks);
+        const size_t room = used < LOOKS_IMAGES_LIMIT ? LOOKS_IMAGES_LIMIT - used : 0;
+        struct looks_material *look = &b->surface->looks.materials[b->material];
+        b->failed = b->failed || !copy_look(gltf, part->material, room, look);
+    }
+    for (int i = 0; i < part->vertex_count && !b->failed; i++) {
+        const double p[3] = {(double)position[i][0], (double)position[i][1], (double)position[i][2]};
+        builder_vertex(b, p);
+        if (part->color) {
+            const float *c = part->color[i];
+            const float rgb[3] = {glm_clamp(c[0], 0, 1), glm_clamp(c[1], 0, 1), glm_clamp(c[2], 0, 1)};
+            builder_linear_color(b, rgb);
+        }
+        if (part->uv) builder_uv(b, (double)part->uv[i][0], (double)part->uv[i][1]);
+    }
+    for (int i = 0; i + 2 < part->index_count && !b->failed; i += 3) {
+        const uint32_t *corner = part->indices + i;
+        const bool joined = gltf_joins(part, i);
+        if (!joined) builder_end_polygon(b);
+        for (int k = joined ? 2 : 0; k < 3; k++)
+            builder_corner(b, (uint32_t)first + corner[k], part->uv ? (uint32_t)first_uv + corner[k] : LOOKS_NONE);
+    }
+    builder_end_polygon(b);
+}
+
+bool gltf_surface_read(struct words *words, struct surface_builder *builder)
+{
+    struct gltf gltf;
+    struct gltf_pose pose;
+    if (!gltf_read_stored(words->path, &gltf, words->error)) return false;
+    const bool posed = gltf_pose_create(&gltf, &pose); // at rest
+    bool whole = posed;
+    for (int n = 0; whole && n < gltf.node_count; n++) {
+        const int count = gltf_vertex_count(&gltf, n);
+        if (count == 0) continue;
+        float(*position)[3] = malloc((size_t)count * sizeof *position);
+        whole = position;
+        if (!whole) break;
+        gltf_pose_vertices(&gltf, &pose, n, position, NULL);
+        const struct gltf_mesh *mesh = &gltf.meshes[gltf.nodes[n].mesh];
+        for (int p = 0, first = 0; p < mesh->part_count; first += mesh->parts[p++].vertex_count)
+            add_part(builder, &gltf, &mesh->parts[p], position + first);
+        free(position);
+    }
+    builder->failed = !whole || builder->failed;
+    if (posed) gltf_pose_free(&pose);
+    gltf_free(&gltf);
+    return true;
+}
+
+// --- writing
+
+/// The vertices of a file: one for each pair of a vertex and its texture coordinates. The character's come first, in order; then copies of those
+/// with several texture coordinates.
+struct split {
+    int count;
+    uint32_t *source;  ///< per vertex of the file: the character's
+    uint32_t *indices; ///< as many as the character's, in order
+    float (*uv)[2];    ///< NULL: none
+};
+
+static void split_create(struct split *split, struct pool *pool, const struct character *c)
+{
+    const struct looks *looks = &c->looks;
+    const size_t most = (size_t)c->vertex_count + (looks->corner ? (size_t)c->index_count : 0);
+    uint32_t *uv_of = pool_take(pool, most, sizeof *uv_of), *next = pool_take(pool, most, sizeof *next);
+    *split = (struct split){.count = c->vertex_count,
+                            .source = pool_take(pool, most, sizeof *split->source),
+                            .indices = pool_take(pool, (size_t)c->index_count, sizeof *split->indices),
+                            .uv = looks->uv ? pool_take(pool, most, sizeof *split->uv) : NULL};
+    for (int v = 0; v < c->vertex_count; v++) {
+        split->source[v] = (uint32_t)v;
+        uv_of[v] = LOOKS_NONE;
+        next[v] = 0;
+    }
+    for (int i = 0; i < c->index_count; i++) {
+        const uint32_t vertex = c->indices[i], uv = looks->corner ? looks->corner[i] : LOOKS_NONE;
+        uint32_t at = vertex; // of its copies, the first of which has its number: `next` is the next copy, 0 the end
+        if (uv != LOOKS_NONE) {
+            if (uv_of[at] == LOOKS_NONE) uv_of[at] = uv;
+            while (uv_of[at] != uv && next[at]) at = next[at];
+            if (uv_of[at] != uv) {
+                next[at] = (uint32_t)split->count;
+                at = (uint32_t)split->count++;
+                split->source[at] = vertex;
+                uv_of[at] = uv;
+                next[at] = 0;
+            }
+        }
+        split->indices[i] = at;
+    }
+    for (int v = 0; split->uv && v < split->count; v++) {
+        const uint32_t uv = looks->corner ? uv_of[v] : (uint32_t)v;
+        memcpy(split->uv[v], uv != LOOKS_NONE ? looks->uv[uv] : (float[2]){0}, sizeof *split->uv);
+    }
+}
+
+bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error)
+{
+    struct figure figure = {.character = *character};
+    struct pool pool = {0};
+    struct gltf_file file = {0};
+    struct gltf_looks looks = {.file = &file};
+    struct split split;
+    if (turn_normals) figure_derive(&figure);
+    split_create(&split, &pool, character);
+    struct gltf_shape shape = {.name = "character",
+                               .vertex_count = split.count,
+                               .source = split.source,
+                               .position = (const float(*)[3])character->position,
+                               .normal = (const float(*)[3])character->normal,
+                               .color = (const float(*)[3])character->color,
+                               .uv = (const float(*)[2])split.uv,
+                               .indices = split.indices,
+                               .index_count = character->index_count,
+                               .looks = &character->looks,
+                               .target_count = 2 * character->coordinate_count,
+                               .character = character};
+    shape.targets = pool_take(&pool, (size_t)shape.target_count, sizeof *shape.targets);
+    for (int t = 0; t < shape.target_count; t++) {
+        const struct figure_target own = figure_target_create(&figure, t / 2, t % 2, &pool);
+        shape.targets[t] =
+            (struct gltf_shape_target){own.name, own.position, (const float(*)[3])own.normal, own.sign, 1};
+    }
+
+    struct file_output out;
+    struct error why;
+    bool done = file_output_open(&out, path, error);
+    if (done) {
+        json_t *root = json_pack("{s:{s:s, s:s}, s:i, s:[{s:[i]}], s:[{s:s, s:i}], s:[o]}", "asset", "version", "2.0",
+                                 "generator", "wiggly", "scene", 0, "scenes", "nodes", 0, "nodes", "name",
+                                 "character", "mesh", 0, "meshes", gltf_shape_json(&looks, &shape));
+        gltf_looks_complete(&looks, root);
+        done =
+            gltf_file_write(&file, root, true, out.stream, &why) || fail(error, why.kind, "%s: %s", path, why.text);
+        if (done)
+            done = file_output_commit(&out, error);
+        else
+            file_output_discard(&out);
+    }
+    gltf_looks_free(&looks);
+    gltf_file_free(&file);
+    pool_free(&pool);
+    figure_forget(&figure);
+    return done;
+}

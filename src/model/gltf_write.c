@@ -1,0 +1,412 @@
+/// Assembles glTF files: accessors and their bytes, meshes, materials and pictures.
+#include "model/gltf_write.h"
+#include "base/base64.h"
+#include "base/need.h"
+#include "base/npy.h"
+#include "model/adjacency.h"
+#include "model/glb.h"
+#include <math.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { ARRAY_BUFFER = 34962, ELEMENT_ARRAY_BUFFER = 34963 };
+
+static const struct element {
+    const char *shape;
+    int components;
+    enum number_type type;
+    int target; ///< 0: none
+} kinds[] = {
+    [ELEMENTS_INDICES] = {"SCALAR", 1, NUMBER_UINT32, ELEMENT_ARRAY_BUFFER},
+    [ELEMENTS_SHORT_INDICES] = {"SCALAR", 1, NUMBER_UINT16, ELEMENT_ARRAY_BUFFER},
+    [ELEMENTS_VECTORS] = {"VEC3", 3, NUMBER_FLOAT32, ARRAY_BUFFER},
+    [ELEMENTS_UVS] = {"VEC2", 2, NUMBER_FLOAT32, ARRAY_BUFFER},
+    [ELEMENTS_JOINTS] = {"VEC4", 4, NUMBER_UINT16, ARRAY_BUFFER},
+    [ELEMENTS_WEIGHTS] = {"VEC4", 4, NUMBER_FLOAT32, ARRAY_BUFFER},
+    [ELEMENTS_MATRICES] = {"MAT4", 16, NUMBER_FLOAT32, 0},
+    [ELEMENTS_KEYS] = {"SCALAR", 1, NUMBER_FLOAT32, 0},
+    [ELEMENTS_KEY_VECTORS] = {"VEC3", 3, NUMBER_FLOAT32, 0},
+    [ELEMENTS_TURNS] = {"VEC4", 4, NUMBER_FLOAT32, 0},
+};
+
+void gltf_file_continue(struct gltf_file *file, json_t *root)
+{
+    file->views = json_incref(json_object_get(root, "bufferViews"));
+    file->accessors = json_incref(json_object_get(root, "accessors"));
+}
+
+size_t gltf_file_append(struct gltf_file *file, const void *bytes, size_t size)
+{
+    const size_t start = file->size, padded = (size + 3) / 4 * 4;
+    if (start + padded > file->capacity) {
+        const size_t capacity = 2 * (start + padded);
+        char *larger = realloc(file->data, capacity);
+        if (!larger) {
+            file->without_memory = true;
+            return start;
+        }
+        file->data = larger;
+        file->capacity = capacity;
+    }
+    if (size == 0) return start;
+    memcpy(file->data + start, bytes, size);
+    memset(file->data + start + size, 0, padded - size);
+    file->size = start + padded;
+    return start;
+}
+
+json_int_t gltf_append(struct gltf_file *file, json_t *array, json_t *value)
+{
+    if (json_array_append_new(array, value) != 0) file->without_memory = true;
+    return (json_int_t)json_array_size(array) - 1;
+}
+
+void gltf_set(struct gltf_file *file, json_t *object, const char *key, json_t *value)
+{
+    if (json_object_set_new(object, key, value) != 0) file->without_memory = true;
+}
+
+void gltf_append_to(struct gltf_file *file, json_t *object, const char *key, json_t *value)
+{
+    if (!json_object_get(object, key)) gltf_set(file, object, key, json_array());
+    gltf_append(file, json_object_get(object, key), value);
+}
+
+void gltf_file_bound(struct gltf_file *file, json_t *accessor, const float *numbers, size_t count, int components)
+{
+    json_t *low = json_array(), *high = json_array();
+    for (int k = 0; k < components; k++) {
+        float least = INFINITY, most = -INFINITY;
+        for (size_t i = 0; i < count; i++) {
+            least = fminf(least, numbers[i * (size_t)components + (size_t)k]);
+            most = fmaxf(most, numbers[i * (size_t)components + (size_t)k]);
+        }
+        gltf_append(file, low, json_real((double)least));
+        gltf_append(file, high, json_real((double)most));
+    }
+    gltf_set(file, accessor, "min", low);
+    gltf_set(file, accessor, "max", high);
+}
+
+/// Pads the bytes to a multiple of four.
+static json_int_t add_view(struct gltf_file *file, const void *data, size_t size, int target)
+{
+    if (!file->views) file->views = json_array();
+    json_t *view = json_pack("{s:I, s:I, s:I}", "buffer", file->buffer, "byteOffset", (json_int_t)file->size,
+                             "byteLength", (json_int_t)size);
+    if (target) gltf_set(file, view, "target", json_integer(target));
+    gltf_file_append(file, data, size);
+    return gltf_append(file, file->views, view);
+}
+
+json_int_t gltf_file_add_bytes(struct gltf_file *file, const void *data, size_t size)
+{
+    return add_view(file, data, size, 0);
+}
+
+json_int_t gltf_file_add(struct gltf_file *file, enum gltf_elements elements, const void *data, size_t count,
+                         bool bounds)
+{
+    const struct element *kind = &kinds[elements];
+    if (!file->accessors) file->accessors = json_array();
+    const json_int_t view =
+        add_view(file, data, count * (size_t)(kind->components * number_size(kind->type)), kind->target);
+    json_t *accessor = json_pack("{s:I, s:i, s:I, s:s}", "bufferView", view, "componentType", kind->type, "count",
+                                 (json_int_t)count, "type", kind->shape);
+    if (bounds) gltf_file_bound(file, accessor, data, count, kind->components);
+    return gltf_append(file, file->accessors, accessor);
+}
+
+static void write_words(FILE *out, uint32_t a, uint32_t b)
+{
+    const uint32_t words[2] = {a, b};
+    fwrite(words, sizeof words, 1, out);
+}
+
+bool gltf_file_write(struct gltf_file *file, json_t *root, bool binary, FILE *out, struct error *error)
+{
+    char *text = NULL;
+    const bool fits = file->size < UINT32_MAX / 2;
+    if (root && fits && file->size > 0) { // describe the buffer of the bytes
+        if (json_array_size(json_object_get(root, "buffers")) <= (size_t)file->buffer)
+            gltf_append_to(file, root, "buffers", json_object());
+        json_t *buffer = json_array_get(json_object_get(root, "buffers"), (size_t)file->buffer);
+        gltf_set(file, buffer, "byteLength", json_integer((json_int_t)file->size));
+        if (!binary) {
+            static const char start[] = "data:application/octet-stream;base64,";
+            char *address = malloc(sizeof start + base64_length(file->size));
+            if (address) base64_encode(file->data, file->size, stpcpy(address, start));
+            gltf_set(file, buffer, "uri", address ? json_string(address) : NULL);
+            free(address);
+        }
+    }
+    if (root && fits && json_array_size(file->views) > 0)
+        gltf_set(file, root, "bufferViews", json_incref(file->views));
+    if (root && fits && json_array_size(file->accessors) > 0)
+        gltf_set(file, root, "accessors", json_incref(file->accessors));
+    if (root && fits && !file->without_memory)
+        text = json_dumps(root, (binary ? JSON_COMPACT : JSON_INDENT(1)) | JSON_REAL_PRECISION(17));
+    json_decref(root);
+    if (!text) {
+        return fail(error, ERROR_ENVIRONMENT,
+                    fits ? "not enough memory, or a name is not UTF-8"
+                         : "a glTF file holds at most 2 GB: choose fewer keys or frames");
+    }
+    if (binary) {
+        const size_t length = strlen(text), padded = (length + 3) / 4 * 4,
+                     chunk = file->size > 0 ? 8 + file->size : 0;
+        const uint32_t total = (uint32_t)(12 + 8 + padded + chunk);
+        write_words(out, GLB_MAGIC, 2);
+        fwrite(&total, sizeof total, 1, out);
+        write_words(out, (uint32_t)padded, GLB_JSON);
+        fprintf(out, "%s%*s", text, (int)(padded - length), "");
+        if (chunk > 0) {
+            write_words(out, (uint32_t)file->size, GLB_BIN);
+            fwrite(file->data, 1, file->size, out);
+        }
+    } else {
+        fputs(text, out);
+        fputc('\n', out);
+    }
+    free(text);
+    return true;
+}
+
+void gltf_file_free(struct gltf_file *file)
+{
+    json_decref(file->views);
+    json_decref(file->accessors);
+    free(file->data);
+    *file = (struct gltf_file){0};
+}
+
+struct gltf_picture {
+    const unsigned char *bytes;
+    size_t size;
+};
+
+// --- materials
+
+static json_int_t add_material(struct gltf_looks *l, const struct looks_material *material)
+{
+    const float *c = material->color;
+    const char *kind = material->image ? looks_image_kind(material->image, material->image_size) : NULL;
+    json_t *base = json_pack("{s:f, s:f}", "metallicFactor", 0.0, "roughnessFactor", 0.8);
+    if (c[0] != 1 || c[1] != 1 || c[2] != 1 || c[3] != 1)
+        gltf_set(l->file, base, "baseColorFactor",
+                 json_pack("[f, f, f, f]", (double)c[0], (double)c[1], (double)c[2], (double)c[3]));
+    if (kind) {
+        size_t t = 0, count = json_array_size(l->textures); // the texture of a picture is made if it is new
+        while (t < count && (l->pictures[t].size != material->image_size ||
+                             memcmp(l->pictures[t].bytes, material->image, material->image_size) != 0))
+            t++;
+        if (t == count) {
+            l->pictures = need_more(l->pictures, count + 1, sizeof *l->pictures);
+            l->pictures[count] = (struct gltf_picture){material->image, material->image_size};
+            const json_int_t view = gltf_file_add_bytes(l->file, material->image, material->image_size);
+            const json_int_t image = gltf_append(l->file, l->images,
+                                                 json_pack("{s:s, s:I, s:o}", "name", material->name, "bufferView",
+                                                           view, "mimeType", json_sprintf("image/%s", kind)));
+            t = (size_t)gltf_append(l->file, l->textures, json_pack("{s:I}", "source", image));
+        }
+        gltf_set(l->file, base, "baseColorTexture", json_pack("{s:I}", "index", (json_int_t)t));
+    }
+    json_t *json = json_pack("{s:s, s:o}", "name", material->name, "pbrMetallicRoughness", base);
+    if (c[3] < 1) gltf_set(l->file, json, "alphaMode", json_string("BLEND"));
+    if (l->is_open) gltf_set(l->file, json, "doubleSided", json_true());
+    return gltf_append(l->file, l->materials, json);
+}
+
+// --- triangles
+
+/// The triangles of a fan starting at corner `turn`; every triangle begins with that corner.
+static size_t add_fan(const uint32_t *fan, size_t triangles, size_t turn, uint32_t *out)
+{
+    const size_t count = triangles + 2;
+    // Corners of the fan: the first triangle's, then the last of each other.
+    for (size_t t = 0; t < triangles; t++) {
+        const size_t places[3] = {turn, turn + t + 1, turn + t + 2};
+        for (int k = 0; k < 3; k++) {
+            const size_t place = places[k] % count;
+            *out++ = place < 3 ? fan[place] : fan[3 * (place - 2) + 2];
+        }
+    }
+    return 3 * triangles;
+}
+
+/// The corners of one material; returns how many. Successive polygons begin at different corners, so that readers can tell them apart.
+static size_t collect(const struct gltf_shape *shape, uint32_t material, uint32_t *corners)
+{
+    const struct looks *looks = shape->looks;
+    const bool polygons = looks && looks->joined;
+    const size_t count = (size_t)shape->index_count / 3;
+    size_t used = 0, end;
+    for (size_t t = 0; t < count; t = end) {
+        const uint32_t *fan = shape->indices + 3 * t;
+        const uint32_t own = looks && looks->material ? looks->material[t] : LOOKS_NONE;
+        end = t + 1;
+        while (polygons && end < count && looks->joined[end] && (!looks->material || looks->material[end] == own))
+            end++;
+        if ((looks && own < (uint32_t)looks->material_count ? own : LOOKS_NONE) != material) continue;
+        const bool same = polygons && used > 0 && corners[used - 3] == fan[0];
+        used += add_fan(fan, end - t, same, corners + used);
+    }
+    return used;
+}
+
+/// A primitive per material of the triangles, and one for triangles without.
+static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *shape, json_t *attributes,
+                               json_t *targets)
+{
+    const struct looks *looks = shape->looks;
+    const uint32_t materials = looks ? (uint32_t)looks->material_count : 0;
+    uint32_t *corners = need((size_t)shape->index_count, sizeof *corners);
+    json_t *primitives = json_array();
+    if (!l->materials) l->materials = json_array();
+    if (!l->textures) l->textures = json_array();
+    if (!l->images) l->images = json_array();
+    if (!attributes) l->file->without_memory = true;
+    for (uint32_t m = 0; attributes && m <= materials; m++) {
+        const bool none = m == materials;
+        const size_t count = collect(shape, none ? LOOKS_NONE : m, corners);
+        if (count == 0) continue;
+        const json_int_t indices = gltf_file_add(l->file, ELEMENTS_INDICES, corners, count, false);
+        json_int_t material;
+        if (!none) {
+            material = add_material(l, &looks->materials[m]);
+        } else {
+            char name[] = "skin";
+            const struct looks_material skin = {.name = name, .color = {1, 1, 1, 1}};
+            if (!l->has_plain[l->is_open]) l->plain[l->is_open] = add_material(l, &skin);
+            l->has_plain[l->is_open] = true;
+            material = l->plain[l->is_open];
+        }
+        json_t *primitive =
+            json_pack("{s:O, s:I, s:I}", "attributes", attributes, "indices", indices, "material", material);
+        if (json_array_size(targets) > 0) gltf_set(l->file, primitive, "targets", json_incref(targets));
+        if (looks && looks->joined) {
+            gltf_set(l->file, primitive, "extensions", json_pack("{s:{}}", GLTF_POLYGONS));
+            l->has_polygons = true;
+        }
+        gltf_append(l->file, primitives, primitive);
+    }
+    free(corners);
+    return primitives;
+}
+
+// --- vertices
+
+/// A copy of vectors for the file's vertices, times `scale`, within [lowest, highest].
+static json_int_t add_vectors(struct gltf_looks *l, const struct gltf_shape *shape, const float (*vectors)[3],
+                              float scale, const float range[2], bool bounds)
+{
+    const size_t count = (size_t)shape->vertex_count;
+    float(*copy)[3] = need(count, sizeof *copy);
+    for (size_t i = 0; i < count; i++) {
+        const float *vector = vectors[shape->source ? shape->source[i] : i];
+        for (int k = 0; k < 3; k++) copy[i][k] = fminf(fmaxf(scale * vector[k], range[0]), range[1]);
+    }
+    const json_int_t accessor = gltf_file_add(l->file, ELEMENTS_VECTORS, copy, count, bounds);
+    free(copy);
+    return accessor;
+}
+
+static void add_attribute(struct gltf_looks *l, json_t *attributes, const char *name, enum gltf_elements elements,
+                          const void *data, int count)
+{
+    if (!data) return;
+    gltf_set(l->file, attributes, name, json_integer(gltf_file_add(l->file, elements, data, (size_t)count, false)));
+}
+
+/// Whether the back of a shape can be seen, as a flag's: a triangle has none across an edge.
+static bool is_open(const struct gltf_shape *shape)
+{
+    const size_t count = (size_t)shape->index_count;
+    uint32_t *corners = need(count + 1, sizeof *corners), most = 0;
+    int *across = need(count + 1, sizeof *across);
+    bool open = false;
+    for (size_t i = 0; i < count; i++) {
+        corners[i] = shape->source ? shape->source[shape->indices[i]] : shape->indices[i];
+        most = corners[i] > most ? corners[i] : most;
+    }
+    neighbours_find(shape->position, (int)most + 1, corners, shape->index_count, across);
+    for (size_t i = 0; i < count; i++) open = open || across[i] == NEIGHBOUR_NONE;
+    free(corners);
+    free(across);
+    return open;
+}
+
+json_t *gltf_shape_json(struct gltf_looks *l, const struct gltf_shape *shape)
+{
+    static const float any[2] = {-INFINITY, INFINITY}, unit[2] = {-1, 1}, share[2] = {0, 1};
+    l->is_open = is_open(shape);
+    const json_int_t position = add_vectors(l, shape, shape->position, 1, any, true);
+    const json_int_t normal = add_vectors(l, shape, shape->normal, 1, unit, false);
+    json_t *attributes = json_pack("{s:I, s:I}", "POSITION", position, "NORMAL", normal), *targets = json_array();
+    bool has_colors = false;
+    for (int n = 0; n < 3 * shape->vertex_count && !has_colors; n++)
+        has_colors = shape->color[shape->source ? shape->source[n / 3] : (size_t)(n / 3)][n % 3] != 1;
+    if (has_colors)
+        gltf_set(l->file, attributes, "COLOR_0", json_integer(add_vectors(l, shape, shape->color, 1, share, false)));
+    add_attribute(l, attributes, "TEXCOORD_0", ELEMENTS_UVS, shape->uv, shape->vertex_count);
+    add_attribute(l, attributes, "JOINTS_0", ELEMENTS_JOINTS, shape->joints, shape->vertex_count);
+    add_attribute(l, attributes, "WEIGHTS_0", ELEMENTS_WEIGHTS, shape->weights, shape->vertex_count);
+    for (int t = 0; t < shape->target_count; t++) {
+        const struct gltf_shape_target *target = &shape->targets[t];
+        json_t *json =
+            json_pack("{s:I}", "POSITION", add_vectors(l, shape, target->position, target->scale, any, true));
+        if (target->normal)
+            gltf_set(l->file, json, "NORMAL",
+                     json_integer(add_vectors(l, shape, target->normal, target->turn, any, false)));
+        gltf_append(l->file, targets, json);
+    }
+    json_t *mesh =
+        json_pack("{s:s, s:o}", "name", shape->name, "primitives", make_primitives(l, shape, attributes, targets));
+    for (int t = 0; t < shape->target_count; t++) gltf_append_to(l->file, mesh, "weights", json_integer(0));
+    if (shape->target_count >
+        0) { // the extras that character_read() reads: names of targets and properties of coordinates
+        json_t *names = json_array(), *coordinates = json_array();
+        for (int t = 0; t < shape->target_count; t++)
+            gltf_append(l->file, names, json_string(shape->targets[t].name));
+        for (int i = 0; shape->character && i < shape->character->coordinate_count; i++) {
+            const struct coordinate *c = &shape->character->coordinates[i];
+            json_t *known =
+                json_pack("{s:s, s:f, s:f, s:f, s:f, s:f}", "name", c->name, "frequency", c->frequency, "damping",
+                          c->damping, "explained", c->explained, "pca1", c->pca1, "pca2", c->pca2);
+            const double scale = (double)shape->targets[2 * i].scale;
+            if (scale != 1) gltf_set(l->file, known, "scale", json_real(scale));
+            gltf_append(l->file, coordinates, known);
+        }
+        gltf_set(l->file, mesh, "extras",
+                 json_pack("{s:o, s:{s:o}}", "targetNames", names, "wiggly", "coordinates", coordinates));
+    }
+    if (!targets) l->file->without_memory = true;
+    json_decref(attributes);
+    json_decref(targets);
+    return mesh;
+}
+
+// --- the rest of the file
+
+void gltf_looks_complete(struct gltf_looks *l, json_t *root)
+{
+    const struct {
+        const char *key;
+        json_t *array;
+    } members[] = {{"materials", l->materials}, {"textures", l->textures}, {"images", l->images}};
+    for (size_t i = 0; i < sizeof members / sizeof *members; i++) {
+        if (json_array_size(members[i].array) > 0)
+            gltf_set(l->file, root, members[i].key, json_incref(members[i].array));
+    }
+    if (l->has_polygons) gltf_set(l->file, root, "extensionsUsed", json_pack("[s]", GLTF_POLYGONS));
+}
+
+void gltf_looks_free(struct gltf_looks *l)
+{
+    json_decref(l->materials);
+    json_decref(l->textures);
+    json_decref(l->images);
+    free(l->pictures);
+    *l = (struct gltf_looks){0};
+}
