@@ -59,33 +59,13 @@ struct edges {
 /// As many vertices at one place are not a seam but a collapsed mesh.
 enum { TWINS_MAX = 16 };
 
-static void find_twins(const struct edges *edges, const float (*normal)[3])
-{
-    for (int i = 0, end; i < edges->vertex_count; i = end) {
-        const struct spot *first = &edges->spots[i];
-        end = i + 1;
-        while (end < edges->vertex_count && spots_meet(first, &edges->spots[end]) &&
-               memcmp(normal[first->vertex], normal[edges->spots[end].vertex], sizeof *normal) == 0)
-            end++;
-        for (int n = i; n < end; n++) {
-            const int next = end - i > TWINS_MAX ? n : n + 1 < end ? n + 1 : i;
-            edges->twin[edges->spots[n].vertex] = edges->spots[next].vertex;
-        }
-    }
-}
-
-/// Adds an edge to all twins of both its ends.
-static void add_shared(struct adjacency *adjacency, const struct edges *edges, int *fill, uint32_t i, uint32_t j)
-{
-    add_edge(adjacency, fill, i, j);
-    for (uint32_t twin = edges->twin[i]; twin != i; twin = edges->twin[twin]) add_edge(adjacency, fill, twin, j);
-    for (uint32_t twin = edges->twin[j]; twin != j; twin = edges->twin[twin]) add_edge(adjacency, fill, i, twin);
-}
-
 static void add_edges(struct adjacency *adjacency, const struct edges *edges, int *fill)
 {
     for (int t = 0; t < edges->index_count; t++) {
-        add_shared(adjacency, edges, fill, edges->indices[t], edges->indices[t % 3 == 2 ? t - 2 : t + 1]);
+        const uint32_t i = edges->indices[t], j = edges->indices[next_corner(t)];
+        add_edge(adjacency, fill, i, j); // and to all twins of both its ends
+        for (uint32_t twin = edges->twin[i]; twin != i; twin = edges->twin[twin]) add_edge(adjacency, fill, twin, j);
+        for (uint32_t twin = edges->twin[j]; twin != j; twin = edges->twin[twin]) add_edge(adjacency, fill, i, twin);
     }
     for (int i = 0; i + 1 < edges->vertex_count; i++) {
         const struct spot *a = &edges->spots[i], *b = a + 1;
@@ -97,23 +77,6 @@ static int compare_vertices(const void *a, const void *b)
 {
     const uint32_t *p = a, *q = b;
     return *p < *q ? -1 : *p > *q;
-}
-
-/// Sorts each vertex's neighbours and removes duplicates (most edges are in two triangles).
-static void tidy(struct adjacency *adjacency, int vertex_count)
-{
-    int kept = 0;
-    for (int i = 0; i < vertex_count; i++) {
-        const int begin = adjacency->first[i], end = adjacency->first[i + 1];
-        uint32_t *list = adjacency->other + begin;
-        qsort(list, (size_t)(end - begin), sizeof *list, compare_vertices);
-        adjacency->first[i] = kept;
-        for (int n = 0; n < end - begin; n++) {
-            if (n > 0 && list[n] == list[n - 1]) continue;
-            adjacency->other[kept++] = list[n];
-        }
-    }
-    adjacency->first[vertex_count] = kept;
 }
 
 void adjacency_create(struct adjacency *adjacency, struct pool *pool, const float (*position)[3],
@@ -128,13 +91,36 @@ void adjacency_create(struct adjacency *adjacency, struct pool *pool, const floa
                                 vertex_count};
     adjacency->first = pool_take(pool, room, sizeof *adjacency->first);
     spots_sort(position, vertex_count, spots);
-    find_twins(&edges, normal);
+    for (int i = 0, end; i < vertex_count; i = end) {
+        const struct spot *first = &spots[i];
+        end = i + 1;
+        while (end < vertex_count && spots_meet(first, &spots[end]) &&
+               memcmp(normal[first->vertex], normal[spots[end].vertex], sizeof *normal) == 0)
+            end++;
+        for (int n = i; n < end; n++) {
+            const int next = end - i > TWINS_MAX ? n : n + 1 < end ? n + 1 : i;
+            edges.twin[spots[n].vertex] = spots[next].vertex;
+        }
+    }
     add_edges(adjacency, &edges, fill);
     for (int i = 0; i < vertex_count; i++) adjacency->first[i + 1] = adjacency->first[i] + fill[i];
     memcpy(fill, adjacency->first, (size_t)vertex_count * sizeof *fill);
     adjacency->other = pool_take(pool, (size_t)adjacency->first[vertex_count], sizeof *adjacency->other);
     add_edges(adjacency, &edges, fill);
-    tidy(adjacency, vertex_count);
+
+    // Sort each vertex's neighbours and remove duplicates (most edges are in two triangles).
+    int kept = 0;
+    for (int i = 0; i < vertex_count; i++) {
+        const int begin = adjacency->first[i], end = adjacency->first[i + 1];
+        uint32_t *list = adjacency->other + begin;
+        qsort(list, (size_t)(end - begin), sizeof *list, compare_vertices);
+        adjacency->first[i] = kept;
+        for (int n = 0; n < end - begin; n++) {
+            if (n > 0 && list[n] == list[n - 1]) continue;
+            adjacency->other[kept++] = list[n];
+        }
+    }
+    adjacency->first[vertex_count] = kept;
     pool_free(&work);
 }
 
@@ -161,17 +147,6 @@ static float (*snap(struct pool *work, const float (*position)[3], int count))[3
         snapped[i / 3][i % 3] = cell > 0.0f ? cell * roundf(place / cell) : place;
     }
     return snapped;
-}
-
-static void list_corners(struct corners *corners, int vertex_count, const uint32_t *indices, int index_count)
-{
-    for (int v = 0; v < vertex_count; v++) corners->last[v] = -1;
-    for (int i = 0; i < index_count; i++) {
-        const uint32_t spot = corners->spot[indices[i]];
-        corners->before[i] = corners->last[spot];
-        corners->last[spot] = i;
-        corners->many[spot]++;
-    }
 }
 
 static int corner_before(int i) { return i % 3 == 0 ? i + 2 : i - 1; }
@@ -205,7 +180,13 @@ void neighbours_find(const float (*position)[3], int vertex_count, const uint32_
                               pool_take(&work, (size_t)index_count, sizeof *corners.before)};
     spots_sort((const float(*)[3])snapped, vertex_count, spots);
     spots_first(spots, vertex_count, corners.spot);
-    list_corners(&corners, vertex_count, indices, index_count);
+    for (int v = 0; v < vertex_count; v++) corners.last[v] = -1;
+    for (int i = 0; i < index_count; i++) {
+        const uint32_t spot = corners.spot[indices[i]];
+        corners.before[i] = corners.last[spot];
+        corners.last[spot] = i;
+        corners.many[spot]++;
+    }
     for (int i = 0; i < index_count; i++) neighbours[i] = find_one(&corners, indices, i);
     pool_free(&work);
 }

@@ -1,10 +1,10 @@
-/// Prepares a character for drawing: normals, a coarser mesh, bounds; poses it; and applies painted phases and amplitudes.
+/// Prepares a character for drawing: normals, a coarser mesh, bounds; poses it; applies painted phases and amplitudes; and finds distances along
+/// its surface, and where a ray hits it.
 #include "model/figure.h"
 #include "base/need.h"
 #include "maths/maths.h"
 #include "model/vector.h"
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -25,27 +25,6 @@ static void tangent_of(const float n[3], float t[3])
     vec3s across = glms_vec3_sub(axis, glms_vec3_scale(vec3_from(n), n[least]));
     across = glms_vec3_divs(across, glms_vec3_norm(across));
     glm_vec3_copy(across.raw, t);
-}
-
-/// An edge from vertex i in its tangent plane, weighted so that short edges count as much as long ones.
-static bool edge_in_plane(const struct figure *figure, uint32_t i, uint32_t j, float uv[2], float *weight)
-{
-    const struct character *c = &figure->character;
-    const vec3s edge = glms_vec3_sub(vec3_from(c->position[j]), vec3_from(c->position[i]));
-    const vec3s tangent = vec3_from(figure->tangent[i]);
-    const float square = glms_vec3_norm2(edge);
-    if (!(square > 0.0f)) return false;
-    uv[0] = glms_vec3_dot(edge, tangent);
-    uv[1] = glms_vec3_dot(edge, glms_vec3_cross(vec3_from(c->normal[i]), tangent));
-    *weight = 1.0f / square;
-    return true;
-}
-
-static void add_edge(struct fit *fit, const float uv[2], float weight)
-{
-    fit->uu += weight * uv[0] * uv[0];
-    fit->uv += weight * uv[0] * uv[1];
-    fit->vv += weight * uv[1] * uv[1];
 }
 
 /// Adds weight · difference · (u, v) to both derivatives.
@@ -77,13 +56,19 @@ static void fit_slope(struct figure *figure, int coordinate, int vertex)
     const struct character *c = &figure->character;
     const struct coordinate *n = &c->coordinates[coordinate];
     struct slope *s = &figure->slopes[coordinate * c->vertex_count + vertex];
+    const vec3s tangent = vec3_from(figure->tangent[vertex]);
+    const vec3s across = glms_vec3_cross(vec3_from(c->normal[vertex]), tangent);
     struct fit fit = {0};
     *s = (struct slope){0};
     for (int e = figure->edges.first[vertex]; e < figure->edges.first[vertex + 1]; e++) {
         const uint32_t other = figure->edges.other[e];
-        float uv[2], weight;
-        if (!edge_in_plane(figure, (uint32_t)vertex, other, uv, &weight)) continue;
-        add_edge(&fit, uv, weight);
+        const vec3s edge = glms_vec3_sub(vec3_from(c->position[other]), vec3_from(c->position[vertex]));
+        const float square = glms_vec3_norm2(edge), weight = 1.0f / square; // short edges count as much as long ones
+        if (!(square > 0.0f)) continue;
+        const float uv[2] = {glms_vec3_dot(edge, tangent), glms_vec3_dot(edge, across)}; // in the tangent plane
+        fit.uu += weight * uv[0] * uv[0];
+        fit.uv += weight * uv[0] * uv[1];
+        fit.vv += weight * uv[1] * uv[1];
         add_difference(n->re[vertex], n->re[other], uv, weight, s->re_u, s->re_v);
         add_difference(n->im[vertex], n->im[other], uv, weight, s->im_u, s->im_v);
     }
@@ -103,62 +88,178 @@ static void measure_largest(struct figure *figure, int coordinate)
     for (int k = 0; k < 3; k++) figure->largest[coordinate][k] = sqrtf(square[k]);
 }
 
-static void measure(struct figure *figure)
+// --- a coarser mesh
+//
+// Half-edge collapses in rounds. In each round every removable vertex picks its cheapest neighbour to collapse onto; the collapses are done
+// from the cheapest on, except those that touch changed triangles.
+
+enum { MAX_RING = 24, MAX_ROUNDS = 24 };
+
+#define COLOR_WEIGHT 0.02f /* metres equivalent to a full change of colour */
+#define FLATTEST 0.35f     /* cosine of the largest turn of a triangle */
+
+/// A vertex and the neighbour onto which it would collapse.
+struct collapse {
+    uint32_t from, to;
+    float cost;
+};
+
+struct work {
+    const struct character *character;
+    size_t vertex_count;
+    uint32_t *indices, *sources;
+    int index_count;
+    int *first;   ///< of the vertex's triangles in `around`, per vertex and one more
+    int *around;  ///< triangles by vertex
+    bool *locked; ///< touched in this round
+    struct collapse *collapses;
+};
+
+/// The vertices around v, each once; 0 if there are too many or v is at an edge of the surface (each neighbour must be in two of its
+/// triangles).
+static int ring_of(const struct work *work, uint32_t v, uint32_t ring[MAX_RING])
 {
-    const struct character *c = &figure->character;
-    glm_vec3_fill(figure->lo, INFINITY);
-    glm_vec3_fill(figure->hi, -INFINITY);
-    for (int i = 0; i < c->vertex_count; i++) {
-        tangent_of(c->normal[i], figure->tangent[i]);
-        glm_vec3_minv(c->position[i], figure->lo, figure->lo);
-        glm_vec3_maxv(c->position[i], figure->hi, figure->hi);
+    int count = 0, seen[MAX_RING] = {0};
+    for (int a = work->first[v]; a < work->first[v + 1]; a++) {
+        const uint32_t *corner = work->indices + 3 * work->around[a];
+        for (int k = 0; k < 3; k++) {
+            if (corner[k] == v) continue;
+            int at = 0;
+            while (at < count && ring[at] != corner[k]) at++;
+            if (at == MAX_RING) return 0;
+            if (at == count) ring[count++] = corner[k];
+            seen[at]++;
+        }
     }
+    for (int i = 0; i < count; i++) {
+        if (seen[i] != 2) return 0;
+    }
+    return count;
 }
 
-static void find_dark(struct figure *figure)
+/// The effect on a triangle of moving corner v to `to`: false if it folds over; else the surface's distance from v, metres.
+static bool moved_triangle(const struct work *work, const uint32_t corner[3], uint32_t v, uint32_t to,
+                           float *distance)
 {
-    static const float share = 0.45f; // of the mean
-    const struct character *c = &figure->character;
-    double sum = 0.0;
-    for (int i = 0; i < c->vertex_count; i++)
-        sum += (double)glms_vec3_dot(vec3_from(c->color[i]), (vec3s){{0.2126f, 0.7152f, 0.0722f}});
-    figure->dark = c->vertex_count > 0 ? share * (float)(sum / c->vertex_count) : 0.0f;
+    float(*const p)[3] = work->character->position;
+    const float *moved[3];
+    for (int k = 0; k < 3; k++) moved[k] = p[corner[k] == v ? to : corner[k]];
+    const vec3s before = triangle_normal(p[corner[0]], p[corner[1]], p[corner[2]]);
+    const vec3s after = triangle_normal(moved[0], moved[1], moved[2]);
+    const float area = glms_vec3_norm(after);
+    if (!(glms_vec3_dot(before, after) > FLATTEST * area * glms_vec3_norm(before))) return false;
+    *distance = fabsf(glms_vec3_dot(glms_vec3_sub(vec3_from(p[v]), vec3_from(moved[0])), after)) / area;
+    return true;
 }
 
-/// A disc around the lowest points on each side of the middle.
-static void find_soles(struct figure *figure)
+/// INFINITY if v cannot collapse onto `to`: the surface would fold, or two sheets would meet (the two must share exactly the vertices of the
+/// triangles on their edge).
+static float cost_of(const struct work *work, uint32_t v, uint32_t to, const uint32_t *ring, int count)
 {
-    const struct character *c = &figure->character;
-    const float low = figure->lo[1] + 0.02f * (figure->hi[1] - figure->lo[1]);
-    const float middle = 0.5f * (figure->lo[0] + figure->hi[0]);
-    float sum[FIGURE_SOLES][5] = {{0}}; // count, x, z, x², z²
-    for (int i = 0; i < c->vertex_count; i++) {
-        const float *p = c->position[i];
-        if (p[1] > low) continue;
-        float *s = sum[p[0] > middle];
-        const float add[5] = {1.0f, p[0], p[2], p[0] * p[0], p[2] * p[2]};
-        for (int k = 0; k < 5; k++) s[k] += add[k];
+    uint32_t other[MAX_RING];
+    const int other_count = ring_of(work, to, other);
+    int shared = 0;
+    for (int i = 0; i < count * other_count; i++) shared += ring[i / other_count] == other[i % other_count];
+    if (shared != 2) return INFINITY;
+    float largest = 0.0f, color = 0.0f;
+    for (int a = work->first[v]; a < work->first[v + 1]; a++) {
+        const uint32_t *corner = work->indices + 3 * work->around[a];
+        float distance;
+        if (corner[0] == to || corner[1] == to || corner[2] == to) continue;
+        if (!moved_triangle(work, corner, v, to, &distance)) return INFINITY;
+        largest = fmaxf(largest, distance);
     }
-    for (int side = 0; side < FIGURE_SOLES; side++) {
-        const float *s = sum[side], count = s[0];
-        if (count == 0.0f) continue;
-        const float x = s[1] / count, z = s[2] / count;
-        const float variance = s[3] / count - x * x + s[4] / count - z * z;
-        figure->soles[side] = (struct sole){x, z, 2.0f * sqrtf(fmaxf(variance, 0.0f))};
-    }
+    for (int k = 0; k < 3; k++)
+        color = fmaxf(color, fabsf(work->character->color[v][k] - work->character->color[to][k]));
+    const vec3s from = vec3_from(work->character->position[v]), onto = vec3_from(work->character->position[to]);
+    return largest + COLOR_WEIGHT * color + 0.02f * glms_vec3_distance(from, onto);
 }
 
-static void reserve(struct figure *figure)
+static int compare_collapses(const void *a, const void *b)
 {
-    const struct character *c = &figure->character;
-    const size_t vertices = (size_t)c->vertex_count, coordinates = (size_t)c->coordinate_count;
-    struct pool *pool = &figure->pool;
-    figure->tangent = pool_take(pool, vertices, sizeof *figure->tangent);
-    figure->slopes = pool_take(pool, vertices * coordinates, sizeof *figure->slopes);
-    figure->largest = pool_take(pool, coordinates, sizeof *figure->largest);
-    figure->coarse = pool_take(pool, (size_t)c->index_count, sizeof *figure->coarse);
-    figure->coarse_from = pool_take(pool, (size_t)c->index_count / 3, sizeof *figure->coarse_from);
+    const struct collapse *x = a, *y = b;
+    if (x->cost != y->cost) return x->cost < y->cost ? -1 : 1;
+    return x->from < y->from ? -1 : x->from > y->from;
 }
+
+/// Moves v's triangles over and locks everything around, so that the round's other costs stay valid.
+static bool carry_out(struct work *work, const struct collapse *collapse)
+{
+    uint32_t ring[MAX_RING], other[MAX_RING];
+    const int count = ring_of(work, collapse->from, ring), other_count = ring_of(work, collapse->to, other);
+    bool free = !work->locked[collapse->from] && !work->locked[collapse->to];
+    for (int i = 0; i < count; i++) free = free && !work->locked[ring[i]];
+    for (int i = 0; i < other_count; i++) free = free && !work->locked[other[i]];
+    if (!free) return false;
+    for (int i = 0; i < count; i++) work->locked[ring[i]] = true;
+    for (int i = 0; i < other_count; i++) work->locked[other[i]] = true;
+    for (int a = work->first[collapse->from]; a < work->first[collapse->from + 1]; a++) {
+        uint32_t *corner = work->indices + 3 * work->around[a];
+        for (int k = 0; k < 3; k++) {
+            if (corner[k] == collapse->from) corner[k] = collapse->to;
+        }
+    }
+    return true;
+}
+
+/// One round of at most `most` collapses, each removing two triangles; returns how many there were.
+static int collapse_round(struct work *work, int most)
+{
+    const int vertices = work->character->vertex_count;
+    memset(work->first, 0, ((size_t)vertices + 2) * sizeof *work->first);
+    for (int i = 0; i < work->index_count; i++) work->first[work->indices[i] + 2]++;
+    for (int v = 0; v < vertices; v++) work->first[v + 2] += work->first[v + 1];
+    for (int i = 0; i < work->index_count; i++) work->around[work->first[work->indices[i] + 1]++] = i / 3;
+    memset(work->locked, 0, work->vertex_count * sizeof *work->locked);
+
+    int found = 0, done = 0;
+    for (int v = 0; v < vertices; v++) {
+        uint32_t ring[MAX_RING];
+        const int count = ring_of(work, (uint32_t)v, ring);
+        struct collapse best = {(uint32_t)v, 0, INFINITY};
+        for (int i = 0; i < count; i++) {
+            const float cost = cost_of(work, (uint32_t)v, ring[i], ring, count);
+            if (cost < best.cost) best.to = ring[i], best.cost = cost;
+        }
+        if (best.cost < INFINITY) work->collapses[found++] = best;
+    }
+    qsort(work->collapses, (size_t)found, sizeof *work->collapses, compare_collapses);
+    for (int i = 0; i < found && done < most; i++) done += carry_out(work, &work->collapses[i]);
+
+    int kept = 0; // without those that have become flat
+    for (int t = 0; t < work->index_count; t += 3) {
+        if (triangle_repeats(work->indices + t)) continue;
+        if (work->sources) work->sources[kept / 3] = work->sources[t / 3];
+        for (int k = 0; k < 3; k++) work->indices[kept++] = work->indices[t + k];
+    }
+    work->index_count = kept;
+    return done;
+}
+
+void decimate(const struct character *character, int triangles, uint32_t *indices, uint32_t *sources,
+              int *index_count)
+{
+    const size_t vertices = (size_t)character->vertex_count, count = (size_t)character->index_count;
+    struct work work = {.character = character,
+                        .vertex_count = vertices,
+                        .indices = indices,
+                        .sources = sources,
+                        .index_count = character->index_count};
+    struct pool pool = {0};
+    work.first = pool_take(&pool, vertices + 2, sizeof *work.first);
+    work.around = pool_take(&pool, count, sizeof *work.around);
+    work.locked = pool_take(&pool, vertices, sizeof *work.locked);
+    work.collapses = pool_take(&pool, vertices, sizeof *work.collapses);
+    memcpy(indices, character->indices, count * sizeof *indices);
+    for (uint32_t t = 0; sources && t < (uint32_t)count / 3; t++) sources[t] = t;
+    for (int round = 0; round < MAX_ROUNDS && work.index_count > 3 * triangles; round++) {
+        if (collapse_round(&work, (work.index_count / 3 - triangles + 1) / 2) == 0) break;
+    }
+    *index_count = work.index_count;
+    pool_free(&pool);
+}
+
+// --- the figure
 
 static uint64_t new_id(void)
 {
@@ -169,10 +270,22 @@ static uint64_t new_id(void)
 void figure_derive(struct figure *figure)
 {
     const struct character *c = &figure->character;
-    reserve(figure);
-    adjacency_create(&figure->edges, &figure->pool, (const float(*)[3])c->position, (const float(*)[3])c->normal,
+    const size_t vertices = (size_t)c->vertex_count, coordinates = (size_t)c->coordinate_count;
+    struct pool *pool = &figure->pool;
+    figure->tangent = pool_take(pool, vertices, sizeof *figure->tangent);
+    figure->slopes = pool_take(pool, vertices * coordinates, sizeof *figure->slopes);
+    figure->largest = pool_take(pool, coordinates, sizeof *figure->largest);
+    figure->coarse = pool_take(pool, (size_t)c->index_count, sizeof *figure->coarse);
+    figure->coarse_from = pool_take(pool, (size_t)c->index_count / 3, sizeof *figure->coarse_from);
+    adjacency_create(&figure->edges, pool, (const float(*)[3])c->position, (const float(*)[3])c->normal,
                      c->vertex_count, c->indices, c->index_count);
-    measure(figure);
+    glm_vec3_fill(figure->lo, INFINITY);
+    glm_vec3_fill(figure->hi, -INFINITY);
+    for (int i = 0; i < c->vertex_count; i++) {
+        tangent_of(c->normal[i], figure->tangent[i]);
+        glm_vec3_minv(c->position[i], figure->lo, figure->lo);
+        glm_vec3_maxv(c->position[i], figure->hi, figure->hi);
+    }
     for (int k = 0; k < c->coordinate_count; k++) {
         measure_largest(figure, k);
         for (int i = 0; i < c->vertex_count; i++) fit_slope(figure, k, i);
@@ -185,30 +298,25 @@ void figure_forget(struct figure *figure)
     figure_free(figure);
 }
 
-static void turn_normals(const struct figure *figure, int coordinate, bool imaginary, float (*turn)[3])
-{
-    const struct character *c = &figure->character;
-    for (int i = 0; i < c->vertex_count; i++) {
-        const struct slope *s = &figure->slopes[coordinate * c->vertex_count + i];
-        const vec3s u = vec3_from(figure->tangent[i]), v = glms_vec3_cross(vec3_from(c->normal[i]), u);
-        const vec3s du = vec3_from(imaginary ? s->im_u : s->re_u), dv = vec3_from(imaginary ? s->im_v : s->re_v);
-        const vec3s sum = glms_vec3_add(glms_vec3_cross(du, v), glms_vec3_cross(u, dv));
-        for (int k = 0; k < 3; k++) turn[i][k] = imaginary ? -sum.raw[k] : sum.raw[k];
-    }
-}
-
 struct figure_target figure_target_create(const struct figure *figure, int coordinate, bool imaginary,
                                           struct pool *pool)
 {
     const char *ending = imaginary ? ".im" : ".re";
-    const struct coordinate *n = &figure->character.coordinates[coordinate];
+    const struct character *c = &figure->character;
+    const struct coordinate *n = &c->coordinates[coordinate];
     struct figure_target target = {.sign = imaginary ? -1.0f : 1.0f,
                                    .position = (const float(*)[3])(imaginary ? n->im : n->re)};
     target.name = pool_take(pool, strlen(n->name) + strlen(ending) + 1, 1);
     stpcpy(stpcpy(target.name, n->name), ending);
     if (!figure->slopes) return target;
-    target.normal = pool_take(pool, (size_t)figure->character.vertex_count, sizeof *target.normal);
-    turn_normals(figure, coordinate, imaginary, target.normal);
+    target.normal = pool_take(pool, (size_t)c->vertex_count, sizeof *target.normal);
+    for (int i = 0; i < c->vertex_count; i++) {
+        const struct slope *s = &figure->slopes[coordinate * c->vertex_count + i];
+        const vec3s u = vec3_from(figure->tangent[i]), v = glms_vec3_cross(vec3_from(c->normal[i]), u);
+        const vec3s du = vec3_from(imaginary ? s->im_u : s->re_u), dv = vec3_from(imaginary ? s->im_v : s->re_v);
+        const vec3s sum = glms_vec3_add(glms_vec3_cross(du, v), glms_vec3_cross(u, dv));
+        for (int k = 0; k < 3; k++) target.normal[i][k] = imaginary ? -sum.raw[k] : sum.raw[k];
+    }
     return target;
 }
 
@@ -225,9 +333,30 @@ void figure_create(struct figure *figure, struct character *character)
     *figure = (struct figure){.character = *character, .id = new_id()};
     *character = (struct character){0};
     figure_derive(figure);
-    find_soles(figure);
-    find_dark(figure);
-    decimate(&figure->character, FIGURE_COARSE, figure->coarse, figure->coarse_from, &figure->coarse_count);
+
+    // A disc around the lowest points on each side of the middle; and what is far darker than the mean colour.
+    const struct character *c = &figure->character;
+    const float low = figure->lo[1] + 0.02f * (figure->hi[1] - figure->lo[1]);
+    const float middle = 0.5f * (figure->lo[0] + figure->hi[0]), share = 0.45f;
+    float sum[FIGURE_SOLES][5] = {{0}}; // count, x, z, x², z²
+    double luminance = 0.0;
+    for (int i = 0; i < c->vertex_count; i++) {
+        const float *p = c->position[i];
+        luminance += (double)glms_vec3_dot(vec3_from(c->color[i]), (vec3s){{0.2126f, 0.7152f, 0.0722f}});
+        if (p[1] > low) continue;
+        float *s = sum[p[0] > middle];
+        const float add[5] = {1.0f, p[0], p[2], p[0] * p[0], p[2] * p[2]};
+        for (int k = 0; k < 5; k++) s[k] += add[k];
+    }
+    figure->dark = c->vertex_count > 0 ? share * (float)(luminance / c->vertex_count) : 0.0f;
+    for (int side = 0; side < FIGURE_SOLES; side++) {
+        const float *s = sum[side], count = s[0];
+        if (count == 0.0f) continue;
+        const float x = s[1] / count, z = s[2] / count;
+        const float variance = s[3] / count - x * x + s[4] / count - z * z;
+        figure->soles[side] = (struct sole){x, z, 2.0f * sqrtf(fmaxf(variance, 0.0f))};
+    }
+    decimate(c, FIGURE_COARSE, figure->coarse, figure->coarse_from, &figure->coarse_count);
 }
 
 void figure_free(struct figure *figure)
@@ -251,8 +380,15 @@ static void add_real_part(const float z[2], const float re[3], const float im[3]
     for (int k = 0; k < 3; k++) sum[k] += z[0] * re[k] - z[1] * im[k];
 }
 
-static void morph_normal(const struct figure *figure, const struct morph *morph, int vertex, float normal[3])
+void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
+                  float normal[3])
 {
+    memcpy(position, figure->character.position[vertex], 3 * sizeof *position);
+    for (int k = 0; k < morph->count; k++) {
+        const struct coordinate *c = &figure->character.coordinates[morph->coordinate[k]];
+        add_real_part(morph->weight[k], c->re[vertex], c->im[vertex], position);
+    }
+    if (!normal) return;
     vec3s u = vec3_from(figure->tangent[vertex]), v = glms_vec3_cross(vec3_from(figure->character.normal[vertex]), u);
     for (int k = 0; k < morph->count; k++) {
         const struct slope *s = &figure->slopes[morph->coordinate[k] * figure->character.vertex_count + vertex];
@@ -262,17 +398,6 @@ static void morph_normal(const struct figure *figure, const struct morph *morph,
     vec3s n = glms_vec3_cross(u, v);
     n = glms_vec3_divs(n, fmaxf(glms_vec3_norm(n), 1e-9f)); // no direction if squeezed flat, but not NaN
     glm_vec3_copy(n.raw, normal);
-}
-
-void morph_vertex(const struct figure *figure, const struct morph *morph, int vertex, float position[3],
-                  float normal[3])
-{
-    memcpy(position, figure->character.position[vertex], 3 * sizeof *position);
-    for (int k = 0; k < morph->count; k++) {
-        const struct coordinate *c = &figure->character.coordinates[morph->coordinate[k]];
-        add_real_part(morph->weight[k], c->re[vertex], c->im[vertex], position);
-    }
-    if (normal) morph_normal(figure, morph, vertex, normal);
 }
 
 void morph_places(const struct figure *figure, const struct morph *morph, const float position[3], float (*places)[3])
@@ -299,48 +424,34 @@ void morph_bounds(const struct figure *figure, const struct morph *morph, float 
 
 // --- a figure that is painted
 
-static void reserve_painted(struct painted *painted)
+struct painted *painted_create(const struct figure *plain)
 {
-    const struct character *plain = &painted->plain->character;
+    struct painted *painted = need_zeroed(1, sizeof *painted);
     struct figure *figure = &painted->figure;
     struct pool *pool = &figure->pool;
-    const size_t vertices = (size_t)plain->vertex_count, coordinates = (size_t)plain->coordinate_count;
+    const size_t vertices = (size_t)plain->character.vertex_count;
+    const size_t coordinates = (size_t)plain->character.coordinate_count;
+    painted->plain = plain;
+    *figure = *plain;
+    figure->id = new_id();
+    figure->version = 1;
+    *pool = (struct pool){0};
     figure->slopes = pool_take(pool, vertices * coordinates, sizeof *figure->slopes);
     figure->largest = pool_take(pool, coordinates, sizeof *figure->largest);
     figure->character.coordinates = pool_take(pool, coordinates, sizeof *figure->character.coordinates);
     painted->applied = pool_take(pool, vertices * coordinates, sizeof *painted->applied);
     painted->stale = pool_take(pool, vertices, sizeof *painted->stale);
     for (size_t k = 0; k < coordinates; k++) {
+        const struct coordinate *from = &plain->character.coordinates[k];
         struct coordinate *c = &figure->character.coordinates[k];
-        *c = plain->coordinates[k]; // shares the name
+        *c = *from; // shares the name
         c->re = pool_take(pool, vertices, sizeof *c->re);
         c->im = pool_take(pool, vertices, sizeof *c->im);
+        memcpy(c->re, from->re, vertices * sizeof *c->re);
+        memcpy(c->im, from->im, vertices * sizeof *c->im);
     }
-}
-
-static void copy_coordinates(struct painted *painted)
-{
-    const struct character *plain = &painted->plain->character;
-    const size_t vertices = (size_t)plain->vertex_count, coordinates = (size_t)plain->coordinate_count;
-    for (size_t k = 0; k < coordinates; k++) {
-        struct coordinate *c = &painted->figure.character.coordinates[k];
-        memcpy(c->re, plain->coordinates[k].re, vertices * sizeof *c->re);
-        memcpy(c->im, plain->coordinates[k].im, vertices * sizeof *c->im);
-    }
-    memcpy(painted->figure.slopes, painted->plain->slopes, vertices * coordinates * sizeof(struct slope));
-    memcpy(painted->figure.largest, painted->plain->largest, coordinates * sizeof *painted->figure.largest);
-}
-
-struct painted *painted_create(const struct figure *plain)
-{
-    struct painted *painted = need_zeroed(1, sizeof *painted);
-    painted->plain = plain;
-    painted->figure = *plain;
-    painted->figure.id = new_id();
-    painted->figure.version = 1;
-    painted->figure.pool = (struct pool){0};
-    reserve_painted(painted);
-    copy_coordinates(painted);
+    memcpy(figure->slopes, plain->slopes, vertices * coordinates * sizeof(struct slope));
+    memcpy(figure->largest, plain->largest, coordinates * sizeof *figure->largest);
     return painted;
 }
 
@@ -366,35 +477,175 @@ static void turn(struct painted *painted, int coordinate, int vertex, const floa
     for (int e = edges->first[vertex]; e < edges->first[vertex + 1]; e++) painted->stale[edges->other[e]] = true;
 }
 
-/// Applies the paint to one coordinate; false if nothing changed.
-static bool apply(struct painted *painted, int coordinate, const float (*paint)[2])
-{
-    static const float none[2];
-    const int vertices = painted->figure.character.vertex_count;
-    float(*applied)[2] = painted->applied + (size_t)coordinate * (size_t)vertices;
-    bool any = false;
-    for (int i = 0; i < vertices; i++) {
-        const float *value = paint ? paint[(size_t)coordinate * (size_t)vertices + (size_t)i] : none;
-        if (applied[i][0] == value[0] && applied[i][1] == value[1]) continue;
-        memcpy(applied[i], value, sizeof applied[i]);
-        turn(painted, coordinate, i, value);
-        any = true;
-    }
-    return any;
-}
-
 void painted_update(struct painted *painted, const float (*paint)[2])
 {
     struct figure *figure = &painted->figure;
+    const int vertices = figure->character.vertex_count;
     const uint64_t next = figure->version + 1;
     for (int k = 0; k < figure->character.coordinate_count; k++) {
-        if (!apply(painted, k, paint)) continue;
-        for (int i = 0; i < figure->character.vertex_count; i++) {
+        static const float none[2];
+        bool any = false;
+        for (int i = 0; i < vertices; i++) {
+            const size_t at = (size_t)k * (size_t)vertices + (size_t)i;
+            const float *value = paint ? paint[at] : none;
+            float *applied = painted->applied[at];
+            if (applied[0] == value[0] && applied[1] == value[1]) continue;
+            memcpy(applied, value, sizeof painted->applied[at]);
+            turn(painted, k, i, value);
+            any = true;
+        }
+        for (int i = 0; any && i < vertices; i++) {
             if (!painted->stale[i]) continue;
             painted->stale[i] = false;
             fit_slope(figure, k, i);
         }
+        if (!any) continue;
         measure_largest(figure, k);
         figure->version = next;
     }
+}
+
+// --- distances along a surface, by Dijkstra from a few starting points
+
+static const float SHORTER = 0.86f; ///< 1/1.16
+
+void reach_create(struct reach *reach, struct pool *pool, int vertices)
+{
+    const size_t room = (size_t)vertices;
+    *reach = (struct reach){.capacity = vertices};
+    reach->distance = pool_take(pool, room, sizeof *reach->distance);
+    reach->vertices = pool_take(pool, room, sizeof *reach->vertices);
+    reach->along = pool_take(pool, room, sizeof *reach->along);
+    reach->heap = pool_take(pool, room, sizeof *reach->heap);
+    reach->place = pool_take(pool, room, sizeof *reach->place);
+    for (int i = 0; i < vertices; i++) reach->distance[i] = reach->along[i] = INFINITY;
+}
+
+static void put(struct reach *reach, int at, int vertex)
+{
+    reach->heap[at] = vertex;
+    reach->place[vertex] = at;
+}
+
+static void sift_up(struct reach *reach, int vertex)
+{
+    int at = reach->place[vertex];
+    while (at > 0 && reach->along[vertex] < reach->along[reach->heap[(at - 1) / 2]]) {
+        put(reach, at, reach->heap[(at - 1) / 2]);
+        at = (at - 1) / 2;
+    }
+    put(reach, at, vertex);
+}
+
+static void sift_down(struct reach *reach, int vertex)
+{
+    int at = reach->place[vertex];
+    for (;;) {
+        int child = 2 * at + 1;
+        if (child >= reach->heap_count) break;
+        if (child + 1 < reach->heap_count && reach->along[reach->heap[child + 1]] < reach->along[reach->heap[child]])
+            child++;
+        if (reach->along[vertex] <= reach->along[reach->heap[child]]) break;
+        put(reach, at, reach->heap[child]);
+        at = child;
+    }
+    put(reach, at, vertex);
+}
+
+/// Offers a path of that length to a vertex.
+static void offer(struct reach *reach, uint32_t vertex, float along)
+{
+    if (!(along < reach->along[vertex])) return;
+    const bool is_new = reach->along[vertex] == INFINITY;
+    reach->along[vertex] = along;
+    if (is_new) put(reach, reach->heap_count++, (int)vertex);
+    sift_up(reach, (int)vertex);
+}
+
+static void spot_position(const struct surface_spot *spot, const float (*positions)[3], float out[3])
+{
+    vec3s sum = glms_vec3_zero();
+    for (int c = 0; c < 3; c++) sum = glms_vec3_muladds(vec3_from(positions[spot->corner[c]]), spot->weight[c], sum);
+    glm_vec3_copy(sum.raw, out);
+}
+
+void reach_find(struct reach *reach, const struct figure *figure, const struct surface_spot *spots, int count,
+                float limit)
+{
+    const float(*positions)[3] = (const float(*)[3])figure->character.position;
+    for (int i = 0; i < reach->count; i++)
+        reach->distance[reach->vertices[i]] = reach->along[reach->vertices[i]] = INFINITY;
+    for (int i = 0; i < reach->heap_count; i++) reach->along[reach->heap[i]] = INFINITY;
+    reach->count = reach->heap_count = 0;
+    for (int s = 0; s < count; s++) {
+        float at[3];
+        spot_position(&spots[s], positions, at);
+        for (int c = 0; c < 3; c++)
+            offer(reach, spots[s].corner[c],
+                  glms_vec3_distance(vec3_from(at), vec3_from(positions[spots[s].corner[c]])));
+    }
+    while (reach->heap_count > 0 && SHORTER * reach->along[reach->heap[0]] <= limit) {
+        const int vertex = reach->heap[0], last = reach->heap[--reach->heap_count];
+        if (reach->heap_count > 0) {
+            put(reach, 0, last);
+            sift_down(reach, last);
+        }
+        const float along = reach->along[vertex];
+        reach->vertices[reach->count++] = vertex;
+        float straight = INFINITY; // the shortest line from a spot
+        for (int s = 0; s < count; s++) {
+            float at[3];
+            spot_position(&spots[s], positions, at);
+            straight = fminf(straight, glms_vec3_distance(vec3_from(at), vec3_from(positions[vertex])));
+        }
+        reach->distance[vertex] = fmaxf(SHORTER * along, straight);
+        for (int e = figure->edges.first[vertex]; e < figure->edges.first[vertex + 1]; e++) {
+            const uint32_t other = figure->edges.other[e];
+            offer(reach, other,
+                  along + glms_vec3_distance(vec3_from(positions[vertex]), vec3_from(positions[other])));
+        }
+    }
+}
+
+// --- rays
+
+static const float SLACK = 1e-4f; ///< share of a triangle, so that rounding leaves no gaps between neighbours
+
+/// Möller and Trumbore 1997.
+float pick_triangle(const float *const corner[3], const float eye[3], const float direction[3], float uv[2])
+{
+    const vec3s first = vec3_from(corner[0]), along = vec3_from(direction);
+    const vec3s side = glms_vec3_sub(vec3_from(corner[1]), first), other = glms_vec3_sub(vec3_from(corner[2]), first);
+    const vec3s p = glms_vec3_cross(along, other);
+    const float determinant = glms_vec3_dot(side, p);
+    if (!(determinant > 0.0f)) return -1; // edge on, or from behind
+    const vec3s from = glms_vec3_sub(vec3_from(eye), first);
+    uv[0] = glms_vec3_dot(from, p);
+    const float slack = SLACK * determinant;
+    if (uv[0] < -slack || uv[0] > determinant + slack) return -1;
+    const vec3s q = glms_vec3_cross(from, side);
+    uv[1] = glms_vec3_dot(along, q);
+    if (uv[1] < -slack || uv[0] + uv[1] > determinant + slack) return -1;
+    uv[0] /= determinant;
+    uv[1] /= determinant;
+    return glms_vec3_dot(other, q) / determinant;
+}
+
+bool pick_ray(const struct figure *figure, const float (*posed)[3], const float eye[3], const float direction[3],
+              struct surface_spot *spot)
+{
+    const uint32_t *indices = figure->character.indices;
+    float nearest = INFINITY;
+    for (int t = 0; t < figure->character.index_count; t += 3) {
+        const float *const corner[3] = {posed[indices[t]], posed[indices[t + 1]], posed[indices[t + 2]]};
+        float uv[2];
+        const float distance = pick_triangle(corner, eye, direction, uv);
+        if (!(distance > 0.0f && distance < nearest)) continue;
+        nearest = distance;
+        memcpy(spot->corner, indices + t, sizeof spot->corner);
+        spot->weight[0] = 1.0f - uv[0] - uv[1];
+        spot->weight[1] = uv[0];
+        spot->weight[2] = uv[1];
+    }
+    return nearest < INFINITY;
 }

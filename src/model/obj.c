@@ -119,21 +119,6 @@ static bool in_range(const char *text, float *value)
     return true;
 }
 
-/// Reads a line of a material; its builder has the name already.
-static void read_member(const char *path, const struct lines *l, struct looks *looks, struct looks_material *material)
-{
-    char *at;
-    if ((at = behind(l, "Kd"))) {
-        for (int k = 0; k < 3; k++) in_range(at, &material->color[k]), strtof(at, &at);
-    } else if ((at = behind(l, "d"))) {
-        in_range(at, &material->color[3]);
-    } else if ((at = behind(l, "Tr")) && in_range(at, &material->color[3])) {
-        material->color[3] = 1 - material->color[3];
-    } else if ((at = behind(l, "map_Kd"))) {
-        read_image(path, name_at(at), looks, material);
-    }
-}
-
 /// Adds the materials of a file in an OBJ file's folder. Unreadable pictures, and those neither PNG nor JPEG, are left out and noted in the
 /// looks.
 static void read_materials(const char *obj_path, const char *name, struct surface_builder *builder)
@@ -149,7 +134,17 @@ static void read_materials(const char *obj_path, const char *name, struct surfac
     }
     for (lines.next = text; next_line(&lines);) {
         if ((at = behind(&lines, "newmtl"))) current = builder_material(builder, name_at(at));
-        if (current != LOOKS_NONE) read_member(obj_path, &lines, looks, &looks->materials[current]);
+        if (current == LOOKS_NONE) continue;
+        struct looks_material *material = &looks->materials[current];
+        if ((at = behind(&lines, "Kd"))) {
+            for (int k = 0; k < 3; k++) in_range(at, &material->color[k]), strtof(at, &at);
+        } else if ((at = behind(&lines, "d"))) {
+            in_range(at, &material->color[3]);
+        } else if ((at = behind(&lines, "Tr")) && in_range(at, &material->color[3])) {
+            material->color[3] = 1 - material->color[3];
+        } else if ((at = behind(&lines, "map_Kd"))) {
+            read_image(obj_path, name_at(at), looks, material);
+        }
     }
     free(text);
 }
@@ -206,24 +201,6 @@ static bool read_vertex(struct reader *r, char *at)
     return true;
 }
 
-/// vt u [v [w]], from the lower left of the picture
-static bool read_uv(struct reader *r, char *at)
-{
-    double numbers[2] = {0};
-    if (read_numbers(r, at, numbers, 2) < 0) return false;
-    builder_uv(r->builder, numbers[0], 1 - numbers[1]);
-    return true;
-}
-
-/// The number of texture coordinates after a "/"; LOOKS_NONE if there is none.
-static uint32_t uv_of(const struct reader *r, const char *at)
-{
-    const int count = r->builder->surface->looks.uv_count;
-    long index = *at == '/' && at[1] != '/' ? strtol(at + 1, NULL, 10) : 0;
-    if (index < 0) index += count + 1;
-    return index >= 1 && index <= count ? (uint32_t)index - 1 : LOOKS_NONE;
-}
-
 /// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1 or backwards from -1 (the newest).
 static bool read_corner(struct reader *r, char **at)
 {
@@ -238,33 +215,11 @@ static bool read_corner(struct reader *r, char **at)
         snprintf(what, sizeof what, "a vertex from 1 to %d", count);
         return expected(r, what, start);
     }
-    builder_corner(r->builder, (uint32_t)index - 1, uv_of(r, end));
+    const int uv_count = r->builder->surface->looks.uv_count;
+    long uv = *end == '/' && end[1] != '/' ? strtol(end + 1, NULL, 10) : 0;
+    if (uv < 0) uv += uv_count + 1;
+    builder_corner(r->builder, (uint32_t)index - 1, uv >= 1 && uv <= uv_count ? (uint32_t)uv - 1 : LOOKS_NONE);
     *at = skip_space(end + strcspn(end, " \t\r"));
-    return true;
-}
-
-/// f a b c d … as the fan abc, acd, …
-static bool read_face(struct reader *r, char *at)
-{
-    while (*at) {
-        if (!read_corner(r, &at)) return false;
-    }
-    const int count = builder_end_polygon(r->builder);
-    if (count < 3)
-        return fail(r->error, ERROR_INPUT, "%s:%d: expected a face of three corners or more, got %d", r->path,
-                    r->lines.number, count);
-    return true;
-}
-
-static bool read_line(struct reader *r)
-{
-    const struct lines *l = &r->lines;
-    char *at;
-    if ((at = behind(l, "v"))) return read_vertex(r, at);
-    if ((at = behind(l, "vt"))) return read_uv(r, at);
-    if ((at = behind(l, "f"))) return read_face(r, at);
-    if ((at = behind(l, "usemtl"))) r->builder->material = builder_material(r->builder, name_at(at));
-    if ((at = behind(l, "mtllib"))) read_materials(r->path, name_at(at), r->builder);
     return true;
 }
 
@@ -278,44 +233,38 @@ bool obj_read(struct words *words, struct surface_builder *builder)
         return fail(r.error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", r.path);
     while (!builder->failed && next_line(&r.lines)) {
         if (r.lines.number % TELLING == 0) stage_tell("reading the mesh", r.lines.next - text, size);
-        if (!read_line(&r)) return false;
+        const struct lines *l = &r.lines;
+        char *at;
+        if ((at = behind(l, "v"))) {
+            if (!read_vertex(&r, at)) return false;
+        } else if ((at = behind(l, "vt"))) { // u [v [w]], from the lower left of the picture
+            double numbers[2] = {0};
+            if (read_numbers(&r, at, numbers, 2) < 0) return false;
+            builder_uv(builder, numbers[0], 1 - numbers[1]);
+        } else if ((at = behind(l, "f"))) { // a b c d … as the fan abc, acd, …
+            while (*at) {
+                if (!read_corner(&r, &at)) return false;
+            }
+            const int count = builder_end_polygon(builder);
+            if (count < 3)
+                return fail(r.error, ERROR_INPUT, "%s:%d: expected a face of three corners or more, got %d", r.path,
+                            l->number, count);
+        } else if ((at = behind(l, "usemtl"))) {
+            builder->material = builder_material(builder, name_at(at));
+        } else if ((at = behind(l, "mtllib"))) {
+            read_materials(r.path, name_at(at), builder);
+        }
     }
     return true;
 }
 
 // --- writing
 
-/// A backslash at the end of a line would join it to the next one.
-static void write_use(FILE *out, const char *name)
-{
-    const size_t length = strlen(name);
-    fprintf(out, "usemtl %s%s\n", name, length > 0 && name[length - 1] == '\\' ? " " : "");
-}
-
 /// "folder/up.rest.obj" → "folder/up.rest" and the ending; false where that is too long.
 static bool name_beside(const char *obj_path, const char *ending, char path[PATH_LIMIT])
 {
     const int stem = (int)strlen(obj_path) - (path_has_end(obj_path, ".obj") ? 4 : 0);
     return snprintf(path, PATH_LIMIT, "%.*s%s", stem, obj_path, ending) < PATH_LIMIT;
-}
-
-static bool write_materials(FILE *out, const char *obj_path, const struct looks *looks, struct error *error)
-{
-    for (int m = 0; m < looks->material_count; m++) {
-        const struct looks_material *material = &looks->materials[m];
-        const float *c = material->color;
-        fprintf(out, "newmtl %s\nKd %.9g %.9g %.9g\nd %.9g\n", material->name, (double)c[0], (double)c[1],
-                (double)c[2], (double)c[3]);
-        if (!material->image) continue;
-        char ending[32], path[PATH_LIMIT];
-        const char *kind = looks_image_kind(material->image, material->image_size);
-        snprintf(ending, sizeof ending, "-%d.%s", m + 1, kind && *kind == 'j' ? "jpg" : "png");
-        if (!name_beside(obj_path, ending, path))
-            return fail(error, ERROR_INPUT, "%s: the name is too long", obj_path);
-        if (!file_write_atomic(path, material->image, material->image_size, error)) return false;
-        fprintf(out, "map_Kd %s\n", path_name(path));
-    }
-    return true;
 }
 
 /// Writes materials and pictures beside an OBJ file; `name` is the material file's name in it.
@@ -327,21 +276,24 @@ static bool write_library(const char *obj_path, const struct looks *looks, char 
     if (!name_beside(obj_path, ".mtl", path) || snprintf(name, LIBRARY_NAME, "%s", path_name(path)) >= LIBRARY_NAME)
         return fail(error, ERROR_INPUT, "%s: the name is too long", obj_path);
     if (!file_output_open(&output, path, error)) return false;
-    if (write_materials(output.stream, obj_path, looks, error)) return file_output_commit(&output, error);
-    file_output_discard(&output);
-    return false;
-}
-
-static void write_vertices(FILE *out, const struct surface *s)
-{
-    for (int i = 0; i < s->vertex_count; i++) {
-        const float *p = s->position[i];
-        fprintf(out, "v %.9g %.9g %.9g", (double)p[0], (double)p[1], (double)p[2]);
-        for (int k = 0; s->color && k < 3; k++) fprintf(out, " %.9g", (double)srgb_from_linear(s->color[i][k]));
-        fputc('\n', out);
+    for (int m = 0; m < looks->material_count; m++) {
+        const struct looks_material *material = &looks->materials[m];
+        const float *c = material->color;
+        fprintf(output.stream, "newmtl %s\nKd %.9g %.9g %.9g\nd %.9g\n", material->name, (double)c[0], (double)c[1],
+                (double)c[2], (double)c[3]);
+        if (!material->image) continue;
+        char ending[32], picture[PATH_LIMIT];
+        const char *kind = looks_image_kind(material->image, material->image_size);
+        snprintf(ending, sizeof ending, "-%d.%s", m + 1, kind && *kind == 'j' ? "jpg" : "png");
+        const bool named =
+            name_beside(obj_path, ending, picture) || fail(error, ERROR_INPUT, "%s: the name is too long", obj_path);
+        if (!named || !file_write_atomic(picture, material->image, material->image_size, error)) {
+            file_output_discard(&output);
+            return false;
+        }
+        fprintf(output.stream, "map_Kd %s\n", path_name(picture));
     }
-    for (int i = 0; i < s->looks.uv_count; i++)
-        fprintf(out, "vt %.9g %.9g\n", (double)s->looks.uv[i][0], 1 - (double)s->looks.uv[i][1]);
+    return file_output_commit(&output, error);
 }
 
 static void write_corner(FILE *out, const struct surface *s, int index)
@@ -350,31 +302,39 @@ static void write_corner(FILE *out, const struct surface *s, int index)
     if (s->looks.corner && s->looks.corner[index] != LOOKS_NONE) fprintf(out, "/%u", s->looks.corner[index] + 1);
 }
 
-/// A polygon is a fan: each further triangle adds its last corner.
-static void write_faces(FILE *out, const struct surface *s)
-{
-    const struct looks *looks = &s->looks;
-    uint32_t material = LOOKS_NONE;
-    for (int i = 0; i + 2 < s->index_count; i += 3) {
-        const uint32_t own = looks->material ? looks->material[i / 3] : LOOKS_NONE;
-        if (own != material && own != LOOKS_NONE) write_use(out, looks->materials[own].name);
-        material = own;
-        fputs("f", out);
-        for (int k = 0; k < 3; k++) write_corner(out, s, i + k);
-        for (; looks->joined && i + 5 < s->index_count && looks->joined[i / 3 + 1]; i += 3)
-            write_corner(out, s, i + 5);
-        fputc('\n', out);
-    }
-}
-
 bool obj_write(const char *path, const struct surface *surface, struct error *error)
 {
+    const struct looks *looks = &surface->looks;
     struct file_output output;
     char library[LIBRARY_NAME];
-    if (surface->looks.material && !write_library(path, &surface->looks, library, error)) return false;
+    if (looks->material && !write_library(path, looks, library, error)) return false;
     if (!file_output_open(&output, path, error)) return false;
-    if (surface->looks.material) fprintf(output.stream, "mtllib %s\n", library);
-    write_vertices(output.stream, surface);
-    write_faces(output.stream, surface);
+    FILE *out = output.stream;
+    if (looks->material) fprintf(out, "mtllib %s\n", library);
+    for (int i = 0; i < surface->vertex_count; i++) {
+        const float *p = surface->position[i];
+        fprintf(out, "v %.9g %.9g %.9g", (double)p[0], (double)p[1], (double)p[2]);
+        for (int k = 0; surface->color && k < 3; k++)
+            fprintf(out, " %.9g", (double)srgb_from_linear(surface->color[i][k]));
+        fputc('\n', out);
+    }
+    for (int i = 0; i < looks->uv_count; i++)
+        fprintf(out, "vt %.9g %.9g\n", (double)looks->uv[i][0], 1 - (double)looks->uv[i][1]);
+
+    uint32_t material = LOOKS_NONE;
+    for (int i = 0; i + 2 < surface->index_count; i += 3) {
+        const uint32_t own = looks->material ? looks->material[i / 3] : LOOKS_NONE;
+        if (own != material && own != LOOKS_NONE) {
+            const char *name = looks->materials[own].name;
+            const size_t length = strlen(name); // a backslash at the end of a line would join it to the next one
+            fprintf(out, "usemtl %s%s\n", name, length > 0 && name[length - 1] == '\\' ? " " : "");
+        }
+        material = own;
+        fputs("f", out);
+        for (int k = 0; k < 3; k++) write_corner(out, surface, i + k);
+        for (; looks->joined && i + 5 < surface->index_count && looks->joined[i / 3 + 1]; i += 3)
+            write_corner(out, surface, i + 5); // a polygon is a fan: each further triangle adds its last corner
+        fputc('\n', out);
+    }
     return file_output_commit(&output, error);
 }

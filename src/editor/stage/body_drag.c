@@ -4,8 +4,8 @@
 #include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "maths/maths.h"
+#include "model/figure.h"
 #include "model/fox.h"
-#include "model/reach.h"
 #include "model/vector.h"
 #include "ui/theme.h"
 #include <math.h>

@@ -2,7 +2,7 @@
 #include "base/hash.h"
 #include "base/need.h"
 #include "editor/stage/parts.h"
-#include "model/reach.h"
+#include "model/figure.h"
 #include "model/vector.h"
 #include <math.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 
 #include "editor/core/state.h"
 #include "editor/stage/silhouette.h"
-#include "model/reach.h"
+#include "model/figure.h"
 #include "rig/camera.h"
 #include "rig/models.h"
 #include "rig/swing.h"
