@@ -266,8 +266,8 @@ $(B)/obj/%.o: %.c $(B)/flags | packages
 	$(if $(Q),@echo "CC $<")
 	$(Q)$(COMPILE) -MMD -MP -c $< -o $@
 
-$(B)/obj/src/model/glb_unpack.o: OWN_CPPFLAGS += $(filter -D%,$(CODECS))
-$(B)/obj/src/model/glb_unpack.o: $(B)/codecs
+$(B)/obj/src/model/glb.o: OWN_CPPFLAGS += $(filter -D%,$(CODECS))
+$(B)/obj/src/model/glb.o: $(B)/codecs
 # By the C compiler's own C++, so that it takes the same flags; without Draco it is empty. UBSan's runtime for C++ is not linked.
 $(B)/obj/src/model/draco.o: src/model/draco.cpp src/model/draco.h $(B)/flags $(B)/codecs | packages
 	@mkdir -p $(@D)

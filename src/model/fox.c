@@ -60,30 +60,26 @@ static void add_influence(struct gltf_part *part, int vertex, int joint, float w
     part->along[vertex][i] += slope;
 }
 
-/// Weights a vertex at `z` from the tail's base, by how much it follows the tail.
-static void hang_on_tail(struct gltf_part *part, int vertex, int joints)
-{
-    const float segment = FOX_TAIL_LENGTH / (float)joints, bend = part->fur[vertex][0], by_metre = 0.5f / segment;
-    const float along = part->position[vertex][2] / segment - 0.5f, first = floorf(along), t = along - first,
-                s = 1.0f - t;
-    const float weight[4] = {s * s * s / 6.0f, (4.0f - 3.0f * t * t * (2.0f - t)) / 6.0f,
-                             (4.0f - 3.0f * s * s * (2.0f - s)) / 6.0f, t * t * t / 6.0f};
-    const float slope[4] = {-s * s * by_metre, t * (3.0f * t - 4.0f) * by_metre, s * (4.0f - 3.0f * s) * by_metre,
-                            t * t * by_metre};
-    memset(part->joints[vertex], 0, sizeof part->joints[vertex]);
-    memset(part->weights[vertex], 0, sizeof part->weights[vertex]);
-    if (bend < 1.0f) add_influence(part, vertex, BODY, 1.0f - bend, 0.0f);
-    for (int k = 0; k < 4; k++) {
-        const int slot = (int)first + k;
-        const int joint = slot <= 0 ? BODY : LIMBS + (slot > joints ? joints : slot) - 1;
-        if (weight[k] > 0.0f) add_influence(part, vertex, joint, bend * weight[k], bend * slope[k]);
-    }
-}
-
 void fox_hang(struct gltf_part *part, int joints)
 {
+    const float segment = FOX_TAIL_LENGTH / (float)joints, by_metre = 0.5f / segment;
     for (int v = 0; v < part->vertex_count; v++) {
-        if (part->fur[v][0] > 0.0f) hang_on_tail(part, v, joints);
+        const float bend = part->fur[v][0];
+        if (!(bend > 0.0f)) continue;
+        const float along = part->position[v][2] / segment - 0.5f, first = floorf(along);
+        const float t = along - first, s = 1.0f - t;
+        const float weight[4] = {s * s * s / 6.0f, (4.0f - 3.0f * t * t * (2.0f - t)) / 6.0f,
+                                 (4.0f - 3.0f * s * s * (2.0f - s)) / 6.0f, t * t * t / 6.0f};
+        const float slope[4] = {-s * s * by_metre, t * (3.0f * t - 4.0f) * by_metre, s * (4.0f - 3.0f * s) * by_metre,
+                                t * t * by_metre};
+        memset(part->joints[v], 0, sizeof part->joints[v]);
+        memset(part->weights[v], 0, sizeof part->weights[v]);
+        if (bend < 1.0f) add_influence(part, v, BODY, 1.0f - bend, 0.0f);
+        for (int k = 0; k < 4; k++) {
+            const int slot = (int)first + k;
+            const int joint = slot <= 0 ? BODY : LIMBS + (slot > joints ? joints : slot) - 1;
+            if (weight[k] > 0.0f) add_influence(part, v, joint, bend * weight[k], bend * slope[k]);
+        }
     }
 }
 
@@ -92,57 +88,58 @@ static void *copy_of(struct gltf *fox, const void *block, int count, size_t size
     return memcpy(pool_take(&fox->pool, (size_t)count, size), block, (size_t)count * size);
 }
 
-static void copy_part(struct gltf *fox, const struct gltf_part *from, int joints, struct gltf_part *part)
+void fox_create(int level, int joints, struct gltf *fox)
 {
-    const int count = from->vertex_count;
-    *part = *from;
-    part->joints = copy_of(fox, from->joints, count, sizeof *part->joints);
-    part->weights = copy_of(fox, from->weights, count, sizeof *part->weights);
-    part->along = pool_take(&fox->pool, (size_t)count, sizeof *part->along);
-    part->targets = pool_take(&fox->pool, 1, sizeof *part->targets);
-    fox_hang(part, joints);
-}
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, read_asset);
+    *fox = (struct gltf){.path = asset.path, .id = gltf_new_id(), .weight_count = 1};
+    struct pool *pool = &fox->pool;
+    fox->weights = pool_take(pool, 1, sizeof *fox->weights);
+    fox->material_count = asset.material_count;
+    fox->materials = asset.materials;
 
-static void copy_mesh(struct gltf *fox, const struct gltf_mesh *from, int joints)
-{
-    struct gltf_mesh *mesh = fox->meshes = pool_take(&fox->pool, 1, sizeof *mesh);
+    const struct gltf_mesh *from = &asset.meshes[level];
+    struct gltf_mesh *mesh = fox->meshes = pool_take(pool, 1, sizeof *mesh);
     fox->mesh_count = 1;
     *mesh = (struct gltf_mesh){.name = from->name, .part_count = from->part_count, .target_count = 1};
-    mesh->parts = pool_take(&fox->pool, (size_t)from->part_count, sizeof *mesh->parts);
-    mesh->weights = pool_take(&fox->pool, 1, sizeof *mesh->weights);
-    for (int p = 0; p < from->part_count; p++) copy_part(fox, &from->parts[p], joints, &mesh->parts[p]);
-}
+    mesh->parts = pool_take(pool, (size_t)from->part_count, sizeof *mesh->parts);
+    mesh->weights = pool_take(pool, 1, sizeof *mesh->weights);
+    for (int p = 0; p < from->part_count; p++) {
+        struct gltf_part *part = &mesh->parts[p];
+        *part = from->parts[p];
+        part->joints = copy_of(fox, part->joints, part->vertex_count, sizeof *part->joints);
+        part->weights = copy_of(fox, part->weights, part->vertex_count, sizeof *part->weights);
+        part->along = pool_take(pool, (size_t)part->vertex_count, sizeof *part->along);
+        part->targets = pool_take(pool, 1, sizeof *part->targets);
+        fox_hang(part, joints);
+    }
 
-/// A node of the tail is a child of the node before, or of the fox.
-static struct gltf_node make_joint(struct gltf *fox, int n, int joints)
-{
-    char name[32];
-    const int length = snprintf(name, sizeof name, "tail_%d", n);
-    struct gltf_node node = {.parent = n > 0 ? FOX_FIRST_JOINT + n - 1 : 0,
-                             .place = {.rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}}};
-    node.name = copy_of(fox, name, length + 1, 1);
-    node.mesh = node.skin = -1;
-    if (n > 0) node.place.translation[2] = FOX_TAIL_LENGTH / (float)joints;
-    return node;
-}
-
-/// The file's nodes without the tail's, the last one with the mesh; and the skin.
-static void make_skeleton(struct gltf *fox, int joints)
-{
+    // The file's nodes without the tail's, the last one with the mesh; and the skin.
     const int bones = FOX_FIRST_JOINT + joints;
-    struct gltf_skin *skin = fox->skins = pool_take(&fox->pool, 1, sizeof *skin);
+    struct gltf_skin *skin = fox->skins = pool_take(pool, 1, sizeof *skin);
     fox->skin_count = 1;
     fox->joint_count = skin->joint_count = bones - FOX_FIRST_LIMB;
-    skin->joints = pool_take(&fox->pool, (size_t)skin->joint_count, sizeof *skin->joints);
-    skin->inverse_bind = pool_take(&fox->pool, (size_t)skin->joint_count, sizeof *skin->inverse_bind);
+    skin->joints = pool_take(pool, (size_t)skin->joint_count, sizeof *skin->joints);
+    skin->inverse_bind = pool_take(pool, (size_t)skin->joint_count, sizeof *skin->inverse_bind);
     fox->node_count = bones + 1;
-    fox->nodes = pool_take(&fox->pool, (size_t)fox->node_count, sizeof *fox->nodes);
-    fox->order = pool_take(&fox->pool, (size_t)fox->node_count, sizeof *fox->order);
+    fox->nodes = pool_take(pool, (size_t)fox->node_count, sizeof *fox->nodes);
+    fox->order = pool_take(pool, (size_t)fox->node_count, sizeof *fox->order);
     for (int n = 0; n < fox->node_count; n++) {
-        const struct gltf_node *own = &asset.nodes[n < bones ? n : asset.node_count - 1];
+        struct gltf_node *node = &fox->nodes[n];
         const int joint = n - FOX_FIRST_LIMB, tail = n - FOX_FIRST_JOINT;
         fox->order[n] = n;
-        fox->nodes[n] = tail >= 0 && n < bones ? make_joint(fox, tail, joints) : *own;
+        if (tail >= 0 && n < bones) { // a child of the joint before, or of the fox
+            char name[32];
+            const int length = snprintf(name, sizeof name, "tail_%d", tail);
+            *node = (struct gltf_node){.name = copy_of(fox, name, length + 1, 1),
+                                       .parent = tail > 0 ? n - 1 : 0,
+                                       .place = {.rotation = {0, 0, 0, 1}, .scale = {1, 1, 1}},
+                                       .mesh = -1,
+                                       .skin = -1};
+            if (tail > 0) node->place.translation[2] = FOX_TAIL_LENGTH / (float)joints;
+        } else {
+            *node = asset.nodes[n < bones ? n : asset.node_count - 1];
+        }
         if (joint < 0 || n == bones) continue;
         const vec3s back = {{0, 0, -FOX_TAIL_LENGTH * (float)tail / (float)joints}};
         const mat4s matrix = tail < 0 ? mat4_from(asset.skins->inverse_bind[joint]) : glms_translate_make(back);
@@ -150,18 +147,6 @@ static void make_skeleton(struct gltf *fox, int joints)
         skin->joints[joint] = n;
     }
     gltf_link_nodes(fox);
-}
-
-void fox_create(int level, int joints, struct gltf *fox)
-{
-    static pthread_once_t once = PTHREAD_ONCE_INIT;
-    pthread_once(&once, read_asset);
-    *fox = (struct gltf){.path = asset.path, .id = gltf_new_id(), .weight_count = 1};
-    fox->weights = pool_take(&fox->pool, 1, sizeof *fox->weights);
-    copy_mesh(fox, &asset.meshes[level], joints);
-    fox->material_count = asset.material_count;
-    fox->materials = asset.materials;
-    make_skeleton(fox, joints);
 }
 
 // --- parts of the body, and their places
@@ -249,34 +234,22 @@ void limbs_pivots(float pivot[LIMBS][3])
     }
 }
 
-/// Each part's motion relative to its parent: a turn (unit quaternion x y z w) after scaling along bind space's axes.
-static void find_motions(const struct limbs *limbs, float turn[LIMBS][4], float size[LIMBS][3])
+void fox_move(const struct limbs *limbs, struct gltf_pose *pose)
 {
     const mat4s into_head = head_from_bind();
-    const vec3s across = {{into_head.m00, into_head.m10, into_head.m20}};
+    const vec3s across = {{into_head.m00, into_head.m10, into_head.m20}}, stretched = size_of(limbs);
     const vec3s forth = {{into_head.m02, into_head.m12, into_head.m22}};
     const versors look = glms_quatv(limbs->look, (vec3s){{0, 1, 0}}), nod = glms_quatv(limbs->nod, across);
-    for (int l = 0; l < LIMBS; l++) {
+    for (int l = 0; l < LIMBS; l++) { // relative to its parent: a turn after scaling along bind space's axes
+        struct gltf_place *place = &pose->place[FOX_FIRST_LIMB + l];
         versors own = l == LIMB_HEAD ? glms_quat_mul(look, nod) : glms_quat_identity();
         if (l >= LIMB_EAR) {
             const float back = limbs->ears[l >= LIMB_EAR_TIP], sign = (l - LIMB_EAR) % 2 ? -1.0f : 1.0f;
             own = glms_quat_mul(glms_quatv(-sign * SPLAY * back, forth), glms_quatv(back, across));
         }
-        memcpy(turn[l], own.raw, sizeof turn[l]);
-        for (int k = 0; k < 3; k++) size[l][k] = l == LIMB_CHEST ? 1.0f + limbs->breath : 1.0f;
-    }
-    const vec3s stretched = size_of(limbs);
-    memcpy(size[LIMB_BODY], stretched.raw, sizeof size[LIMB_BODY]);
-}
-
-void fox_move(const struct limbs *limbs, struct gltf_pose *pose)
-{
-    float turn[LIMBS][4], size[LIMBS][3];
-    find_motions(limbs, turn, size);
-    for (int l = 0; l < LIMBS; l++) {
-        struct gltf_place *place = &pose->place[FOX_FIRST_LIMB + l];
-        memcpy(place->rotation, turn[l], sizeof turn[l]);
-        memcpy(place->scale, size[l], sizeof size[l]);
+        memcpy(place->rotation, own.raw, sizeof place->rotation);
+        for (int k = 0; k < 3; k++)
+            place->scale[k] = l == LIMB_BODY ? stretched.raw[k] : l == LIMB_CHEST ? 1.0f + limbs->breath : 1.0f;
     }
     pose->weights[0] = limbs->blink;
 }
@@ -336,32 +309,13 @@ static const struct {
     {{0.01f, -0.40f, 0.29f, 0.30f}, 0.80f},
 };
 
-/// How far the lamp's light moves sideways per metre down.
-static vec2s slope_of(const float from[3])
-{
-    const float down = fmaxf(from[1], 0.3f); // so that a low lamp's shadow is not endless
-    return (vec2s){{-from[0] / down, -from[2] / down}};
-}
-
-/// A blob under the tail at `along` (0 base … 1 tip): the higher, the wider and the weaker.
-static struct shadow_blob tail_blob(const struct pose *pose, vec2s slope, float along, float scale, float ground)
-{
-    const float at = along * (float)(pose->count - 1);
-    const int n = (int)fminf(at, (float)(pose->count - 2));
-    const float part = at - (float)n;
-    const vec3s p = glms_vec3_lerp(vec3_from(pose->matrix[n] + 12), vec3_from(pose->matrix[n + 1] + 12), part);
-    const float radius = scale * fox_tail_radius(along * FOX_TAIL_LENGTH);
-    const float above = fmaxf(p.y - radius - ground, 0.0f), height = above / (scale * FADE_HEIGHT);
-    return (struct shadow_blob){p.x + slope.x * above, p.z + slope.y * above,
-                                1.6f * radius + 0.12f * scale * (1.0f + height), 0.45f * maths_expf(-height)};
-}
-
 int pose_blobs(const struct pose *pose, const float from[3], struct shadow_blob *blobs, int capacity)
 {
     const float scale = pose->scale, ground = pose->ground;
     const float above = fmaxf(pose->matrix[0][13] - ground - scale * FOX_BASE_HEIGHT, 0.0f);
     const int body_count = (int)(sizeof body_blobs / sizeof *body_blobs);
-    const vec2s slope = slope_of(from);
+    const float down = fmaxf(from[1], 0.3f);                  // so that a low lamp's shadow is not endless
+    const vec2s slope = {{-from[0] / down, -from[2] / down}}; // how far the light moves sideways per metre down
     int count = 0;
     for (int b = 0; b < body_count && count < capacity; b++) {
         const struct shadow_blob *blob = &body_blobs[b].blob;
@@ -372,7 +326,16 @@ int pose_blobs(const struct pose *pose, const float from[3], struct shadow_blob 
                                               scale * blob->radius * (1.5f - 0.5f * fade), blob->strength * fade};
     }
     for (int b = 0; b < TAIL_BLOBS && count < capacity; b++) {
-        const struct shadow_blob blob = tail_blob(pose, slope, ((float)b + 0.5f) / TAIL_BLOBS, scale, ground);
+        // At `along` from the base (0) to the tip (1): the higher, the wider and the weaker.
+        const float along = ((float)b + 0.5f) / TAIL_BLOBS, at = along * (float)(pose->count - 1);
+        const int n = (int)fminf(at, (float)(pose->count - 2));
+        const vec3s p =
+            glms_vec3_lerp(vec3_from(pose->matrix[n] + 12), vec3_from(pose->matrix[n + 1] + 12), at - (float)n);
+        const float radius = scale * fox_tail_radius(along * FOX_TAIL_LENGTH);
+        const float over = fmaxf(p.y - radius - ground, 0.0f), height = over / (scale * FADE_HEIGHT);
+        const struct shadow_blob blob = {p.x + slope.x * over, p.z + slope.y * over,
+                                         1.6f * radius + 0.12f * scale * (1.0f + height),
+                                         0.45f * maths_expf(-height)};
         if (blob.strength > STRENGTH_SEEN) blobs[count++] = blob;
     }
     return count;

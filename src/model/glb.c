@@ -1,15 +1,20 @@
-/// Opens .glb and .gltf files with their external files and data URIs; and reads accessors.
+/// Opens .glb and .gltf files with their external files and data URIs, decompresses their meshes, and reads accessors.
 #include "model/glb.h"
 #include "base/base64.h"
 #include "base/file.h"
 #include "base/json.h"
 #include "base/npy.h"
 #include "base/progress.h"
+#include "model/draco.h"
+#include "model/gltf_write.h"
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#ifdef WITH_MESHOPT
+#include <meshoptimizer.h>
+#endif
 
 enum { HEADER = 12, CHUNK_HEADER = 8 };
 
@@ -55,20 +60,16 @@ static bool read_chunks(struct glb *glb, size_t size, struct error *error)
     return read_json(glb, glb->data + HEADER + CHUNK_HEADER, length, error);
 }
 
-static bool refuse_fbx(const char *path, struct error *error)
-{
-    return fail(error, ERROR_INPUT,
-                "%s: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it", path);
-}
-
 bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error)
 {
     *glb = (struct glb){.path = path, .data = data, .room = GLB_ROOM + GLB_GROWTH * size};
     stage_tell("reading a glTF file", 0, (long)size);
     const bool binary = size >= 4 && word_at(data) == GLB_MAGIC;
-    const bool parsed = path_has_end(path, ".fbx") ? refuse_fbx(path, error)
-                        : binary                   ? read_chunks(glb, size, error)
-                                                   : read_json(glb, data, size, error);
+    bool parsed =
+        !path_has_end(path, ".fbx") ||
+        fail(error, ERROR_INPUT,
+             "%s: expected glTF, got FBX: export it from Blender as glTF, or run tools/from-fbx.sh on it", path);
+    parsed = parsed && (binary ? read_chunks(glb, size, error) : read_json(glb, data, size, error));
     if (parsed && (json_is_object(glb->json) || expected(glb, "a JSON object", error))) return true;
     glb_close(glb);
     return false;
@@ -148,55 +149,6 @@ bool glb_read_uri(struct glb *glb, const char *uri, struct glb_buffer *buffer, s
     stage_tell("reading a glTF file", 0, (long)size);
     *buffer = (struct glb_buffer){{(unsigned char *)data, size}, data};
     return true;
-}
-
-/// The buffer before number `index` that is the same file; NULL if there is none.
-static const struct glb_buffer *same_file(const struct glb *glb, const json_t *buffers, size_t index, const char *uri)
-{
-    for (size_t i = 0; i < index && strncmp(uri, "data:", 5) != 0; i++) {
-        const char *other = json_string_value(json_object_get(json_array_get(buffers, i), "uri"));
-        if (other && strcmp(other, uri) == 0) return &glb->buffers[i];
-    }
-    return NULL;
-}
-
-static bool read_buffer(struct glb *glb, const json_t *buffers, size_t index, struct glb_buffer *buffer,
-                        struct error *error)
-{
-    const json_t *described = json_array_get(buffers, index);
-    if (glb_is_fallback(described)) return true;
-    const char *uri = json_string_value(json_object_get(described, "uri"));
-    const struct glb_buffer *same = uri ? same_file(glb, buffers, index, uri) : NULL;
-    struct error why = {0};
-    if (same) {
-        buffer->bytes = same->bytes;
-    } else if (!uri) {
-        if (index == 0) buffer->bytes = glb->chunk;
-    } else if (!glb_read_uri(glb, uri, buffer, &why)) {
-        return fail(error, why.kind, "%s: buffers[%zu].uri: %s", glb->path, index, why.text);
-    }
-    int64_t length = glb_integer(described, "byteLength", 0);
-    if (length >= 0 && length <= (int64_t)buffer->bytes.size) return true;
-    return fail(error, ERROR_INPUT,
-                "%s: buffers[%zu].byteLength: expected at most the %zu bytes that are there, got %lld", glb->path,
-                index, buffer->bytes.size, (long long)length);
-}
-
-bool glb_read_buffers(struct glb *glb, struct error *error)
-{
-    const json_t *buffers = json_object_get(glb->json, "buffers");
-    size_t total = 0;
-    glb->buffers = calloc(json_array_size(buffers) + 1, sizeof *glb->buffers);
-    if (!glb->buffers) return fail_no_memory(error, glb->path);
-    for (size_t i = 0; i < json_array_size(buffers); i++) {
-        struct glb_buffer *buffer = &glb->buffers[glb->buffer_count++];
-        if (!read_buffer(glb, buffers, i, buffer, error)) return false;
-        if (buffer->owned) total += buffer->bytes.size;
-        if (total > GLB_FILE_LIMIT)
-            return fail(error, ERROR_INPUT, "%s: buffers[%zu]: expected at most %d MiB in all, got more", glb->path,
-                        i, GLB_FILE_LIMIT >> 20);
-    }
-    return glb_unpack(glb, error);
 }
 
 // --- accessors
@@ -299,26 +251,6 @@ size_t glb_element(const json_t *accessor, int *type, int *components)
     return (size_t)(size_of_type(*type) * *components);
 }
 
-/// Reads all numbers; false if some lie outside the file. Without a buffer view (and bytes) all are zero.
-static bool fill(const struct glb *glb, const json_t *accessor, struct elements *e, struct glb_numbers *numbers)
-{
-    const json_t *sparse = json_object_get(accessor, "sparse");
-    for (int i = 0; e->bytes && i < numbers->count; i++) {
-        for (int k = 0; k < e->components; k++)
-            numbers->values[(size_t)i * (size_t)e->components + (size_t)k] = element_at(e, i, k);
-    }
-    return !sparse || apply_sparse(glb, sparse, e, numbers);
-}
-
-static bool all_finite(const struct glb_numbers *numbers)
-{
-    size_t count = (size_t)numbers->count * (size_t)numbers->components;
-    for (size_t i = 0; i < count; i++) {
-        if (!isfinite(numbers->values[i])) return false;
-    }
-    return true;
-}
-
 static bool outside(const struct glb *glb, int64_t index, struct error *error)
 {
     return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected data within the file, got a place outside of it",
@@ -354,11 +286,316 @@ bool glb_numbers(const struct glb *glb, int64_t index, struct glb_numbers *numbe
     numbers->count = (int)count;
     numbers->values = calloc((size_t)count * (size_t)e.components, sizeof *numbers->values);
     if (!numbers->values) return fail_no_memory(error, glb->path);
-    bool read = fill(glb, accessor, &e, numbers), finite = read && all_finite(numbers);
+    const size_t total = (size_t)count * (size_t)e.components;
+    for (size_t n = 0; e.bytes && n < total; n++) // without a buffer view (and bytes) all are zero
+        numbers->values[n] = element_at(&e, (int)(n / (size_t)e.components), (int)(n % (size_t)e.components));
+    const json_t *sparse = json_object_get(accessor, "sparse");
+    const bool read = !sparse || apply_sparse(glb, sparse, &e, numbers);
+    bool finite = read;
+    for (size_t n = 0; finite && n < total; n++) finite = isfinite(numbers->values[n]);
     if (finite) return true;
     free(numbers->values);
     numbers->values = NULL;
     if (!read) return outside(glb, index, error);
     return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected finite numbers, got NaN or infinity", glb->path,
                 (long long)index);
+}
+
+// --- compressed meshes: KHR_draco_mesh_compression and EXT_meshopt_compression
+//
+// They are decompressed as soon as a file is read, in its JSON and its bytes: all other code reads and writes plain files.
+
+/// Limits: decompressed bytes per byte of the file, bytes that Draco allocates and bytes that a reader makes per decompressed byte, and
+/// attributes of a mesh with its corners.
+enum { MOST_BYTES = 128, DRACO_WORK = 8, UNPACKED_GROWTH = 8, PARTS = 32 };
+
+static const char draco[] = "KHR_draco_mesh_compression", meshopt[] = "EXT_meshopt_compression";
+
+const char *glb_missing_codec(const char *extension)
+{
+#ifndef WITH_DRACO
+    if (strcmp(extension, draco) == 0) return "g++ and libdraco-dev";
+#endif
+#ifndef WITH_MESHOPT
+    if (strcmp(extension, meshopt) == 0) return "libmeshoptimizer-dev";
+#endif
+    return strcmp(extension, "KHR_meshopt_compression") == 0 ? "" : NULL; // newer than the library
+}
+
+static bool can_unpack(const char *extension)
+{
+    return (strcmp(extension, draco) == 0 || strcmp(extension, meshopt) == 0) && !glb_missing_codec(extension);
+}
+
+struct unpacking {
+    struct glb *glb;
+    size_t room;            ///< bytes that may still be allocated
+    struct gltf_file plain; ///< the views, accessors and bytes of the plain file
+    size_t view_count;      ///< of the compressed file
+    bool *is_spent;         ///< of each of its views: whether it held a Draco mesh
+    struct error *error;
+};
+
+static json_t *extension_of(const json_t *object, const char *name)
+{
+    return can_unpack(name) ? json_object_get(json_object_get(object, "extensions"), name) : NULL;
+}
+
+static void drop_extension(json_t *object, const char *name)
+{
+    json_t *extensions = json_object_get(object, "extensions");
+    json_object_del(extensions, name);
+    if (json_object_size(extensions) == 0) json_object_del(object, "extensions");
+}
+
+bool glb_is_fallback(const json_t *buffer)
+{
+    return json_is_true(json_object_get(extension_of(buffer, meshopt), "fallback"));
+}
+
+bool glb_is_packed(const struct glb *glb)
+{
+    size_t i;
+    json_t *name;
+    json_array_foreach(json_object_get(glb->json, "extensionsUsed"), i, name)
+    {
+        if (json_is_string(name) && can_unpack(json_string_value(name))) return true;
+    }
+    return false;
+}
+
+/// Zeroed memory; NULL if it is too much for a file of this size.
+static void *allocate(void *user, size_t count, size_t size)
+{
+    struct unpacking *u = user;
+    if (count > u->room / size) return NULL;
+    u->room -= count * size;
+    void *memory = calloc(count + 1, size);
+    if (!memory) u->plain.without_memory = true;
+    return memory;
+}
+
+// --- Draco: the attributes and corners of a primitive, all in one view
+
+#ifndef WITH_DRACO
+bool draco_decode(const void *data, size_t size, size_t room, struct draco_part *parts, int part_count,
+                  draco_memory *memory, void *user)
+{
+    (void)data, (void)size, (void)room, (void)parts, (void)part_count, (void)memory, (void)user;
+    return false;
+}
+#endif
+
+static bool unpack_primitive(struct unpacking *u, const json_t *primitive, const json_t *packed)
+{
+    json_t *ids = json_object_get(packed, "attributes"), *id, *accessors[PARTS];
+    const json_t *attributes = json_object_get(primitive, "attributes");
+    const int64_t view = glb_integer(packed, "bufferView", -1);
+    struct draco_part parts[PARTS] = {{.attribute = -1, .type = NUMBER_UINT32, .components = 1, .stride = 4}};
+    struct glb_bytes bytes = {0};
+    const char *name;
+    int count = 1;
+    accessors[0] = json_array_get(u->plain.accessors, (size_t)glb_integer(primitive, "indices", -1));
+    bool done = json_is_object(accessors[0]) && glb_view(u->glb, view, &bytes) && view < (int64_t)u->view_count &&
+                json_object_size(ids) < PARTS;
+    json_object_foreach(ids, name, id)
+    {
+        if (!done) break;
+        accessors[count] = json_array_get(u->plain.accessors, (size_t)glb_integer(attributes, name, -1));
+        struct draco_part *part = &parts[count++];
+        const size_t size = glb_element(accessors[count - 1], &part->type, &part->components);
+        part->attribute = glb_integer(ids, name, -1);
+        part->stride = (size + 3) / 4 * 4;
+        done = size > 0 && part->components <= 4 && part->attribute >= 0; // else Draco cannot have them
+    }
+    if (done && json_object_get(accessors[1 % count], "bufferView"))
+        return true; // an earlier mesh shares them, or the file also has them uncompressed
+    done = done && draco_decode(bytes.at, bytes.size, DRACO_WORK * u->room, parts, count, allocate, u);
+    for (int i = 0; i < count; i++) {
+        const struct draco_part *part = &parts[i];
+        if (done) { // give the accessor its elements in a new view
+            struct gltf_file *plain = &u->plain;
+            const json_int_t own = gltf_file_add_bytes(plain, part->values, part->count * part->stride);
+            if (part->attribute >= 0)
+                gltf_set(plain, json_array_get(plain->views, (size_t)own), "byteStride",
+                         json_integer((json_int_t)part->stride));
+            gltf_set(plain, accessors[i], "bufferView", json_integer(own));
+            gltf_set(plain, accessors[i], "count", json_integer((json_int_t)part->count));
+            gltf_set(plain, accessors[i], "componentType", json_integer(part->type));
+            json_object_del(accessors[i], "byteOffset");
+            const bool bounded = part->type == NUMBER_FLOAT32 && json_object_get(accessors[i], "min");
+            json_object_del(accessors[i], "min"); // Draco moves vertices a little
+            json_object_del(accessors[i], "max");
+            if (bounded)
+                gltf_file_bound(plain, accessors[i], (const float *)(const void *)part->values, part->count,
+                                part->components);
+        }
+        free(part->values);
+    }
+    if (done) u->is_spent[view] = true;
+    return done;
+}
+
+static bool unpack_meshes(struct unpacking *u)
+{
+    size_t m, p;
+    json_t *mesh, *primitive;
+    json_array_foreach(json_object_get(u->glb->json, "meshes"), m, mesh)
+    {
+        json_array_foreach(json_object_get(mesh, "primitives"), p, primitive)
+        {
+            const json_t *packed = extension_of(primitive, draco);
+            if (packed && !unpack_primitive(u, primitive, packed))
+                return fail(
+                    u->error, ERROR_INPUT,
+                    "%s: meshes[%zu].primitives[%zu]: expected a Draco mesh that a file of this size can hold, "
+                    "got something else",
+                    u->glb->path, m, p);
+            if (packed) drop_extension(primitive, draco);
+        }
+    }
+    return true;
+}
+
+// --- meshoptimizer: a buffer view
+
+static bool decode(const json_t *packed, struct glb_bytes from, size_t count, size_t stride, void *to)
+{
+#ifdef WITH_MESHOPT
+    const char *mode = json_string_value(json_object_get(packed, "mode"));
+    const char *filter = json_string_value(json_object_get(packed, "filter"));
+    const bool attributes = mode && strcmp(mode, "ATTRIBUTES") == 0, is_index = stride == 2 || stride == 4;
+    if (attributes ? stride % 4 != 0 || stride > 256 : !is_index) return false;
+    if (mode && strcmp(mode, "TRIANGLES") == 0)
+        return count % 3 == 0 && meshopt_decodeIndexBuffer(to, count, stride, from.at, from.size) == 0;
+    if (mode && strcmp(mode, "INDICES") == 0)
+        return meshopt_decodeIndexSequence(to, count, stride, from.at, from.size) == 0;
+    if (!attributes || meshopt_decodeVertexBuffer(to, count, stride, from.at, from.size) != 0) return false;
+    if (!filter || strcmp(filter, "NONE") == 0) return true;
+    if (strcmp(filter, "OCTAHEDRAL") == 0 && (stride == 4 || stride == 8))
+        meshopt_decodeFilterOct(to, count, stride);
+    else if (strcmp(filter, "QUATERNION") == 0 && stride == 8)
+        meshopt_decodeFilterQuat(to, count, stride);
+    else if (strcmp(filter, "EXPONENTIAL") == 0)
+        meshopt_decodeFilterExp(to, count, stride);
+    else
+        return false;
+    return true;
+#else
+    (void)packed, (void)from, (void)count, (void)stride, (void)to;
+    return false;
+#endif
+}
+
+/// The decompressed bytes of a view, which the caller frees; NULL if there are none.
+static void *bytes_of(struct unpacking *u, const json_t *view, size_t *size)
+{
+    const json_t *packed = extension_of(view, meshopt);
+    const int64_t count = glb_integer(packed, "count", -1), stride = glb_integer(packed, "byteStride", -1);
+    struct glb_bytes from;
+    if (!glb_bytes(u->glb, packed ? packed : view, &from) || (packed && (count < 1 || stride < 1))) return NULL;
+    *size = packed ? (size_t)(count * stride) : from.size;
+    void *bytes = allocate(u, *size, 1);
+    if (bytes && !packed) return memcpy(bytes, from.at, *size);
+    if (bytes && decode(packed, from, (size_t)count, (size_t)stride, bytes)) return bytes;
+    free(bytes);
+    return NULL;
+}
+
+static bool unpack_views(struct unpacking *u)
+{
+    for (size_t i = 0; i < u->view_count; i++) {
+        json_t *view = json_array_get(u->plain.views, i);
+        size_t size;
+        void *bytes = u->is_spent[i] ? NULL : bytes_of(u, view, &size);
+        if (bytes) {
+            gltf_set(&u->plain, view, "buffer", json_integer(0));
+            gltf_set(&u->plain, view, "byteOffset",
+                     json_integer((json_int_t)gltf_file_append(&u->plain, bytes, size)));
+            gltf_set(&u->plain, view, "byteLength", json_integer((json_int_t)size));
+            drop_extension(view, meshopt);
+        } else if (u->is_spent[i]) { // keep its number: repeat another view in its place
+            json_array_set_new(u->plain.views, i, json_deep_copy(json_array_get(u->plain.views, u->view_count)));
+        } else {
+            return fail(u->error, ERROR_INPUT,
+                        "%s: bufferViews[%zu]: expected data within the file, plain or compressed by meshoptimizer, "
+                        "got something else",
+                        u->glb->path, i);
+        }
+        free(bytes);
+    }
+    return true;
+}
+
+static void drop_names(json_t *root, const char *array)
+{
+    json_t *names = json_object_get(root, array);
+    for (size_t i = json_array_size(names); i-- > 0;) {
+        const char *name = json_string_value(json_array_get(names, i));
+        if (name && can_unpack(name)) json_array_remove(names, i);
+    }
+    if (json_array_size(names) == 0) json_object_del(root, array);
+}
+
+static bool unpack(struct glb *glb, struct error *error)
+{
+    struct unpacking u = {
+        .glb = glb, .error = error, .room = GLB_ROOM + MOST_BYTES / GLB_GROWTH * (glb->room - GLB_ROOM)};
+    if (!glb_is_packed(glb)) return true;
+    gltf_file_continue(&u.plain, glb->json);
+    u.view_count = json_array_size(u.plain.views);
+    u.is_spent = calloc(u.view_count + 1, sizeof *u.is_spent);
+    bool done = u.is_spent && unpack_meshes(&u) && unpack_views(&u);
+    if (done && !u.plain.without_memory) { // the decompressed bytes become the only buffer
+        for (int i = 0; i < glb->buffer_count; i++) free(glb->buffers[i].owned);
+        glb->buffers[0] = (struct glb_buffer){{(unsigned char *)u.plain.data, u.plain.size}, u.plain.data};
+        glb->buffer_count = 1;
+        glb->room += UNPACKED_GROWTH * u.plain.size;
+        gltf_set(&u.plain, glb->json, "buffers", json_pack("[{s:I}]", "byteLength", (json_int_t)u.plain.size));
+        drop_names(glb->json, "extensionsUsed");
+        drop_names(glb->json, "extensionsRequired");
+        u.plain.data = NULL;
+    }
+    if (!u.is_spent || u.plain.without_memory) done = fail_no_memory(error, glb->path);
+    gltf_file_free(&u.plain);
+    free(u.is_spent);
+    return done;
+}
+
+bool glb_read_buffers(struct glb *glb, struct error *error)
+{
+    const json_t *buffers = json_object_get(glb->json, "buffers");
+    size_t total = 0;
+    glb->buffers = calloc(json_array_size(buffers) + 1, sizeof *glb->buffers);
+    if (!glb->buffers) return fail_no_memory(error, glb->path);
+    for (size_t i = 0; i < json_array_size(buffers); i++) {
+        struct glb_buffer *buffer = &glb->buffers[glb->buffer_count++];
+        const json_t *described = json_array_get(buffers, i);
+        const char *uri = json_string_value(json_object_get(described, "uri"));
+        struct error why = {0};
+        if (glb_is_fallback(described)) continue;
+        size_t same = 0; // an earlier buffer that is the same file
+        while (uri && same < i) {
+            const char *other = json_string_value(json_object_get(json_array_get(buffers, same), "uri"));
+            if (strncmp(uri, "data:", 5) != 0 && other && strcmp(other, uri) == 0) break;
+            same++;
+        }
+        if (uri && same < i) {
+            buffer->bytes = glb->buffers[same].bytes;
+        } else if (!uri) {
+            if (i == 0) buffer->bytes = glb->chunk;
+        } else if (!glb_read_uri(glb, uri, buffer, &why)) {
+            return fail(error, why.kind, "%s: buffers[%zu].uri: %s", glb->path, i, why.text);
+        }
+        const int64_t length = glb_integer(described, "byteLength", 0);
+        if (length < 0 || length > (int64_t)buffer->bytes.size)
+            return fail(error, ERROR_INPUT,
+                        "%s: buffers[%zu].byteLength: expected at most the %zu bytes that are there, got %lld",
+                        glb->path, i, buffer->bytes.size, (long long)length);
+        if (buffer->owned) total += buffer->bytes.size;
+        if (total > GLB_FILE_LIMIT)
+            return fail(error, ERROR_INPUT, "%s: buffers[%zu]: expected at most %d MiB in all, got more", glb->path,
+                        i, GLB_FILE_LIMIT >> 20);
+    }
+    return unpack(glb, error);
 }

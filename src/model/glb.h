@@ -63,7 +63,7 @@ bool glb_bytes(const struct glb *glb, const json_t *view, struct glb_bytes *byte
 /// The size of an accessor's elements, in bytes; 0 if their type is unknown.
 size_t glb_element(const json_t *accessor, int *type, int *components);
 
-// Compressed meshes (glb_unpack.c).
+// Compressed meshes.
 
 /// For an extension that compresses meshes and that this program cannot read: the package that it was built without, "" if none helps. NULL for
 /// all other extensions.
@@ -74,7 +74,6 @@ bool glb_is_packed(const struct glb *glb);
 
 /// Whether a buffer only holds the place of decompressed bytes. It may have none.
 bool glb_is_fallback(const json_t *buffer);
-bool glb_unpack(struct glb *glb, struct error *error);
 
 /// The numbers of an accessor: normalised integers as −1 … 1, sparse elements in their places.
 struct glb_numbers {

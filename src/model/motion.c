@@ -55,27 +55,6 @@ static bool set_layout(struct motion *m, int64_t size, struct error *error)
 
 // --- NumPy's .npy: an array of shape (frames, vertices, 3) or (frames, 3 vertices)
 
-static bool set_shape(struct motion *m, const struct npy *npy, struct error *error)
-{
-    bool flat = npy->count == 2 && npy->lengths[1] % 3 == 0;
-    if (!flat && !(npy->count == 3 && npy->lengths[2] == 3))
-        return fail(error, ERROR_INPUT, "%s: expected an array of shape (frames, vertices, 3), got %s", m->path,
-                    npy->shape);
-    return set_counts(m, npy->lengths[0], flat ? npy->lengths[1] / 3 : npy->lengths[1], error);
-}
-
-/// Fortran order: the first index runs fastest. In (frames, 3 vertices), vertex and coordinate are one index in which the coordinate runs
-/// faster.
-static void set_order(struct motion *m, const struct npy *npy)
-{
-    int64_t column = (int64_t)m->number_size * m->frames;
-    bool flat = npy->count == 2;
-    m->columns_first = npy->columns_first;
-    if (!m->columns_first) return;
-    m->strides[1] = flat ? 3 * column : column;
-    m->strides[2] = flat ? column : column * m->vertices;
-}
-
 static bool read_npy_header(struct motion *m, int64_t size, struct error *error)
 {
     char start[NPY_START + NPY_DICTIONARY];
@@ -85,8 +64,21 @@ static bool read_npy_header(struct motion *m, int64_t size, struct error *error)
     m->data = npy.data;
     m->swapped = npy.swapped;
     m->number_size = npy.number_size;
-    if (!set_shape(m, &npy, error) || !set_layout(m, size, error)) return false;
-    set_order(m, &npy);
+    const bool flat = npy.count == 2 && npy.lengths[1] % 3 == 0;
+    if (!flat && !(npy.count == 3 && npy.lengths[2] == 3))
+        return fail(error, ERROR_INPUT, "%s: expected an array of shape (frames, vertices, 3), got %s", m->path,
+                    npy.shape);
+    if (!set_counts(m, npy.lengths[0], flat ? npy.lengths[1] / 3 : npy.lengths[1], error) ||
+        !set_layout(m, size, error))
+        return false;
+
+    // Fortran order: the first index runs fastest. In (frames, 3 vertices), vertex and coordinate are one index in which the coordinate runs
+    // faster.
+    const int64_t column = (int64_t)m->number_size * m->frames;
+    m->columns_first = npy.columns_first;
+    if (!m->columns_first) return true;
+    m->strides[1] = flat ? 3 * column : column;
+    m->strides[2] = flat ? column : column * m->vertices;
     return true;
 }
 
@@ -226,68 +218,33 @@ static int convert(const struct motion *m, const char *bytes, int count, double 
     return count;
 }
 
-static bool not_finite(const struct motion *m, int frame, int column, struct error *error)
-{
-    return fail(error, ERROR_INPUT, "%s: frame %d, vertex %d: expected a finite number, got NaN or infinity", m->path,
-                frame, column / 3);
-}
-
-/// A range of columns, frame by frame, for C order.
-static bool read_rows(const struct motion *m, int first, int count, char *bytes, double *slab, struct error *error)
-{
-    size_t size = (size_t)count * (size_t)m->number_size;
-    for (int i = 0; i < m->frames; i++) {
-        int64_t at = m->data + i * m->strides[0] + (int64_t)first * m->number_size;
-        if (!read_at(m, at, bytes, size, error)) return false;
-        int bad = convert(m, bytes, count, slab + (size_t)i * (size_t)count, 1);
-        if (bad < count) return not_finite(m, i, first + bad, error);
-    }
-    return true;
-}
-
-/// All frames of one column after the other, for Fortran order.
-static bool read_columns(const struct motion *m, int first, int count, char *bytes, double *slab, struct error *error)
-{
-    size_t size = (size_t)m->frames * (size_t)m->number_size;
-    for (int j = 0; j < count; j++) {
-        int column = first + j;
-        int64_t at = m->data + column / 3 * m->strides[1] + column % 3 * m->strides[2];
-        if (!read_at(m, at, bytes, size, error)) return false;
-        int bad = convert(m, bytes, m->frames, slab + j, (size_t)count);
-        if (bad < m->frames) return not_finite(m, bad, column, error);
-    }
-    return true;
-}
-
 bool motion_columns(const struct motion *motion, int first, int count, double *slab, struct error *error)
 {
-    size_t numbers = (size_t)(motion->columns_first ? motion->frames : count);
-    char *bytes = malloc(numbers * (size_t)motion->number_size);
-    if (!bytes) return fail_no_memory(error, motion->path);
-    bool done = motion->columns_first ? read_columns(motion, first, count, bytes, slab, error)
-                                      : read_rows(motion, first, count, bytes, slab, error);
+    const struct motion *m = motion;
+    const bool columns =
+        m->columns_first; // all frames of one column after the other, else the columns frame by frame
+    const int pieces = columns ? count : m->frames, numbers = columns ? m->frames : count;
+    const size_t size = (size_t)numbers * (size_t)m->number_size;
+    char *bytes = malloc(size);
+    if (!bytes) return fail_no_memory(error, m->path);
+    bool done = true;
+    for (int i = 0; done && i < pieces; i++) {
+        const int column = columns ? first + i : first, frame = columns ? 0 : i;
+        const int64_t at = columns ? column / 3 * m->strides[1] + column % 3 * m->strides[2]
+                                   : frame * m->strides[0] + (int64_t)column * m->number_size;
+        double *out = slab + (columns ? (size_t)i : (size_t)i * (size_t)count);
+        done = read_at(m, m->data + at, bytes, size, error);
+        if (!done) break;
+        const int bad = convert(m, bytes, numbers, out, columns ? (size_t)count : 1);
+        done = bad == numbers ||
+               fail(error, ERROR_INPUT, "%s: frame %d, vertex %d: expected a finite number, got NaN or infinity",
+                    m->path, columns ? bad : frame, (columns ? column : column + bad) / 3);
+    }
     free(bytes);
     return done;
 }
 
 // --- writing
-
-static void print_npy_start(FILE *out, const struct motion_span *span)
-{
-    char header[NPY_HEADER];
-    npy_print_header((const int[]){span->frames, span->vertices, 3}, header);
-    fwrite(header, 1, sizeof header, out);
-}
-
-static void print_pc2_start(FILE *out, const struct motion_span *span)
-{
-    const int32_t before[2] = {1, span->vertices}, after = span->frames;
-    const float time[2] = {(float)span->first, (float)span->spacing};
-    fwrite(pc2_magic, 1, sizeof pc2_magic, out);
-    fwrite(before, 4, 2, out);
-    fwrite(time, 4, 2, out);
-    fwrite(&after, 4, 1, out);
-}
 
 static void print_swapped(FILE *out, uint32_t bits)
 {
@@ -302,18 +259,24 @@ static void print_swapped_float(FILE *out, float number)
     print_swapped(out, bits);
 }
 
-static void print_mdd_start(FILE *out, const struct motion_span *span)
-{
-    print_swapped(out, (uint32_t)span->frames);
-    print_swapped(out, (uint32_t)span->vertices);
-    for (int i = 0; i < span->frames; i++) print_swapped_float(out, (float)(span->first + i * span->spacing));
-}
-
 void motion_print_start(FILE *out, enum motion_form form, const struct motion_span *span)
 {
-    static void (*const print[])(FILE * out, const struct motion_span *span) = {
-        [MOTION_NPY] = print_npy_start, [MOTION_PC2] = print_pc2_start, [MOTION_MDD] = print_mdd_start};
-    print[form](out, span);
+    if (form == MOTION_NPY) {
+        char header[NPY_HEADER];
+        npy_print_header((const int[]){span->frames, span->vertices, 3}, header);
+        fwrite(header, 1, sizeof header, out);
+    } else if (form == MOTION_PC2) {
+        const int32_t before[2] = {1, span->vertices}, after = span->frames;
+        const float time[2] = {(float)span->first, (float)span->spacing};
+        fwrite(pc2_magic, 1, sizeof pc2_magic, out);
+        fwrite(before, 4, 2, out);
+        fwrite(time, 4, 2, out);
+        fwrite(&after, 4, 1, out);
+    } else {
+        print_swapped(out, (uint32_t)span->frames);
+        print_swapped(out, (uint32_t)span->vertices);
+        for (int i = 0; i < span->frames; i++) print_swapped_float(out, (float)(span->first + i * span->spacing));
+    }
 }
 
 void motion_print_frame(FILE *out, enum motion_form form, const float (*position)[3], int vertices)
