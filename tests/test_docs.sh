@@ -209,7 +209,7 @@ docs/keys.md~by 1 % of the view~src/editor/stage/pins.c~NUDGE = 0.01;
 docs/keys.md~1 % of the visible values~src/editor/curves/knot_drag.c~0.01 * hundredths * core->visible
 docs/characters.md~the lowest twentieth of the height~src/commands/simulate.c~pin below a height (1/20 of the mesh)
 docs/characters.md~five knots at most~src/analysis/analysis.h~KNOTS_MOST = 5
-docs/export.md~11 bits~src/export/usda_model.c~with 11 bits
+docs/export.md~11 bits~src/export/usda.c~with 11 bits
 docs/export.md~up to eight joints per vertex~src/model/gltf.h~GLTF_INFLUENCES = 8
 docs/your-character.md~more than 256 MiB~src/model/glb.h~GLB_FILE_LIMIT = 1 << 28
 docs/your-character.md~more than 16,777,216 vertices~src/model/gltf_read.c~VERTEX_LIMIT = 1 << 24

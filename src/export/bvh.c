@@ -14,29 +14,11 @@ static void write_offset(FILE *out, const float offset[3], int depth)
             (double)offset[2]);
 }
 
-static void write_end(FILE *out, const float tip[3], int depth)
-{
-    fprintf(out, "%*sEnd Site\n%*s{\n", 2 * depth, "", 2 * depth, "");
-    write_offset(out, tip, depth + 1);
-    fprintf(out, "%*s}\n", 2 * depth, "");
-}
-
 struct bvh {
     FILE *out;
     struct form *form;
-    const struct keys *keys;
-    bool *has_place;   ///< of each joint: whether it moves in its parent
-    double (*seen)[3]; ///< of each joint: its angles at the key before, so that turns continue past half a turn
+    bool *has_place; ///< of each joint: whether it moves in its parent
 };
-
-static bool is_moved(const struct bvh *bvh, int j)
-{
-    for (int k = 0; k < bvh->keys->count; k++) {
-        const float *offset = keys_at(bvh->keys, k, keys_offset(bvh->keys, j));
-        if (memcmp(offset, bvh->form->joints[j].offset, 3 * sizeof *offset) != 0) return true;
-    }
-    return j == bvh->form->first_bone;
-}
 
 /// Returns the joint after it and all that hang on it.
 static int write_joint(const struct bvh *bvh, int j, int depth)
@@ -54,7 +36,11 @@ static int write_joint(const struct bvh *bvh, int j, int depth)
                               : "3 Yrotation Xrotation Zrotation");
     while (next < bvh->form->joint_count && bvh->form->joints[next].parent == j)
         next = write_joint(bvh, next, depth + 1);
-    if (next == j + 1) write_end(out, joint->tip, depth + 1);
+    if (next == j + 1) {
+        fprintf(out, "%*sEnd Site\n%*s{\n", 2 * depth + 2, "", 2 * depth + 2, "");
+        write_offset(out, joint->tip, depth + 2);
+        fprintf(out, "%*s}\n", 2 * depth + 2, "");
+    }
     fprintf(out, "%*s}\n", 2 * depth, "");
     return next;
 }
@@ -77,40 +63,8 @@ static void to_angles(const float q[4], double angle[3])
     angle[2] = 2 * degrees * maths_atan2(rest_z, rest_w);
 }
 
-/// The joints in the order in which write_joint() names them.
-static void write_key(const struct bvh *bvh, int key)
-{
-    for (int j = bvh->form->first_bone; j < bvh->form->joint_count; j++) {
-        const bool is_root = j == bvh->form->first_bone;
-        const float *place = keys_at(bvh->keys, key, is_root ? 0 : keys_offset(bvh->keys, j));
-        double angle[3];
-        to_angles(keys_at(bvh->keys, key, keys_rotation(j)), angle);
-        for (int k = 0; k < 3 && bvh->has_place[j]; k++) fprintf(bvh->out, " %.9g", (double)place[k]);
-        for (int k = 0; k < 3; k++) {
-            bvh->seen[j][k] = angle[k] + 360 * round((bvh->seen[j][k] - angle[k]) / 360);
-            fprintf(bvh->out, " %.9g", bvh->seen[j][k]);
-        }
-    }
-    fputc('\n', bvh->out);
-}
-
-static void write_all(struct export_range *range, struct bvh *bvh)
-{
-    const int count = bvh->keys->count, joints = bvh->form->joint_count;
-    bvh->has_place = need((size_t)joints, sizeof *bvh->has_place);
-    bvh->seen = need_zeroed((size_t)joints, sizeof *bvh->seen);
-    for (int j = 0; j < joints; j++) bvh->has_place[j] = is_moved(bvh, j);
-    fputs("HIERARCHY\n", bvh->out);
-    write_joint(bvh, bvh->form->first_bone, 0);
-    fprintf(bvh->out, "MOTION\nFrames: %d\nFrame Time: %.12g\n", count, range_seconds(range, 1));
-    for (int k = 0; k < count; k++) write_key(bvh, k);
-    free(bvh->has_place);
-    free(bvh->seen);
-    snprintf(range->summary, FORMAT_SUMMARY, "%d joints, %d frames", joints - bvh->form->first_bone, count);
-}
-
 /// Moves everything to where the stage has it.
-static void move(struct form *form, struct keys *keys, const float root[16])
+static void place_on_stage(struct form *form, struct keys *keys, const float root[16])
 {
     mat4s matrix = mat4_from(root);
     const float scale = glms_vec3_norm(vec3_from(root));
@@ -141,8 +95,40 @@ bool bvh_write(struct export_range *range, FILE *out, struct error *error)
     const float *root = range_root(range, range->rigs[0], &pose);
     if (!form_open(range, range->rigs[0], &form, error)) return false;
     const bool done = keys_collect(range, range->rigs[0], &form, &keys, error);
-    if (done && root) move(&form, &keys, root);
-    if (done) write_all(range, &(struct bvh){.out = out, .form = &form, .keys = &keys});
+    if (done && root) place_on_stage(&form, &keys, root);
+    if (done) {
+        struct bvh bvh = {.out = out, .form = &form};
+        const int count = keys.count, joints = form.joint_count;
+        bvh.has_place = need((size_t)joints, sizeof *bvh.has_place);
+        double(*seen)[3] = need_zeroed(
+            (size_t)joints, sizeof *seen); // angles at the key before, so that turns continue past half a turn
+        for (int j = 0; j < joints; j++) {
+            bvh.has_place[j] = j == form.first_bone;
+            for (int k = 0; k < count && !bvh.has_place[j]; k++) {
+                const float *offset = keys_at(&keys, k, keys_offset(&keys, j));
+                bvh.has_place[j] = memcmp(offset, form.joints[j].offset, 3 * sizeof *offset) != 0;
+            }
+        }
+        fputs("HIERARCHY\n", out);
+        write_joint(&bvh, form.first_bone, 0);
+        fprintf(out, "MOTION\nFrames: %d\nFrame Time: %.12g\n", count, range_seconds(range, 1));
+        for (int k = 0; k < count; k++) {
+            for (int j = form.first_bone; j < joints; j++) { // in the order in which write_joint() names them
+                const float *place = keys_at(&keys, k, j == form.first_bone ? 0 : keys_offset(&keys, j));
+                double angle[3];
+                to_angles(keys_at(&keys, k, keys_rotation(j)), angle);
+                for (int i = 0; i < 3 && bvh.has_place[j]; i++) fprintf(out, " %.9g", (double)place[i]);
+                for (int i = 0; i < 3; i++) {
+                    seen[j][i] = angle[i] + 360 * round((seen[j][i] - angle[i]) / 360);
+                    fprintf(out, " %.9g", seen[j][i]);
+                }
+            }
+            fputc('\n', out);
+        }
+        free(bvh.has_place);
+        free(seen);
+        snprintf(range->summary, FORMAT_SUMMARY, "%d joints, %d frames", joints - form.first_bone, count);
+    }
     form_close(&form);
     return done;
 }

@@ -55,34 +55,6 @@ bool export_knows(const char *path) { return find_format(path) != NULL; }
 
 void export_endings(char text[EXPORT_ENDINGS]) { list_endings(~0u, text); }
 
-/// The names of all rigs, as far as there is room.
-static void list_names(const struct document *document, char text[NAMES_TEXT])
-{
-    size_t used = 0;
-    text[0] = '\0';
-    for (int i = 0; i < document->rig_count && used + NAME_MOST + 8 < NAMES_TEXT; i++) {
-        const char *name = form_name(document->rigs[i]);
-        used += (size_t)sprintf(text + used, "%s\"%.*s\"", i > 0 ? ", " : "", name_fit(name, NAME_MOST), name);
-    }
-}
-
-/// Why there is no rig to write; `unfit` is one that the format cannot hold, or −1.
-static bool fail_rigs(const struct export_range *range, int unfit, struct error *error)
-{
-    const struct document *document = range->posing->document;
-    char names[NAMES_TEXT], endings[EXPORT_ENDINGS];
-    list_names(document, names);
-    if (document->rig_count == 0)
-        return fail(error, ERROR_INPUT, "the scene has no rig to export: its splines go into a .csv file");
-    if (unfit < 0)
-        return fail(error, ERROR_INPUT, "%s: expected the name of a rig, %s, got \"%s\"", range->rig_choice, names,
-                    range->options->rig);
-    const struct rig *rig = document->rigs[unfit];
-    list_endings(form_kind(rig->kind)->holds, endings);
-    return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", range->format->ending,
-                rig_word(rig->kind), form_name(rig), endings);
-}
-
 static void note(struct export_report *report, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
 /// Adds a sentence to what the user should know.
@@ -111,10 +83,27 @@ static bool choose_rigs(struct export_range *range, struct error *error)
             unfit = i;
         }
     }
-    if (range->rig_count == 0 && !(format->without_rigs && !wanted)) return fail_rigs(range, unfit, error);
-    if (range->rig_count <= 1 || !format->one_rig) return true;
-    char names[NAMES_TEXT];
-    list_names(document, names);
+    const bool none = range->rig_count == 0 && !(format->without_rigs && !wanted);
+    if (!none && (range->rig_count <= 1 || !format->one_rig)) return true;
+
+    char names[NAMES_TEXT], endings[EXPORT_ENDINGS];
+    size_t used = 0;
+    names[0] = '\0';
+    for (int i = 0; i < document->rig_count && used + NAME_MOST + 8 < NAMES_TEXT; i++) { // as far as there is room
+        const char *name = form_name(document->rigs[i]);
+        used += (size_t)sprintf(names + used, "%s\"%.*s\"", i > 0 ? ", " : "", name_fit(name, NAME_MOST), name);
+    }
+    if (none && document->rig_count == 0)
+        return fail(error, ERROR_INPUT, "the scene has no rig to export: its splines go into a .csv file");
+    if (none && unfit < 0)
+        return fail(error, ERROR_INPUT, "%s: expected the name of a rig, %s, got \"%s\"", range->rig_choice, names,
+                    wanted);
+    if (none) {
+        const struct rig *rig = document->rigs[unfit];
+        list_endings(form_kind(rig->kind)->holds, endings);
+        return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", format->ending,
+                    rig_word(rig->kind), form_name(rig), endings);
+    }
     return fail(error, ERROR_INPUT, "a %s file holds one rig: choose one of %s with %s", format->ending, names,
                 range->rig_choice);
 }
@@ -143,55 +132,91 @@ bool range_choose_keys(struct export_range *range, struct export_report *report,
     return true;
 }
 
-/// The scene's own name, or "wiggly"; the caller frees it.
-static char *make_title(const struct document *document)
-{
-    const char *file = document->path ? path_name(document->path) : "wiggly", *dot = strrchr(file, '.');
-    return name_from(file, dot ? (size_t)(dot - file) : strlen(file));
-}
+// --- the files beside the one that is written
 
-/// "47 KB"
-static void print_size(off_t bytes, char *text, size_t size)
+bool sidecars_add(struct sidecars *sidecars, const char *folder, const char *name, const void *data, size_t size,
+                  struct error *error)
 {
-    if (bytes < 1000) {
-        snprintf(text, size, "%d bytes", (int)bytes);
-    } else if (bytes < 1000000) {
-        snprintf(text, size, "%.0f KB", (double)bytes / 1e3);
-    } else {
-        snprintf(text, size, "%.1f MB", (double)bytes / 1e6);
+    if (!sidecars->folder[0]) {
+        snprintf(sidecars->folder, sizeof sidecars->folder, "%s", folder);
+        sidecars->is_new = mkdir(folder, 0777) == 0;
+        if (!sidecars->is_new && errno != EEXIST)
+            return fail(error, ERROR_ENVIRONMENT, "%s: cannot be made: %s", folder, strerror(errno));
     }
-}
-
-/// The files that this one names come first; a full disk is seen before that.
-static bool commit(struct export_range *range, struct file_output *output, struct error *error)
-{
-    const bool broken = fflush(output->stream) != 0 || ferror(output->stream);
-    if (!broken && !sidecars_commit(&range->sidecars, error)) {
-        file_output_discard(output);
-        sidecars_discard(&range->sidecars);
+    sidecars->files = need_more(sidecars->files, (size_t)sidecars->count + 1, sizeof *sidecars->files);
+    struct sidecar *file = &sidecars->files[sidecars->count];
+    if (asprintf(&file->path, "%s/%s", folder, name) < 0) need_failed();
+    file->is_new = access(file->path, F_OK) != 0;
+    if (!file_check_place(file->path, error) || !file_output_open(&file->output, file->path, error)) {
+        free(file->path);
         return false;
     }
-    if (!file_output_commit(output, error)) {
-        sidecars_discard(&range->sidecars);
-        return false;
-    }
-    sidecars_free(&range->sidecars);
+    sidecars->count++;
+    fwrite(data, 1, size, file->output.stream); // whether it could be written is seen as it is committed
     return true;
 }
 
+bool sidecars_commit(struct sidecars *sidecars, struct error *error)
+{
+    for (int i = 0; i < sidecars->count; i++) {
+        if (!file_output_commit(&sidecars->files[i].output, error)) return false;
+    }
+    return true;
+}
+
+/// Keeps committed files.
+static void sidecars_free(struct sidecars *sidecars)
+{
+    for (int i = 0; i < sidecars->count; i++) free(sidecars->files[i].path);
+    free(sidecars->files);
+    *sidecars = (struct sidecars){0};
+}
+
+void sidecars_discard(struct sidecars *sidecars)
+{
+    for (int i = 0; i < sidecars->count; i++) {
+        const bool committed = !sidecars->files[i].output.stream;
+        if (!committed) file_output_discard(&sidecars->files[i].output);
+        if (committed && sidecars->files[i].is_new) unlink(sidecars->files[i].path);
+    }
+    if (sidecars->is_new) rmdir(sidecars->folder);
+    sidecars_free(sidecars);
+}
+
+// --- the file
+
 static bool write_file(struct export_range *range, struct export_report *report, struct error *error)
 {
+    struct sidecars *sidecars = &range->sidecars;
     struct file_output output;
     char size[32];
     if (!file_check_place(range->path, error) || !file_output_open(&output, range->path, error)) return false;
     if (!range->format->write(range, output.stream, error)) {
         file_output_discard(&output);
-        sidecars_discard(&range->sidecars);
+        sidecars_discard(sidecars);
         return false;
     }
     const off_t bytes = ftello(output.stream);
-    if (!commit(range, &output, error)) return false;
-    print_size(bytes, size, sizeof size);
+    const bool broken = fflush(output.stream) != 0 || ferror(output.stream);
+    if (!broken &&
+        !sidecars_commit(sidecars,
+                         error)) { // the files that this one names come first; a full disk is seen before that
+        file_output_discard(&output);
+        sidecars_discard(sidecars);
+        return false;
+    }
+    if (!file_output_commit(&output, error)) {
+        sidecars_discard(sidecars);
+        return false;
+    }
+    sidecars_free(sidecars);
+    if (bytes < 1000) {
+        snprintf(size, sizeof size, "%d bytes", (int)bytes);
+    } else if (bytes < 1000000) {
+        snprintf(size, sizeof size, "%.0f KB", (double)bytes / 1e3);
+    } else {
+        snprintf(size, sizeof size, "%.1f MB", (double)bytes / 1e6);
+    }
     snprintf(report->text, sizeof report->text, "%s, %s", range->summary, size);
     return true;
 }
@@ -214,7 +239,9 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
     }
     if (options->all_clips && range.format->write != gltf_write)
         return fail(error, ERROR_USAGE, "%s: holds one clip: all clips need .glb or .gltf", path);
-    range.title = make_title(posing->document);
+    const char *file = posing->document->path ? path_name(posing->document->path) : "wiggly";
+    const char *dot = strrchr(file, '.');
+    range.title = name_from(file, dot ? (size_t)(dot - file) : strlen(file)); // the scene's own name
     const bool done =
         choose_rigs(&range, error) && range_choose_keys(&range, report, error) && write_file(&range, report, error);
     free(range.title);
@@ -268,58 +295,4 @@ bool range_proceed(struct export_range *range, struct error *error)
     const struct export_options *options = range->options;
     if (!options->proceed || options->proceed(options->user, range->done, range->total)) return true;
     return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
-}
-
-// --- the files beside the one that is written
-
-static bool make_folder(struct sidecars *sidecars, const char *folder, struct error *error)
-{
-    if (sidecars->folder[0]) return true;
-    snprintf(sidecars->folder, sizeof sidecars->folder, "%s", folder);
-    sidecars->is_new = mkdir(folder, 0777) == 0;
-    if (sidecars->is_new || errno == EEXIST) return true;
-    return fail(error, ERROR_ENVIRONMENT, "%s: cannot be made: %s", folder, strerror(errno));
-}
-
-bool sidecars_add(struct sidecars *sidecars, const char *folder, const char *name, const void *data, size_t size,
-                  struct error *error)
-{
-    if (!make_folder(sidecars, folder, error)) return false;
-    sidecars->files = need_more(sidecars->files, (size_t)sidecars->count + 1, sizeof *sidecars->files);
-    struct sidecar *file = &sidecars->files[sidecars->count];
-    if (asprintf(&file->path, "%s/%s", folder, name) < 0) need_failed();
-    file->is_new = access(file->path, F_OK) != 0;
-    if (!file_check_place(file->path, error) || !file_output_open(&file->output, file->path, error)) {
-        free(file->path);
-        return false;
-    }
-    sidecars->count++;
-    fwrite(data, 1, size, file->output.stream); // whether it could be written is seen as it is committed
-    return true;
-}
-
-bool sidecars_commit(struct sidecars *sidecars, struct error *error)
-{
-    for (int i = 0; i < sidecars->count; i++) {
-        if (!file_output_commit(&sidecars->files[i].output, error)) return false;
-    }
-    return true;
-}
-
-void sidecars_discard(struct sidecars *sidecars)
-{
-    for (int i = 0; i < sidecars->count; i++) {
-        const bool committed = !sidecars->files[i].output.stream;
-        if (!committed) file_output_discard(&sidecars->files[i].output);
-        if (committed && sidecars->files[i].is_new) unlink(sidecars->files[i].path);
-    }
-    if (sidecars->is_new) rmdir(sidecars->folder);
-    sidecars_free(sidecars);
-}
-
-void sidecars_free(struct sidecars *sidecars)
-{
-    for (int i = 0; i < sidecars->count; i++) free(sidecars->files[i].path);
-    free(sidecars->files);
-    *sidecars = (struct sidecars){0};
 }

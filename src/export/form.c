@@ -1,12 +1,378 @@
-/// Lists the exported kinds of rigs, collects the keys of one rig, and computes the slopes of its curves by differences.
+/// Rigs as other programs know them: a form for each kind of rig; collects the keys of one rig, and the slopes of its curves by differences.
 #include "export/form.h"
 #include "base/need.h"
+#include "model/fox.h"
+#include "model/vector.h"
+#include "rig/models.h"
 #include "rig/strand.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = form_channels};
+// --- a tail: the fox, skinned to the tail's joints; and a chain, which moves its model
+
+/// Angles in degrees by which channels bend the joints of a tail or chain.
+static void tail_columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+                         form_column *column, void *user)
+{
+    const struct document *document = range->posing->document;
+    const char *name = form_name(document->rigs[rig]);
+    struct strand strand;
+    (void)pose;
+    if (!strand_find(range->posing, rig_body(document, rig), rig, &strand)) return;
+    for (int c = 0; c < strand.channel_count; c++) {
+        const struct channel *channel = &strand.channels[c];
+        const wiggly_value value = channel_value(range->posing, channel, range_position(range, key));
+        if (!axis_bends(channel->axis))
+            column(user, channel_moves(channel, value, 1, range->posing->look), "%s.%s.%s", name,
+                   axis_word(channel->axis), document->splines[channel->spline]->name);
+        for (int n = 0; n < strand.joints && axis_bends(channel->axis); n++) {
+            const double angle = channel_bend(channel, value, n, strand.joints, range->posing->look);
+            column(user, 180 / 3.14159265358979323846 * angle, "%s.%s.%s.%d", name, axis_word(channel->axis),
+                   document->splines[channel->spline]->name, n);
+        }
+    }
+}
+
+/// The fox's mesh, scaled to its tail's length.
+struct scaled_fox {
+    float (*position)[3], (*normal)[3], (*color)[3];
+    uint32_t *indices;
+};
+
+static bool tail_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
+                      struct error *error)
+{
+    const struct gltf *gltf = &pose->model.imported->gltf;
+    (void)posing, (void)rig, (void)error;
+    struct scaled_fox *fox = form->owned = pool_take(&form->pool, 1, sizeof *fox);
+    const struct gltf_mesh *mesh = gltf->meshes;
+    const float *root = pose->model.root, scale = root[0];
+    size_t vertices = 1, indices = 1;
+    for (int p = 0; p < mesh->part_count; p++) {
+        vertices += (size_t)mesh->parts[p].vertex_count;
+        indices += (size_t)mesh->parts[p].index_count;
+    }
+    form->position = (const float(*)[3])(fox->position = pool_take(&form->pool, vertices, sizeof *fox->position));
+    form->normal = (const float(*)[3])(fox->normal = pool_take(&form->pool, vertices, sizeof *fox->normal));
+    form->color = (const float(*)[3])(fox->color = pool_take(&form->pool, vertices, sizeof *fox->color));
+    form->indices = fox->indices = pool_take(&form->pool, indices, sizeof *fox->indices);
+    form->slots = pool_take(&form->pool, vertices, sizeof *form->slots);
+    form->weights = pool_take(&form->pool, vertices, sizeof *form->weights);
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct gltf_part *part = &mesh->parts[p];
+        for (int i = 0; i < part->index_count; i++)
+            fox->indices[form->index_count++] = (uint32_t)form->vertex_count + part->indices[i];
+        for (int v = 0; v < part->vertex_count; v++) {
+            const int at = form->vertex_count++;
+            for (int k = 0; k < 3; k++) fox->position[at][k] = scale * part->position[v][k];
+            memcpy(fox->normal[at], part->normal[v], sizeof fox->normal[at]);
+            memcpy(fox->color[at], part->color[v], sizeof fox->color[at]);
+            for (int n = 0; n < FORM_INFLUENCES; n++) { // a vertex has at most four joints
+                form->weights[at][n] = part->weights[v][n];
+                form->slots[at][n] = part->weights[v][n] > 0.0f ? (uint16_t)(FOX_FIRST_LIMB + part->joints[v][n]) : 0;
+            }
+        }
+    }
+
+    // The animal's root node, the nodes of its body, and those of the tail.
+    form->joint_count = gltf->node_count - 1; // the last node shows the mesh
+    form->first_bone = FOX_FIRST_JOINT;
+    form->joints = pool_take(&form->pool, (size_t)form->joint_count, sizeof *form->joints);
+    for (int j = 0; j < form->joint_count; j++) {
+        const struct gltf_node *node = &gltf->nodes[j];
+        struct form_joint *joint = &form->joints[j];
+        const char *name = j == 0 ? "base" : node->name + (j < FOX_FIRST_JOINT ? 0 : strlen("tail_"));
+        joint->name = form_text(&form->pool, form->name, "_", name);
+        joint->parent = node->parent;
+        for (int k = 0; k < 3; k++) {
+            joint->offset[k] = j == 0 ? root[12 + k] : scale * node->place.translation[k];
+            if (j > 0) joint->bind[k] = -scale * gltf->skins->inverse_bind[j - FOX_FIRST_LIMB][12 + k];
+        }
+    }
+    form->joints[form->joint_count - 1].tip[2] =
+        scale * FOX_TAIL_LENGTH / (float)(form->joint_count - form->first_bone);
+    return true;
+}
+
+static void tail_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
+{
+    memcpy(key->translation, pose->model.root + 12, sizeof key->translation);
+    for (int j = 0; j < form->joint_count; j++) {
+        const struct gltf_place *place = &pose->model.pose->place[j];
+        memcpy(key->rotation[j], place->rotation, sizeof place->rotation);
+        memcpy(key->scale[j], place->scale, sizeof place->scale);
+    }
+}
+
+static void tail_vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
+{
+    const float *root = pose->model.root;
+    const struct gltf *gltf = &pose->model.imported->gltf;
+    gltf_pose_vertices(gltf, pose->model.pose, gltf->node_count - 1, positions, NULL);
+    for (int v = 0; v < form->vertex_count; v++)
+        for (int k = 0; k < 3; k++) positions[v][k] = root[0] * positions[v][k] + root[12 + k];
+}
+
+const struct form_kind tail_form = {FORM_MESH | FORM_JOINTS | FORM_POINTS, tail_open, tail_key, tail_vertices,
+                                    tail_columns};
+const struct form_kind chain_form = {.holds = FORM_IN_MODEL, .columns = tail_columns};
+
+// --- a soft character: its mesh, and two morph targets per coordinate, as in its own file (model/character.h)
+
+/// The character with only the coordinates that the rig uses.
+struct moving {
+    struct character character;
+    struct coordinate coordinates[]; ///< their shapes belong to the figure
+};
+
+static bool character_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
+                           struct error *error)
+{
+    const struct figure *figure = pose->character.figure;
+    const struct character *c = &figure->character;
+    (void)posing, (void)rig, (void)error;
+    form->vertex_count = c->vertex_count;
+    form->position = (const float(*)[3])c->position;
+    form->normal = (const float(*)[3])c->normal;
+    form->color = (const float(*)[3])c->color;
+    form->indices = c->indices;
+    form->index_count = c->index_count;
+    struct moving *moving = form->owned =
+        pool_take(&form->pool, sizeof *moving + (size_t)c->coordinate_count * sizeof *moving->coordinates, 1);
+    form->looks = &c->looks;
+    form->targets = pool_take(&form->pool, (size_t)c->coordinate_count * 2, sizeof *form->targets);
+    moving->character = *c;
+    moving->character.coordinates = moving->coordinates;
+    moving->character.coordinate_count = 0;
+    form->character = &moving->character;
+    for (int k = 0; k < c->coordinate_count; k++) {
+        const struct morph *morph = &pose->character.morph;
+        bool moves = false;
+        for (int m = 0; m < morph->count; m++) moves |= morph->coordinate[m] == k;
+        if (!moves) continue;
+        moving->coordinates[moving->character.coordinate_count++] = c->coordinates[k];
+        for (int part = 0; part < 2; part++)
+            form->targets[form->target_count++] =
+                (struct form_target){figure_target_create(figure, k, part, &form->pool), k};
+    }
+    return true;
+}
+
+/// Places the lowest point of the mesh at rest on the rig's position.
+static void stand(const struct rig_pose *pose, float place[3])
+{
+    for (int k = 0; k < 3; k++)
+        place[k] = pose->character.position[k] - (k == 1 ? pose->character.figure->lo[1] : 0.0f);
+}
+
+static void character_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
+{
+    const struct morph *morph = &pose->character.morph;
+    stand(pose, key->translation);
+    for (int t = 0; t < form->target_count; t++) {
+        key->weight[t] = 0;
+        for (int k = 0; k < morph->count; k++) {
+            if (morph->coordinate[k] == form->targets[t].group) key->weight[t] += morph->weight[k][t % 2];
+        }
+    }
+}
+
+static void character_vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
+{
+    float place[3];
+    stand(pose, place);
+    for (int i = 0; i < form->vertex_count; i++) {
+        morph_vertex(pose->character.figure, &pose->character.morph, i, positions[i], NULL);
+        glm_vec3_add(positions[i], place, positions[i]);
+    }
+}
+
+/// Each coordinate's weight, a complex number.
+static void character_columns(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
+                              form_column *column, void *user)
+{
+    const char *name = form_name(range->posing->document->rigs[rig]);
+    const struct character *c = &pose->character.figure->character;
+    const struct morph *morph = &pose->character.morph;
+    (void)key;
+    for (int k = 0; k < morph->count; k++) {
+        const char *coordinate = c->coordinates[morph->coordinate[k]].name;
+        column(user, (double)morph->weight[k][0], "%s.%s.re", name, coordinate);
+        column(user, (double)morph->weight[k][1], "%s.%s.im", name, coordinate);
+    }
+}
+
+const struct form_kind character_form = {FORM_MESH | FORM_POINTS, character_open, character_key, character_vertices,
+                                         character_columns};
+
+// --- an imported character, in its file's space: its vertices, and the bones of its chains as joints
+
+static bool model_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
+                       struct error *error)
+{
+    const struct model_rig *model = &posing->document->rigs[rig]->model;
+    const struct gltf *gltf = &pose->model.imported->gltf;
+    const int clip = gltf_find_clip(gltf, model->clip);
+    const size_t nodes = (size_t)gltf->node_count;
+    struct model_body *body = form->owned = pool_take(&form->pool, 1, sizeof *body);
+    body->gltf = gltf;
+    body->clip = clip >= 0 ? &gltf->clips[clip] : NULL;
+    body->node = pool_take(&form->pool, nodes, sizeof *body->node);
+    form->joints = pool_take(&form->pool, nodes, sizeof *form->joints);
+    for (int r = -1; (r = document_next_chain(posing->document, rig, r)) >= 0;) {
+        const struct chain *chain = &posing->document->rigs[r]->chain;
+        struct chain_bones bones;
+        if (!chain_find(gltf, chain->from, chain->to, &bones, error)) return false;
+        for (int n = 0; n < bones.count; n++) {
+            bool is_new = true;
+            for (int j = 0; j < form->joint_count; j++) is_new = is_new && body->node[j] != bones.node[n];
+            if (is_new) body->node[form->joint_count++] = bones.node[n];
+        }
+    }
+    for (int n = 0; n < gltf->node_count; n++) {
+        const int count = gltf_vertex_count(gltf, n);
+        if (count > 0) form->holder = form->vertex_count == 0 ? n : -1;
+        form->vertex_count += count;
+    }
+    return true;
+}
+
+static void model_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
+{
+    const struct model_body *body = form->owned;
+    const struct gltf_pose *now = pose->model.pose;
+    memset(key->translation, 0, sizeof key->translation);
+    for (int j = 0; j < form->joint_count; j++)
+        memcpy(key->rotation[j], now->place[body->node[j]].rotation, sizeof key->rotation[j]);
+}
+
+/// Node by node.
+static void model_vertices(const struct form *form, const struct rig_pose *pose, float (*positions)[3])
+{
+    const struct gltf *gltf = &pose->model.imported->gltf;
+    (void)form;
+    for (int n = 0; n < gltf->node_count; n++) {
+        const int count = gltf_vertex_count(gltf, n);
+        if (count > 0) gltf_pose_vertices(gltf, pose->model.pose, n, positions, NULL);
+        positions += count;
+    }
+}
+
+/// Its chains have the columns of a table; its own clip has none.
+const struct form_kind model_form = {FORM_FILE | FORM_POINTS | FORM_JOINTS, model_open, model_key, model_vertices,
+                                     NULL};
+
+// --- the skeleton of an imported character: every bone with its clip and its chains
+//
+// Bones are relative to their rest in the character's space, so that bones at rest are not turned. The first joint is the character's origin, and
+// holds the bones that have none above them.
+
+enum { ORIGIN = 0, NO_JOINT = -1, TO_ADD = -2 };
+
+static const float STILL = 1e-6f; ///< rounding, as a share of the character's size
+
+struct source {
+    const struct imported *imported;
+    int *joint_of; ///< of each node, or NO_JOINT
+    int *node;     ///< of each joint but the origin
+    versors *turn; ///< of each joint, at the key being made
+    float still;   ///< bones that move less do not move
+};
+
+static vec3s place_of(const struct source *source, const struct gltf_pose *pose, int joint)
+{
+    return joint == ORIGIN ? glms_vec3_zero() : vec3_from(pose->world[source->node[joint]] + 12);
+}
+
+/// Adds the bones among a node, those beside it, and all below.
+static void add_joints(struct form *form, int node, int above)
+{
+    const struct source *source = form->owned;
+    for (; node >= 0; node = source->imported->gltf.nodes[node].next) {
+        int j = above;
+        if (source->joint_of[node] == TO_ADD) {
+            struct form_joint *joint = &form->joints[j = form->joint_count++];
+            joint->name = names_add(&form->names, form_word(&form->pool, source->imported->gltf.nodes[node].name));
+            joint->parent = above;
+            source->node[j] = node;
+            source->joint_of[node] = j;
+            const struct gltf_pose *rest = &source->imported->rest;
+            const vec3s offset = glms_vec3_sub(place_of(source, rest, j), place_of(source, rest, above));
+            memcpy(joint->offset, offset.raw, sizeof joint->offset);
+        }
+        add_joints(form, source->imported->gltf.nodes[node].child, j);
+    }
+}
+
+static bool skeleton_open(const struct posing *posing, int rig, const struct rig_pose *pose, struct form *form,
+                          struct error *error)
+{
+    const struct gltf *gltf = &pose->model.imported->gltf;
+    const struct skeleton *skeleton = &pose->model.imported->skeleton;
+    const size_t most = (size_t)gltf->node_count + 1;
+    float ends[2][3];
+    int tops = 0;
+    struct source *source = form->owned = pool_take(&form->pool, 1, sizeof *source);
+    *source = (struct source){.imported = pose->model.imported,
+                              .joint_of = pool_take(&form->pool, most, sizeof *source->joint_of),
+                              .node = pool_take(&form->pool, most, sizeof *source->node),
+                              .turn = pool_take(&form->pool, most, sizeof *source->turn)};
+    for (int k = 0; k < 3; k++) source->still = fmaxf(source->still, STILL * (gltf->hi[k] - gltf->lo[k]));
+    form->joints = pool_take(&form->pool, most, sizeof *form->joints);
+    form->names.between = "_";
+    for (int n = 0; n < gltf->node_count; n++) source->joint_of[n] = NO_JOINT;
+    for (int b = 0; b < skeleton->count; b++) {
+        source->joint_of[skeleton->bones[b].node] = TO_ADD;
+        if (skeleton->bones[b].child >= 0) source->joint_of[skeleton->bones[b].child] = TO_ADD;
+    }
+    form->joints[ORIGIN].parent = -1;
+    form->joint_count = 1;
+    for (int n = 0; n < gltf->node_count; n++)
+        if (gltf->nodes[n].parent < 0) add_joints(form, n, ORIGIN);
+    form->joints[ORIGIN].name = names_add(&form->names, form_word(&form->pool, form->name));
+    for (int j = 1; j < form->joint_count; j++) tops += form->joints[j].parent == ORIGIN;
+    form->first_bone = tops == 1 ? 1 : ORIGIN; // a single one needs none to hold it
+    for (int b = 0; b < skeleton->count; b++) {
+        if (skeleton->bones[b].child >= 0) continue;
+        skeleton_ends(&skeleton->bones[b], &source->imported->rest, ends);
+        glm_vec3_sub(ends[1], ends[0], form->joints[source->joint_of[skeleton->bones[b].node]].tip);
+    }
+    return form->joint_count > 1 ||
+           fail(error, ERROR_INPUT, "\"%s\" has no bones", rig_title(posing->document->rigs[rig]));
+}
+
+/// How a bone is turned from its rest, in the character's space.
+static versors turn_of(const struct imported *imported, const struct gltf_pose *pose, int node)
+{
+    const mat4s rest = mat4_from(imported->rest.world[node]), now = mat4_from(pose->world[node]);
+    mat3s turned = glms_mat3_mul(glms_mat4_pick3(now), mat3_inverse(glms_mat4_pick3(rest)));
+    for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
+    return glms_quat_normalize(glms_mat3_quat(turned)); // uneven scales shear it
+}
+
+static void skeleton_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
+{
+    const struct source *source = form->owned;
+    const struct gltf_pose *now = pose->model.pose;
+    source->turn[ORIGIN] = glms_quat_identity();
+    for (int j = ORIGIN; j < form->joint_count; j++) {
+        const int parent = j == ORIGIN ? ORIGIN : form->joints[j].parent;
+        const versors back = glms_quat_inv(source->turn[parent]);
+        if (j != ORIGIN) source->turn[j] = turn_of(source->imported, now, source->node[j]);
+        const versors own = glms_quat_mul(back, source->turn[j]);
+        const vec3s place = place_of(source, now, j);
+        const vec3s offset = glms_quat_rotatev(back, glms_vec3_sub(place, place_of(source, now, parent)));
+        memcpy(key->rotation[j], own.raw, sizeof key->rotation[j]);
+        if (j == form->first_bone) memcpy(key->translation, place.raw, sizeof key->translation);
+        if (glms_vec3_distance(offset, vec3_from(form->joints[j].offset)) > source->still)
+            memcpy(key->offset[j], offset.raw, sizeof key->offset[j]);
+    }
+}
+
+const struct form_kind skeleton_form = {.holds = FORM_JOINTS, .open = skeleton_open, .key = skeleton_key};
+
+// --- all kinds
 
 #define FORM_ROW(constant, name) [constant] = &name##_form,
 static const struct form_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(FORM_ROW)};
@@ -38,15 +404,6 @@ char *form_word(struct pool *pool, const char *name)
     return word;
 }
 
-/// Other programs identify objects by name, so rigs of the same name get a number.
-static void name_rig(const struct document *document, int rig, struct form *form)
-{
-    struct names names = {.between = "_"};
-    for (int i = 0; i < rig; i++) names_add(&names, form_name(document->rigs[i]));
-    form->name = form_text(&form->pool, names_add(&names, form_name(document->rigs[rig])), "", "");
-    names_free(&names);
-}
-
 bool form_open(const struct export_range *range, int rig, struct form *form, struct error *error)
 {
     struct rig_pose pose;
@@ -55,32 +412,14 @@ bool form_open(const struct export_range *range, int rig, struct form *form, str
     *form = (struct form){.kind = kinds[source->kind], .holder = -1};
     if (range->format->holds == FORM_JOINTS && source->kind == RIG_MODEL) form->kind = &skeleton_form;
     if (!range_pose(range, rig, 0, &pose, error)) return false;
-    name_rig(document, rig, form);
+    struct names names = {.between =
+                              "_"}; // other programs identify objects by name, so rigs of the same name get a number
+    for (int i = 0; i < rig; i++) names_add(&names, form_name(document->rigs[i]));
+    form->name = form_text(&form->pool, names_add(&names, form_name(source)), "", "");
+    names_free(&names);
     if (form->kind->open(range->posing, rig, &pose, form, error)) return true;
     form_close(form);
     return false;
-}
-
-void form_channels(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
-                   form_column *column, void *user)
-{
-    const struct document *document = range->posing->document;
-    const char *name = form_name(document->rigs[rig]);
-    struct strand strand;
-    (void)pose;
-    if (!strand_find(range->posing, rig_body(document, rig), rig, &strand)) return;
-    for (int c = 0; c < strand.channel_count; c++) {
-        const struct channel *channel = &strand.channels[c];
-        const wiggly_value value = channel_value(range->posing, channel, range_position(range, key));
-        if (!axis_bends(channel->axis))
-            column(user, channel_moves(channel, value, 1, range->posing->look), "%s.%s.%s", name,
-                   axis_word(channel->axis), document->splines[channel->spline]->name);
-        for (int n = 0; n < strand.joints && axis_bends(channel->axis); n++) {
-            const double angle = channel_bend(channel, value, n, strand.joints, range->posing->look);
-            column(user, 180 / 3.14159265358979323846 * angle, "%s.%s.%s.%d", name, axis_word(channel->axis),
-                   document->splines[channel->spline]->name, n);
-        }
-    }
 }
 
 void form_close(struct form *form)
@@ -173,19 +512,6 @@ static bool add_slopes(const struct sampler *from, struct keys *keys, float *scr
     return true;
 }
 
-static bool collect(struct export_range *range, const struct sampler *from, struct keys *keys, struct error *error)
-{
-    const size_t width = (size_t)keys->width;
-    for (int k = 0; k < keys->count; k++) {
-        float *row = keys->rows + (size_t)k * width;
-        if (!sample(from, keys, k, row, error) || !range_proceed(range, error)) return false;
-        if (k > 0) turn_short_way(keys, row - width, row);
-        keys->travels = keys->travels || memcmp(row, keys->rows, 3 * sizeof *row) != 0;
-    }
-    keys_close_loop(keys->rows, keys->width, keys->count);
-    return !keys->slopes || add_slopes(from, keys, keys->rows + (size_t)keys->count * width, error);
-}
-
 bool keys_collect(struct export_range *range, int rig, struct form *form, struct keys *keys, struct error *error)
 {
     const struct sampler from = {range, form, rig};
@@ -196,5 +522,12 @@ bool keys_collect(struct export_range *range, int rig, struct form *form, struct
     if (!need_has_room((2 * count + 1) * width * sizeof *keys->rows)) return fail_no_memory(error, form->name);
     keys->rows = pool_take(&form->pool, (count + 1) * width, sizeof *keys->rows);
     if (tangents) keys->slopes = pool_take(&form->pool, count * width, sizeof *keys->slopes);
-    return collect(range, &from, keys, error);
+    for (int k = 0; k < keys->count; k++) {
+        float *row = keys->rows + (size_t)k * width;
+        if (!sample(&from, keys, k, row, error) || !range_proceed(range, error)) return false;
+        if (k > 0) turn_short_way(keys, row - width, row);
+        keys->travels = keys->travels || memcmp(row, keys->rows, 3 * sizeof *row) != 0;
+    }
+    keys_close_loop(keys->rows, keys->width, keys->count);
+    return !keys->slopes || add_slopes(&from, keys, keys->rows + (size_t)keys->count * width, error);
 }

@@ -35,9 +35,6 @@ bool sidecars_commit(struct sidecars *sidecars, struct error *error);
 /// Removes what was written, committed or not, except files that replaced others.
 void sidecars_discard(struct sidecars *sidecars);
 
-/// Keeps committed files.
-void sidecars_free(struct sidecars *sidecars);
-
 // --- formats, and the content of a file
 
 struct export_range {
@@ -179,10 +176,6 @@ extern const struct form_kind skeleton_form;
 
 /// A kind's form functions; NULL if it is not exported.
 const struct form_kind *form_kind(enum rig_kind kind);
-
-/// Table columns: angles in degrees by which channels bend the joints of a tail or chain.
-void form_channels(const struct export_range *range, int rig, const struct rig_pose *pose, double key,
-                   form_column *column, void *user);
 
 /// A rig's name in files and messages: its own, or its kind's word.
 const char *form_name(const struct rig *rig);

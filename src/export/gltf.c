@@ -21,26 +21,6 @@ struct file_targets {
     bool clamped; ///< weights are 0 … 1
 };
 
-/// The largest |weight| of a group's targets over all keys, at least 1. Weights are divided by it.
-static float largest_of(const struct form *form, const struct keys *keys, int group)
-{
-    float largest = 1.0f;
-    for (int t = 0; t < form->target_count; t++) {
-        if (form->targets[t].group != group) continue;
-        for (int k = 0; k < keys->count; k++)
-            largest = fmaxf(largest, fabsf(*keys_at(keys, k, keys_weight(keys, t))));
-    }
-    return largest;
-}
-
-static bool is_ever_negative(const struct keys *keys, int target)
-{
-    for (int k = 0; k < keys->count; k++) {
-        if (*keys_at(keys, k, keys_weight(keys, target)) < 0) return true;
-    }
-    return false;
-}
-
 /// "up.re" → "up.-re", "smile" → "-smile"
 static const char *negative(struct pool *pool, const char *name)
 {
@@ -59,10 +39,17 @@ static void make_targets(struct form *form, const struct keys *keys, bool clampe
     for (int t = 0; t < count; t++) {
         struct file_target *target = &targets->list[t];
         *target = (struct file_target){.source = t, .scale = 1.0f, .name = form->targets[t].figure.name};
-        if (clamped) target->scale = largest_of(form, keys, form->targets[t].group);
+        // The largest |weight| of a group's targets over all keys, at least 1: weights are divided by it.
+        for (int other = 0; clamped && other < count; other++) {
+            if (form->targets[other].group != form->targets[t].group) continue;
+            for (int k = 0; k < keys->count; k++)
+                target->scale = fmaxf(target->scale, fabsf(*keys_at(keys, k, keys_weight(keys, other))));
+        }
     }
     for (int t = 0; clamped && t < count; t++) {
-        if (!is_ever_negative(keys, t)) continue;
+        int k = 0;
+        while (k < keys->count && !(*keys_at(keys, k, keys_weight(keys, t)) < 0)) k++;
+        if (k == keys->count) continue; // it is never negative
         struct file_target *target = &targets->list[targets->count++];
         *target = (struct file_target){
             .source = t, .scale = -targets->list[t].scale, .name = negative(&form->pool, targets->list[t].name)};
@@ -170,72 +157,45 @@ static json_int_t add_mesh(struct scene *scene, const struct part *part)
 
 // --- nodes
 
-/// Adds the joints as nodes, posed at the first key; returns the skin.
-static json_int_t add_skin(struct scene *scene, struct part *part)
+/// Adds the mesh's node and, posed at the first key, the joints as nodes and their skin.
+static void add_nodes(struct scene *scene, struct part *part, json_int_t mesh)
 {
     const struct form *form = part->form;
+    struct gltf_file *file = &scene->file;
+    json_t *node = json_pack("{s:s, s:I}", "name", form->name, "mesh", mesh);
+    part->mesh_node = gltf_append(file, scene->nodes, node);
+    gltf_append(file, scene->roots, json_integer(part->mesh_node));
+    if (form->joint_count == 0) {
+        gltf_set(file, node, "translation", numbers(scene, part->keys->rows, 3));
+        return;
+    }
     json_t *joints = json_array();
     part->first_joint = (json_int_t)json_array_size(scene->nodes);
     for (int j = 0; j < form->joint_count; j++) {
         const struct form_joint *joint = &form->joints[j];
         const float *place = joint->parent < 0 ? part->keys->rows : joint->offset;
-        json_t *node = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", numbers(scene, place, 3),
-                                 "rotation", numbers(scene, part->keys->rows + keys_rotation(j), 4));
-        gltf_append(&scene->file, joints, json_integer(gltf_append(&scene->file, scene->nodes, node)));
+        json_t *own = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", numbers(scene, place, 3),
+                                "rotation", numbers(scene, part->keys->rows + keys_rotation(j), 4));
+        gltf_append(file, joints, json_integer(gltf_append(file, scene->nodes, own)));
         if (joint->parent < 0) continue;
         json_t *parent = json_array_get(scene->nodes, (size_t)(part->first_joint + joint->parent));
-        gltf_append_to(&scene->file, parent, "children", json_integer(part->first_joint + j));
+        gltf_append_to(file, parent, "children", json_integer(part->first_joint + j));
     }
-    gltf_append(&scene->file, scene->roots, json_integer(part->first_joint));
+    gltf_append(file, scene->roots, json_integer(part->first_joint));
     float(*inverse)[16] = need_zeroed((size_t)form->joint_count, sizeof *inverse);
     for (int j = 0; j < form->joint_count; j++) {
         for (int k = 0; k < 4; k++) inverse[j][5 * k] = 1;
         for (int k = 0; k < 3; k++) inverse[j][12 + k] = -form->joints[j].bind[k];
     }
-    const json_int_t matrices =
-        gltf_file_add(&scene->file, ELEMENTS_MATRICES, inverse, (size_t)form->joint_count, false);
+    const json_int_t matrices = gltf_file_add(file, ELEMENTS_MATRICES, inverse, (size_t)form->joint_count, false);
     free(inverse);
-    return gltf_append(&scene->file, scene->skins,
-                       json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices", matrices, "skeleton",
-                                 part->first_joint));
-}
-
-static void add_nodes(struct scene *scene, struct part *part, json_int_t mesh)
-{
-    const struct form *form = part->form;
-    json_t *node = json_pack("{s:s, s:I}", "name", form->name, "mesh", mesh);
-    part->mesh_node = gltf_append(&scene->file, scene->nodes, node);
-    gltf_append(&scene->file, scene->roots, json_integer(part->mesh_node));
-    if (form->joint_count > 0) {
-        gltf_set(&scene->file, node, "skin", json_integer(add_skin(scene, part)));
-    } else {
-        gltf_set(&scene->file, node, "translation", numbers(scene, part->keys->rows, 3));
-    }
+    const json_int_t skin = gltf_append(file, scene->skins,
+                                        json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices",
+                                                  matrices, "skeleton", part->first_joint));
+    gltf_set(file, node, "skin", json_integer(skin));
 }
 
 // --- the clip
-
-static void add_weights(struct scene *scene, const struct part *part)
-{
-    const struct keys *keys = part->keys;
-    const int width = part->targets->count;
-    if (width == 0) return;
-    const size_t count = (size_t)width * (size_t)keys->count;
-    float *values = need(count, sizeof *values);
-    float *slopes = keys->slopes ? need_zeroed(count, sizeof *slopes) : NULL;
-    for (int i = 0; i < width * keys->count; i++) {
-        const struct file_target *target = &part->targets->list[i % width];
-        const int column = keys_weight(keys, target->source);
-        const float weight = *keys_at(keys, i / width, column) / target->scale;
-        values[i] = part->targets->clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
-        if (!slopes || (part->targets->clamped && weight <= 0)) continue;
-        slopes[i] = keys->slopes[(size_t)(i / width) * (size_t)keys->width + (size_t)column] / target->scale;
-    }
-    gltf_motion_add_channel(&scene->motion, part->mesh_node, GLTF_WEIGHTS,
-                            add_sampler(&scene->motion, GLTF_WEIGHTS, values, slopes, width, width));
-    free(values);
-    free(slopes);
-}
 
 /// Whether any key differs from the rest.
 static bool differs(const struct keys *keys, int column, int width, const float *rest)
@@ -267,7 +227,23 @@ static void add_animation(struct scene *scene, const struct part *part)
         if (differs(keys, keys_scale(keys, j), 3, (const float[]){1, 1, 1}))
             add_keys(&scene->motion, part->first_joint + j, GLTF_SCALE, keys, keys_scale(keys, j), 3);
     }
-    add_weights(scene, part);
+    const int width = part->targets->count;
+    if (width == 0) return;
+    const size_t count = (size_t)width * (size_t)keys->count;
+    float *values = need(count, sizeof *values);
+    float *slopes = keys->slopes ? need_zeroed(count, sizeof *slopes) : NULL;
+    for (int i = 0; i < width * keys->count; i++) {
+        const struct file_target *target = &part->targets->list[i % width];
+        const int column = keys_weight(keys, target->source);
+        const float weight = *keys_at(keys, i / width, column) / target->scale;
+        values[i] = part->targets->clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
+        if (!slopes || (part->targets->clamped && weight <= 0)) continue;
+        slopes[i] = keys->slopes[(size_t)(i / width) * (size_t)keys->width + (size_t)column] / target->scale;
+    }
+    gltf_motion_add_channel(&scene->motion, part->mesh_node, GLTF_WEIGHTS,
+                            add_sampler(&scene->motion, GLTF_WEIGHTS, values, slopes, width, width));
+    free(values);
+    free(slopes);
 }
 
 // --- writing
@@ -292,32 +268,6 @@ static bool add_rig(struct scene *scene, int rig, struct error *error)
     return done;
 }
 
-static json_t *make_root(struct scene *scene)
-{
-    json_t *root =
-        json_pack("{s:{s:s, s:s}, s:i, s:[{s:O}], s:O, s:O}", "asset", "version", "2.0", "generator", "wiggly",
-                  "scene", 0, "scenes", "nodes", scene->roots, "nodes", scene->nodes, "meshes", scene->meshes);
-    gltf_looks_complete(&scene->looks, root);
-    if (json_array_size(scene->skins) > 0) gltf_set(&scene->file, root, "skins", json_incref(scene->skins));
-    if (json_array_size(scene->motion.channels) > 0) {
-        const char *name = scene->range->options->clip ? scene->range->options->clip : scene->range->title;
-        char *valid = name_from(name, strlen(name)); // it may be an argument
-        gltf_set(&scene->file, root, "animations",
-                 json_pack("[{s:s, s:O, s:O}]", "name", valid, "samplers", scene->motion.samplers, "channels",
-                           scene->motion.channels));
-        free(valid);
-    }
-    return root;
-}
-
-static void summarise(const struct scene *scene, char summary[FORMAT_SUMMARY])
-{
-    char joints[32] = "", targets[32] = "";
-    if (scene->joints > 0) snprintf(joints, sizeof joints, "%d joints, ", scene->joints);
-    if (scene->targets > 0) snprintf(targets, sizeof targets, "%d morph targets, ", scene->targets);
-    snprintf(summary, FORMAT_SUMMARY, "%s%s%d keys", joints, targets, scene->range->key_count);
-}
-
 static bool write_scene(struct export_range *range, const int *rigs, int count, bool binary, FILE *out,
                         struct error *error)
 {
@@ -333,8 +283,26 @@ static bool write_scene(struct export_range *range, const int *rigs, int count, 
     scene.motion.times = gltf_file_add(&scene.file, ELEMENTS_KEYS, times, (size_t)range->key_count, true);
     free(times);
     for (int r = 0; done && r < count; r++) done = add_rig(&scene, rigs[r], error);
-    done = done && gltf_file_write(&scene.file, make_root(&scene), binary, out, error);
-    summarise(&scene, range->summary);
+    if (done) {
+        json_t *root =
+            json_pack("{s:{s:s, s:s}, s:i, s:[{s:O}], s:O, s:O}", "asset", "version", "2.0", "generator", "wiggly",
+                      "scene", 0, "scenes", "nodes", scene.roots, "nodes", scene.nodes, "meshes", scene.meshes);
+        gltf_looks_complete(&scene.looks, root);
+        if (json_array_size(scene.skins) > 0) gltf_set(&scene.file, root, "skins", json_incref(scene.skins));
+        if (json_array_size(scene.motion.channels) > 0) {
+            const char *name = range->options->clip ? range->options->clip : range->title;
+            char *valid = name_from(name, strlen(name)); // it may be an argument
+            gltf_set(&scene.file, root, "animations",
+                     json_pack("[{s:s, s:O, s:O}]", "name", valid, "samplers", scene.motion.samplers, "channels",
+                               scene.motion.channels));
+            free(valid);
+        }
+        done = gltf_file_write(&scene.file, root, binary, out, error);
+    }
+    char joints[32] = "", targets[32] = "";
+    if (scene.joints > 0) snprintf(joints, sizeof joints, "%d joints, ", scene.joints);
+    if (scene.targets > 0) snprintf(targets, sizeof targets, "%d morph targets, ", scene.targets);
+    snprintf(range->summary, FORMAT_SUMMARY, "%s%s%d keys", joints, targets, range->key_count);
     for (int i = 0; i < ARRAYS; i++) json_decref(*arrays[i]);
     gltf_looks_free(&scene.looks);
     gltf_file_free(&scene.file);

@@ -25,8 +25,4 @@ void gltf_motion_add_channel(struct gltf_motion *motion, json_int_t node, enum g
 /// same, also in the other container (.glb or .gltf). Without a chain the clip stays, too.
 bool gltf_model_write(struct export_range *range, FILE *out, struct error *error);
 
-/// Puts the keys of the chains into the clip that the rig plays, or into a copy of it. `root` is the file's JSON, which `file` continues.
-bool gltf_clip_put(struct export_range *range, struct form *form, struct gltf_file *file, json_t *root,
-                   struct error *error);
-
 #endif

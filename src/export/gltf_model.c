@@ -1,10 +1,415 @@
 /// Writes an imported character's own file with the keys of its chains: parses its JSON, adds to it, and prints it.
+///
+/// The clip's other channels stay as they are in the file, bit for bit. If the scene shows another part of the clip, or several rounds of it,
+/// their keys are copied to that, with the file's own values between the same keys.
 #include "base/file.h"
+#include "base/need.h"
 #include "export/gltf.h"
 #include "model/glb.h"
 #include "rig/import.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+static const double EARLIER = 4e-6; ///< of a time and its clip's length: before a step, more than posing rounds
+static const double NEAR = 1e-3;    ///< frames of the grid between keys that count as one
+
+/// What is exported, in seconds of the clip as the scene repeats it: round r begins at first + r · length.
+struct part {
+    struct clip_play play;
+    double end;      ///< of the clip's last key
+    double from, to; ///< of the first and last exported key
+    double shift;    ///< from there to the exported file's times
+    int rounds[2];   ///< the first and last round that it touches
+    bool is_clip;    ///< the part is the clip in the file
+};
+
+/// The part that a range's keys cover. It is the clip itself where they begin and end within a frame of it; one that plays once, or is a single
+/// pose, may end before.
+static struct part part_of(const struct export_range *range, const struct model_rig *model,
+                           const struct gltf_clip *clip)
+{
+    const double fps = range->posing->document->fps;
+    const double from = range_frame(range, 0) / fps, to = range_frame(range, range->key_count - 1) / fps;
+    if (!clip) return (struct part){.from = from, .to = to, .shift = -from};
+    struct part part = {.play = clip_play(model, clip), .end = clip->last, .from = from, .to = to};
+    const double frame = fmax(1, range->spacing) / fps;
+    const bool ends = to > clip->last - frame && (!part.play.loops || to < clip->first + part.play.length + frame);
+    part.is_clip = !(part.play.length > 0) || (fabs(from - clip->first) < frame && ends);
+    if (part.is_clip && part.play.length > 0) {
+        part.from = clip->first;
+        part.to = part.play.loops || to < clip->last + frame ? clip->last : to;
+    }
+    part.shift = clip->first - part.from;
+    if (!part.play.loops || !(part.play.length > 0)) return part;
+    const double begin = floor((part.from - clip->first) / part.play.length + 1e-6),
+                 end = ceil((part.to - clip->first) / part.play.length - 1e-6) - 1;
+    part.rounds[0] = (int)fmin(fmax(begin, -1e9), 1e9);
+    part.rounds[1] = part.rounds[0] + (int)fmin(fmax(end - begin, 0), range->key_count); // no shorter than a key
+    return part;
+}
+
+// --- the times of the chains' keys
+
+struct key_time {
+    double at;   ///< seconds in the scene
+    float time;  ///< in the file
+    bool is_own; ///< the clip has a key of the bones there, or begins or ends there
+};
+
+struct key_times {
+    struct key_time *list;
+    size_t count;
+};
+
+static void add_time(struct key_times *times, const struct part *part, double at, bool is_own)
+{
+    if (at < part->from || at > part->to) return;
+    times->list = need_more(times->list, times->count + 1, sizeof *times->list);
+    times->list[times->count++] = (struct key_time){at, (float)(at + part->shift), is_own};
+}
+
+static int compare_times(const void *a, const void *b)
+{
+    const struct key_time *one = a, *other = b;
+    return (one->at > other->at) - (one->at < other->at);
+}
+
+static bool is_bone(const struct form *form, json_int_t node)
+{
+    const struct model_body *body = form->owned;
+    for (int j = 0; j < form->joint_count; j++) {
+        if (body->node[j] == node) return true;
+    }
+    return false;
+}
+
+/// The keys of the range and of the bones in the clip, in ascending order; those of the range go where two are almost at one time.
+static struct key_times list_times(const struct export_range *range, const struct form *form, const struct part *part)
+{
+    const struct model_body *body = form->owned;
+    const double fps = range->posing->document->fps;
+    struct key_times times = {0};
+    add_time(&times, part, part->from, true);
+    if (part->to > part->from) add_time(&times, part, part->to, true);
+    for (int k = 0; k < range->key_count; k++) add_time(&times, part, range_frame(range, k) / fps, false);
+    for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
+        const struct gltf_channel *channel = &body->clip->channels[c];
+        if (channel->path != GLTF_ROTATION || !is_bone(form, channel->node)) continue;
+        // The bone's own keys, so that none between two frames is lost. A step has a key just before it.
+        for (int round = part->rounds[0]; round <= part->rounds[1]; round++) {
+            for (int k = 0; k < channel->key_count; k++) {
+                const double at = (double)channel->times[k] + round * part->play.length;
+                const size_t before = times.count;
+                if (channel->interpolation == GLTF_STEP && k > 0)
+                    add_time(&times, part, at - EARLIER * (fabs(at) + part->play.length), true);
+                if (times.count > before) times.list[before].time = nextafterf((float)(at + part->shift), -INFINITY);
+                add_time(&times, part, at, true);
+            }
+        }
+    }
+    qsort(times.list, times.count, sizeof *times.list, compare_times);
+    size_t count = 0;
+    for (size_t i = 0; i < times.count; i++) {
+        const struct key_time *next = &times.list[i], *last = count > 0 ? &times.list[count - 1] : NULL;
+        if (last && next->at - last->at < NEAR * range->spacing / fps && !(next->is_own && last->is_own)) {
+            if (next->is_own) times.list[count - 1] = *next;
+        } else if (!last || next->time > last->time) {
+            times.list[count++] = *next;
+        }
+    }
+    times.count = count;
+    return times;
+}
+
+// --- other channels, where the part is not the clip
+
+/// A sampler's numbers, as a channel without a node; false if they are none.
+static bool read_sampler(const struct glb *stored, const json_t *sampler, bool turns, struct gltf_channel *channel,
+                         int *element)
+{
+    const char *interpolation = json_string_value(json_object_get(sampler, "interpolation"));
+    struct glb_numbers times = {0}, values = {0};
+    struct error error;
+    bool good = glb_numbers(stored, glb_integer(sampler, "input", -1), &times, &error) &&
+                glb_numbers(stored, glb_integer(sampler, "output", -1), &values, &error) && times.components == 1 &&
+                times.count > 0;
+    *channel = (struct gltf_channel){.path = turns ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};
+    if (interpolation && strcmp(interpolation, "STEP") == 0) channel->interpolation = GLTF_STEP;
+    if (interpolation && strcmp(interpolation, "CUBICSPLINE") == 0) channel->interpolation = GLTF_CUBIC;
+    const size_t total = good ? (size_t)values.count * (size_t)values.components : 0,
+                 keys = (size_t)times.count * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
+    good = good && total > 0 && total % keys == 0 && (!turns || total == 4 * keys);
+    if (good) {
+        channel->key_count = times.count;
+        channel->components = (int)(total / keys);
+        channel->times = need((size_t)times.count, sizeof *channel->times);
+        channel->values = need(total, sizeof *channel->values);
+        for (int k = 0; k < times.count; k++) channel->times[k] = (float)times.values[k];
+        for (size_t i = 0; i < total; i++) channel->values[i] = (float)values.values[i];
+        *element = values.components;
+    }
+    free(times.values);
+    free(values.values);
+    return good;
+}
+
+static int stride_of(const struct gltf_channel *channel)
+{
+    return channel->components * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
+}
+
+/// Appends a key, whose tangents are 0 where only a value is given. Where a round ends with another value than the next begins with, it ends just
+/// before that.
+static void push(struct gltf_channel *to, double time, const float *key, bool is_whole)
+{
+    const int n = to->components, stride = stride_of(to), middle = stride > n ? n : 0;
+    const size_t size = (size_t)stride;
+    const int last = to->key_count - 1;
+    float *const end = to->values + (size_t)to->key_count * size;
+    if (last >= 0 && (float)time <= to->times[last]) {
+        float *const before = end - size;
+        const float *value = is_whole ? key + middle : key;
+        const bool same = memcmp(before + middle, value, (size_t)n * sizeof *value) == 0;
+        if (same && is_whole && middle) memcpy(before + 2 * n, key + 2 * n, (size_t)n * sizeof *key);
+        if (same) return;
+        to->times[last] = nextafterf((float)time, -INFINITY);
+        if (last > 0 && to->times[last] <= to->times[last - 1]) return;
+    }
+    to->times[to->key_count++] = (float)time;
+    memset(end, 0, size * sizeof *end);
+    if (is_whole) {
+        memcpy(end, key, size * sizeof *key);
+    } else {
+        memcpy(end + middle, key, (size_t)n * sizeof *key);
+    }
+}
+
+static void reserve(struct gltf_channel *channel, size_t keys, const struct gltf_channel *like)
+{
+    *channel = *like;
+    channel->key_count = 0;
+    channel->times = need(keys, sizeof *channel->times);
+    channel->values = need(keys * (size_t)stride_of(like), sizeof *channel->values);
+}
+
+/// Adds the curve's value and slope at a time between its keys.
+static void push_between(struct gltf_channel *to, const struct gltf_channel *from, double time)
+{
+    const int n = from->components, stride = stride_of(from);
+    float *key = need_zeroed(3 * (size_t)n, sizeof *key);
+    int k = 0;
+    while (k + 1 < from->key_count && (double)from->times[k + 1] <= time) k++;
+    gltf_channel_at(from, time, key + n);
+    if (from->interpolation != GLTF_CUBIC) {
+        push(to, time, key + n, true);
+    } else {
+        const double T = k + 1 < from->key_count ? (double)(from->times[k + 1] - from->times[k]) : 0;
+        const double s = T > 0 ? (time - (double)from->times[k]) / T : 0;
+        const float *at = from->values + (size_t)k * (size_t)stride;
+        for (int i = 0; i < n && T > 0 && s >= 0; i++) {
+            const double slope = (6 * s * s - 6 * s) / T * (double)(at[n + i] - at[4 * n + i]) +
+                                 (3 * s * s - 4 * s + 1) * (double)at[2 * n + i] +
+                                 (3 * s * s - 2 * s) * (double)at[3 * n + i];
+            key[i] = key[2 * n + i] = (float)slope;
+        }
+        push(to, time, key, true);
+    }
+    free(key);
+}
+
+/// Lets a sampler have the part's keys. One whose numbers cannot be read stays as it is.
+static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t *sampler, bool turns,
+                        const struct part *part)
+{
+    static const enum gltf_elements kinds[17] = {[1] = ELEMENTS_KEYS,
+                                                 [2] = ELEMENTS_UVS,
+                                                 [3] = ELEMENTS_KEY_VECTORS,
+                                                 [4] = ELEMENTS_TURNS,
+                                                 [16] = ELEMENTS_MATRICES};
+    struct gltf_channel own, unrolled, result;
+    int element = 0;
+    if (!read_sampler(stored, sampler, turns, &own, &element)) return;
+    const int stride = stride_of(&own), middle = stride > own.components ? own.components : 0, count = own.key_count;
+
+    // The keys of all rounds, in the exported file's times. A channel that begins after its clip, or ends before, stands still there.
+    reserve(&unrolled, (size_t)(count + 2) * (size_t)(part->rounds[1] - part->rounds[0] + 1), &own);
+    for (int round = part->rounds[0]; round <= part->rounds[1]; round++) {
+        const double later = part->shift + round * part->play.length;
+        if ((double)own.times[0] > part->play.first)
+            push(&unrolled, part->play.first + later, own.values + middle, false);
+        for (int k = 0; k < count; k++)
+            push(&unrolled, (double)own.times[k] + later, own.values + (size_t)k * (size_t)stride, true);
+        if ((double)own.times[count - 1] < part->end && part->rounds[1] > part->rounds[0])
+            push(&unrolled, part->end + later, own.values + (size_t)(count - 1) * (size_t)stride + middle, false);
+    }
+
+    // Of these the part that is exported.
+    const double first = part->from + part->shift, last = part->to + part->shift;
+    reserve(&result, (size_t)unrolled.key_count + 2, &unrolled);
+    push_between(&result, &unrolled, first);
+    for (int k = 0; k < unrolled.key_count; k++) {
+        const double time = (double)unrolled.times[k];
+        if (time > (double)(float)first && time < (double)(float)last)
+            push(&result, time, unrolled.values + (size_t)k * (size_t)stride, true);
+    }
+    if (last > first) push_between(&result, &unrolled, last);
+
+    const size_t keys = (size_t)result.key_count, total = keys * (size_t)stride;
+    if (element < 17 && (kinds[element] || element == 0)) {
+        gltf_set(file, sampler, "input", json_integer(gltf_file_add(file, ELEMENTS_KEYS, result.times, keys, true)));
+        gltf_set(file, sampler, "output",
+                 json_integer(gltf_file_add(file, kinds[element], result.values, total / (size_t)element, false)));
+    }
+    struct gltf_channel *const all[] = {&own, &unrolled, &result};
+    for (int i = 0; i < 3; i++) {
+        free(all[i]->times);
+        free(all[i]->values);
+    }
+}
+
+/// The node and path that a channel moves are those of a chain's bone.
+static bool is_chains(const struct form *form, const json_t *channel)
+{
+    const json_t *target = json_object_get(channel, "target");
+    const char *path = json_string_value(json_object_get(target, "path"));
+    return path && strcmp(path, "rotation") == 0 && is_bone(form, glb_integer(target, "node", -1));
+}
+
+/// Lets all samplers but those of chains have the part's keys.
+static bool cut_clip(struct gltf_file *file, const struct form *form, json_t *clip, const struct part *part,
+                     struct error *error)
+{
+    const struct model_body *body = form->owned;
+    json_t *samplers = json_object_get(clip, "samplers");
+    const json_t *channel;
+    size_t i;
+    struct glb stored;
+    if (!glb_open(&stored, body->gltf->path, error)) return false;
+    bool *done = need_zeroed(json_array_size(samplers) + 1, sizeof *done);
+    const bool is_read = glb_read_buffers(&stored, error);
+    json_array_foreach(json_object_get(clip, "channels"), i, channel)
+    {
+        const char *path = json_string_value(json_object_get(json_object_get(channel, "target"), "path"));
+        const size_t sampler = (size_t)glb_integer(channel, "sampler", -1);
+        if (!is_read || sampler >= json_array_size(samplers) || done[sampler] || is_chains(form, channel)) continue;
+        done[sampler] = true;
+        cut_sampler(file, &stored, json_array_get(samplers, sampler), path && strcmp(path, "rotation") == 0, part);
+    }
+    free(done);
+    glb_close(&stored);
+    return is_read;
+}
+
+// --- the clip
+
+static json_t *reals(struct gltf_file *file, const float *numbers, int count)
+{
+    json_t *array = json_array();
+    for (int k = 0; k < count; k++) gltf_append(file, array, json_real((double)numbers[k]));
+    return array;
+}
+
+/// Makes the clip's accessor of times, and poses the rig at them.
+static bool collect(struct export_range *range, struct form *form, const struct part *part,
+                    struct gltf_motion *motion, struct keys *keys, struct error *error)
+{
+    struct key_times times = list_times(range, form, part);
+    const double fps = range->posing->document->fps;
+    const int on_grid = range->key_count, count = motion->key_count = (int)times.count;
+    double *frames = need(times.count, sizeof *frames);
+    float *seconds = need(times.count, sizeof *seconds);
+    for (int k = 0; k < count; k++) {
+        frames[k] = times.list[k].at * fps;
+        seconds[k] = times.list[k].time;
+    }
+    free(times.list);
+    range->frames = frames;
+    range->key_count = count;
+    range->total += count - on_grid;
+    const bool done = keys_collect(range, range->rigs[0], form, keys, error);
+    range->frames = NULL;
+    range->key_count = on_grid;
+    motion->times = gltf_file_add(motion->file, ELEMENTS_KEYS, seconds, (size_t)count, true);
+    free(frames);
+    free(seconds);
+    return done;
+}
+
+/// Puts the keys of the chains into the clip that the rig plays, or into a copy of it. `root` is the file's JSON, which `file` continues.
+static bool put_clip(struct export_range *range, struct form *form, struct gltf_file *file, json_t *root,
+                     struct error *error)
+{
+    const struct model_body *body = form->owned;
+    const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]]->model;
+    const char *wanted = range->options->clip ? range->options->clip : model->clip ? model->clip : range->title;
+    const struct part part = part_of(range, model, body->clip);
+    struct gltf_motion motion = {.file = file};
+    struct keys keys;
+    size_t i;
+    if (!collect(range, form, &part, &motion, &keys, error)) return false;
+    char *name = name_from(wanted, strlen(wanted)); // it may be an argument
+    const int known = gltf_find_clip(body->gltf, name);
+
+    // A copy of the clip that plays, by the name that it is to have; the clip itself if it has that name.
+    static const char *const arrays[] = {"samplers", "channels"};
+    json_t *clips = json_object_get(root, "animations"), *nodes = json_object_get(root, "nodes"), *channel;
+    json_t *clip =
+        body->clip ? json_deep_copy(json_array_get(clips, (size_t)(body->clip - body->gltf->clips))) : json_object();
+    if (!body->clip || strcmp(body->clip->name, name) != 0) gltf_set(file, clip, "name", json_string(name));
+    for (i = 0; i < 2; i++)
+        if (!json_object_get(clip, arrays[i])) gltf_set(file, clip, arrays[i], json_array());
+    free(name);
+    motion.samplers = json_object_get(clip, "samplers");
+    motion.channels = json_object_get(clip, "channels");
+    if (body->clip && !part.is_clip && !cut_clip(file, form, clip, &part, error)) {
+        json_decref(clip);
+        return false;
+    }
+
+    // The keys turn the bones of chains, in the channels that the clip has for them, or new ones.
+    for (int j = 0; j < form->joint_count; j++) {
+        struct keys own = keys;
+        for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
+            const struct gltf_channel *of = &body->clip->channels[c];
+            if (of->node == body->node[j] && of->interpolation == GLTF_STEP) own.slopes = NULL; // it jumps
+        }
+        const json_int_t sampler = gltf_motion_add_sampler(&motion, GLTF_ROTATION, &own, keys_rotation(j), 4);
+        bool found = false;
+        json_array_foreach(motion.channels, i, channel)
+        {
+            if (!is_chains(form, channel)) continue;
+            if (glb_integer(json_object_get(channel, "target"), "node", -1) != body->node[j]) continue;
+            gltf_set(file, channel, "sampler", json_integer(sampler));
+            found = true;
+        }
+        if (!found) gltf_motion_add_channel(&motion, body->node[j], GLTF_ROTATION, sampler);
+    }
+
+    // The matrices of nodes that the clip moves are split, because glTF does not allow it to move a matrix.
+    json_array_foreach(motion.channels, i, channel)
+    {
+        const json_t *target = json_object_get(channel, "target");
+        const int64_t n = glb_integer(target, "node", -1);
+        const char *path = json_string_value(json_object_get(target, "path"));
+        json_t *node = n < 0 ? NULL : json_array_get(nodes, (size_t)n);
+        if (!json_object_get(node, "matrix") || body->gltf->nodes[n].has_matrix) continue;
+        if (!path || (strcmp(path, "translation") && strcmp(path, "rotation") && strcmp(path, "scale"))) continue;
+        const struct gltf_place *place = &body->gltf->nodes[n].place;
+        json_object_del(node, "matrix");
+        gltf_set(file, node, "translation", reals(file, place->translation, 3));
+        gltf_set(file, node, "rotation", reals(file, place->rotation, 4));
+        gltf_set(file, node, "scale", reals(file, place->scale, 3));
+    }
+    if (known < 0) {
+        gltf_append_to(file, root, "animations", clip);
+    } else if (json_array_set_new(clips, (size_t)known, clip) != 0) {
+        file->without_memory = true;
+    }
+    return true;
+}
+
+// --- the file
 
 /// The file that the clip goes into.
 struct original {
@@ -26,28 +431,6 @@ static bool move(json_t *view, const size_t *starts, size_t count)
             json_object_set_new(view, "byteOffset", json_integer(offset + (json_int_t)starts[buffer])) == 0);
 }
 
-static bool gather_buffers(struct original *o)
-{
-    const size_t count = json_array_size(json_object_get(o->source.json, "buffers"));
-    size_t *starts = calloc(count + 1, sizeof *starts), i;
-    json_t *view, *extension;
-    bool done = starts;
-    for (size_t b = 0; done && b < count; b++) { // all there is: views may reach beyond the byteLength
-        const struct glb_bytes bytes = o->source.buffers[b].bytes;
-        starts[b] = gltf_file_append(&o->file, bytes.at, bytes.size);
-    }
-    json_array_foreach(o->file.views, i, view)
-    {
-        const char *name;
-        done = done && move(view, starts, count);
-        json_object_foreach(json_object_get(view, "extensions"), name, extension) done =
-            done && move(extension, starts, count);
-    }
-    if (o->file.size > 0) json_object_del(o->source.json, "buffers");
-    free(starts);
-    return done;
-}
-
 /// The type of a picture; NULL: unknown.
 static const char *kind_of(struct glb_bytes bytes)
 {
@@ -63,60 +446,70 @@ static const char *kind_of(struct glb_bytes bytes)
     return webp ? "image/webp" : NULL;
 }
 
-/// A picture that cannot be read keeps its address. False if memory is short.
-static bool gather_image(struct original *o, json_t *image)
-{
-    const char *uri = json_string_value(json_object_get(image, "uri"));
-    struct glb_buffer picture;
-    struct error why = {0};
-    if (!uri) return true;
-    if (!glb_read_uri(&o->source, uri, &picture, &why)) return why.kind != ERROR_ENVIRONMENT;
-    const char *kind = kind_of(picture.bytes);
-    if (kind) {
-        const json_int_t view = gltf_file_add_bytes(&o->file, picture.bytes.at, picture.bytes.size);
-        gltf_set(&o->file, image, "bufferView", json_integer(view));
-        gltf_set(&o->file, image, "mimeType", json_string(kind));
-        json_object_del(image, "uri");
-    }
-    free(picture.owned);
-    return true;
-}
-
 static bool gather(struct original *o, struct error *error)
 {
+    json_t *view, *extension, *image;
     size_t i;
-    json_t *image;
     if (!glb_read_buffers(&o->source, error)) return false;
-    bool done = gather_buffers(o);
-    json_array_foreach(json_object_get(o->source.json, "images"), i, image) done = done && gather_image(o, image);
+    const size_t count = json_array_size(json_object_get(o->source.json, "buffers"));
+    size_t *starts = calloc(count + 1, sizeof *starts);
+    bool done = starts;
+    for (size_t b = 0; done && b < count; b++) { // all there is: views may reach beyond the byteLength
+        const struct glb_bytes bytes = o->source.buffers[b].bytes;
+        starts[b] = gltf_file_append(&o->file, bytes.at, bytes.size);
+    }
+    json_array_foreach(o->file.views, i, view)
+    {
+        const char *name;
+        done = done && move(view, starts, count);
+        json_object_foreach(json_object_get(view, "extensions"), name, extension) done =
+            done && move(extension, starts, count);
+    }
+    if (o->file.size > 0) json_object_del(o->source.json, "buffers");
+    free(starts);
+
+    json_array_foreach(json_object_get(o->source.json, "images"), i, image)
+    {
+        const char *uri = json_string_value(json_object_get(image, "uri"));
+        struct glb_buffer picture;
+        struct error why = {0};
+        if (!done || !uri) continue;
+        if (!glb_read_uri(&o->source, uri, &picture, &why)) { // it keeps its address
+            done = why.kind != ERROR_ENVIRONMENT;
+            continue;
+        }
+        const char *kind = kind_of(picture.bytes);
+        if (kind) {
+            const json_int_t own = gltf_file_add_bytes(&o->file, picture.bytes.at, picture.bytes.size);
+            gltf_set(&o->file, image, "bufferView", json_integer(own));
+            gltf_set(&o->file, image, "mimeType", json_string(kind));
+            json_object_del(image, "uri");
+        }
+        free(picture.owned);
+    }
     return done || fail_no_memory(error, o->source.path);
 }
 
 // --- the same container
 
-/// Whether buffers and images are in the file itself.
-static bool is_alone(const struct glb *source)
+/// A file that stays what it is must be beside the files that it names.
+static bool check_place(const struct export_range *range, const struct glb *source, struct error *error)
 {
+    char from[PATH_LIMIT], to[PATH_LIMIT], folder[PATH_LIMIT];
     static const char *const arrays[] = {"buffers", "images"};
+    bool names_files = false;
     for (int a = 0; a < 2; a++) {
         size_t i;
         const json_t *thing;
         json_array_foreach(json_object_get(source->json, arrays[a]), i, thing)
         {
             const char *uri = json_string_value(json_object_get(thing, "uri"));
-            if (uri && strncmp(uri, "data:", 5) != 0) return false;
+            names_files = names_files || (uri && strncmp(uri, "data:", 5) != 0);
         }
     }
-    return true;
-}
-
-/// A file that stays what it is must be beside the files that it names.
-static bool check_place(const struct export_range *range, const struct glb *source, struct error *error)
-{
-    char from[PATH_LIMIT], to[PATH_LIMIT], folder[PATH_LIMIT];
-    if (is_alone(source)) return true;
-    const bool same = path_folder(source->path, folder) && path_resolve(folder, ".", from) &&
-                      path_folder(range->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0;
+    const bool same =
+        !names_files || (path_folder(source->path, folder) && path_resolve(folder, ".", from) &&
+                         path_folder(range->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0);
     if (same) return true;
     return fail(error, ERROR_INPUT, "%s: refers to files beside it: export it to the same folder, or as .glb",
                 source->path);
@@ -132,16 +525,6 @@ static bool take_bytes(const struct export_range *range, struct original *o, str
     if (has_chunk) gltf_file_append(&o->file, o->source.chunk.at, o->source.chunk.size);
     if (!has_chunk) o->file.buffer = (json_int_t)json_array_size(buffers);
     return check_place(range, &o->source, error);
-}
-
-static bool write_same(const char *path, FILE *out, struct error *error)
-{
-    char *data;
-    size_t size;
-    if (!file_read(path, GLB_FILE_LIMIT, &data, &size, error)) return false;
-    fwrite(data, 1, size, out);
-    free(data);
-    return true;
 }
 
 // --- the clips
@@ -164,7 +547,7 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
     range->posing = &posing;
     bool done = range_choose_keys(range, &report, error) && form_open(range, rig, &form, error);
     if (done) {
-        done = gltf_clip_put(range, &form, &o->file, o->source.json, error);
+        done = put_clip(range, &form, &o->file, o->source.json, error);
         o->clips++;
         form_close(&form);
     }
@@ -174,47 +557,30 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
     return done;
 }
 
-/// Adds the clip that plays, and all others if all are wanted. Chains do not move in clips of a single pose.
-static bool put_clips(struct export_range *range, struct form *form, struct original *o, struct error *error)
-{
-    const struct model_body *body = form->owned;
-    bool done = gltf_clip_put(range, form, &o->file, o->source.json, error);
-    o->clips = 1;
-    for (int c = 0; done && range->options->all_clips && c < body->gltf->clip_count; c++) {
-        const struct gltf_clip *clip = &body->gltf->clips[c];
-        if (clip != body->clip && clip->last > clip->first) done = put_other(range, c, o, error);
-    }
-    return done;
-}
-
-/// Places a scene's nodes under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
+/// Places all scenes' nodes under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
 /// validators warn of one that has a parent.
-static void place_nodes(struct original *o, json_t *scene, json_t *matrix)
-{
-    json_t *nodes = json_object_get(o->source.json, "nodes"), *number;
-    json_t *placed = json_array(), *roots = json_array();
-    size_t i;
-    json_array_foreach(json_object_get(scene, "nodes"), i, number)
-    {
-        const json_t *node = json_array_get(nodes, (size_t)json_integer_value(number));
-        const bool is_skinned = json_object_get(node, "skin") && !json_object_get(node, "children");
-        gltf_append(&o->file, is_skinned ? roots : placed, json_incref(number));
-    }
-    if (json_array_size(placed) > 0) {
-        json_t *shown = json_pack("{s:s, s:O, s:O}", "name", "as shown", "matrix", matrix, "children", placed);
-        gltf_append(&o->file, roots, json_integer(gltf_append(&o->file, nodes, shown)));
-        gltf_set(&o->file, scene, "nodes", json_incref(roots));
-    }
-    json_decref(placed);
-    json_decref(roots);
-}
-
 static void put_place(struct original *o, const float root[16])
 {
-    json_t *matrix = json_array(), *scene;
-    size_t s;
-    for (int i = 0; i < 16; i++) gltf_append(&o->file, matrix, json_real((double)root[i]));
-    json_array_foreach(json_object_get(o->source.json, "scenes"), s, scene) { place_nodes(o, scene, matrix); }
+    json_t *matrix = json_array(), *nodes = json_object_get(o->source.json, "nodes"), *scene, *number;
+    size_t s, i;
+    for (i = 0; i < 16; i++) gltf_append(&o->file, matrix, json_real((double)root[i]));
+    json_array_foreach(json_object_get(o->source.json, "scenes"), s, scene)
+    {
+        json_t *placed = json_array(), *roots = json_array();
+        json_array_foreach(json_object_get(scene, "nodes"), i, number)
+        {
+            const json_t *node = json_array_get(nodes, (size_t)json_integer_value(number));
+            const bool is_skinned = json_object_get(node, "skin") && !json_object_get(node, "children");
+            gltf_append(&o->file, is_skinned ? roots : placed, json_incref(number));
+        }
+        if (json_array_size(placed) > 0) {
+            json_t *shown = json_pack("{s:s, s:O, s:O}", "name", "as shown", "matrix", matrix, "children", placed);
+            gltf_append(&o->file, roots, json_integer(gltf_append(&o->file, nodes, shown)));
+            gltf_set(&o->file, scene, "nodes", json_incref(roots));
+        }
+        json_decref(placed);
+        json_decref(roots);
+    }
     json_decref(matrix);
 }
 
@@ -231,9 +597,22 @@ static bool write_file(struct export_range *range, struct form *form, FILE *out,
     o.is_same = !was_packed && (memcmp(o.source.data, "glTF", 4) == 0) == binary;
     bool done;
     if (!has_clip && o.is_same && !root) {
-        done = check_place(range, &o.source, error) && write_same(body->gltf->path, out, error);
+        char *data = NULL;
+        size_t size;
+        done =
+            check_place(range, &o.source, error) && file_read(body->gltf->path, GLB_FILE_LIMIT, &data, &size, error);
+        if (done) fwrite(data, 1, size, out);
+        free(data);
     } else {
-        done = take_bytes(range, &o, error) && (!has_clip || put_clips(range, form, &o, error));
+        done = take_bytes(range, &o, error);
+        if (done && has_clip) {
+            done = put_clip(range, form, &o.file, o.source.json, error);
+            o.clips = 1;
+        }
+        for (int c = 0; done && has_clip && range->options->all_clips && c < body->gltf->clip_count; c++) {
+            const struct gltf_clip *clip = &body->gltf->clips[c]; // chains do not move in clips of a single pose
+            if (clip != body->clip && clip->last > clip->first) done = put_other(range, c, &o, error);
+        }
         if (done && root) put_place(&o, root);
         done = done && gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
     }

@@ -68,19 +68,6 @@ bool csv_write(struct export_range *range, FILE *out, struct error *error)
 
 // --- vertices
 
-/// Programs play a point cache inside the node that has the mesh, so its positions are relative to that node. Those of several nodes, and of
-/// a node without a size, stay in the character's space, as an array's do. `root` is where the options place the character. False: they stay.
-static bool find_place(const struct form *form, const struct rig_pose *pose, const float *root, enum motion_form as,
-                       mat4s *place)
-{
-    const bool is_inside = !root && form->holder >= 0 && as != MOTION_NPY;
-    if (root) *place = mat4_from(root);
-    if (is_inside) *place = mat4_from(pose->model.pose->world[form->holder]);
-    if (!is_inside || glms_mat4_det(*place) == 0.0f) return root;
-    *place = glms_mat4_inv(*place);
-    return true;
-}
-
 static bool write_frames(struct export_range *range, const struct form *form, FILE *out, float (*positions)[3],
                          struct error *error)
 {
@@ -99,9 +86,16 @@ static bool write_frames(struct export_range *range, const struct form *form, FI
         if (!range_pose(range, range->rigs[0], k, &pose, error)) return false;
         form->kind->vertices(form, &pose, positions);
         const float *root = range_root(range, range->rigs[0], &pose);
-        mat4s place;
-        const bool is_moved = find_place(form, &pose, root, as, &place);
-        for (int v = 0; is_moved && v < form->vertex_count; v++)
+
+        // Programs play a point cache inside the node that has the mesh, so its positions are relative to that node. Those of several nodes, and
+        // of a node without a size, stay in the character's space, as an array's do; or go where the options place the character.
+        const bool is_inside = !root && form->holder >= 0 && as != MOTION_NPY;
+        mat4s place = root        ? mat4_from(root)
+                      : is_inside ? mat4_from(pose.model.pose->world[form->holder])
+                                  : glms_mat4_identity();
+        const bool has_size = is_inside && glms_mat4_det(place) != 0.0f;
+        if (has_size) place = glms_mat4_inv(place);
+        for (int v = 0; (root || has_size) && v < form->vertex_count; v++)
             glm_mat4_mulv3(place.raw, positions[v], 1, positions[v]);
         motion_print_frame(out, as, (const float(*)[3])positions, form->vertex_count);
         if (ferror(out)) return true; // the caller reports the error; writing on to a full disk is useless

@@ -1,14 +1,54 @@
 /// Rigs as a USD scene in text: UsdSkel skeletons, blend shapes, a time sample a key. Metres, y up; time codes are the document's frames.
-#include "export/usda.h"
+///
+/// Of an imported character it is its own model, of any other rig the one that its glTF file would hold. Every node that something shown hangs at
+/// is a joint, and each skin a skeleton of these, with a bind pose of its own. Textures are files in a folder beside it.
 #include "base/file.h"
 #include "base/need.h"
 #include "export/form.h"
+#include "model/gltf.h"
 #include <ctype.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-// --- text
+/// A node is one joint; or two, if its scale is constant and no half-precision number, as UsdSkel's scales are: one that moves, and
+/// below it one that scales.
+enum usda_joint_part { JOINT_WHOLE, JOINT_UNSCALED, JOINT_SCALE };
 
+struct usda_joint {
+    int node, parent; ///< `parent`: of the joints, −1: none
+    enum usda_joint_part part;
+    bool moves;               ///< else it has no keys: it rests
+    const char *name, *title; ///< `title`: the node's, which the name may not be
+    double world[16];         ///< at rest in the character's space; columns first, as all matrices
+};
+
+struct usda_model {
+    struct pool pool;
+    struct export_range *range;
+    int rig;
+    const char *name; ///< of its prim
+    FILE *out;
+    const struct gltf *gltf;
+    bool is_own;               ///< not an imported character: the only clip of its model has its keys
+    struct gltf_place *places; ///< [key · nodes + node], rotations the short way
+    float *weights;            ///< [key · weights + weight]
+    struct usda_shape {
+        const char *token, *prim; ///< its name in arrays, and that of its prim
+    } * shapes;                   ///< of each weight
+    struct usda_joint *joints;    ///< parents before their children
+    int joint_count;
+    int *joint_of;          ///< of each node: the last of its joints; −1: none
+    int *slot_of;           ///< of each node: which joint of skin `slots` it is; −1: none
+    int slots;              ///< −1: none yet
+    const char **materials; ///< their prims
+    const char **skeletons;
+    struct names prims, joint_names, shape_tokens, shape_prims, material_prims;
+};
+
+// --- text
 /// Letters outside ASCII that USD's names may have (Unicode's XID_Start, and XID_Continue): the scripts in common use.
 static const struct {
     uint32_t first, last;
@@ -36,9 +76,15 @@ static bool is_letter(uint32_t c, bool is_first)
     return false;
 }
 
-struct names usda_names(void) { return (struct names){.between = "_", .most = 63}; } // as many as Blender keeps
+/// A set of names of prims, or of joints.
+static struct names usda_names(void)
+{
+    return (struct names){.between = "_", .most = 63};
+} // as many as Blender keeps
 
-const char *usda_name(struct names *names, const char *wanted, bool any_script)
+/// Takes a name of letters, digits and "_": "up.-re" → "up_minus_re". All are ASCII, because older readers take no other names of prims;
+/// of joints, which are paths in strings, they may be of any script.
+static const char *usda_name(struct names *names, const char *wanted, bool any_script)
 {
     char *const identifier = need(6 * strlen(wanted) + 2, 1), *to = identifier;
     for (const char *from = wanted; *from;) {
@@ -60,7 +106,8 @@ const char *usda_name(struct names *names, const char *wanted, bool any_script)
     return name;
 }
 
-void usda_string(FILE *out, const char *text)
+/// A string in quotes.
+static void usda_string(FILE *out, const char *text)
 {
     fputc('"', out);
     for (const char *c = text; *c; c++) {
@@ -70,7 +117,8 @@ void usda_string(FILE *out, const char *text)
     fputc('"', out);
 }
 
-void usda_begin(FILE *out, int indent, const char *type, const char *name, const char *title, const char *api)
+/// Begins a prim, up to its first brace. `title` is what people read where it differs from its name. `api`: what its schemas are; NULL: none.
+static void usda_begin(FILE *out, int indent, const char *type, const char *name, const char *title, const char *api)
 {
     const bool is_titled = strcmp(name, title) != 0;
     fprintf(out, "%*sdef %s \"%s\"%s\n", indent, "", type, name, is_titled || api ? " (" : "");
@@ -84,12 +132,14 @@ void usda_begin(FILE *out, int indent, const char *type, const char *name, const
     fprintf(out, "%*s{\n", indent, "");
 }
 
-void usda_vector(FILE *out, const char *before, const float *v)
+/// "before(x, y, z)"
+static void usda_vector(FILE *out, const char *before, const float *v)
 {
     fprintf(out, "%s(%.9g, %.9g, %.9g)", before, (double)v[0], (double)v[1], (double)v[2]);
 }
 
-void usda_matrix(FILE *out, const double m[16])
+/// "((…), …)": rows of vectors, which USD multiplies from the left.
+static void usda_matrix(FILE *out, const double m[16])
 {
     for (int c = 0; c < 4; c++) {
         fprintf(out, "%s(%.17g, %.17g, %.17g, %.17g)", c > 0 ? ", " : "(", m[4 * c], m[4 * c + 1], m[4 * c + 2],
@@ -98,20 +148,820 @@ void usda_matrix(FILE *out, const double m[16])
     fputs(")", out);
 }
 
-// --- rigs
-
-/// Reads a rig back from the glTF file that it would be.
-static bool read_own(struct export_range *range, int rig, struct gltf *gltf, struct error *error)
+/// a · b
+static void multiply(const double a[16], const double b[16], double product[16])
 {
-    char *data = NULL;
-    size_t size = 0;
-    FILE *file = open_memstream(&data, &size);
-    bool done = file && gltf_write_rig(range, rig, file, error);
-    const bool whole = file && fclose(file) == 0;
-    if (done && whole) return gltf_read_bytes(form_name(range->posing->document->rigs[rig]), data, size, gltf, error);
-    free(data);
-    return (file && !done) ? false : fail_no_memory(error, range->path);
+    for (int i = 0; i < 16; i++) {
+        product[i] = 0;
+        for (int k = 0; k < 4; k++) product[i] += a[4 * k + i % 4] * b[i / 4 * 4 + k];
+    }
 }
+
+// --- the joints: which there are, and where they rest
+
+/// Where a node is at a key, against its parent.
+static const struct gltf_place *place_at(const struct usda_model *model, int key, int node)
+{
+    return &model->places[(size_t)key * (size_t)model->gltf->node_count + (size_t)node];
+}
+
+/// Whether half precision, with 11 bits, has the number.
+static bool is_half(float number)
+{
+    int exponent;
+    const float mantissa = 2048 * frexpf(number, &exponent);
+    return number == 0 || (exponent > -13 && exponent <= 16 && fabsf(mantissa - roundf(mantissa)) < 1e-3f);
+}
+
+static bool moves(const struct usda_model *model, int node)
+{
+    for (int k = 0; k < model->range->key_count; k++) {
+        if (memcmp(place_at(model, k, node), &model->gltf->nodes[node].place, sizeof *model->places) != 0)
+            return !model->gltf->nodes[node].has_matrix;
+    }
+    return false;
+}
+
+static bool needs_two_joints(const struct usda_model *model, int node)
+{
+    const float *scale = place_at(model, 0, node)->scale;
+    for (int k = 1; k < model->range->key_count; k++) {
+        if (memcmp(place_at(model, k, node)->scale, scale, 3 * sizeof *scale) != 0) return false;
+    }
+    return !is_half(scale[0]) || !is_half(scale[1]) || !is_half(scale[2]);
+}
+
+/// Of a joint against its parent, at rest.
+static void rest_of(const struct usda_model *model, int number, double m[16])
+{
+    const struct usda_joint *joint = &model->joints[number];
+    struct gltf_node node = model->gltf->nodes[joint->node];
+    if (joint->part == JOINT_UNSCALED) {
+        for (int k = 0; k < 3; k++) node.place.scale[k] = 1;
+    } else if (joint->part == JOINT_SCALE) {
+        node.place = (struct gltf_place){.rotation = {0, 0, 0, 1}};
+        memcpy(node.place.scale, place_at(model, 0, joint->node)->scale, sizeof node.place.scale);
+    }
+
+    // In double precision, columns first.
+    const struct gltf_place *place = &node.place;
+    const double x = (double)place->rotation[0], y = (double)place->rotation[1], z = (double)place->rotation[2],
+                 w = (double)place->rotation[3];
+    const double turned[3][3] = {{1 - 2 * (y * y + z * z), 2 * (x * y + w * z), 2 * (x * z - w * y)},
+                                 {2 * (x * y - w * z), 1 - 2 * (x * x + z * z), 2 * (y * z + w * x)},
+                                 {2 * (x * z + w * y), 2 * (y * z - w * x), 1 - 2 * (x * x + y * y)}};
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) m[4 * c + r] = (double)place->scale[c] * turned[c][r];
+        m[4 * c + 3] = 0;
+        m[12 + c] = (double)place->translation[c];
+    }
+    m[15] = 1;
+    for (int i = 0; i < 16 && node.has_matrix; i++) m[i] = (double)node.matrix[i];
+}
+
+static void add_joint(struct usda_model *model, int node, int parent, enum usda_joint_part part)
+{
+    const int j = model->joint_count++;
+    struct usda_joint *joint = &model->joints[j];
+    double local[16];
+    *joint = (struct usda_joint){
+        .node = node, .parent = parent, .part = part, .moves = part != JOINT_SCALE && moves(model, node)};
+    joint->title = form_text(&model->pool, model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "", "");
+    joint->name = usda_name(&model->joint_names, joint->title, true);
+    rest_of(model, j, parent >= 0 ? local : joint->world);
+    if (parent >= 0) multiply(model->joints[parent].world, local, joint->world);
+    model->joint_of[node] = j;
+}
+
+static void make_joints(struct usda_model *model)
+{
+    const struct gltf *gltf = model->gltf;
+    bool *needed = need_zeroed((size_t)gltf->node_count + 1, sizeof *needed);
+    // What must be a joint: those of skins, what meshes, or some of them, hang at as a whole, and what is above them.
+    for (int s = 0; s < gltf->skin_count; s++)
+        for (int j = 0; j < gltf->skins[s].joint_count; j++) needed[gltf->skins[s].joints[j]] = true;
+    for (int i = gltf->node_count - 1; i >= 0; i--) {
+        const int n = gltf->order[i], parent = gltf->nodes[n].parent;
+        const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
+        for (int p = 0; mesh && p < mesh->part_count; p++)
+            needed[n] = needed[n] || gltf->nodes[n].skin < 0 || !mesh->parts[p].joints;
+        if (parent >= 0 && needed[n]) needed[parent] = true;
+    }
+
+    for (int i = 0; i < gltf->node_count; i++) {
+        const int n = gltf->order[i], above = gltf->nodes[n].parent;
+        model->joint_of[n] = -1;
+        if (!needed[n]) continue;
+        const bool two = moves(model, n) && needs_two_joints(model, n);
+        add_joint(model, n, above >= 0 ? model->joint_of[above] : -1, two ? JOINT_UNSCALED : JOINT_WHOLE);
+        if (two) add_joint(model, n, model->joint_of[n], JOINT_SCALE);
+    }
+    free(needed);
+}
+
+// --- where it was bound
+
+/// The inverse of an affine matrix; false where it has none.
+static bool invert(const float m[16], double inverse[16])
+{
+    double a[3][3];
+    for (int i = 0; i < 9; i++) a[i / 3][i % 3] = (double)m[i / 3 * 4 + i % 3];
+    double det = 0;
+    for (int c = 0; c < 3; c++) {
+        const double *p = a[(c + 1) % 3], *q = a[(c + 2) % 3];
+        for (int r = 0; r < 3; r++)
+            inverse[4 * r + c] = p[(r + 1) % 3] * q[(r + 2) % 3] - p[(r + 2) % 3] * q[(r + 1) % 3];
+    }
+    for (int r = 0; r < 3; r++) det += a[0][r] * inverse[4 * r];
+    if (!(fabs(det) > 1e-300)) return false;
+    for (int c = 0; c < 3; c++) {
+        for (int r = 0; r < 3; r++) inverse[4 * c + r] /= det;
+        inverse[4 * c + 3] = 0;
+    }
+    for (int r = 0; r < 3; r++)
+        inverse[12 + r] =
+            -(inverse[r] * (double)m[12] + inverse[4 + r] * (double)m[13] + inverse[8 + r] * (double)m[14]);
+    inverse[15] = 1;
+    return true;
+}
+
+/// Finds the nodes of a skin among its joints.
+static void find_slots(const struct usda_model *model, int skin, bool joints)
+{
+    for (int j = skin >= 0 ? model->gltf->skins[skin].joint_count - 1 : -1; j >= 0; j--)
+        model->slot_of[model->gltf->skins[skin].joints[j]] = joints ? j : -1;
+}
+
+/// Of a joint in the character's space as a skeleton was bound to it, or at rest where the skin has no such joint.
+static void usda_bind(struct usda_model *model, int skeleton, int joint, double matrix[16])
+{
+    const struct gltf *gltf = model->gltf;
+    const int node = model->joints[joint].node, skin = skeleton < gltf->skin_count ? skeleton : -1;
+    if (skin != model->slots) {
+        find_slots(model, model->slots, false);
+        find_slots(model, skin, true);
+        model->slots = skin;
+    }
+    const int slot = model->joint_of[node] == joint ? model->slot_of[node] : -1;
+    if (slot < 0 || !invert(gltf->skins[skin].inverse_bind[slot], matrix))
+        memcpy(matrix, model->joints[joint].world, sizeof model->joints[joint].world);
+}
+
+// --- keys
+
+/// Poses the model at each key: as the scene has it, or as its clip says.
+static bool collect_keys(struct usda_model *model, struct gltf_pose *own, struct error *error)
+{
+    const struct gltf *gltf = model->gltf;
+    const size_t nodes = (size_t)gltf->node_count, weights = (size_t)gltf->weight_count;
+    for (int k = 0; k < model->range->key_count; k++) {
+        const struct gltf_pose *pose = own;
+        struct rig_pose posed;
+        struct gltf_place *at = model->places + (size_t)k * nodes;
+        if (model->is_own) {
+            gltf_pose_clip(gltf, gltf->clip_count > 0 ? 0 : -1, (float)range_seconds(model->range, k), own);
+        } else {
+            if (!range_pose(model->range, model->rig, k, &posed, error) || !range_proceed(model->range, error))
+                return false;
+            pose = posed.model.pose;
+        }
+        memcpy(at, pose->place, nodes * sizeof *at);
+        memcpy(model->weights + (size_t)k * weights, pose->weights, weights * sizeof *model->weights);
+        for (size_t n = 0; n < nodes; n++)
+            keys_turn_short_way(k > 0 ? (at + n - nodes)->rotation : gltf->nodes[n].place.rotation, at[n].rotation);
+    }
+    keys_close_loop((float *)model->places, gltf->node_count * (int)(sizeof *model->places / sizeof(float)),
+                    model->range->key_count);
+    keys_close_loop(model->weights, gltf->weight_count, model->range->key_count);
+    return true;
+}
+
+// --- the skeletons
+
+static void write_path(const struct usda_model *model, int joint)
+{
+    if (model->joints[joint].parent >= 0) {
+        write_path(model, model->joints[joint].parent);
+        fputc('/', model->out);
+    }
+    fputs(model->joints[joint].name, model->out);
+}
+
+static void write_joints(const struct usda_model *model, bool moving)
+{
+    const char *before = "";
+    fputs("            uniform token[] joints = [", model->out);
+    for (int j = 0; j < model->joint_count; j++) {
+        if (moving && !model->joints[j].moves) continue;
+        fprintf(model->out, "%s\"", before);
+        write_path(model, j);
+        fputc('"', model->out);
+        before = ", ";
+    }
+    fputs("]\n", model->out);
+}
+
+static bool is_animated(const struct usda_model *model)
+{
+    for (int j = 0; j < model->joint_count; j++) {
+        if (model->joints[j].moves) return true;
+    }
+    return model->gltf->weight_count > 0;
+}
+
+static void write_skeleton(struct usda_model *model, int skeleton)
+{
+    double m[16];
+    usda_begin(model->out, 8, "Skeleton", model->skeletons[skeleton], model->skeletons[skeleton], "SkelBindingAPI");
+    write_joints(model, false);
+    const char *before = "            uniform token[] jointNames = [";
+    bool titled = false; // the names that the file has cannot be those of joints
+    for (int j = 0; j < model->joint_count; j++) titled |= strcmp(model->joints[j].name, model->joints[j].title) != 0;
+    for (int j = 0; titled && j < model->joint_count; j++, before = ", ") {
+        fputs(before, model->out);
+        usda_string(model->out, model->joints[j].title);
+    }
+    if (titled) fputs("]\n", model->out);
+    fputs("            uniform matrix4d[] bindTransforms = [", model->out);
+    for (int j = 0; j < model->joint_count; j++) {
+        if (j > 0) fputs(", ", model->out);
+        usda_bind(model, skeleton, j, m);
+        usda_matrix(model->out, m);
+    }
+    fputs("]\n            uniform matrix4d[] restTransforms = [", model->out);
+    for (int j = 0; j < model->joint_count; j++) {
+        if (j > 0) fputs(", ", model->out);
+        rest_of(model, j, m);
+        usda_matrix(model->out, m);
+    }
+    fputs("]\n", model->out);
+    if (is_animated(model))
+        fprintf(model->out, "            rel skel:animationSource = </scene/%s/animation>\n", model->name);
+    fputs("        }\n\n", model->out);
+}
+
+// --- what moves them
+
+enum usda_samples { TRANSLATIONS, ROTATIONS, SCALES, WEIGHTS };
+
+/// A key for all joints that move, or for the weights; of places that never change one.
+static void write_samples(const struct usda_model *model, const char *declaration, enum usda_samples samples)
+{
+    static const struct {
+        size_t at, size;
+    } members[] = {[TRANSLATIONS] = {offsetof(struct gltf_place, translation), 3 * sizeof(float)},
+                   [ROTATIONS] = {offsetof(struct gltf_place, rotation), 4 * sizeof(float)},
+                   [SCALES] = {offsetof(struct gltf_place, scale), 3 * sizeof(float)}};
+    static const float one[3] = {1, 1, 1};
+    const int weights = model->gltf->weight_count, nodes = model->gltf->node_count, keys = model->range->key_count;
+    bool changes = samples == WEIGHTS;
+    for (int k = 1; k < keys && !changes; k++) {
+        for (int n = 0; n < nodes && !changes; n++) {
+            const char *first = (const char *)place_at(model, 0, n), *now = (const char *)place_at(model, k, n);
+            changes = memcmp(first + members[samples].at, now + members[samples].at, members[samples].size) != 0;
+        }
+    }
+    fprintf(model->out, "            %s.timeSamples = {\n", declaration);
+    for (int k = 0; k < (changes ? keys : 1); k++) {
+        const char *before = "[";
+        fprintf(model->out, "                %.9g: ", range_frame(model->range, k));
+        for (int j = 0; samples != WEIGHTS && j < model->joint_count; j++) {
+            const struct usda_joint *joint = &model->joints[j];
+            const struct gltf_place *place = place_at(model, k, joint->node);
+            const float *q = place->rotation;
+            if (!joint->moves) continue;
+            if (samples == ROTATIONS) {
+                fprintf(model->out, "%s(%.9g, %.9g, %.9g, %.9g)", before, (double)q[3], (double)q[0], (double)q[1],
+                        (double)q[2]);
+            } else {
+                usda_vector(model->out, before,
+                            samples == TRANSLATIONS         ? place->translation
+                            : joint->part == JOINT_UNSCALED ? one
+                                                            : place->scale);
+            }
+            before = ", ";
+        }
+        for (int i = 0; samples == WEIGHTS && i < weights; i++)
+            fprintf(model->out, "%s%.9g", i > 0 ? ", " : "[",
+                    (double)model->weights[(size_t)k * (size_t)weights + (size_t)i]);
+        fputs("],\n", model->out);
+    }
+    fputs("            }\n", model->out);
+}
+
+static void write_animation(const struct usda_model *model)
+{
+    bool any = false;
+    for (int j = 0; j < model->joint_count; j++) any = any || model->joints[j].moves;
+    fputs("        def SkelAnimation \"animation\"\n        {\n", model->out);
+    if (any) {
+        write_joints(model, true);
+        write_samples(model, "float3[] translations", TRANSLATIONS);
+        write_samples(model, "quatf[] rotations", ROTATIONS);
+        write_samples(model, "half3[] scales", SCALES);
+    }
+    if (model->gltf->weight_count > 0) {
+        fputs("            uniform token[] blendShapes = [", model->out);
+        for (int i = 0; i < model->gltf->weight_count; i++) {
+            if (i > 0) fputs(", ", model->out);
+            usda_string(model->out, model->shapes[i].token);
+        }
+        fputs("]\n", model->out);
+        write_samples(model, "float[] blendShapeWeights", WEIGHTS);
+    }
+    fputs("        }\n\n", model->out);
+}
+
+// --- materials
+
+/// A material being written; `file` is that of its texture, or empty.
+struct usda_look {
+    const struct usda_model *model;
+    const struct gltf_material *material;
+    const char *name, *file;
+    bool is_plain; ///< no vertex of it has a colour of its own
+};
+
+/// Writes a picture's file, into a folder called as the .usda: "walk.usda" → "walk_textures". False with a sentence.
+static bool write_picture(const struct usda_model *model, const char *stem, const struct gltf_image *image,
+                          char file[PATH_LIMIT], struct error *error)
+{
+    const char *path = model->range->path, *dot = strrchr(path, '.');
+    char name[80], folder[PATH_LIMIT];
+    struct names none = usda_names();
+    snprintf(name, sizeof name, "%s_%d.%s", usda_name(&none, stem, false), model->range->sidecars.count,
+             image->bytes[0] == 0xFF ? "jpg" : "png");
+    names_free(&none);
+    char *stem_name = name_from(path_name(path), dot ? (size_t)(dot - path_name(path)) : strlen(path_name(path)));
+    snprintf(folder, PATH_LIMIT, "%.*s%s_textures", (int)(path_name(path) - path), path, stem_name);
+    free(stem_name);
+    if (snprintf(file, PATH_LIMIT, "./%s/%s", path_name(folder), name) >= PATH_LIMIT)
+        return fail(error, ERROR_INPUT, "%s: the path is too long", folder);
+    return sidecars_add(&model->range->sidecars, folder, name, image->bytes, image->size, error);
+}
+
+static void begin_shader(FILE *out, const char *name, const char *id)
+{
+    fprintf(out, "\n                def Shader \"%s\"\n                {\n", name);
+    fprintf(out, "                    uniform token info:id = \"%s\"\n", id);
+}
+
+/// "name.connect = </…>", to an output of another shader of the material.
+static void connect(const struct usda_look *look, const char *name, const char *output)
+{
+    fprintf(look->model->out, "                    %s.connect = </scene/%s/materials/%s/%s>\n", name,
+            look->model->name, look->name, output);
+}
+
+static const char *wrap_of(int wrap)
+{
+    return wrap == GLTF_CLAMPED ? "clamp" : wrap == GLTF_MIRRORED ? "mirror" : "repeat";
+}
+
+static void write_material(const struct usda_look *look)
+{
+    FILE *out = look->model->out;
+    const struct gltf_material *m = look->material;
+    const float *c = m->color;
+    usda_begin(out, 12, "Material", look->name, m->name, NULL);
+    fprintf(out, "                token outputs:surface.connect = </scene/%s/materials/%s/surface.outputs:surface>\n",
+            look->model->name, look->name);
+    begin_shader(out, "surface", "UsdPreviewSurface");
+    if (look->is_plain && !look->file[0]) {
+        usda_vector(out, "                    color3f inputs:diffuseColor = ", c);
+        fputc('\n', out);
+    } else {
+        connect(look, "color3f inputs:diffuseColor", look->file[0] ? "texture.outputs:rgb" : "color.outputs:result");
+    }
+    if ((m->blended || m->cutoff > 0) && look->file[0]) {
+        connect(look, "float inputs:opacity", "texture.outputs:a");
+    } else if (m->blended) {
+        fprintf(out, "                    float inputs:opacity = %.9g\n", (double)c[3]);
+    }
+    if (m->cutoff > 0) fprintf(out, "                    float inputs:opacityThreshold = %.9g\n", (double)m->cutoff);
+    if (m->shines) {
+        fprintf(out, "                    float inputs:metallic = %.9g\n", m->metallic);
+        fprintf(out, "                    float inputs:roughness = %.9g\n", m->roughness);
+    }
+    fputs("                    token outputs:surface\n                }\n", out);
+
+    if (look->file[0]) {
+        const char *quote = strchr(look->file, '@') ? "@@@" : "@";
+        begin_shader(out, "texture", "UsdUVTexture");
+        fprintf(out, "                    asset inputs:file = %s%s%s\n", quote, look->file, quote);
+        fprintf(out, "                    float4 inputs:scale = (%.9g, %.9g, %.9g, %.9g)\n", (double)c[0],
+                (double)c[1], (double)c[2], (double)c[3]);
+        fputs("                    token inputs:sourceColorSpace = \"sRGB\"\n", out);
+        connect(look, "float2 inputs:st", "st.outputs:result");
+        fprintf(out, "                    token inputs:wrapS = \"%s\"\n", wrap_of(m->sampler.wrap[0]));
+        fprintf(out, "                    token inputs:wrapT = \"%s\"\n", wrap_of(m->sampler.wrap[1]));
+        fputs("                    float outputs:a\n                    float3 outputs:rgb\n                }\n",
+              out);
+        begin_shader(out, "st", "UsdPrimvarReader_float2");
+        fputs("                    string inputs:varname = \"st\"\n", out);
+        fputs("                    float2 outputs:result\n                }\n", out);
+    } else if (!look->is_plain) { // colours by vertex hold the material's own
+        begin_shader(out, "color", "UsdPrimvarReader_float3");
+        fputs("                    string inputs:varname = \"displayColor\"\n", out);
+        fputs("                    float3 outputs:result\n                }\n", out);
+    }
+    fputs("            }\n\n", out);
+}
+
+/// Names all materials and writes them, and their textures' files.
+static bool write_materials(struct usda_model *model, struct error *error)
+{
+    const struct gltf *gltf = model->gltf;
+    char(*files)[PATH_LIMIT] = need_zeroed((size_t)gltf->image_count + 1, sizeof *files); // a picture is written once
+    bool *colored =
+        need_zeroed((size_t)gltf->material_count + 1, sizeof *colored); // its vertices have colours of their own
+    bool done = true;
+    for (int m = 0; m < gltf->mesh_count; m++) {
+        for (int p = 0; p < gltf->meshes[m].part_count; p++) {
+            const struct gltf_part *part = &gltf->meshes[m].parts[p];
+            bool *is_colored = part->material >= 0 && part->color ? &colored[part->material] : NULL;
+            for (int i = 0; is_colored && !*is_colored && i < part->vertex_count; i++) {
+                const float *c = part->color[i];
+                *is_colored = c[0] != 1 || c[1] != 1 || c[2] != 1;
+            }
+        }
+    }
+    fputs("        def Scope \"materials\"\n        {\n", model->out);
+    for (int m = 0; done && m < gltf->material_count; m++) {
+        model->materials[m] = usda_name(&model->material_prims, gltf->materials[m].name, false);
+        struct usda_look look = {model, &gltf->materials[m], model->materials[m], "", !colored[m]};
+        const int number = look.material->image; // −1: none, or it could not be shown
+        const struct gltf_image *image = number >= 0 ? &gltf->images[number] : NULL;
+        if (image) look.file = files[number];
+        if (image && !look.file[0])
+            done = write_picture(model, image->name ? image->name : look.name, image, files[number], error);
+        if (done) write_material(&look);
+    }
+    fputs("        }\n", model->out);
+    free(colored);
+    free(files);
+    return done;
+}
+
+// --- meshes, bound to skeletons: vertices are in the order of the .pc2
+
+/// Parts of a node's mesh, one after the other, that are a prim: all of them, unless some have a skin or normals and some have not.
+struct run {
+    struct usda_model *model;
+    int node;
+    const struct gltf_part *parts;
+    int count;
+    int owner; ///< the first part whose vertices others share, which leave theirs out; −1: none, as in an imported character's .pc2
+    int influences; ///< joints a vertex; 0: all hangs at the node's own
+    const char *name;
+};
+
+static bool has_skin(const struct usda_model *model, int node, const struct gltf_part *part)
+{
+    return model->gltf->nodes[node].skin >= 0 && part->joints;
+}
+
+static int skeleton_of(const struct run *run)
+{
+    const int skin = run->model->gltf->nodes[run->node].skin;
+    return skin >= 0 ? skin : 0;
+}
+
+/// Whether a part's vertices are written with another's: where texture coordinates differ they are not.
+static bool is_left_out(const struct run *run, int p)
+{
+    const struct gltf_part *part = &run->parts[p];
+    const struct gltf_part *owner = run->owner >= 0 && p != run->owner ? &run->parts[run->owner] : NULL;
+    return owner && part->position == owner->position && part->uv == owner->uv;
+}
+
+/// The vertex of the prim that a part's first one is; `next` counts them.
+static int first_vertex(const struct run *run, int p, int *owner, int *next)
+{
+    if (is_left_out(run, p)) return *owner;
+    const int first = *next;
+    if (p == run->owner) *owner = first;
+    *next += run->parts[p].vertex_count;
+    return first;
+}
+
+// --- arrays by vertex
+
+enum usda_array { POINTS, NORMALS, UVS, JOINT_INDICES, JOINT_WEIGHTS };
+
+/// Marks an array as one per vertex, with `each` elements for each; 0: one.
+static void end_by_vertex(FILE *out, int each)
+{
+    fputs(" (\n", out);
+    if (each > 0) fprintf(out, "                elementSize = %d\n", each);
+    fputs("                interpolation = \"vertex\"\n            )\n", out);
+}
+
+static void write_vertices(const struct run *run, const char *declaration, enum usda_array array)
+{
+    const struct usda_model *model = run->model;
+    FILE *out = model->out;
+    const char *before = "";
+    fprintf(out, "            %s = [", declaration);
+    for (int p = 0; p < run->count; p++) {
+        const struct gltf_part *part = &run->parts[p];
+        for (int v = 0; v < part->vertex_count && !is_left_out(run, p); v++) {
+            const float *uv = array == UVS && part->uv ? part->uv[v] : (const float[]){0, 0};
+            if (array == POINTS) usda_vector(out, before, part->position[v]);
+            if (array == NORMALS) usda_vector(out, before, part->normal[v]);
+            if (array == UVS) fprintf(out, "%s(%.9g, %.9g)", before, (double)uv[0], 1 - (double)uv[1]); // upwards
+            for (int i = 0; array >= JOINT_INDICES && i < run->influences; i++) {
+                const float weight = part->weights[v][i];
+                const int slot = weight != 0 ? part->joints[v][i] : 0;
+                fputs(i > 0 ? ", " : before, out);
+                if (array == JOINT_WEIGHTS) {
+                    fprintf(out, "%.9g", (double)weight);
+                } else {
+                    fprintf(out, "%d", model->joint_of[model->gltf->skins[skeleton_of(run)].joints[slot]]);
+                }
+            }
+            before = ", ";
+        }
+    }
+    fputs("]", out);
+    if (array == POINTS) {
+        fputc('\n', out);
+    } else {
+        end_by_vertex(out, array >= JOINT_INDICES ? run->influences : 0);
+    }
+}
+
+/// The material's colour times the vertex's: where two materials meet, that of the later triangle.
+static void write_colors(const struct run *run)
+{
+    int count = 0, owner = 0, next = 0;
+    for (int p = 0; p < run->count; p++) first_vertex(run, p, &owner, &count);
+    float(*tint)[3] = need(((size_t)count + 1), sizeof *tint);
+    for (int i = 0; i < 3 * count; i++) tint[i / 3][i % 3] = 1;
+    for (int p = 0; p < run->count; p++) {
+        const struct gltf_part *part = &run->parts[p];
+        const int first = first_vertex(run, p, &owner, &next);
+        for (int i = 0; i < part->index_count; i++) {
+            const uint32_t v = part->indices[i];
+            for (int k = 0; k < 3; k++)
+                tint[first + (int)v][k] =
+                    (part->color ? part->color[v][k] : 1) *
+                    (part->material >= 0 ? run->model->gltf->materials[part->material].color[k] : 1);
+        }
+    }
+    fputs("            color3f[] primvars:displayColor = [", run->model->out);
+    for (int i = 0; i < count; i++) usda_vector(run->model->out, i > 0 ? ", " : "", tint[i]);
+    fputs("]", run->model->out);
+    end_by_vertex(run->model->out, 0);
+    free(tint);
+}
+
+/// The index behind the polygon that begins at index `i`.
+static int polygon_end(const struct gltf_part *part, int i)
+{
+    for (i += 3; i < part->index_count && gltf_joins(part, i);) i += 3;
+    return i;
+}
+
+// --- blend shapes
+
+/// How far a target takes the vertices, or turns the normals, of all parts.
+static void write_offsets(const struct run *run, int target, bool normals)
+{
+    static const float still[3] = {0};
+    FILE *out = run->model->out;
+    const char *before = "";
+    fprintf(out, "                uniform vector3f[] %s = [", normals ? "normalOffsets" : "offsets");
+    for (int p = 0; p < run->count; p++) {
+        const struct gltf_target *of = &run->parts[p].targets[target];
+        const float(*by)[3] = normals ? of->normal : of->position;
+        for (int i = 0; i < run->parts[p].vertex_count && !is_left_out(run, p); i++) {
+            usda_vector(out, before, by ? by[i] : still);
+            before = ", ";
+        }
+    }
+    fputs("]\n", out);
+}
+
+static void write_shapes(const struct run *run)
+{
+    const struct usda_model *model = run->model;
+    const struct gltf_node *node = &model->gltf->nodes[run->node];
+    const struct usda_shape *shapes = model->shapes + node->first_weight;
+    const int count = model->gltf->meshes[node->mesh].target_count;
+    if (count == 0) return;
+    fputs("            uniform token[] skel:blendShapes = [", model->out);
+    for (int t = 0; t < count; t++) {
+        if (t > 0) fputs(", ", model->out);
+        usda_string(model->out, shapes[t].token);
+    }
+    fputs("]\n            rel skel:blendShapeTargets = [", model->out);
+    for (int t = 0; t < count; t++)
+        fprintf(model->out, "%s</scene/%s/%s/%s>", t > 0 ? ", " : "", model->name, run->name, shapes[t].prim);
+    fputs("]\n", model->out);
+    for (int t = 0; t < count; t++) {
+        fputc('\n', model->out);
+        const char *title = gltf_target_name(&model->gltf->meshes[node->mesh], t);
+        usda_begin(model->out, 12, "BlendShape", shapes[t].prim, title ? title : shapes[t].token, NULL);
+        write_offsets(run, t, false);
+        if (run->parts->normal) write_offsets(run, t, true);
+        fputs("            }\n", model->out);
+    }
+}
+
+// --- all of a mesh
+
+static void write_run(const struct run *run)
+{
+    const struct usda_model *model = run->model;
+    FILE *out = model->out;
+    const char *before = "";
+    bool double_sided = false, has_uv = false;
+    int owner = 0, next = 0, face = 0;
+    for (int p = 0; p < run->count; p++) {
+        const int material = run->parts[p].material;
+        double_sided = double_sided || (material >= 0 && model->gltf->materials[material].double_sided);
+        has_uv = has_uv || run->parts[p].uv;
+    }
+    fputc('\n', out);
+    usda_begin(out, 8, "Mesh", run->name, model->gltf->nodes[run->node].name, "SkelBindingAPI");
+    if (double_sided) fputs("            uniform bool doubleSided = 1\n", out);
+    write_vertices(run, "point3f[] points", POINTS);
+    if (run->parts->normal) write_vertices(run, "normal3f[] normals", NORMALS);
+    write_colors(run);
+    if (has_uv) write_vertices(run, "texCoord2f[] primvars:st", UVS);
+
+    fputs("            int[] faceVertexCounts = [", out);
+    for (int p = 0; p < run->count; p++) {
+        for (int i = 0, end; i < run->parts[p].index_count; i = end, before = ", ") {
+            end = polygon_end(&run->parts[p], i);
+            fprintf(out, "%s%d", before, (end - i) / 3 + 2);
+        }
+    }
+    before = "";
+    fputs("]\n            int[] faceVertexIndices = [", out);
+    for (int p = 0; p < run->count; p++) {
+        const struct gltf_part *part = &run->parts[p];
+        const uint32_t first = (uint32_t)first_vertex(run, p, &owner, &next);
+        for (int i = 0; i < part->index_count; i++) {
+            if (i % 3 < 2 && gltf_joins(part, i - i % 3)) continue;
+            fprintf(out, "%s%u", before, first + part->indices[i]);
+            before = ", ";
+        }
+    }
+    fputs("]\n            uniform token subdivisionScheme = \"none\"\n", out);
+
+    if (run->influences > 0) {
+        write_vertices(run, "int[] primvars:skel:jointIndices", JOINT_INDICES);
+        write_vertices(run, "float[] primvars:skel:jointWeights", JOINT_WEIGHTS);
+    } else { // bound to the node's own joint
+        const int joint = model->joint_of[run->node];
+        double bind[16];
+        usda_bind(run->model, skeleton_of(run), joint, bind);
+        fprintf(out, "            int[] primvars:skel:jointIndices = [%d] (\n                elementSize = 1\n",
+                joint);
+        fputs("                interpolation = \"constant\"\n            )\n", out);
+        fputs("            float[] primvars:skel:jointWeights = [1] (\n                elementSize = 1\n", out);
+        fputs("                interpolation = \"constant\"\n            )\n", out);
+        fputs("            matrix4d primvars:skel:geomBindTransform = ", out);
+        usda_matrix(out, bind);
+        fputc('\n', out);
+    }
+    fprintf(out, "            rel skel:skeleton = </scene/%s/%s>\n", model->name, model->skeletons[skeleton_of(run)]);
+    write_shapes(run);
+
+    fputs("            uniform token subsetFamily:materialBind:familyType = \"nonOverlapping\"\n", out);
+    for (int p = 0; p < run->count; p++) {
+        const struct gltf_part *part = &run->parts[p];
+        fprintf(out, "\n            def GeomSubset \"part_%d\" (\n", p + 1);
+        fputs("                prepend apiSchemas = [\"MaterialBindingAPI\"]\n            )\n            {\n", out);
+        fputs("                uniform token elementType = \"face\"\n", out);
+        fputs("                uniform token familyName = \"materialBind\"\n                int[] indices = [", out);
+        for (int i = 0; i < part->index_count; i = polygon_end(part, i))
+            fprintf(out, "%s%d", i > 0 ? ", " : "", face++);
+        fputs("]\n", out);
+        if (part->material >= 0)
+            fprintf(out, "                rel material:binding = </scene/%s/materials/%s>\n", model->name,
+                    model->materials[part->material]);
+        fputs("            }\n", out);
+    }
+    fputs("        }\n", out);
+}
+
+/// The joints that a vertex has at most; where a part has no skin, all of the run's have none.
+static int count_influences(const struct run *run)
+{
+    int most = 0;
+    if (!has_skin(run->model, run->node, run->parts)) return 0;
+    for (int p = 0; p < run->count; p++) {
+        for (int i = 0; i < run->parts[p].vertex_count; i++) {
+            for (int k = most; k < GLTF_INFLUENCES; k++) {
+                if (run->parts[p].weights[i][k] != 0) most = k + 1;
+            }
+        }
+    }
+    return most > 0 ? most : 1;
+}
+
+/// Writes the meshes of all nodes.
+static void write_meshes(struct usda_model *model)
+{
+    const struct gltf *gltf = model->gltf;
+    for (int n = 0; n < gltf->node_count; n++) {
+        const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
+        for (int p = 0, end; mesh && p < mesh->part_count; p = end) {
+            struct run run = {.model = model, .node = n, .parts = mesh->parts + p, .owner = -1};
+            const bool skinned = has_skin(model, n, run.parts), is_flat = !run.parts->normal;
+            for (end = p; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned &&
+                          !mesh->parts[end].normal == is_flat;
+                 end++) {
+                if (model->is_own && run.owner < 0 && mesh->parts[end].position == mesh->parts->position)
+                    run.owner = end - p;
+            }
+            run.count = end - p;
+            run.influences = count_influences(&run);
+            run.name = usda_name(&model->prims, gltf->nodes[n].name, false);
+            write_run(&run);
+        }
+    }
+}
+
+// --- all of it
+
+/// Writes the prim of a rig. False with a sentence. All of the model but what it is made of is zero.
+static bool usda_model_write(struct usda_model *model, struct error *error)
+{
+    const struct gltf *gltf = model->gltf;
+    const size_t keys = (size_t)model->range->key_count, nodes = (size_t)gltf->node_count,
+                 weights = (size_t)gltf->weight_count;
+    const int skeletons = gltf->skin_count > 1 ? gltf->skin_count : 1;
+    struct gltf_pose pose = {0};
+    struct pool *pool = &model->pool;
+    struct names *const sets[] = {&model->prims, &model->joint_names, &model->shape_tokens, &model->shape_prims,
+                                  &model->material_prims};
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) *sets[i] = usda_names();
+    const bool room = need_has_room(keys * (nodes * sizeof *model->places + weights * sizeof *model->weights));
+    if (room) {
+        model->places = pool_take(pool, keys * nodes, sizeof *model->places);
+        model->weights = pool_take(pool, keys * weights, sizeof *model->weights);
+        model->shapes = pool_take(pool, weights, sizeof *model->shapes);
+        model->joints = pool_take(pool, 2 * nodes, sizeof *model->joints);
+        model->joint_of = pool_take(pool, nodes, sizeof *model->joint_of);
+        model->slot_of = pool_take(pool, nodes, sizeof *model->slot_of);
+        model->materials = pool_take(pool, (size_t)gltf->material_count, sizeof *model->materials);
+        model->skeletons = pool_take(pool, (size_t)gltf->skin_count + 1, sizeof *model->skeletons);
+        for (size_t n = 0; n < nodes; n++) model->slot_of[n] = -1;
+        model->slots = -1;
+    }
+    bool done = (room && gltf_pose_create(gltf, &pose)) || fail_no_memory(error, gltf->path);
+    done = done && collect_keys(model, &pose, error);
+    if (done) make_joints(model);
+
+    // Targets are called as in the file (a custom of many exporters), else by number; those of all nodes together differ.
+    for (int n = 0; done && n < gltf->node_count; n++) {
+        const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
+        for (int t = 0; mesh && t < mesh->target_count; t++) {
+            char numbered[32];
+            const char *name = gltf_target_name(mesh, t);
+            snprintf(numbered, sizeof numbered, "target_%d", t);
+            struct usda_shape *shape = &model->shapes[gltf->nodes[n].first_weight + t];
+            shape->token = names_add(&model->shape_tokens, name ? name : numbered);
+            shape->prim = usda_name(&model->shape_prims, shape->token, false);
+        }
+    }
+
+    struct rig_pose posed;
+    if (done) {
+        fputc('\n', model->out);
+        usda_begin(model->out, 4, "SkelRoot", model->name,
+                   form_name(model->range->posing->document->rigs[model->rig]), NULL);
+        done = range_pose(model->range, model->rig, 0, &posed, error);
+    }
+    const float *root = done ? range_root(model->range, model->rig, &posed) : NULL;
+    if (root) { // where it stands, which does not move
+        double matrix[16];
+        for (int i = 0; i < 16; i++) matrix[i] = (double)root[i];
+        fputs("        matrix4d xformOp:transform = ", model->out);
+        usda_matrix(model->out, matrix);
+        fputs("\n        uniform token[] xformOpOrder = [\"xformOp:transform\"]\n\n", model->out);
+    }
+    if (done) {
+        for (int s = 0; s < skeletons; s++) model->skeletons[s] = usda_name(&model->prims, "skeleton", false);
+        usda_name(&model->prims, "animation", false);
+        usda_name(&model->prims, "materials", false);
+        for (int s = 0; s < skeletons; s++) write_skeleton(model, s);
+        if (is_animated(model)) write_animation(model);
+        done = write_materials(model, error);
+        if (done) write_meshes(model);
+    }
+    fputs("    }\n", model->out);
+    gltf_pose_free(&pose);
+    for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) names_free(sets[i]);
+    pool_free(pool);
+    return done;
+}
+
+// --- rigs
 
 static bool write_rig(struct export_range *range, int rig, const char *name, FILE *out, struct error *error)
 {
@@ -121,21 +971,22 @@ static bool write_rig(struct export_range *range, int rig, const char *name, FIL
     struct gltf gltf = {0};
     model.is_own = !(form_kind(source->kind)->holds & FORM_FILE);
     if (!model.is_own && !range_pose(range, rig, 0, &pose, error)) return false;
-    if (model.is_own && !read_own(range, rig, &gltf, error)) return false;
+    if (model.is_own) { // read back from the glTF file that it would be
+        char *data = NULL;
+        size_t size = 0;
+        FILE *file = open_memstream(&data, &size);
+        const bool made = file && gltf_write_rig(range, rig, file, error);
+        const bool whole = file && fclose(file) == 0;
+        if (!made || !whole) {
+            free(data);
+            return file && !made ? false : fail_no_memory(error, range->path);
+        }
+        if (!gltf_read_bytes(form_name(source), data, size, &gltf, error)) return false;
+    }
     model.gltf = model.is_own ? &gltf : &pose.model.imported->gltf;
     const bool done = usda_model_write(&model, error);
     gltf_free(&gltf);
     return done;
-}
-
-static void summarise(struct export_range *range)
-{
-    const int used = snprintf(range->summary, FORMAT_SUMMARY, "%d rig%s, %d keys", range->rig_count,
-                              range->rig_count == 1 ? "" : "s", range->key_count);
-    if (range->sidecars.count == 0) return;
-    const char *folder = path_name(range->sidecars.folder);
-    snprintf(range->summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.*s", range->sidecars.count,
-             range->sidecars.count == 1 ? "" : "s", name_fit(folder, 40), folder);
 }
 
 bool usda_write(struct export_range *range, FILE *out, struct error *error)
@@ -152,6 +1003,11 @@ bool usda_write(struct export_range *range, FILE *out, struct error *error)
     }
     fputs("}\n", out);
     names_free(&names);
-    summarise(range);
+    const int used = snprintf(range->summary, FORMAT_SUMMARY, "%d rig%s, %d keys", range->rig_count,
+                              range->rig_count == 1 ? "" : "s", range->key_count);
+    if (range->sidecars.count == 0) return done;
+    const char *folder = path_name(range->sidecars.folder);
+    snprintf(range->summary + used, FORMAT_SUMMARY - (size_t)used, ", %d texture%s in %.*s", range->sidecars.count,
+             range->sidecars.count == 1 ? "" : "s", name_fit(folder, 40), folder);
     return done;
 }
