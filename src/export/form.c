@@ -342,15 +342,6 @@ static bool skeleton_open(const struct posing *posing, int rig, const struct rig
            fail(error, ERROR_INPUT, "\"%s\" has no bones", rig_title(posing->document->rigs[rig]));
 }
 
-/// How a bone is turned from its rest, in the character's space.
-static versors turn_of(const struct imported *imported, const struct gltf_pose *pose, int node)
-{
-    const mat4s rest = mat4_from(imported->rest.world[node]), now = mat4_from(pose->world[node]);
-    mat3s turned = glms_mat3_mul(glms_mat4_pick3(now), mat3_inverse(glms_mat4_pick3(rest)));
-    for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
-    return glms_quat_normalize(glms_mat3_quat(turned)); // uneven scales shear it
-}
-
 static void skeleton_key(const struct form *form, const struct rig_pose *pose, struct form_key *key)
 {
     const struct source *source = form->owned;
@@ -359,7 +350,13 @@ static void skeleton_key(const struct form *form, const struct rig_pose *pose, s
     for (int j = ORIGIN; j < form->joint_count; j++) {
         const int parent = j == ORIGIN ? ORIGIN : form->joints[j].parent;
         const versors back = glms_quat_inv(source->turn[parent]);
-        if (j != ORIGIN) source->turn[j] = turn_of(source->imported, now, source->node[j]);
+        if (j != ORIGIN) { // how it is turned from its rest, in the character's space
+            const int node = source->node[j];
+            const mat3s rest = glms_mat4_pick3(mat4_from(source->imported->rest.world[node]));
+            mat3s turned = glms_mat3_mul(glms_mat4_pick3(mat4_from(now->world[node])), mat3_inverse(rest));
+            for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
+            source->turn[j] = glms_quat_normalize(glms_mat3_quat(turned)); // uneven scales shear it
+        }
         const versors own = glms_quat_mul(back, source->turn[j]);
         const vec3s place = place_of(source, now, j);
         const vec3s offset = glms_quat_rotatev(back, glms_vec3_sub(place, place_of(source, now, parent)));
@@ -477,36 +474,26 @@ void keys_close_loop(float *rows, int width, int count)
     memmove(last, rows, (size_t)width * sizeof *rows);
 }
 
-/// slope = Σ factor · row(key + offset) / seconds
-struct difference {
-    double offset[3], factor[3];
-};
-
-/// Central; one-sided at the ends of the document.
-static struct difference choose_difference(const struct export_range *range, double key, bool loops)
-{
-    if (!loops && !range_is_inside(range, key - STEP))
-        return (struct difference){{0, STEP, 2 * STEP}, {-1.5, 2, -0.5}};
-    if (!loops && !range_is_inside(range, key + STEP))
-        return (struct difference){{0, -STEP, -2 * STEP}, {1.5, -2, 0.5}};
-    return (struct difference){{-STEP, 0, STEP}, {-0.5, 0, 0.5}};
-}
-
-/// `scratch` holds one row.
+/// slope = Σ factor · row(key + offset) / seconds: central; one-sided at the ends of the document. `scratch` holds one row.
 static bool add_slopes(const struct sampler *from, struct keys *keys, float *scratch, struct error *error)
 {
     const size_t width = (size_t)keys->width;
     const double seconds = range_seconds(from->range, STEP);
+    static const double ahead[3] = {0, STEP, 2 * STEP}, of_ahead[3] = {-1.5, 2, -0.5};
+    static const double behind[3] = {0, -STEP, -2 * STEP}, of_behind[3] = {1.5, -2, 0.5};
+    static const double around[3] = {-STEP, 0, STEP}, of_around[3] = {-0.5, 0, 0.5};
     const bool loops = memcmp(keys->rows, keys_at(keys, keys->count - 1, 0), width * sizeof *keys->rows) == 0;
     for (int k = 0; k < keys->count; k++) {
-        const struct difference difference = choose_difference(from->range, k, loops);
+        const bool begins = !loops && !range_is_inside(from->range, k - STEP);
+        const bool ends = !loops && !begins && !range_is_inside(from->range, k + STEP);
+        const double *offset = begins ? ahead : ends ? behind : around;
+        const double *factor = begins ? of_ahead : ends ? of_behind : of_around;
         float *slope = keys->slopes + (size_t)k * width;
         for (int d = 0; d < 3; d++) {
-            if (difference.factor[d] == 0) continue;
-            if (!sample(from, keys, k + difference.offset[d], scratch, error)) return false;
+            if (factor[d] == 0) continue;
+            if (!sample(from, keys, k + offset[d], scratch, error)) return false;
             turn_short_way(keys, keys_at(keys, k, 0), scratch);
-            for (size_t i = 0; i < width; i++)
-                slope[i] += (float)(difference.factor[d] / seconds * (double)scratch[i]);
+            for (size_t i = 0; i < width; i++) slope[i] += (float)(factor[d] / seconds * (double)scratch[i]);
         }
     }
     return true;

@@ -21,16 +21,6 @@ struct file_targets {
     bool clamped; ///< weights are 0 … 1
 };
 
-/// "up.re" → "up.-re", "smile" → "-smile"
-static const char *negative(struct pool *pool, const char *name)
-{
-    const char *dot = strrchr(name, '.');
-    const size_t before = dot ? (size_t)(dot - name) + 1 : 0;
-    char *start = form_text(pool, name, "", "");
-    start[before] = '\0';
-    return form_text(pool, start, "-", name + before);
-}
-
 static void make_targets(struct form *form, const struct keys *keys, bool clamped, struct file_targets *targets)
 {
     const int count = form->target_count;
@@ -49,10 +39,13 @@ static void make_targets(struct form *form, const struct keys *keys, bool clampe
     for (int t = 0; clamped && t < count; t++) {
         int k = 0;
         while (k < keys->count && !(*keys_at(keys, k, keys_weight(keys, t)) < 0)) k++;
-        if (k == keys->count) continue; // it is never negative
-        struct file_target *target = &targets->list[targets->count++];
-        *target = (struct file_target){
-            .source = t, .scale = -targets->list[t].scale, .name = negative(&form->pool, targets->list[t].name)};
+        if (k == keys->count) continue;                    // it is never negative
+        const struct file_target *own = &targets->list[t]; // "up.re" → "up.-re", "smile" → "-smile"
+        const char *dot = strrchr(own->name, '.'), *behind = dot ? dot + 1 : own->name;
+        char *start = form_text(&form->pool, own->name, "", "");
+        start[behind - own->name] = '\0';
+        targets->list[targets->count++] = (struct file_target){
+            .source = t, .scale = -own->scale, .name = form_text(&form->pool, start, "-", behind)};
     }
 }
 

@@ -515,18 +515,6 @@ static bool check_place(const struct export_range *range, const struct glb *sour
                 source->path);
 }
 
-/// Takes the bytes that new ones follow: those of a .glb's chunk, if that is its first buffer; none of a .gltf; else all there are.
-static bool take_bytes(const struct export_range *range, struct original *o, struct error *error)
-{
-    const json_t *buffers = json_object_get(o->source.json, "buffers"), *first = json_array_get(buffers, 0);
-    const bool has_chunk = o->source.chunk.at && first && !json_object_get(first, "uri");
-    gltf_file_continue(&o->file, o->source.json);
-    if (!o->is_same || (range->format->is_binary && !has_chunk)) return gather(o, error);
-    if (has_chunk) gltf_file_append(&o->file, o->source.chunk.at, o->source.chunk.size);
-    if (!has_chunk) o->file.buffer = (json_int_t)json_array_size(buffers);
-    return check_place(range, &o->source, error);
-}
-
 // --- the clips
 
 /// Adds what the chains make of another clip of the file.
@@ -604,7 +592,17 @@ static bool write_file(struct export_range *range, struct form *form, FILE *out,
         if (done) fwrite(data, 1, size, out);
         free(data);
     } else {
-        done = take_bytes(range, &o, error);
+        // The bytes that new ones follow: those of a .glb's chunk, if that is its first buffer; none of a .gltf; else all there are.
+        const json_t *buffers = json_object_get(o.source.json, "buffers"), *first = json_array_get(buffers, 0);
+        const bool has_chunk = o.source.chunk.at && first && !json_object_get(first, "uri");
+        gltf_file_continue(&o.file, o.source.json);
+        if (!o.is_same || (binary && !has_chunk)) {
+            done = gather(&o, error);
+        } else {
+            if (has_chunk) gltf_file_append(&o.file, o.source.chunk.at, o.source.chunk.size);
+            if (!has_chunk) o.file.buffer = (json_int_t)json_array_size(buffers);
+            done = check_place(range, &o.source, error);
+        }
         if (done && has_clip) {
             done = put_clip(range, form, &o.file, o.source.json, error);
             o.clips = 1;

@@ -148,15 +148,6 @@ static void usda_matrix(FILE *out, const double m[16])
     fputs(")", out);
 }
 
-/// a · b
-static void multiply(const double a[16], const double b[16], double product[16])
-{
-    for (int i = 0; i < 16; i++) {
-        product[i] = 0;
-        for (int k = 0; k < 4; k++) product[i] += a[4 * k + i % 4] * b[i / 4 * 4 + k];
-    }
-}
-
 // --- the joints: which there are, and where they rest
 
 /// Where a node is at a key, against its parent.
@@ -180,15 +171,6 @@ static bool moves(const struct usda_model *model, int node)
             return !model->gltf->nodes[node].has_matrix;
     }
     return false;
-}
-
-static bool needs_two_joints(const struct usda_model *model, int node)
-{
-    const float *scale = place_at(model, 0, node)->scale;
-    for (int k = 1; k < model->range->key_count; k++) {
-        if (memcmp(place_at(model, k, node)->scale, scale, 3 * sizeof *scale) != 0) return false;
-    }
-    return !is_half(scale[0]) || !is_half(scale[1]) || !is_half(scale[2]);
 }
 
 /// Of a joint against its parent, at rest.
@@ -229,7 +211,11 @@ static void add_joint(struct usda_model *model, int node, int parent, enum usda_
     joint->title = form_text(&model->pool, model->gltf->nodes[node].name, part == JOINT_SCALE ? "_scale" : "", "");
     joint->name = usda_name(&model->joint_names, joint->title, true);
     rest_of(model, j, parent >= 0 ? local : joint->world);
-    if (parent >= 0) multiply(model->joints[parent].world, local, joint->world);
+    const double *above = parent >= 0 ? model->joints[parent].world : NULL;
+    for (int i = 0; above && i < 16; i++) { // above · local
+        joint->world[i] = 0;
+        for (int k = 0; k < 4; k++) joint->world[i] += above[4 * k + i % 4] * local[i / 4 * 4 + k];
+    }
     model->joint_of[node] = j;
 }
 
@@ -252,7 +238,10 @@ static void make_joints(struct usda_model *model)
         const int n = gltf->order[i], above = gltf->nodes[n].parent;
         model->joint_of[n] = -1;
         if (!needed[n]) continue;
-        const bool two = moves(model, n) && needs_two_joints(model, n);
+        const float *scale = place_at(model, 0, n)->scale;
+        bool two = moves(model, n) && !(is_half(scale[0]) && is_half(scale[1]) && is_half(scale[2]));
+        for (int k = 1; two && k < model->range->key_count; k++)
+            two = memcmp(place_at(model, k, n)->scale, scale, 3 * sizeof *scale) == 0;
         add_joint(model, n, above >= 0 ? model->joint_of[above] : -1, two ? JOINT_UNSCALED : JOINT_WHOLE);
         if (two) add_joint(model, n, model->joint_of[n], JOINT_SCALE);
     }

@@ -191,22 +191,6 @@ void neighbours_find(const float (*position)[3], int vertex_count, const uint32_
     pool_free(&work);
 }
 
-/// The corner of a triangle that is nearest to a place.
-static int corner_at(const float (*position)[3], const uint32_t *indices, int triangle, const float place[3])
-{
-    int nearest = 3 * triangle;
-    float least = INFINITY;
-    for (int i = 3 * triangle; i < 3 * triangle + 3; i++) {
-        const float *own = position[indices[i]];
-        const float x = own[0] - place[0], y = own[1] - place[1], z = own[2] - place[2];
-        const float distance = x * x + y * y + z * z;
-        if (distance >= least) continue;
-        least = distance;
-        nearest = i;
-    }
-    return nearest;
-}
-
 void neighbours_cut(const float (*position)[3], const uint32_t *indices, const uint32_t *look, int index_count,
                     int *neighbours)
 {
@@ -214,7 +198,17 @@ void neighbours_cut(const float (*position)[3], const uint32_t *indices, const u
         const int other = neighbours[i], ends[2] = {i, next_corner(i)};
         if (other < 0 || other > i / 3) continue;
         for (int e = 0; e < 2; e++) {
-            const int there = corner_at(position, indices, other, position[indices[ends[e]]]);
+            const float *place = position[indices[ends[e]]];
+            int there = 3 * other; // the nearest corner of that triangle
+            float least = INFINITY;
+            for (int c = 3 * other; c < 3 * other + 3; c++) {
+                const float *own = position[indices[c]];
+                const float x = own[0] - place[0], y = own[1] - place[1], z = own[2] - place[2];
+                const float distance = x * x + y * y + z * z;
+                if (distance >= least) continue;
+                least = distance;
+                there = c;
+            }
             if (look[there] != look[ends[e]]) neighbours[i] = NEIGHBOUR_CUT;
         }
     }

@@ -13,20 +13,6 @@ struct fit {
     float uu, uv, vv;
 };
 
-/// A unit vector orthogonal to n, from the axis of n's smallest component.
-static void tangent_of(const float n[3], float t[3])
-{
-    int least = 0;
-    for (int k = 1; k < 3; k++) {
-        if (fabsf(n[k]) < fabsf(n[least])) least = k;
-    }
-    vec3s axis = glms_vec3_zero();
-    axis.raw[least] = 1.0f;
-    vec3s across = glms_vec3_sub(axis, glms_vec3_scale(vec3_from(n), n[least]));
-    across = glms_vec3_divs(across, glms_vec3_norm(across));
-    glm_vec3_copy(across.raw, t);
-}
-
 /// Adds weight · difference · (u, v) to both derivatives.
 static void add_difference(const float a[3], const float b[3], const float uv[2], float weight, float by_u[3],
                            float by_v[3])
@@ -282,7 +268,16 @@ void figure_derive(struct figure *figure)
     glm_vec3_fill(figure->lo, INFINITY);
     glm_vec3_fill(figure->hi, -INFINITY);
     for (int i = 0; i < c->vertex_count; i++) {
-        tangent_of(c->normal[i], figure->tangent[i]);
+        const float *n = c->normal[i]; // a tangent comes from the axis of its smallest component
+        int least = 0;
+        for (int k = 1; k < 3; k++) {
+            if (fabsf(n[k]) < fabsf(n[least])) least = k;
+        }
+        vec3s axis = glms_vec3_zero();
+        axis.raw[least] = 1.0f;
+        const vec3s across = glms_vec3_sub(axis, glms_vec3_scale(vec3_from(n), n[least]));
+        const vec3s tangent = glms_vec3_divs(across, glms_vec3_norm(across));
+        memcpy(figure->tangent[i], tangent.raw, sizeof figure->tangent[i]);
         glm_vec3_minv(c->position[i], figure->lo, figure->lo);
         glm_vec3_maxv(c->position[i], figure->hi, figure->hi);
     }
@@ -527,16 +522,6 @@ static void put(struct reach *reach, int at, int vertex)
     reach->place[vertex] = at;
 }
 
-static void sift_up(struct reach *reach, int vertex)
-{
-    int at = reach->place[vertex];
-    while (at > 0 && reach->along[vertex] < reach->along[reach->heap[(at - 1) / 2]]) {
-        put(reach, at, reach->heap[(at - 1) / 2]);
-        at = (at - 1) / 2;
-    }
-    put(reach, at, vertex);
-}
-
 static void sift_down(struct reach *reach, int vertex)
 {
     int at = reach->place[vertex];
@@ -558,8 +543,12 @@ static void offer(struct reach *reach, uint32_t vertex, float along)
     if (!(along < reach->along[vertex])) return;
     const bool is_new = reach->along[vertex] == INFINITY;
     reach->along[vertex] = along;
-    if (is_new) put(reach, reach->heap_count++, (int)vertex);
-    sift_up(reach, (int)vertex);
+    int at = is_new ? reach->heap_count++ : reach->place[vertex];
+    while (at > 0 && along < reach->along[reach->heap[(at - 1) / 2]]) { // up to its place in the heap
+        put(reach, at, reach->heap[(at - 1) / 2]);
+        at = (at - 1) / 2;
+    }
+    put(reach, at, (int)vertex);
 }
 
 static void spot_position(const struct surface_spot *spot, const float (*positions)[3], float out[3])

@@ -244,13 +244,6 @@ static int components_of(const json_t *accessor)
     return 0;
 }
 
-size_t glb_element(const json_t *accessor, int *type, int *components)
-{
-    *type = (int)glb_integer(accessor, "componentType", -1);
-    *components = components_of(accessor);
-    return (size_t)(size_of_type(*type) * *components);
-}
-
 static bool outside(const struct glb *glb, int64_t index, struct error *error)
 {
     return fail(error, ERROR_INPUT, "%s: accessors[%lld]: expected data within the file, got a place outside of it",
@@ -348,11 +341,6 @@ static void drop_extension(json_t *object, const char *name)
     if (json_object_size(extensions) == 0) json_object_del(object, "extensions");
 }
 
-bool glb_is_fallback(const json_t *buffer)
-{
-    return json_is_true(json_object_get(extension_of(buffer, meshopt), "fallback"));
-}
-
 bool glb_is_packed(const struct glb *glb)
 {
     size_t i;
@@ -403,7 +391,9 @@ static bool unpack_primitive(struct unpacking *u, const json_t *primitive, const
         if (!done) break;
         accessors[count] = json_array_get(u->plain.accessors, (size_t)glb_integer(attributes, name, -1));
         struct draco_part *part = &parts[count++];
-        const size_t size = glb_element(accessors[count - 1], &part->type, &part->components);
+        part->type = (int)glb_integer(accessors[count - 1], "componentType", -1);
+        part->components = components_of(accessors[count - 1]);
+        const size_t size = (size_t)(size_of_type(part->type) * part->components);
         part->attribute = glb_integer(ids, name, -1);
         part->stride = (size + 3) / 4 * 4;
         done = size > 0 && part->components <= 4 && part->attribute >= 0; // else Draco cannot have them
@@ -573,7 +563,8 @@ bool glb_read_buffers(struct glb *glb, struct error *error)
         const json_t *described = json_array_get(buffers, i);
         const char *uri = json_string_value(json_object_get(described, "uri"));
         struct error why = {0};
-        if (glb_is_fallback(described)) continue;
+        // It may only hold the place of decompressed bytes, and have none.
+        if (json_is_true(json_object_get(extension_of(described, meshopt), "fallback"))) continue;
         size_t same = 0; // an earlier buffer that is the same file
         while (uri && same < i) {
             const char *other = json_string_value(json_object_get(json_array_get(buffers, same), "uri"));

@@ -60,9 +60,6 @@ bool glb_is_stored(const struct glb *glb, int64_t accessor);
 bool glb_view(const struct glb *glb, int64_t index, struct glb_bytes *bytes);
 bool glb_bytes(const struct glb *glb, const json_t *view, struct glb_bytes *bytes);
 
-/// The size of an accessor's elements, in bytes; 0 if their type is unknown.
-size_t glb_element(const json_t *accessor, int *type, int *components);
-
 // Compressed meshes.
 
 /// For an extension that compresses meshes and that this program cannot read: the package that it was built without, "" if none helps. NULL for
@@ -71,9 +68,6 @@ const char *glb_missing_codec(const char *extension);
 
 /// Whether the file has compressed meshes that glb_read_buffers() decompresses.
 bool glb_is_packed(const struct glb *glb);
-
-/// Whether a buffer only holds the place of decompressed bytes. It may have none.
-bool glb_is_fallback(const json_t *buffer);
 
 /// The numbers of an accessor: normalised integers as −1 … 1, sparse elements in their places.
 struct glb_numbers {

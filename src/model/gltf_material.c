@@ -144,28 +144,6 @@ static bool read_picture(struct gltf_reader *r, const json_t *json, struct gltf_
     return fail_starved(why);
 }
 
-/// Adds an image of the file to gltf.images once; −1, and it is listed as not shown, if that fails.
-static bool read_image(struct gltf_reader *r, int number, int *index)
-{
-    const json_t *json = json_array_get(gltf_array(r, "images"), (size_t)number);
-    struct gltf_image *image = &r->gltf->images[r->gltf->image_count];
-    struct error why = {0};
-    if (r->image_of[number] == -2) {
-        const bool read = read_picture(r, json, image, &why);
-        if (!read) *image = (struct gltf_image){0};
-        r->image_of[number] = read ? r->gltf->image_count++ : -1;
-        if (why.kind == ERROR_ENVIRONMENT) return fail_no_memory(r->error, r->file.path);
-        if (!read) { // called by its own name, or its file's
-            const char *name = json_string_value(json_object_get(json, "name"));
-            const char *uri = json_string_value(json_object_get(json, "uri"));
-            if (!name || !name[0]) name = uri && strncmp(uri, "data:", 5) != 0 ? uri : "of no name";
-            if (!gltf_not_shown(r, "image %.40s (%.60s)", name, why.text)) return false;
-        }
-    }
-    *index = r->image_of[number];
-    return true;
-}
-
 // --- materials
 
 /// Sets a sampler's number that glTF knows. Unknown numbers by other programs are ignored.
@@ -213,7 +191,26 @@ static bool read_texture(struct gltf_reader *r, const json_t *info, struct gltf_
         take(of, "minFilter", filters, &material->sampler.far);
         take(of, "magFilter", near, &material->sampler.near);
     }
-    return source < 0 || read_image(r, source, &material->image);
+    if (source < 0) return true;
+
+    // Each image of the file is added to gltf.images once; −1, and it is listed as not shown, if that fails.
+    if (r->image_of[source] == -2) {
+        const json_t *json = json_array_get(images, (size_t)source);
+        struct gltf_image *image = &r->gltf->images[r->gltf->image_count];
+        struct error why = {0};
+        const bool read = read_picture(r, json, image, &why);
+        if (!read) *image = (struct gltf_image){0};
+        r->image_of[source] = read ? r->gltf->image_count++ : -1;
+        if (why.kind == ERROR_ENVIRONMENT) return fail_no_memory(r->error, r->file.path);
+        if (!read) { // called by its own name, or its file's
+            const char *name = json_string_value(json_object_get(json, "name"));
+            const char *uri = json_string_value(json_object_get(json, "uri"));
+            if (!name || !name[0]) name = uri && strncmp(uri, "data:", 5) != 0 ? uri : "of no name";
+            if (!gltf_not_shown(r, "image %.40s (%.60s)", name, why.text)) return false;
+        }
+    }
+    material->image = r->image_of[source];
+    return true;
 }
 
 /// A factor, 1 if it is missing.

@@ -29,23 +29,20 @@ void gltf_pose_free(struct gltf_pose *pose)
     *pose = (struct gltf_pose){0};
 }
 
-/// Translation · rotation · scale.
-static mat4s matrix_of(const struct gltf_place *place)
-{
-    versors q;
-    memcpy(&q, place->rotation, sizeof q);
-    mat4s m = glms_quat_mat4(q);
-    for (int column = 0; column < 3; column++) glm_vec4_scale(m.raw[column], place->scale[column], m.raw[column]);
-    memcpy(m.raw[3], place->translation, sizeof place->translation);
-    return m;
-}
-
 void gltf_pose_world(const struct gltf *gltf, struct gltf_pose *pose)
 {
     for (int i = 0; i < gltf->node_count; i++) {
         int n = gltf->order[i];
         const struct gltf_node *node = &gltf->nodes[n];
-        mat4s m = node->has_matrix ? mat4_from(node->matrix) : matrix_of(&pose->place[n]);
+        mat4s m = mat4_from(node->matrix);
+        if (!node->has_matrix) { // translation · rotation · scale
+            const struct gltf_place *place = &pose->place[n];
+            versors q;
+            memcpy(&q, place->rotation, sizeof q);
+            m = glms_quat_mat4(q);
+            for (int c = 0; c < 3; c++) glm_vec4_scale(m.raw[c], place->scale[c], m.raw[c]);
+            memcpy(m.raw[3], place->translation, sizeof place->translation);
+        }
         if (node->parent >= 0) m = glms_mat4_mul(mat4_from(pose->world[node->parent]), m);
         memcpy(pose->world[n], &m, sizeof m);
     }

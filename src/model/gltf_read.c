@@ -509,34 +509,6 @@ static bool choose_scene(struct gltf_reader *r)
     return done;
 }
 
-/// Morph weights at rest: the node's own, else its mesh's.
-static bool read_weights(struct gltf_reader *r, const json_t *nodes)
-{
-    struct gltf *gltf = r->gltf;
-    size_t total = 0;
-    for (int n = 0; n < gltf->node_count; n++) {
-        struct gltf_node *node = &gltf->nodes[n];
-        node->first_weight = (int)total;
-        if (node->mesh >= 0) total += (size_t)gltf->meshes[node->mesh].target_count;
-        if (total > r->file.room / sizeof *gltf->weights) break; // gltf_make() reports it
-    }
-    gltf_at(r, "nodes");
-    gltf->weights = gltf_make(r, total, sizeof *gltf->weights);
-    if (!gltf->weights) return false;
-    gltf->weight_count = (int)total;
-    for (int n = 0; n < gltf->node_count; n++) {
-        const struct gltf_node *node = &gltf->nodes[n];
-        if (node->mesh < 0) continue;
-        const struct gltf_mesh *mesh = &gltf->meshes[node->mesh];
-        float *weights = gltf->weights + node->first_weight;
-        for (int k = 0; k < mesh->target_count; k++) weights[k] = mesh->weights[k];
-        gltf_at(r, "nodes[%d]", n);
-        if (!gltf_reals(r, json_array_get(nodes, (size_t)n), "weights", weights, (size_t)mesh->target_count))
-            return false;
-    }
-    return true;
-}
-
 static bool read_nodes(struct gltf_reader *r)
 {
     struct gltf *gltf = r->gltf;
@@ -598,7 +570,31 @@ static bool read_nodes(struct gltf_reader *r)
     }
     gltf_at(r, "nodes");
     if (listed < gltf->node_count) return gltf_bad(r, ": expected a tree, got a node that is below itself");
-    return choose_scene(r) && read_weights(r, nodes);
+    if (!choose_scene(r)) return false;
+
+    // Morph weights at rest: the node's own, else its mesh's.
+    size_t total = 0;
+    for (int n = 0; n < gltf->node_count; n++) {
+        struct gltf_node *node = &gltf->nodes[n];
+        node->first_weight = (int)total;
+        if (node->mesh >= 0) total += (size_t)gltf->meshes[node->mesh].target_count;
+        if (total > r->file.room / sizeof *gltf->weights) break; // gltf_make() reports it
+    }
+    gltf_at(r, "nodes");
+    gltf->weights = gltf_make(r, total, sizeof *gltf->weights);
+    if (!gltf->weights) return false;
+    gltf->weight_count = (int)total;
+    for (int n = 0; n < gltf->node_count; n++) {
+        const struct gltf_node *node = &gltf->nodes[n];
+        if (node->mesh < 0) continue;
+        const struct gltf_mesh *mesh = &gltf->meshes[node->mesh];
+        float *weights = gltf->weights + node->first_weight;
+        for (int t = 0; t < mesh->target_count; t++) weights[t] = mesh->weights[t];
+        gltf_at(r, "nodes[%d]", n);
+        if (!gltf_reals(r, json_array_get(nodes, (size_t)n), "weights", weights, (size_t)mesh->target_count))
+            return false;
+    }
+    return true;
 }
 
 static bool read_skins(struct gltf_reader *r)

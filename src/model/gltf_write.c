@@ -220,21 +220,6 @@ static json_int_t add_material(struct gltf_looks *l, const struct looks_material
 
 // --- triangles
 
-/// The triangles of a fan starting at corner `turn`; every triangle begins with that corner.
-static size_t add_fan(const uint32_t *fan, size_t triangles, size_t turn, uint32_t *out)
-{
-    const size_t count = triangles + 2;
-    // Corners of the fan: the first triangle's, then the last of each other.
-    for (size_t t = 0; t < triangles; t++) {
-        const size_t places[3] = {turn, turn + t + 1, turn + t + 2};
-        for (int k = 0; k < 3; k++) {
-            const size_t place = places[k] % count;
-            *out++ = place < 3 ? fan[place] : fan[3 * (place - 2) + 2];
-        }
-    }
-    return 3 * triangles;
-}
-
 /// The corners of one material; returns how many. Successive polygons begin at different corners, so that readers can tell them apart.
 static size_t collect(const struct gltf_shape *shape, uint32_t material, uint32_t *corners)
 {
@@ -250,7 +235,13 @@ static size_t collect(const struct gltf_shape *shape, uint32_t material, uint32_
             end++;
         if ((looks && own < (uint32_t)looks->material_count ? own : LOOKS_NONE) != material) continue;
         const bool same = polygons && used > 0 && corners[used - 3] == fan[0];
-        used += add_fan(fan, end - t, same, corners + used);
+        for (size_t n = 0; n < end - t; n++) { // every triangle begins with the first corner, or with the second
+            const size_t places[3] = {same, same + n + 1, same + n + 2};
+            for (int k = 0; k < 3; k++) { // corners of the fan: the first triangle's, then the last of each other
+                const size_t place = places[k] % (end - t + 2);
+                corners[used++] = place < 3 ? fan[place] : fan[3 * (place - 2) + 2];
+            }
+        }
     }
     return used;
 }

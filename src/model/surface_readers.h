@@ -1,4 +1,4 @@
-/// Shared by the readers of surfaces: the surface being read, and words of text files; and the readers. Private to src/model.
+/// Shared by the readers of surfaces: the surface being read, and words of text files. Private to src/model.
 #ifndef MODEL_SURFACE_READERS_H
 #define MODEL_SURFACE_READERS_H
 
@@ -70,14 +70,7 @@ bool words_integer(struct words *words, const char *what, long least, long most,
 /// "file:line: expected …, got …"
 bool words_expected(struct words *words, const char *what);
 
-// The readers of single formats, for surface_read(), which completes the surface.
-
-bool obj_read(struct words *words, struct surface_builder *builder);
-bool ply_read(struct words *words, struct surface_builder *builder);
-bool stl_read(struct words *words, struct surface_builder *builder);
-bool off_read(struct words *words, struct surface_builder *builder);
-
-/// All that a .glb or .gltf file shows, at rest. It opens the file itself.
+/// For surface_read(), which completes the surface: all that a .glb or .gltf file shows, at rest. It opens the file itself.
 bool gltf_surface_read(struct words *words, struct surface_builder *builder);
 
 #endif

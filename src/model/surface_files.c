@@ -1,12 +1,328 @@
-/// Reads surfaces of any format; and PLY, STL and OFF files.
+/// Reads surfaces of any format, and writes OBJ files: OBJ with its materials, PLY, STL and OFF.
 #include "base/file.h"
 #include "base/npy.h"
+#include "base/png.h"
+#include "base/progress.h"
 #include "model/surface_readers.h"
 #include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <strings.h>
+
+// --- OBJ, and the materials that it names
+
+enum { TEXT_LIMIT = 16 << 20, OBJ_SHOWN_MAX = 24, LIBRARY_NAME = 256 };
+enum { TELLING = 1 << 16 }; ///< lines between two progress reports
+
+/// A text being read, line by line.
+struct obj_lines {
+    char *next, *line; ///< `line` ends with a NUL, without comments and with continuations joined
+    int number;        ///< from 1
+    bool joins;        ///< a line that ends in a backslash continues on the next
+};
+
+static char *obj_skip_space(char *at) { return at + strspn(at, " \t\r"); }
+
+/// Reads the next line; false at the end of the text.
+static bool obj_next_line(struct obj_lines *l)
+{
+    if (!*l->next) return false;
+    l->line = l->next;
+    l->number++;
+    for (char *end = l->line;; end++) {
+        end += strcspn(end, "\n");
+        l->next = *end ? end + 1 : end;
+        char *last = end > l->line && end[-1] == '\r' ? end - 1 : end;
+        bool joined = l->joins && *end && last > l->line && last[-1] == '\\';
+        if (!joined) {
+            *end = '\0';
+            break;
+        }
+        memset(last - 1, ' ', (size_t)(end - last) + 2);
+        l->number++;
+    }
+    l->line[strcspn(l->line, "#")] = '\0';
+    return true;
+}
+
+/// The text after the line's first word if that is `word`; else NULL.
+static char *obj_behind(const struct obj_lines *l, const char *word)
+{
+    char *at = obj_skip_space(l->line);
+    const size_t length = strlen(word);
+    return strncmp(at, word, length) == 0 && strchr(" \t\r", at[length]) ? obj_skip_space(at + length) : NULL;
+}
+
+/// The rest of a line: a name, possibly with spaces.
+static char *obj_name_at(char *at)
+{
+    size_t length = strlen(at);
+    while (length > 0 && strchr(" \t\r", at[length - 1])) at[--length] = '\0';
+    return at;
+}
+
+static void obj_note(struct looks *looks, const char *name)
+{
+    if (!looks->left_out) looks->left_out = strdup(name);
+}
+
+/// The path of a file named in another one's folder; '\\' separates folders, too.
+static bool obj_read_beside(const char *path, const char *name, size_t limit, char **data, size_t *size)
+{
+    char folder[PATH_LIMIT], plain[PATH_LIMIT], place[PATH_LIMIT];
+    if (snprintf(plain, sizeof plain, "%s", name) >= (int)sizeof plain || !path_folder(path, folder)) return false;
+    for (char *c = plain; *c; c++) {
+        if (*c == '\\') *c = '/';
+    }
+    return path_resolve(folder, plain, place) && file_read_text(place, limit, data, size, NULL);
+}
+
+static void obj_read_image(const char *path, const char *value, struct looks *looks, struct looks_material *material)
+{
+    const char *name = value; // behind options, each followed by numbers or on/off
+    while (*name == '-' && strchr(name, ' ')) {
+        name += strcspn(name, " \t");
+        for (name += strspn(name, " \t"); *name;) {
+            const size_t length = strcspn(name, " \t");
+            const bool word = strncmp(name, "on", length) == 0 || strncmp(name, "off", length) == 0;
+            char *end;
+            strtod(name, &end);
+            if (!word && end != name + length) break;
+            name += length;
+            name += strspn(name, " \t");
+        }
+    }
+    char *data = NULL;
+    size_t size = 0;
+    const size_t room = LOOKS_IMAGES_LIMIT - looks_image_bytes(looks);
+    if (material->image) return;
+    if (!obj_read_beside(path, name, room, &data, &size) || !looks_image_kind((unsigned char *)data, size)) {
+        free(data);
+        obj_note(looks, name);
+        return;
+    }
+    material->image = (unsigned char *)data;
+    material->image_size = size;
+}
+
+static bool obj_in_range(const char *text, float *value)
+{
+    const float number = strtof(text, NULL);
+    if (!(number >= 0 && number <= 1)) return false;
+    *value = number;
+    return true;
+}
+
+/// Adds the materials of a file in an OBJ file's folder. Unreadable pictures, and those neither PNG nor JPEG, are left out and noted in the
+/// looks.
+static void obj_read_materials(const char *obj_path, const char *name, struct surface_builder *builder)
+{
+    struct looks *looks = &builder->surface->looks;
+    uint32_t current = LOOKS_NONE;
+    struct obj_lines lines = {0};
+    char *text = NULL, *at;
+    size_t size;
+    if (!obj_read_beside(obj_path, name, TEXT_LIMIT, &text, &size)) {
+        obj_note(looks, name);
+        return;
+    }
+    for (lines.next = text; obj_next_line(&lines);) {
+        if ((at = obj_behind(&lines, "newmtl"))) current = builder_material(builder, obj_name_at(at));
+        if (current == LOOKS_NONE) continue;
+        struct looks_material *material = &looks->materials[current];
+        if ((at = obj_behind(&lines, "Kd"))) {
+            for (int k = 0; k < 3; k++) obj_in_range(at, &material->color[k]), strtof(at, &at);
+        } else if ((at = obj_behind(&lines, "d"))) {
+            obj_in_range(at, &material->color[3]);
+        } else if ((at = obj_behind(&lines, "Tr")) && obj_in_range(at, &material->color[3])) {
+            material->color[3] = 1 - material->color[3];
+        } else if ((at = obj_behind(&lines, "map_Kd"))) {
+            obj_read_image(obj_path, obj_name_at(at), looks, material);
+        }
+    }
+    free(text);
+}
+
+struct obj_reader {
+    const char *path;
+    struct obj_lines lines;
+    struct surface_builder *builder;
+    struct error *error;
+};
+
+static bool obj_expected(const struct obj_reader *r, const char *what, const char *got)
+{
+    int shown = (int)strcspn(got, " \t\r");
+    if (shown == 0)
+        return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got nothing", r->path, r->lines.number, what);
+    if (shown > OBJ_SHOWN_MAX) shown = OBJ_SHOWN_MAX;
+    return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", r->path, r->lines.number, what, shown, got);
+}
+
+/// Up to `count` numbers; returns how many the line has, -1 if a word is not a number.
+static int obj_read_numbers(const struct obj_reader *r, char *at, double *numbers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        at = obj_skip_space(at);
+        if (!*at) return i;
+        char *end;
+        numbers[i] = (double)strtof(at, &end);
+        if (end == at || !strchr(" \t\r", *end) || !isfinite(numbers[i])) {
+            obj_expected(r, "a finite number", at);
+            return -1;
+        }
+        at = end;
+    }
+    return count;
+}
+
+/// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1 or backwards from -1 (the newest).
+static bool obj_read_corner(struct obj_reader *r, char **at)
+{
+    char *end, *start = *at;
+    const int count = r->builder->surface->vertex_count;
+    long index = strtol(start, &end, 10);
+    if (index < 0) index += count + 1;
+    bool written = end > start && (*end == '/' || strchr(" \t\r", *end));
+    if (!written || index < 1 || index > INT_MAX) return obj_expected(r, "the number of a vertex", start);
+    if (index > count) {
+        char what[64];
+        snprintf(what, sizeof what, "a vertex from 1 to %d", count);
+        return obj_expected(r, what, start);
+    }
+    const int uv_count = r->builder->surface->looks.uv_count;
+    long uv = *end == '/' && end[1] != '/' ? strtol(end + 1, NULL, 10) : 0;
+    if (uv < 0) uv += uv_count + 1;
+    builder_corner(r->builder, (uint32_t)index - 1, uv >= 1 && uv <= uv_count ? (uint32_t)uv - 1 : LOOKS_NONE);
+    *at = obj_skip_space(end + strcspn(end, " \t\r"));
+    return true;
+}
+
+static bool obj_read(struct words *words, struct surface_builder *builder)
+{
+    const char *text = words->at;
+    const long size = words->end - text;
+    struct obj_reader r = {
+        .path = words->path, .lines = {.next = words->at, .joins = true}, .builder = builder, .error = words->error};
+    if (memchr(text, '\0', (size_t)size))
+        return fail(r.error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", r.path);
+    while (!builder->failed && obj_next_line(&r.lines)) {
+        if (r.lines.number % TELLING == 0) stage_tell("reading the mesh", r.lines.next - text, size);
+        const struct obj_lines *l = &r.lines;
+        char *at;
+        if ((at = obj_behind(l, "v"))) {
+            double numbers[6]; // x y z [w | r g b]
+            const int count = obj_read_numbers(&r, at, numbers, 6);
+            if (count < 0) return false;
+            if (count < 3) return obj_expected(&r, "three coordinates of a vertex", "");
+            builder_vertex(builder, numbers);
+            const double *wrong = count == 6 ? builder_wrong_color(numbers + 3) : NULL;
+            if (wrong)
+                return fail(r.error, ERROR_INPUT, "%s:%d: expected a colour from 0 to 1, got %g", r.path, l->number,
+                            *wrong);
+            if (count == 6) builder_color(builder, numbers + 3);
+        } else if ((at = obj_behind(l, "vt"))) { // u [v [w]], from the lower left of the picture
+            double numbers[2] = {0};
+            if (obj_read_numbers(&r, at, numbers, 2) < 0) return false;
+            builder_uv(builder, numbers[0], 1 - numbers[1]);
+        } else if ((at = obj_behind(l, "f"))) { // a b c d … as the fan abc, acd, …
+            while (*at) {
+                if (!obj_read_corner(&r, &at)) return false;
+            }
+            const int count = builder_end_polygon(builder);
+            if (count < 3)
+                return fail(r.error, ERROR_INPUT, "%s:%d: expected a face of three corners or more, got %d", r.path,
+                            l->number, count);
+        } else if ((at = obj_behind(l, "usemtl"))) {
+            builder->material = builder_material(builder, obj_name_at(at));
+        } else if ((at = obj_behind(l, "mtllib"))) {
+            obj_read_materials(r.path, obj_name_at(at), builder);
+        }
+    }
+    return true;
+}
+
+/// "folder/up.rest.obj" → "folder/up.rest" and the ending; false where that is too long.
+static bool obj_name_beside(const char *obj_path, const char *ending, char path[PATH_LIMIT])
+{
+    const int stem = (int)strlen(obj_path) - (path_has_end(obj_path, ".obj") ? 4 : 0);
+    return snprintf(path, PATH_LIMIT, "%.*s%s", stem, obj_path, ending) < PATH_LIMIT;
+}
+
+/// Writes materials and pictures beside an OBJ file; `name` is the material file's name in it.
+static bool obj_write_library(const char *obj_path, const struct looks *looks, char name[LIBRARY_NAME],
+                              struct error *error)
+{
+    char path[PATH_LIMIT];
+    struct file_output output;
+    if (!obj_name_beside(obj_path, ".mtl", path) ||
+        snprintf(name, LIBRARY_NAME, "%s", path_name(path)) >= LIBRARY_NAME)
+        return fail(error, ERROR_INPUT, "%s: the name is too long", obj_path);
+    if (!file_output_open(&output, path, error)) return false;
+    for (int m = 0; m < looks->material_count; m++) {
+        const struct looks_material *material = &looks->materials[m];
+        const float *c = material->color;
+        fprintf(output.stream, "newmtl %s\nKd %.9g %.9g %.9g\nd %.9g\n", material->name, (double)c[0], (double)c[1],
+                (double)c[2], (double)c[3]);
+        if (!material->image) continue;
+        char ending[32], picture[PATH_LIMIT];
+        const char *kind = looks_image_kind(material->image, material->image_size);
+        snprintf(ending, sizeof ending, "-%d.%s", m + 1, kind && *kind == 'j' ? "jpg" : "png");
+        const bool named = obj_name_beside(obj_path, ending, picture) ||
+                           fail(error, ERROR_INPUT, "%s: the name is too long", obj_path);
+        if (!named || !file_write_atomic(picture, material->image, material->image_size, error)) {
+            file_output_discard(&output);
+            return false;
+        }
+        fprintf(output.stream, "map_Kd %s\n", path_name(picture));
+    }
+    return file_output_commit(&output, error);
+}
+
+static void obj_write_corner(FILE *out, const struct surface *s, int index)
+{
+    fprintf(out, " %u", s->indices[index] + 1);
+    if (s->looks.corner && s->looks.corner[index] != LOOKS_NONE) fprintf(out, "/%u", s->looks.corner[index] + 1);
+}
+
+bool obj_write(const char *path, const struct surface *surface, struct error *error)
+{
+    const struct looks *looks = &surface->looks;
+    struct file_output output;
+    char library[LIBRARY_NAME];
+    if (looks->material && !obj_write_library(path, looks, library, error)) return false;
+    if (!file_output_open(&output, path, error)) return false;
+    FILE *out = output.stream;
+    if (looks->material) fprintf(out, "mtllib %s\n", library);
+    for (int i = 0; i < surface->vertex_count; i++) {
+        const float *p = surface->position[i];
+        fprintf(out, "v %.9g %.9g %.9g", (double)p[0], (double)p[1], (double)p[2]);
+        for (int k = 0; surface->color && k < 3; k++)
+            fprintf(out, " %.9g", (double)srgb_from_linear(surface->color[i][k]));
+        fputc('\n', out);
+    }
+    for (int i = 0; i < looks->uv_count; i++)
+        fprintf(out, "vt %.9g %.9g\n", (double)looks->uv[i][0], 1 - (double)looks->uv[i][1]);
+
+    uint32_t material = LOOKS_NONE;
+    for (int i = 0; i + 2 < surface->index_count; i += 3) {
+        const uint32_t own = looks->material ? looks->material[i / 3] : LOOKS_NONE;
+        if (own != material && own != LOOKS_NONE) {
+            const char *name = looks->materials[own].name;
+            const size_t length = strlen(name); // a backslash at the end of a line would join it to the next one
+            fprintf(out, "usemtl %s%s\n", name, length > 0 && name[length - 1] == '\\' ? " " : "");
+        }
+        material = own;
+        fputs("f", out);
+        for (int k = 0; k < 3; k++) obj_write_corner(out, surface, i + k);
+        for (; looks->joined && i + 5 < surface->index_count && looks->joined[i / 3 + 1]; i += 3)
+            obj_write_corner(out, surface, i + 5); // a polygon is a fan: each further triangle adds its last corner
+        fputc('\n', out);
+    }
+    return file_output_commit(&output, error);
+}
 
 // --- PLY, as text or binary in either byte order
 //
@@ -78,31 +394,6 @@ static bool ply_read_type(struct words *w, enum number_type *type)
     return words_expected(w, "a type of numbers");
 }
 
-/// A property's role, by its name.
-static enum role ply_read_role(struct words *w, bool of_vertices, bool list)
-{
-    if (!of_vertices)
-        return list && (words_take(w, "vertex_indices") || words_take(w, "vertex_index")) ? CORNERS : OTHER;
-    for (size_t i = 0; !list && i < sizeof roles / sizeof *roles; i++) {
-        if (words_take(w, roles[i].name)) return roles[i].role;
-    }
-    return OTHER;
-}
-
-static bool ply_read_property(struct words *w, struct element *e)
-{
-    struct property *p = &e->properties[e->property_count];
-    if (e->property_count == PROPERTIES_MAX) return words_expected(w, "at most 64 properties");
-    *p = (struct property){0};
-    const bool list = words_take(w, "list");
-    if ((list && !ply_read_type(w, &p->count_type)) || !ply_read_type(w, &p->type)) return false;
-    p->role = ply_read_role(w, e->vertices, list);
-    if (p->role < ROLES) e->has[p->role] = true;
-    if (p->role == OTHER) words_skip_line(w); // its name
-    e->property_count++;
-    return true;
-}
-
 static bool ply_read_element(struct ply *ply)
 {
     struct words *w = ply->words;
@@ -118,8 +409,20 @@ static bool ply_read_element(struct ply *ply)
             words_skip_line(w);
         } else if (!words_take(w, "property")) {
             break;
-        } else if (!ply_read_property(w, e)) {
-            return false;
+        } else {
+            struct property *p = &e->properties[e->property_count];
+            if (e->property_count == PROPERTIES_MAX) return words_expected(w, "at most 64 properties");
+            *p = (struct property){0};
+            const bool list = words_take(w, "list");
+            if ((list && !ply_read_type(w, &p->count_type)) || !ply_read_type(w, &p->type)) return false;
+            if (!e->vertices && list && (words_take(w, "vertex_indices") || words_take(w, "vertex_index")))
+                p->role = CORNERS;
+            for (size_t i = 0; e->vertices && !list && p->role == OTHER && i < sizeof roles / sizeof *roles; i++) {
+                if (words_take(w, roles[i].name)) p->role = roles[i].role;
+            }
+            if (p->role < ROLES) e->has[p->role] = true;
+            if (p->role == OTHER) words_skip_line(w); // its name
+            e->property_count++;
         }
     }
     for (int i = 0; strips && i < e->property_count; i++) {
@@ -251,7 +554,7 @@ static bool ply_read_one(struct ply *ply, const struct element *e)
     return true;
 }
 
-bool ply_read(struct words *words, struct surface_builder *builder)
+static bool ply_read(struct words *words, struct surface_builder *builder)
 {
     struct ply ply = {.words = words, .builder = builder};
     if (!ply_read_header(&ply)) return false;
@@ -311,9 +614,20 @@ static bool stl_read_text(struct words *w, struct surface_builder *b)
     return true;
 }
 
-static bool stl_read_binary(struct words *w, uint32_t count, struct surface_builder *b)
+static bool stl_read(struct words *w, struct surface_builder *b)
 {
-    for (uint32_t i = 0; i < count && !b->failed; i++) {
+    const size_t size = (size_t)(w->end - w->at);
+    const uint32_t count = size >= HEAD ? (uint32_t)number_read(w->at + COUNT_AT, NUMBER_UINT32, false) : 0;
+    const size_t whole = HEAD + (size_t)count * FACET;
+    // Text begins with "solid", but so do some binary files; their size identifies them.
+    const bool text = strncasecmp(w->at + strspn(w->at, " \t\r\n"), "solid", 5) == 0 && size != whole;
+    if (!text && size < HEAD)
+        return fail(w->error, ERROR_INPUT, "%s: expected an STL file, got something else", w->path);
+    if (!text && whole > size)
+        return fail(w->error, ERROR_INPUT, "%s: expected %zu bytes for %u facets, got %zu: the file is cut off",
+                    w->path, whole, count, size);
+    if (text && !stl_read_text(w, b)) return false;
+    for (uint32_t i = 0; !text && i < count && !b->failed; i++) {
         for (int corner = 0; corner < 3; corner++) {
             const char *at = w->at + HEAD + (size_t)i * FACET + CORNERS_AT + 12 * corner;
             double p[3];
@@ -327,22 +641,6 @@ static bool stl_read_binary(struct words *w, uint32_t count, struct surface_buil
         }
         builder_end_polygon(b);
     }
-    return true;
-}
-
-bool stl_read(struct words *w, struct surface_builder *b)
-{
-    const size_t size = (size_t)(w->end - w->at);
-    const uint32_t count = size >= HEAD ? (uint32_t)number_read(w->at + COUNT_AT, NUMBER_UINT32, false) : 0;
-    const size_t whole = HEAD + (size_t)count * FACET;
-    // Text begins with "solid", but so do some binary files; their size identifies them.
-    const bool text = strncasecmp(w->at + strspn(w->at, " \t\r\n"), "solid", 5) == 0 && size != whole;
-    if (!text && size < HEAD)
-        return fail(w->error, ERROR_INPUT, "%s: expected an STL file, got something else", w->path);
-    if (!text && whole > size)
-        return fail(w->error, ERROR_INPUT, "%s: expected %zu bytes for %u facets, got %zu: the file is cut off",
-                    w->path, whole, count, size);
-    if (text ? !stl_read_text(w, b) : !stl_read_binary(w, count, b)) return false;
     if (!b->failed) builder_merge(b);
     return true;
 }
@@ -361,7 +659,7 @@ static bool off_has_edges(const struct words *w)
     return !words_more(&ahead) || ahead.line != line;
 }
 
-bool off_read(struct words *w, struct surface_builder *b)
+static bool off_read(struct words *w, struct surface_builder *b)
 {
     bool uvs = false, colors = false, normals = false;
     long vertices, faces, edges, corners, vertex;
