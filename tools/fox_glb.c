@@ -15,16 +15,17 @@ enum { COAT, FACE, MATERIALS };
 /// A node's parent; a node's place in bind space.
 static int parent_of(int node)
 {
+    static const int parents[LIMBS] = {-1, LIMB_BODY, LIMB_BODY, LIMB_HEAD, LIMB_HEAD, LIMB_EAR, LIMB_EAR + 1};
     const int limb = node - FOX_FIRST_LIMB;
     if (limb >= LIMBS) return node > FOX_FIRST_JOINT ? node - 1 : 0;
-    return limb_parents[limb] < 0 ? 0 : FOX_FIRST_LIMB + limb_parents[limb];
+    return parents[limb] < 0 ? 0 : FOX_FIRST_LIMB + parents[limb];
 }
 
 static vec3s place_of(int node)
 {
     float pivot[LIMBS][3];
     const float along = FOX_TAIL_LENGTH * (float)(node - FOX_FIRST_JOINT) / (float)JOINTS;
-    limbs_pivots(pivot);
+    fox_pivots(pivot);
     return node >= FOX_FIRST_JOINT ? (vec3s){{0, 0, along}} : vec3_from(pivot[node - FOX_FIRST_LIMB]);
 }
 

@@ -151,25 +151,13 @@ void fox_create(int level, int joints, struct gltf *fox)
 
 // --- parts of the body, and their places
 
-static const double FEET = -0.30;                      ///< the body stretches above this z, bind space
-static const float neck[3] = {0.005f, 0.66f, -0.385f}; ///< pivot of the head, standing
-static const float HEAD_RADIUS = 0.50f;                ///< around the neck's joint, bind size: contains head and ears
-static const float SPLAY = 0.4f;                       ///< of an ear laid back
+static const double FEET = -0.30;       ///< the body stretches above this z, bind space
+static const float HEAD_RADIUS = 0.50f; ///< around the neck's joint, bind size: contains head and ears
+static const float SPLAY = 0.4f;        ///< of an ear laid back
 
-const float limbs_chest[3] = {0, 0.44f, -0.44f};
-const float limbs_ear_root[3] = {0.088f, 0.10f, 0.015f}, limbs_ear_tip[3] = {0.152f, 0.292f, 0.02f};
-const float limbs_ear_joint[2] = {0.15f, 0.65f};
-
+const float limbs_neck[3] = {0.005f, 0.66f, -0.385f};
 const float fox_body_lo[3] = {-0.36f, -FOX_BASE_HEIGHT, -0.68f};
 const float fox_body_hi[3] = {0.36f, 1.16f - FOX_BASE_HEIGHT, 0.38f};
-
-const int limb_parents[LIMBS] = {-1, LIMB_BODY, LIMB_BODY, LIMB_HEAD, LIMB_HEAD, LIMB_EAR, LIMB_EAR + 1};
-
-/// World place of the standing fox → bind space.
-static void into_bind(const float standing[3], float bind[3])
-{
-    for (int k = 0; k < 3; k++) bind[k] = standing[k] - (k == 1 ? FOX_BASE_HEIGHT : 0.0f);
-}
 
 static vec3s size_of(const struct limbs *limbs)
 {
@@ -219,21 +207,6 @@ static mat4s head_from_bind(void)
     return mat4_from(matrix);
 }
 
-void limbs_pivots(float pivot[LIMBS][3])
-{
-    const mat4s from_head = glms_mat4_inv(head_from_bind());
-    memset(pivot, 0, LIMBS * sizeof *pivot);
-    into_bind(limbs_chest, pivot[LIMB_CHEST]);
-    into_bind(neck, pivot[LIMB_HEAD]);
-    for (int l = LIMB_EAR; l < LIMBS; l++) {
-        const float place = limbs_ear_joint[l >= LIMB_EAR_TIP];
-        vec3s joint = glms_vec3_lerp(vec3_from(limbs_ear_root), vec3_from(limbs_ear_tip), place);
-        if ((l - LIMB_EAR) % 2 != 0) joint.x = -joint.x;
-        joint = glms_mat4_mulv3(from_head, joint, 1.0f);
-        memcpy(pivot[l], joint.raw, sizeof pivot[l]);
-    }
-}
-
 void fox_move(const struct limbs *limbs, struct gltf_pose *pose)
 {
     const mat4s into_head = head_from_bind();
@@ -257,8 +230,7 @@ void fox_move(const struct limbs *limbs, struct gltf_pose *pose)
 void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3])
 {
     const vec3s size = size_of(limbs);
-    float joint[3];
-    into_bind(neck, joint);
+    const float joint[3] = {limbs_neck[0], limbs_neck[1] - FOX_BASE_HEIGHT, limbs_neck[2]};
     for (int k = 0; k < 3; k++) {
         const bool still =
             limbs->look == 0.0f && limbs->nod == 0.0f && limbs->ears[0] == 0.0f && limbs->ears[1] == 0.0f;

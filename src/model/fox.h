@@ -53,22 +53,15 @@ struct limbs {
 
 enum limb { LIMB_BODY, LIMB_CHEST, LIMB_HEAD, LIMB_EAR, LIMB_EAR_TIP = LIMB_EAR + 2, LIMBS = LIMB_EAR_TIP + 2 };
 
-/// Also needed to make the skin: the chest's centre and reach, standing (y = 0 is the ground); and an ear in the head's space, with its
-/// joints' places.
+/// How far the chest reaches, and the pivot of the head on a standing fox (y = 0 is the ground); metres, bind size.
 #define LIMBS_CHEST_RADIUS 0.18f
-extern const float limbs_chest[3], limbs_ear_root[3], limbs_ear_tip[3], limbs_ear_joint[2];
+extern const float limbs_neck[3];
 
 /// Place of the tail's base when the body of a fox of that scale stretches from its feet; metres.
 void limbs_base(double stretch, double scale, double base[3]);
 
 /// Its change per change of the stretch.
 void limbs_base_slope(double stretch, double scale, double slope[3]);
-
-/// The parent of each part, −1 for the body.
-extern const int limb_parents[LIMBS];
-
-/// The pivot of each part's turn and scale, bind space.
-void limbs_pivots(float pivot[LIMBS][3]);
 
 /// Where the box around the body comes to, bind size, from its tail's base.
 void limbs_bounds(const struct limbs *limbs, float lo[3], float hi[3]);

@@ -6,6 +6,11 @@
 #include <math.h>
 #include <stddef.h>
 
+/// The chest's centre, standing (y = 0 is the ground); and an ear in the head's space, with its joints' places.
+static const float chest[3] = {0, 0.44f, -0.44f};
+static const float ear_root[3] = {0.088f, 0.10f, 0.015f}, ear_tip[3] = {0.152f, 0.292f, 0.02f},
+                   ear_joint[2] = {0.15f, 0.65f};
+
 #define PARTS(table) (sizeof(table) / sizeof *(table))
 
 /// The torso is a smooth union of round cones, in metres, bind size, but with y = 0 on the ground. The animal looks towards −z. Parts of
@@ -133,7 +138,7 @@ static const float HALF_BEND = 0.25f;                   ///< of an ear's length,
 /// Position along its ear in the head's own space: 0 at the root, 1 at the tip.
 static float along_ear(vec3s of_head)
 {
-    const vec3s root = vec3_from(limbs_ear_root), along = glms_vec3_sub(vec3_from(limbs_ear_tip), root);
+    const vec3s root = vec3_from(ear_root), along = glms_vec3_sub(vec3_from(ear_tip), root);
     const vec3s up_ear = glms_vec3_sub((vec3s){{fabsf(of_head.x), of_head.y, of_head.z}}, root);
     return glms_vec3_dot(up_ear, along) / glms_vec3_norm2(along);
 }
@@ -149,7 +154,7 @@ static void hang_on(struct vertex *vertex, int from, int to, float share)
 /// Linear from 0 to 1 around an ear's bend, to avoid a crease.
 static float behind_joint(float place, int joint)
 {
-    return glm_clamp((place - limbs_ear_joint[joint]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f);
+    return glm_clamp((place - ear_joint[joint]) / (2.0f * HALF_BEND) + 0.5f, 0.0f, 1.0f);
 }
 
 /// Sets a vertex's joints.
@@ -167,7 +172,7 @@ static void hang(struct vertex *vertex, vec3s of_head)
     } else if (on_head > 0.0f) {
         hang_on(vertex, LIMB_BODY, LIMB_HEAD, on_head);
     } else {
-        const float distance = glms_vec3_distance(vec3_from(standing), vec3_from(limbs_chest));
+        const float distance = glms_vec3_distance(vec3_from(standing), vec3_from(chest));
         hang_on(vertex, LIMB_BODY, LIMB_CHEST, glm_smoothstep(LIMBS_CHEST_RADIUS, CHEST_INNER, distance));
     }
 }
@@ -224,4 +229,22 @@ void mesh_fox(int level, struct mesh *mesh)
     const struct level *l = &levels[level];
     mesh_fox_body(l->cell, l->tolerance, l->rounds, mesh);
     mesh_fox_tail(l->rings, l->segments, mesh);
+}
+
+void fox_pivots(float pivot[LIMBS][3])
+{
+    float matrix[16];
+    fox_head_from_bind(matrix);
+    const mat4s from_head = glms_mat4_inv(mat4_from(matrix));
+    memset(pivot, 0, LIMBS * sizeof *pivot);
+    for (int k = 0; k < 3; k++) {
+        pivot[LIMB_CHEST][k] = chest[k] - (k == 1 ? FOX_BASE_HEIGHT : 0.0f);
+        pivot[LIMB_HEAD][k] = limbs_neck[k] - (k == 1 ? FOX_BASE_HEIGHT : 0.0f);
+    }
+    for (int l = LIMB_EAR; l < LIMBS; l++) {
+        vec3s joint = glms_vec3_lerp(vec3_from(ear_root), vec3_from(ear_tip), ear_joint[l >= LIMB_EAR_TIP]);
+        if ((l - LIMB_EAR) % 2 != 0) joint.x = -joint.x;
+        joint = glms_mat4_mulv3(from_head, joint, 1.0f);
+        memcpy(pivot[l], joint.raw, sizeof pivot[l]);
+    }
 }

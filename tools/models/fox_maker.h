@@ -2,6 +2,7 @@
 #ifndef MODELS_FOX_MAKER_H
 #define MODELS_FOX_MAKER_H
 
+#include "model/fox.h"
 #include "models/mesh.h"
 
 /// Appends body and tail at a level of detail.
@@ -16,5 +17,8 @@ void mesh_fox_tail(int rings, int segments, struct mesh *mesh);
 
 /// Whether eyes, nose or mouth are drawn on a triangle.
 bool fox_is_face(const struct mesh *mesh, const uint32_t corners[3]);
+
+/// The pivot of each part's turn and scale, bind space.
+void fox_pivots(float pivot[LIMBS][3]);
 
 #endif
