@@ -8,12 +8,6 @@
 #include <stddef.h>
 #include <stdint.h>
 
-enum {
-    GLB_MAGIC = 0x46546C67, ///< "glTF"
-    GLB_JSON = 0x4E4F534A,
-    GLB_BIN = 0x004E4942,
-};
-
 /// Limits: the size of a file, the memory for its content, and that memory per byte of the file.
 enum { GLB_FILE_LIMIT = 1 << 28, GLB_ROOM = 8 << 20, GLB_GROWTH = 32 };
 

@@ -566,7 +566,7 @@ static bool read_nodes(struct gltf_reader *r)
     }
     for (int at = 0; at < listed; at++) {
         const json_t *children = json_object_get(json_array_get(nodes, (size_t)gltf->order[at]), "children");
-        json_array_foreach(children, k, element) gltf->order[listed++] = (int)json_integer_value(element);
+        json_array_foreach(children, k, element) { gltf->order[listed++] = (int)json_integer_value(element); }
     }
     gltf_at(r, "nodes");
     if (listed < gltf->node_count) return gltf_bad(r, ": expected a tree, got a node that is below itself");

@@ -4,7 +4,6 @@
 #include "base/need.h"
 #include "base/npy.h"
 #include "model/adjacency.h"
-#include "model/glb.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdlib.h>

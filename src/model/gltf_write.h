@@ -8,6 +8,13 @@
 #include <jansson.h>
 #include <stdio.h>
 
+/// A .glb begins with the first; the others are the types of its chunks.
+enum {
+    GLB_MAGIC = 0x46546C67, ///< "glTF"
+    GLB_JSON = 0x4E4F534A,
+    GLB_BIN = 0x004E4942,
+};
+
 /// All zero at first; without_memory stays set.
 struct gltf_file {
     json_t *views, *accessors;
