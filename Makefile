@@ -69,7 +69,8 @@ EMBEDDED := LICENSE $(wildcard shaders/*.vert shaders/*.frag assets/scenes/tail.
     assets/scenes/figure*.json assets/scenes/dog.json assets/scenes/hands.json \
     assets/models/fox.glb assets/demo/demo.replay)
 TOOLS := $(filter-out adversary,$(basename $(notdir $(wildcard tools/*.c))))
-TOOL_PARTS := $(wildcard tools/*/*.c)
+MODEL_MAKERS := creature_obj dog_glb fox_glb
+TOOL_PARTS := $(filter-out $(MODEL_MAKERS:%=tools/models/%.c),$(wildcard tools/*/*.c))
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
 FUZZERS := $(basename $(notdir $(wildcard tests/fuzz/fuzz_*.c)))
 FUZZ_SUPPORT := $(filter-out tests/fuzz/fuzz_%.c,$(wildcard tests/fuzz/*.c))
@@ -130,7 +131,7 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 .PHONY: all library run test test-all bench feel adversary web npm wheel blender blender-proof proof models check figures regress fuzz fuzzers install install-library clean help packages \
     compile_commands.json FORCE
 
-all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%)
+all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(MODEL_MAKERS:%=$(B)/%)
 
 library: $(LIBRARIES)
 
@@ -149,7 +150,7 @@ run: $(B)/wiggly
 	$(Q)$(B)/wiggly live --log $(LIVE_LOG) --screenshot $(LIVE_PICTURE) $(ARGS)
 	$(Q)[ ! -s $(LIVE_PICTURE) ] || echo "Picture: $(LIVE_PICTURE), timing log: $(LIVE_LOG)"
 
-test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(TEST_PROGRAMS)
+test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(MODEL_MAKERS:%=$(B)/%) $(TEST_PROGRAMS)
 	$(Q)B=$(B) WIGGLY=$(B)/wiggly TEST_OUT=$(B)/test-out CC="$(CC)" tools/run-tests.sh \
 	    $(TEST_PROGRAMS) $(filter %.sh,$(TESTS))
 
@@ -165,14 +166,6 @@ feel: $(B)/feel
 COUNT ?= 2000
 adversary: $(B)/adversary
 	$(Q)$< $(SEED) $(COUNT) $(JOBS)
-
-models: $(B)/models/creature.obj $(B)/models/dog.glb $(B)/models/fox.glb
-$(B)/models/%.obj: $(B)/%_obj
-	@mkdir -p $(@D)
-	$(Q)$< $@
-$(B)/models/%.glb: $(B)/%_glb
-	@mkdir -p $(@D)
-	$(Q)$< $@
 
 # The platforms that Blender runs on.
 blender: PLATFORMS ?= manylinux_2_17_x86_64 win_amd64 macosx_11_0_x86_64 macosx_11_0_arm64
@@ -358,9 +351,9 @@ $(B)/parts.txt: FORCE | packages
 $(GENERATED)/build.c: FORCE | packages
 	@tools/build-info.sh $@ "$(CC)" "$(filter -O% -f% -m%,$(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS))$(if $(SPLINE_CFLAGS),; spline $(SPLINE_CFLAGS))"
 
-# --- the web page ------------------------------------------------------------------------------------------------------
+# --- the web page, and the characters of assets/models -----------------------------------------------------------------
 
-include src/platform/web/web.mk
+include src/platform/web/web.mk tools/models/models.mk
 
 .SECONDARY:
 -include $(shell find $(B)/obj -name "*.d" 2>/dev/null)

@@ -1,4 +1,4 @@
-/// The stage's animal: a small sitting fox that looks back at its long tail. The asset models/fox.glb is made by tools/fox_glb.c; here it gets
+/// The stage's animal: a small sitting fox that looks back at its long tail. The asset models/fox.glb is made by tools/models/fox_glb.c; here it gets
 /// a tail with as many joints as its rig.
 ///
 /// One size is made; shown at tail length L it is scaled by L / FOX_TAIL_LENGTH. Bind space: metres, y up, the tail straight along +z with its

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Makes assets/models/creature.glb, as you can from any mesh: the mesh, a soft-body simulation with two bursts of its base and limbs eight
 # times softer than feet, and the result's analysis. The bursts' frequencies lie between those of trunk and limbs, so that limbs lag behind.
-# Takes about a minute of one core. Usage: tools/make-creature.sh [build folder] [output.glb]
+# Takes about a minute of one core. Usage: tools/models/make-creature.sh [build folder] [output.glb]
 set -eu
 export LC_ALL=C
 build=${1:-build}
