@@ -13,7 +13,6 @@
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/state.h"
-#include "editor/stage/parts.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "editor/transport/transport.h"

@@ -1,7 +1,7 @@
 /// The body dragged by hand: it goes along at once, its tail follows through, and the document gets one step at the end.
 #include "panel_session.h"
 
-#include "editor/stage/parts.h"
+#include "editor/stage/state.h"
 
 static const char scene[] = "{\"frames\": [0, 48], \"splines\": ["
                             "{\"name\": \"sway\", \"frequency\": 1.5, \"damping\": 0.2, \"bandwidth\": "

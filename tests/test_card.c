@@ -2,7 +2,7 @@
 #include "blind.h"
 #include "shown.h"
 
-#include "editor/stage/parts.h"
+#include "editor/stage/state.h"
 
 enum { STEPS = 12, REACH = 6, LINE = 16 };
 

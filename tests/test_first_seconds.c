@@ -2,7 +2,7 @@
 #include "panel_session.h"
 
 #include "base/file.h"
-#include "editor/stage/parts.h"
+#include "editor/stage/state.h"
 
 static const char swings[] =
     "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1, \"damping\": 0.02, \"start\": "

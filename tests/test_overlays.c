@@ -1,5 +1,5 @@
 /// Onion skin and motion arc: what they show, and that they follow an edit in its own frame.
-#include "editor/stage/parts.h"
+#include "editor/stage/state.h"
 #include "panel_session.h"
 
 #include "ui/theme.h"

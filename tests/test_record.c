@@ -1,7 +1,7 @@
 /// Recording the body's way: few knots that keep to the hand's motion, a tail that swings as it did, one step to undo.
 #include "panel_session.h"
 
-#include "editor/stage/parts.h"
+#include "editor/stage/state.h"
 
 static const char scene[] =
     "{\"frames\": [0, 96], \"splines\": [{\"name\": \"sway\", \"frequency\": 1.2, \"damping\": 0.25, \"bandwidth\": "

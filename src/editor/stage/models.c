@@ -1,11 +1,19 @@
-/// Imported characters on the stage, and the posed surface of a soft one for hover.
+/// Imported characters on the stage: posing, the posed surface of a soft one for hover, and their bones: hover, clicks and drawing.
 #include "base/hash.h"
+#include "base/names.h"
 #include "base/need.h"
-#include "editor/stage/parts.h"
+#include "editor/core/bones.h"
+#include "editor/core/core.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
+#include "maths/maths.h"
 #include "model/figure.h"
 #include "model/vector.h"
+#include "ui/font.h"
+#include "ui/theme.h"
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { BOUND_STEPS = 60, FEET = 8 };
 
@@ -144,4 +152,343 @@ bool skin_spot(const struct stage *stage, const struct figure *figure, float x, 
     float direction[3];
     camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
     return pick_ray(figure, (const float(*)[3])stage->skin.posed, view->eye, direction, spot);
+}
+
+// Bones.
+
+static const float REACH = 12;      ///< pixels from a bone
+static const float OVERLAP = 4;     ///< pixels; of bones this close, the nearest to the eye wins
+static const float AS_DEEP = 0.02f; ///< share of the depth; closer bones count as equally deep
+static const float AS_FAR = 0.5f;   ///< pixels; closer bones count as equally near
+
+void bones_add(struct stage *stage, int model, const struct rig_pose *pose)
+{
+    const struct skeleton *skeleton = &pose->model.imported->skeleton;
+    const mat4s to_world = mat4_from(pose->model.root);
+    for (int b = 0; b < skeleton->count && stage->bone_count < STAGE_MAX_BONES; b++) {
+        const struct bone *bone = &skeleton->bones[b];
+        struct shown_bone *shown = &stage->bones[stage->bone_count++];
+        float ends[2][3];
+        *shown =
+            (struct shown_bone){.model = model, .part = *bone, .carries = skeleton->carries[bone->node], .chain = -1};
+        skeleton_ends(bone, pose->model.pose, ends);
+        for (int e = 0; e < 2; e++) {
+            const vec3s at = glms_mat4_mulv3(to_world, vec3_from(ends[e]), 1.0f);
+            memcpy(shown->ends[e], at.raw, sizeof at.raw);
+        }
+    }
+}
+
+/// The spline that gives a chain its colour: the active one if it bends the chain.
+static int spline_of(const struct core *core, const struct chain *chain)
+{
+    for (int c = 0; c < chain->channel_count; c++) {
+        if (chain->channels[c].spline == core->active) return core->active;
+    }
+    return chain->channel_count > 0 ? chain->channels[0].spline : -1;
+}
+
+void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones)
+{
+    const int spline = spline_of(core, &core->document->rigs[rig]->chain);
+    for (int b = 0; b < stage->bone_count; b++) {
+        struct shown_bone *bone = &stage->bones[b];
+        if (bone->model != model || (bone->chain >= 0 && spline != core->active)) continue;
+        for (int n = 0; n < bones->count; n++) {
+            const struct bone *part = &bone->part;
+            const bool is_last = n + 1 == bones->count;
+            if (part->from != bones->node[n]) continue;
+            if (is_last ? part->node != part->from : part->child != bones->node[n + 1]) continue;
+            bone->part.hidden = false;
+            bone->chain = rig;
+            bone->joint = n;
+            bone->color = spline >= 0 ? spline_list_color(core->document, spline) : 0;
+        }
+    }
+}
+
+/// A bone near the pointer.
+struct candidate {
+    int bone;
+    float xy[2], fraction, distance, depth;
+};
+
+/// Control, pole and leaf bones show while Alt is held.
+static bool is_hidden(const struct core *core, const struct shown_bone *bone)
+{
+    return bone->part.hidden && !(core->mods & MOD_ALT);
+}
+
+/// An edit in the same frame may have removed the bone.
+static bool exists(const struct document *document, const struct shown_bone *bone)
+{
+    const bool is_there = bone->model < document->rig_count && document->rigs[bone->model]->kind == RIG_MODEL;
+    return is_there && (bone->chain < 0 || tail_drag_holds(document, bone->chain, bone->joint));
+}
+
+static bool project_bone(const struct stage *stage, const struct core *core, const struct shown_bone *bone,
+                         float ends[2][2])
+{
+    return stage_project_point(stage, core->layout.stage, bone->ends[0], ends[0]) &&
+           stage_project_point(stage, core->layout.stage, bone->ends[1], ends[1]);
+}
+
+/// False if the bone is hidden or out of reach. A bone without vertices counts as farther.
+static bool measure(const struct stage *stage, const struct core *core, int bone, const float p[2],
+                    struct candidate *found)
+{
+    const struct shown_bone *shown = &stage->bones[bone];
+    float ends[2][2];
+    if (!exists(core->document, shown) || is_hidden(core, shown) || !project_bone(stage, core, shown, ends))
+        return false;
+    found->bone = bone;
+    found->fraction = segment_nearest(ends[0], ends[1], p);
+    for (int k = 0; k < 2; k++) found->xy[k] = ends[0][k] + (ends[1][k] - ends[0][k]) * found->fraction;
+    found->distance = maths_hypotf(p[0] - found->xy[0], p[1] - found->xy[1]) + (shown->carries ? 0 : OVERLAP);
+    const vec3s at = glms_vec3_lerp(vec3_from(shown->ends[0]), vec3_from(shown->ends[1]), found->fraction);
+    found->depth = camera_depth(stage->view.view, stage->view.eye, at.raw);
+    return found->distance < REACH;
+}
+
+/// Whether a bone is a better target than the best so far, if both are close to the pointer. At a joint the bone that starts there wins.
+static bool is_better(const struct candidate *a, const struct candidate *best)
+{
+    if (best->bone < 0) return true;
+    if (fabsf(a->depth - best->depth) > AS_DEEP * best->depth) return a->depth < best->depth;
+    if (fabsf(a->distance - best->distance) > AS_FAR) return a->distance < best->distance;
+    return a->fraction < best->fraction;
+}
+
+struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y)
+{
+    const float p[2] = {x, y};
+    struct candidate best = {.bone = -1}, candidate;
+    float nearest = REACH;
+    for (int b = 0; b < stage->bone_count; b++) {
+        if (measure(stage, core, b, p, &candidate)) nearest = fminf(nearest, candidate.distance);
+    }
+    for (int b = 0; b < stage->bone_count && !core->brush.on; b++) {
+        if (measure(stage, core, b, p, &candidate) && candidate.distance < nearest + OVERLAP &&
+            is_better(&candidate, &best))
+            best = candidate;
+    }
+    if (best.bone < 0) return (struct hover){.thing = NULL};
+    const struct shown_bone *bone = &stage->bones[best.bone];
+    return (struct hover){.thing = bone->chain >= 0 ? &thing_chain : &thing_bone,
+                          .rig = bone->chain,
+                          .joint = bone->joint,
+                          .fraction = (double)best.fraction,
+                          .model = bone->model,
+                          .node = bone->part.node,
+                          .x = best.xy[0],
+                          .y = best.xy[1]};
+}
+
+void bone_click(const struct stage *stage, struct core *core)
+{
+    const struct hover *pressed = &stage->pressed;
+    const struct document *document = core->document;
+    const bool is_there = pressed->model < document->rig_count && document->rigs[pressed->model]->kind == RIG_MODEL;
+    if ((pressed->thing == &thing_bone || pressed->thing == &thing_chain) && is_there) {
+        bones_clicked(core, pressed->model, pressed->node);
+    } else if (core->pick.use == BONE_SELECTED) {
+        bones_clear(core);
+    }
+}
+
+/// The middle of a bone; with "dog 2/" before its name, of that character.
+static bool find_bone(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const struct stage *stage = room;
+    const struct document *document = core->document;
+    for (int r = -1; (r = document_next_rig(document, RIG_MODEL, r)) >= 0;) {
+        const char *title = rig_title(document->rigs[r]);
+        const size_t length = strlen(title);
+        const bool is_its = strncmp(target->name, title, length) == 0 && target->name[length] == '/';
+        const struct imported *shown = bones_character(core, r);
+        const int node = shown ? gltf_find_node(&shown->gltf, target->name + (is_its ? length + 1 : 0)) : -1;
+        for (int b = 0; b < stage->bone_count && node >= 0; b++) {
+            const struct shown_bone *bone = &stage->bones[b];
+            const vec3s middle = glms_vec3_lerp(vec3_from(bone->ends[0]), vec3_from(bone->ends[1]), 0.5f);
+            if (bone->model != r || bone->part.node != node || is_hidden(core, bone)) continue;
+            if (stage_project_point(stage, core->layout.stage, middle.raw, xy)) return true;
+            break;
+        }
+    }
+    return false;
+}
+
+/// bone(tail_1): the first such bone of all characters; bone(dog 2/tail_1): that character's.
+const struct thing thing_bone = {
+    .cursor = CURSOR_HAND,
+    .hint = "Click to select this bone (Alt shows control bones too); drag to move the character",
+    .press = press_body,
+    .name = "bone",
+    .of = OF_ITSELF,
+    .find = find_bone,
+    .missing = "there is no such bone to be seen"};
+
+enum { LABEL_HEIGHT = 20, LABEL_PAD = 7, LABEL_AWAY = 14 };
+
+static const float NEAR_BOX = 12;                    ///< pixels around a character; inside, its bones show
+static const float THICKEST = 5, THINNEST = 1.5f;    ///< pixels: half of a bone's width
+static const float SHARE = 0.09f, WIDEST_AT = 0.14f; ///< of a bone's length: half its width, and where it is widest
+static const float PLAIN = 0.3f, MEANT = 0.6f, CHOSEN = 0.85f; ///< opacity of the fill
+
+/// Whether the pointer is over a character's bounding box on the screen.
+static bool is_over(const struct stage *stage, const struct core *core, const struct stage_model *model)
+{
+    struct rect box;
+    return !stage_project_box(stage, core->layout.stage, model->lo, model->hi, &box) ||
+           rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y);
+}
+
+/// The rig whose bones show because the pointer is over its character, or −1.
+static int model_under(const struct stage *stage, const struct core *core)
+{
+    const struct stage_view *view = &stage->view;
+    if (core->hover.thing == &thing_bone) return core->hover.model;
+    if (core->brush.on || !rect_contains(view->viewport, core->pointer_x, core->pointer_y)) return -1;
+    for (int rig = -1; (rig = document_next_rig(core->document, RIG_MODEL, rig)) >= 0;) {
+        const struct gltf_pose *pose = models_pose(core->models, core->document, rig, POSE_SHOWN);
+        for (int m = 0; pose && m < view->model_count; m++) {
+            if (view->models[m].pose == pose && is_over(stage, core, &view->models[m])) return rig;
+        }
+    }
+    return -1;
+}
+
+static void show_bone(struct drawlist *list, const float a[2], const float b[2], uint32_t color, uint32_t edge,
+                      float opacity)
+{
+    const float dx = b[0] - a[0], dy = b[1] - a[1], length = maths_hypotf(dx, dy);
+    const float half = fmaxf(THINNEST, fminf(THICKEST, SHARE * length));
+    const float ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
+    const float x = a[0] + WIDEST_AT * dx, y = a[1] + WIDEST_AT * dy;
+    const float corners[5][2] = {
+        {a[0], a[1]}, {x - half * uy, y + half * ux}, {b[0], b[1]}, {x + half * uy, y - half * ux}, {a[0], a[1]}};
+    drawlist_line(list, corners[0], 5, 3, theme_fade(theme()->panel, 0.45f));
+    drawlist_convex(list, corners[0], 4, theme_fade(color, opacity));
+    drawlist_line(list, corners[0], 5, 1.25f, theme_fade(edge, 0.5f + 0.5f * opacity));
+}
+
+/// The bone's name beside the pointer, inside the stage.
+static void show_name(struct core *core, const char *name)
+{
+    const struct rect stage = core->layout.stage;
+    const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, name), stage.w / 2) + 2 * LABEL_PAD + 2;
+    struct rect r = {core->pointer_x + LABEL_AWAY, core->pointer_y - LABEL_AWAY - LABEL_HEIGHT, width, LABEL_HEIGHT};
+    if (r.x + r.w > stage.x + stage.w) r.x = core->pointer_x - LABEL_AWAY - r.w;
+    if (r.y < stage.y) r.y = core->pointer_y + LABEL_AWAY;
+    drawlist_rounded(&core->list, r, 4, theme_fade(theme()->raised, 0.92f));
+    drawlist_rounded_line(&core->list, r, 4, 1, theme()->border);
+    drawlist_text_fit(&core->list, r.x + LABEL_PAD, r.y + 14, r.w - LABEL_PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+                      theme()->text, name);
+}
+
+/// The bones from a node down to a tip, which a new chain would bend; −1: none.
+struct way {
+    int model, node, tip;
+};
+
+/// Shown in this frame: a character's bones, and the ways from the selected bone and from the one under the pointer.
+struct showing {
+    bool all; ///< for picking a bone
+    int model;
+    struct way chosen, meant;
+};
+
+static struct way way_from(const struct core *core, int model, int node)
+{
+    const struct imported *character = node >= 0 ? bones_character(core, model) : NULL;
+    return (struct way){model, node, character ? chain_end(character, node, NULL) : -1};
+}
+
+static struct way way_chosen(const struct core *core)
+{
+    int model;
+    const int node = bones_selected(core, &model);
+    return way_from(core, model, node);
+}
+
+/// The number of bones from the way's tip up to a node on it; 0 for others.
+static int way_count(const struct core *core, const struct way *way, int model, int node)
+{
+    if (way->model != model || way->tip < 0) return 0;
+    const struct gltf_node *nodes = bones_character(core, model)->gltf.nodes;
+    int count = 1;
+    for (int n = way->tip; n >= 0; n = n == way->node ? -1 : nodes[n].parent, count++) {
+        if (n == node) return count;
+    }
+    return 0;
+}
+
+static float opacity_of(const struct showing *showing, const struct core *core, const struct shown_bone *bone)
+{
+    const int model = bone->model, node = bone->part.node;
+    if (model == showing->chosen.model && node == showing->chosen.node) return CHOSEN;
+    if (model == showing->meant.model && node == showing->meant.node) return MEANT;
+    const bool ahead =
+        way_count(core, &showing->chosen, model, node) > 0 || way_count(core, &showing->meant, model, node) > 0;
+    return ahead ? MEANT : PLAIN;
+}
+
+static void show_all(const struct stage *stage, struct core *core, const struct showing *showing)
+{
+    for (int b = 0; b < stage->bone_count; b++) {
+        const struct shown_bone *bone = &stage->bones[b];
+        float ends[2][2];
+        if (bone->model != showing->model && bone->model != showing->chosen.model && !showing->all) continue;
+        const float opacity = opacity_of(showing, core, bone);
+        if ((is_hidden(core, bone) && opacity == PLAIN) || !project_bone(stage, core, bone, ends)) continue;
+        const uint32_t color = bone->chain >= 0 && bone->color ? bone->color : theme()->playhead;
+        if (bone->part.node != bone->part.from) {
+            drawlist_line(&core->list, ends[0], 2, 1.25f, theme_fade(color, opacity));
+            continue;
+        }
+        show_bone(&core->list, ends[0], ends[1], color, opacity == CHOSEN ? theme()->text : color, opacity);
+    }
+}
+
+void bones_show(const struct stage *stage, struct core *core)
+{
+    const struct hover *hover = &core->hover;
+    struct showing showing = {.all = core->pick.use != BONE_SELECTED,
+                              .model = model_under(stage, core),
+                              .chosen = way_chosen(core),
+                              .meant = {-1, -1, -1}};
+    if (!core->drag.owner && hover->thing == &thing_bone)
+        showing.meant = way_from(core, hover->model, hover->node);
+    else if (!core->drag.owner && hover->thing == &thing_chain)
+        showing.meant = (struct way){hover->model, hover->node, -1};
+    show_all(stage, core, &showing);
+    const struct way *meant = &showing.meant;
+    if (meant->node < 0) return;
+    char title[BONES_TITLE], text[2 * BONES_TITLE];
+    const struct gltf_node *nodes = bones_character(core, meant->model)->gltf.nodes;
+    const int count = way_count(core, meant, meant->model, meant->node);
+    int length =
+        snprintf(text, sizeof text, "%s", bones_title(core->document, meant->model, nodes[meant->node].name, title));
+    if (count > 1)
+        snprintf(text + length, sizeof text - (size_t)length, " to %.*s, %d bones",
+                 name_fit(nodes[meant->tip].name, 200), nodes[meant->tip].name, count);
+    show_name(core, text);
+}
+
+bool bones_box(const struct stage *stage, const struct core *core, float lo[3], float hi[3])
+{
+    const struct way way = way_chosen(core);
+    bool any = false;
+    for (int b = 0; b < stage->bone_count; b++) {
+        const struct shown_bone *bone = &stage->bones[b];
+        const int node = bone->part.node;
+        if (bone->model != way.model || node != bone->part.from) continue;
+        if (node != way.node && way_count(core, &way, way.model, node) == 0) continue;
+        for (int e = 0; e < 6; e++) {
+            lo[e % 3] = fminf(lo[e % 3], bone->ends[e / 3][e % 3]);
+            hi[e % 3] = fmaxf(hi[e % 3], bone->ends[e / 3][e % 3]);
+        }
+        any = true;
+    }
+    return any;
 }

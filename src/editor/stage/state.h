@@ -1,13 +1,29 @@
-/// State of the stage. Private to the stage.
+/// The stage's state, and functions shared by its files and its tests. Private to the stage.
 #ifndef EDITOR_STAGE_STATE_H
 #define EDITOR_STAGE_STATE_H
 
 #include "editor/core/state.h"
-#include "editor/stage/silhouette.h"
 #include "model/figure.h"
 #include "rig/camera.h"
 #include "rig/models.h"
+#include "rig/posing.h"
 #include "rig/swing.h"
+#include "ui/drawlist.h"
+#include <math.h>
+
+enum { SILHOUETTE_SIDE = 208, SILHOUETTE_POINTS = 4096 };
+
+/// For each grid node the distance inside the shape, pixels; negative outside.
+struct silhouette {
+    float low[2], high[2]; ///< bounds of the shape
+    struct rect area;
+    float cell; ///< pixels between nodes
+    int columns, rows;
+    float inside[SILHOUETTE_SIDE][SILHOUETTE_SIDE]; ///< by row and column
+    float blurred[SILHOUETTE_SIDE][SILHOUETTE_SIDE];
+    bool followed[SILHOUETTE_SIDE][SILHOUETTE_SIDE]; ///< the edge between a node and the next in its row
+    float points[2 * SILHOUETTE_POINTS][2];          ///< the last outline, and room for another
+};
 
 /// Stiff enough for the body to stand still at both ends of its path, 1/s.
 #define RECORD_STIFFNESS 1e5
@@ -193,5 +209,260 @@ struct stage {
     struct floor_drag floor_drag;
     struct painting painting;
 };
+
+/// `rig` is the index in the document, `n` the number within its kind.
+struct stage_kind {
+    /// Poses it into the stage view, with its shadow.
+    void (*pose)(struct stage *stage, const struct core *core, int rig, int n);
+    /// Number of samples for the bounding box of its motion; 0: it has none.
+    int bound_steps;
+    /// Extra width on both sides in metres, or NULL.
+    float (*aside)(const struct core *core, int n);
+    /// Hash of all of this kind in the view. NULL: another kind's hash includes them.
+    uint64_t (*hash)(uint64_t hash, const struct stage_view *view);
+};
+
+/// tail_stage …
+#define STAGE_KIND(constant, name) extern const struct stage_kind name##_stage;
+RIG_KIND_LIST(STAGE_KIND)
+#undef STAGE_KIND
+
+/// The things of the stage. A press edits nothing until the pointer moves.
+extern const struct thing thing_tail, thing_chain, thing_bone, thing_body, thing_point, thing_pin, thing_floor;
+
+static inline bool is_strand(const struct hover *hover)
+{
+    return hover->thing == &thing_tail || hover->thing == &thing_chain;
+}
+
+/// Inputs of posing, in the editor's look.
+struct posing stage_posing(const struct core *core);
+/// Projects a point to the stage's rectangle `r`; false if it is behind the eye.
+bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
+/// The rectangle around the corners of a box that are in front of the eye; false if some are not.
+bool stage_project_box(const struct stage *stage, struct rect r, const float lo[3], const float hi[3],
+                       struct rect *around);
+
+/// Dims the stage below texts, so that they are legible over any character.
+void stage_scrim(struct core *core, struct rect box);
+/// A small text with its baseline at (x, y), on a scrim.
+void stage_note(struct core *core, float x, float y, enum font font, uint32_t color, const char *text);
+/// A ring where a tail or chain is held or can be grabbed.
+void stage_ring(struct core *core, const float xy[2]);
+/// End of a drag that never moved: a click on a bone, or on nothing.
+void stage_click(void *room, struct core *core, bool keep);
+
+/// The same, with the held body and its follow-through.
+struct posing stage_posing_by_hand(const struct stage *stage);
+/// Pixels per metre facing the eye, at a place.
+double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3]);
+/// How far the pointer's movement goes along an axis whose unit is (across, up) on the screen.
+double stage_along(double across, double up, double dx, double dy);
+/// A character as shown (by its number in the document); of a pair, the one that is not stiff. NULL if not shown.
+const struct stage_character *stage_character_shown(const struct stage *stage, int character);
+/// World position of a vertex of a character that stands at `position`.
+void stage_vertex(const struct figure *figure, const struct morph *morph, const float position[3], int vertex,
+                  float place[3]);
+
+/// Remembers the rigs on the held body, before any edit.
+void base_begin(struct stage *stage, const struct core *core);
+/// A coordinate at a sample, in metres, as a spline would have it.
+double base_value(const struct core *core, int rig, int coordinate, int sample);
+/// The spline of a coordinate; creates a cubic if it is fixed. -1 on failure.
+int base_spline(const struct stage *stage, struct core *core, int coordinate);
+/// Sets or inserts a knot within its spline's limits (see core_hold()); `level`: with slope 0.
+void base_put_knot(struct core *core, int spline, int sample, double value, bool level, char why[STOPPED_SIZE]);
+/// Makes the coordinate follow the spline.
+void base_follow(const struct stage *stage, struct core *core, int coordinate, int base);
+/// Makes the channels that swing with a coordinate follow its spline. A tail without such a channel gets one. Returns the new spline, or
+/// -1.
+int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base);
+/// Adds a sentence about the new spline to a message; nothing for -1.
+void base_say_channel(const struct core *core, int spline, char *text, size_t size);
+
+/// Shows a rig's model: an imported character, or a tail's fox. NULL if missing or the view is full.
+struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed);
+
+/// A rig's strand as last shown, or NULL.
+const struct shown_strand *strand_of(const struct stage *stage, int rig);
+/// Poses a strand with the movement by hand; `change` may be NULL. False if it or its model is missing.
+bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
+                 const struct what_if *change, struct rig_pose *pose);
+/// Projects a point of a strand: `fraction` 0 … 1 of the way from joint to joint + 1. False if it is behind the eye.
+bool strand_project(const struct stage *stage, const struct core *core, const struct pose *strand, int joint,
+                    double fraction, float xy[2]);
+/// Projects a point of a tail or chain, as last posed: `fraction` 0 … 1 of the way from joint to joint + 1.
+bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
+                   float xy[2]);
+/// Grab distance of a tail from its centre line, pixels.
+#define STRAND_REACH 16.0f
+/// Updates `hover` (a tail) and `nearest` (pixels) if a point of the strand is nearer.
+void strand_nearer(const struct stage *stage, const struct core *core, int rig, const struct pose *strand,
+                   const float p[2], float *nearest, struct hover *hover);
+/// The nearest point of a tail. Chains are found by their bones (bone_hover()).
+struct hover strand_hover(const struct stage *stage, const struct core *core, float x, float y);
+/// The joint end nearest to a point of a tail or chain (a point); nothing if it is behind the eye.
+struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between);
+
+/// Whether the document has the point and, for a character, its model.
+bool point_exists(const struct core *core, struct rig_point point);
+/// World place of the point at a position in samples; false if its model is missing.
+bool point_place(const struct core *core, struct rig_point point, double position, float place[3]);
+
+/// Adds the bones of a shown character.
+void bones_add(struct stage *stage, int model, const struct rig_pose *pose);
+/// Marks the bones of a chain.
+void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones);
+
+/// The bone at a point of the stage, or its chain.
+struct hover bone_hover(const struct stage *stage, const struct core *core, float x, float y);
+/// A click where the pointer was pressed: selects the bone there, or none.
+void bone_click(const struct stage *stage, struct core *core);
+
+/// Draws bones: all of the character under the pointer, and those from the selected bone to its tip.
+void bones_show(const struct stage *stage, struct core *core);
+/// Widens the box to the selected bone and those to its tip; false if none is shown.
+bool bones_box(const struct stage *stage, const struct core *core, float lo[3], float hi[3]);
+
+/// A floor's corners in order, on the screen.
+struct shown_floor {
+    float xy[4][2];
+    int first; ///< corner nearest to the eye
+};
+
+/// The floor's edge at a point of the stage.
+struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y);
+
+/// Draws all floors: brighter if touched, in the warning colour if a character is below.
+void floors_show(const struct stage *stage, struct core *core);
+
+/// A marker at a point of the stage; else, if nothing else was `found`, a surface point to pin.
+struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y);
+
+/// Draws markers, highlights, and the path of the held or selected point.
+void pins_show(struct stage *stage, struct core *core);
+
+/// Finds a point of a character's surface for a replay.
+bool find_character(void *room, const struct core *core, const struct target *target, float xy[2]);
+
+/// Frees its memory.
+void brush_free(struct painting *painting);
+/// Handles a press on the stage; true if it starts a stroke.
+bool brush_press(struct stage *stage, struct core *core, const struct event *event);
+/// Ctrl+wheel changes the radius, Shift+wheel the strength; true if used.
+bool brush_wheel(struct core *core, const struct event *event);
+/// Finds the surface point under the pointer, and the brush's reach. Call after posing.
+void brush_pose(struct stage *stage, struct core *core, bool covered);
+
+/// Draws the ring on the surface and, above the legend, the brush's mode and the paint at the pointer.
+void brush_show(struct stage *stage, struct core *core);
+
+/// The body at a point of the stage nearest to the eye, at a position in samples.
+struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y);
+/// A rig's tail; NULL if it is none or gone.
+struct tail *tail_of(const struct document *document, int rig);
+/// Starts to drag a body, or the character of a bone, over the ground or, with Ctrl, up and across. X, Y and Z lock an axis; R records.
+void press_body(void *room, struct core *core, const struct hover *hover, const struct event *event);
+bool body_is_held(const struct core *core);
+/// A ring on the ground around the held body, or the one under the pointer.
+void body_drag_show(struct stage *stage, struct core *core);
+
+/// The pointer's movement of the held body in metres, before limits; 0 if none is held.
+void body_drag_way(const struct stage *stage, const struct core *core, double offset[3]);
+/// Moves the held body within its limits. Call before anything else advances.
+void body_drag_advance(struct stage *stage, const struct core *core);
+/// How far the current drag has moved a rig, in metres; 0 unless it is on the held body.
+void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3]);
+
+/// Advances by `dt` seconds: bases follow body_drag_offset(), their tails and chains swing.
+void drag_inertia_advance(struct stage *stage, const struct core *core, double dt);
+/// The document now contains the offset, which is no new movement of the base.
+void drag_inertia_land(struct stage *stage);
+/// Stops a body's follow-through at once.
+void drag_inertia_stop(struct stage *stage, const struct document *document, int body);
+/// swing_scale() of a swinging channel; else 0.
+double drag_inertia_scale(const struct stage *stage, const struct document *document, int rig, int channel);
+/// Adds the follow-through to the values of a rig's channels.
+void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,
+                      wiggly_value values[RIG_MAX_INPUTS]);
+
+/// Starts to record at the playhead, and plays. The body must be held.
+void record_begin(struct stage *stage, struct core *core);
+/// Records the body's place up to the playhead; stops at the end of the played range.
+void record_advance(struct stage *stage, const struct core *core);
+/// The path of the body under the pointer or held, and the motion recorded so far.
+void record_show(struct stage *stage, struct core *core);
+bool record_has_motion(const struct stage *stage);
+void record_forget(struct stage *stage);
+/// Chooses knots (indices from 0) so that a cubic through them, level at both ends, stays within `tolerance` of `count` values, one per
+/// sample. At most `capacity` (at least 2). Returns their number. Allocates.
+int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity);
+
+/// Makes the edits in the open step: base splines for coordinates that moved, and channels that follow them. Reports the number of knots,
+/// then forgets the motion.
+void record_keep(struct stage *stage, struct core *core);
+
+/// Whether the document has the tail or chain, and the joint.
+bool tail_drag_holds(const struct document *document, int rig, int joint);
+
+/// The tail or chain that the active spline moves, else the first; -1 if none is visible.
+int overlay_rig(const struct stage *stage, const struct core *core);
+/// Onion skin (O): the outline of the tail or soft character, or the chain's line, at the active spline's knots nearest to the playhead.
+void onion_show(struct stage *stage, struct core *core);
+
+/// Ghost (F4): the same at a knot that is dragged or was just nudged, unless that pose is shown.
+void ghost_show(struct stage *stage, struct core *core);
+
+/// The point for the arc: the tip of the tail or chain that the active spline moves, else the vertex of the selected character that moves
+/// most. It may not exist (point_exists()).
+struct rig_point overlay_point(struct stage *stage, const struct core *core);
+/// Motion arc (Shift+O): the point's path within two seconds of the playhead, with a mark per frame.
+void trail_show(struct stage *stage, struct core *core);
+/// The same for any point of a rig.
+void path_show(struct stage *stage, struct core *core, enum trail which, struct rig_point point);
+
+/// Height of the scene's description at the top of a stage, pixels; 0 without one.
+float caption_height(struct rect place, const struct document *document);
+/// Tails' names at their feet, in the colour of their spline, if there are several.
+void names_show(const struct stage *stage, struct core *core);
+
+/// The legend's place.
+struct rect characters_legend(const struct core *core);
+/// Legend of the phase map, and the labels of a pair.
+void characters_show(const struct stage *stage, struct core *core);
+
+/// Position on the segment a … b nearest to p, 0 … 1.
+static inline float segment_nearest(const float a[2], const float b[2], const float p[2])
+{
+    const float dx = b[0] - a[0], dy = b[1] - a[1], square = dx * dx + dy * dy;
+    const float along = (p[0] - a[0]) * dx + (p[1] - a[1]) * dy;
+    return square > 0 ? fmaxf(0, fminf(1, along / square)) : 0;
+}
+
+/// Frees its memory.
+void skin_free(struct skin *skin);
+/// Memory for the largest shown surface; allocates only if it grows.
+void skin_reserve(struct stage *stage);
+/// Poses a character's surface (by its number in the document, not its stiff twin), unless done already. False if not shown.
+bool skin_pose(struct stage *stage, int character);
+/// The posed figure's surface point at a point of the stage; false if none.
+bool skin_spot(const struct stage *stage, const struct figure *figure, float x, float y, struct surface_spot *spot);
+
+/// Empties the shape.
+void silhouette_clear(struct silhouette *silhouette);
+/// Extends the grid for a disc.
+void silhouette_widen(struct silhouette *silhouette, const float middle[2], float radius);
+/// Sets up the grid for all discs; false if none is on the stage.
+bool silhouette_open(struct silhouette *silhouette, struct rect stage);
+/// Adds two discs and the area between them.
+void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],
+                         float to_radius);
+/// Adds a triangle; `inside` is its corners' distance inside the shape, pixels.
+void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2], const float inside[3]);
+/// Smooths the steps of triangles.
+void silhouette_soften(struct silhouette *silhouette);
+/// Follows the next outline larger than a speck into `points`; the last point repeats the first. Returns the number of points, 0 after the
+/// last outline.
+int silhouette_follow(struct silhouette *silhouette);
 
 #endif

@@ -1,12 +1,30 @@
-/// Tails and chains on the stage: posing, and projecting their joints.
+/// Tails and chains on the stage: posing, projecting their joints, and pulling them.
+///
+/// A pull is per frame one step of Newton's method on the poses at the playhead.
+/// The grabbed point (pixels) depends on x of at most two splines, one for each axis, each with its real and imaginary part. Its derivative J comes
+/// from posing again with a changed x. The rule is that of pins (docs/mathematics.md): with the eigenvalues e of JJᵀ and Φ = φ(e/max e)·max e on its
+/// eigenvectors,
+///
+///     x = x₀ + Jᵀ (JJᵀ + Φ)⁻¹ (target − p + J(x − x₀)),   x₀ at the press, in radians of bend, so that both axes count alike.
+///
+/// So the least change of x that reaches the target is taken, and a direction in which the point hardly moves gives way. On a
+/// curved way there the change still stays within twice what the best direction needs.
+#include "base/names.h"
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "editor/stage/parts.h"
+#include "editor/core/drag.h"
+#include "editor/core/pins.h"
+#include "editor/core/selection.h"
 #include "editor/stage/stage.h"
+#include "editor/stage/state.h"
 #include "maths/maths.h"
 #include "model/vector.h"
+#include "ui/theme.h"
 #include <assert.h>
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
 
 enum { BOUND_STEPS = 120, BLOBS_OF_ONE_TAIL = 20 };
 
@@ -158,3 +176,334 @@ struct hover strand_end(const struct stage *stage, const struct core *core, cons
     hover.y = xy[1];
     return hover;
 }
+
+// Pulling.
+
+static const double LARGEST_STEP = 0.35; ///< radians at the grabbed joint, per frame
+static const double CLOSE = 0.2;         ///< pixels; closer is close enough
+static const double PROBE = 0.01;        ///< radians of bend for the derivative
+static const double RESOLUTION = 1e-4;   ///< radians of bend
+static const double REACH = 0.04;        ///< of the largest eigenvalue: a fifth as far as the best direction
+static const double DEAREST = 2;         ///< times the change that the best direction needs, at most
+static const double LEAST_LINE = 1.5;    ///< pixels; shorter lines to the pointer are not drawn
+static const double DEGREE = 0.017453292519943295;
+
+/// The rig's channel for an axis, preferably the active spline's; or NULL.
+static const struct channel *channel_for(const struct core *core, const struct rig *rig, enum axis axis)
+{
+    const struct channel *found = NULL;
+    int count;
+    const struct channel *channels = rig_channels(rig, &count);
+    for (int c = 0; c < count; c++) {
+        const struct channel *channel = &channels[c];
+        if (channel->axis == axis && (!found || channel->spline == core->active)) found = channel;
+    }
+    return found;
+}
+
+static struct tail_drag_axis axis_for(const struct core *core, const struct rig *rig, const struct pose *strand,
+                                      int joint, enum axis axis)
+{
+    const struct channel *channel = channel_for(core, rig, axis);
+    const int joints = strand->count - 1;
+    double gain = 0;
+    for (int n = 0; channel && n <= joint && n < joints; n++)
+        gain += fabs(angles_at(&channel->gain, n, joints)) * DEGREE;
+    if (!(gain > 1e-9)) return (struct tail_drag_axis){0};
+    return (struct tail_drag_axis){.active = true, .spline = channel->spline, .values_per_radian = 1 / gain};
+}
+
+/// The sample on a whole frame nearest to the playhead where all controlled splines may have knots.
+static int sample_for(const struct stage *stage, const struct core *core)
+{
+    const struct document *document = core->document;
+    int sample = document_sample(document, round(core_frame(core)));
+    for (int a = 0; a < 2; a++) {
+        const struct tail_drag_axis *axis = &stage->tail_drag.axis[a];
+        if (!axis->active) continue;
+        int last = document_last_knot_sample(document, document->splines[axis->spline]);
+        sample = sample > last ? last : sample;
+    }
+    return sample < 0 ? 0 : sample;
+}
+
+bool tail_drag_holds(const struct document *document, int rig, int joint)
+{
+    if (rig >= document->rig_count) return false;
+    const struct rig *held = document->rigs[rig];
+    return held->kind == RIG_CHAIN || (held->kind == RIG_TAIL && joint <= held->tail.joints);
+}
+
+/// Derivative of the grabbed point per radian of bend about one axis, by its real and its imaginary part.
+static void derivative(const struct stage *stage, const struct core *core, const struct tail_drag_axis *axis,
+                       const float at[2], double column[2][2])
+{
+    const struct tail_drag *grab = &stage->tail_drag;
+    for (int part = 0; part < (axis->swings ? 2 : 1); part++) {
+        struct rig_pose posed;
+        float moved[2] = {at[0], at[1]};
+        const double change = PROBE * axis->values_per_radian;
+        const struct what_if what_if = {axis->spline, part ? 0 : change, part ? change : 0};
+        if (strand_pose(stage, core, grab->rig, core->playback.position, &what_if, &posed))
+            strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, moved);
+        for (int k = 0; k < 2; k++) column[part][k] = (double)(moved[k] - at[k]) / PROBE;
+    }
+}
+
+/// How much a direction gives way whose eigenvalue is `share` of the largest: not, if it moves at least a fifth as far as the best one.
+static double gives_way(double share)
+{
+    const double beyond = share > 0 ? fmax(0, REACH / share * (REACH / share) - 1) : INFINITY;
+    return beyond * beyond;
+}
+
+/// (JJᵀ + Φ)⁻¹ miss; J by columns. Returns JJᵀ's largest eigenvalue, and with it 0 if nothing moves the point.
+static double pull_back(const double (*column)[2], int columns, const double miss[2], double pull[2])
+{
+    double a = 0, b = 0, d = 0;
+    for (int c = 0; c < columns; c++) {
+        a += column[c][0] * column[c][0];
+        b += column[c][0] * column[c][1];
+        d += column[c][1] * column[c][1];
+    }
+    const double middle = (a + d) / 2, apart = maths_hypot((a - d) / 2, b), most = middle + apart;
+    double way[2] = {b, most - a}; // the best direction
+    if (maths_hypot(way[0], way[1]) < 1e-9 * most) way[0] = a >= d, way[1] = a < d;
+    const double length = maths_hypot(way[0], way[1]);
+    pull[0] = pull[1] = 0;
+    if (!(most > 0)) return 0;
+    for (int k = 0; k < 2; k++) way[k] /= length;
+    const double least = fmax(middle - apart, 0), share = least / most;
+    const double along = (way[0] * miss[0] + way[1] * miss[1]) / most;
+    const double across = (way[0] * miss[1] - way[1] * miss[0]) / (least + gives_way(share) * most);
+    pull[0] = along * way[0] - across * way[1];
+    pull[1] = along * way[1] + across * way[0];
+    return most;
+}
+
+/// A spline without knots starts from rest, a quarter period before its first knot.
+static void begin_from_rest(struct core *core, int spline, int sample)
+{
+    const struct document *document = core->document;
+    const struct spline *of = document->splines[spline];
+    const double frame = document_frame(document, sample), first = document->first_frame;
+    const double frequency = core_parameter_at(core, of, PARAMETER_FREQUENCY, sample);
+    struct knot still = {.value = NAN, .stiffness = KNOT_DEFAULT_STIFFNESS, .still = true};
+    if (of->knot_count > 0 || !(frequency > 0)) return;
+    still.frame = frame - fmax(1, round(document->fps / (4 * frequency)));
+    if (still.frame < first)
+        still.frame = spline_start(of) == WIGGLY_LOOP ? still.frame + document->last_frame - first : first;
+    if (still.frame >= first && still.frame != frame) core_put_knot(core, spline, &still);
+}
+
+/// The knot that a pull takes along to its pose: the nearest one within a quarter of a period, and at least a frame; −1: none, or there is one.
+static int taken_knot(const struct core *core, int of, int sample)
+{
+    const struct document *document = core->document;
+    const struct spline *spline = document->splines[of];
+    const double frequency = core_parameter_at(core, spline, PARAMETER_FREQUENCY, sample);
+    const bool swings = spline_mode(spline) != WIGGLY_CUBIC && frequency > 0;
+    const double quarter = swings ? 0.25 / (frequency * document_step(document)) : 0;
+    const int period = spline_start(spline) == WIGGLY_LOOP ? document_samples(document) - 1 : INT_MAX;
+    double nearest = fmax(quarter, document->substeps);
+    int taken = -1;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const int away = abs(document_sample(document, spline->knots[k].frame) - sample);
+        const int distance = away < period - away ? away : period - away;
+        if (distance == 0) return -1;
+        if (distance > nearest) continue;
+        nearest = distance;
+        taken = k;
+    }
+    return taken;
+}
+
+/// Puts an axis' pose at the grabbed sample, within its spline's limits.
+static void set_pose(struct stage *stage, struct core *core, const struct tail_drag_axis *axis, const double to[2],
+                     char why[STOPPED_SIZE])
+{
+    struct tail_drag *grab = &stage->tail_drag;
+    const struct spline *spline = core->document->splines[axis->spline];
+    const int taken = core->mods & MOD_ALT ? -1 : taken_knot(core, axis->spline, grab->sample);
+    struct knot knot = core_knot_at(core->document, axis->spline, grab->sample);
+    if (taken >= 0) {
+        const double frame = knot.frame;
+        knot = spline->knots[taken];
+        snprintf(grab->hint, sizeof grab->hint, "The knot of %.*s at frame %.6g comes along; with Alt it stays",
+                 name_fit(spline->name, 40), spline->name, knot.frame);
+        knot.frame = frame;
+        knot.still = knot.has_slope = false;
+    }
+    knot.value = to[0];
+    knot.has_phase = axis->swings;
+    knot.phase = axis->swings ? to[1] : 0;
+    core_hold(spline, &knot, why);
+    begin_from_rest(core, axis->spline, grab->sample);
+    core_put_knot(core, axis->spline, &knot);
+}
+
+/// Activates a spline that bends the strand, unless one is active.
+static void activate(const struct tail_drag *grab, struct core *core)
+{
+    bool steered = false;
+    for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == core->active;
+    if (!steered) core_activate(core, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
+}
+
+/// Selects the pulled knot.
+static void select_knot(const struct stage *stage, struct core *core)
+{
+    const struct tail_drag *grab = &stage->tail_drag;
+    activate(grab, core);
+    const struct spline *spline = core_active_spline(core);
+    int at = spline ? spline_find_knot(core->document, spline, grab->sample) : -1;
+    if (at < 0) return;
+    pins_clear(core);
+    selection_clear(&core->selection);
+    selection_set(&core->selection, spline->knots[at].id, true);
+    core_edited(core, -1);
+    for (int a = 0; a < 2; a++) {
+        const struct tail_drag_axis *axis = &grab->axis[a];
+        if (axis->active && axis->spline != core->active) core_edited(core, axis->spline);
+    }
+}
+
+/// One step towards the pointer; needs the last solved frame's pose.
+static void pull_strand(void *room, struct core *core)
+{
+    struct stage *stage = room;
+    struct tail_drag *grab = &stage->tail_drag;
+    const struct drag *drag = &core->drag;
+    if (!grab->axis[AXIS_SIDE].active && !grab->axis[AXIS_UP].active) return;
+    if (!tail_drag_holds(core->document, grab->rig, grab->joint)) return;
+    struct rig_pose posed;
+    float at[2];
+    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
+    if (!strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, at)) return;
+    double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
+    if (grab->applied && maths_hypot(miss[0], miss[1]) < CLOSE) return;
+    double column[4][2] = {{0}}, way[4] = {0}, pull[2];
+    for (int a = 0; a < 2; a++) {
+        const struct tail_drag_axis *axis = &grab->axis[a];
+        if (!axis->active) continue;
+        const wiggly_value now = evaluation_at(core->evaluation, axis->spline, grab->sample);
+        derivative(stage, core, axis, at, column + 2 * a);
+        way[2 * a] = (now.y + now.re - axis->start[0]) / axis->values_per_radian;
+        way[2 * a + 1] = axis->swings ? (now.im - axis->start[1]) / axis->values_per_radian : 0;
+        for (int k = 0; k < 2; k++) miss[k] += column[2 * a][k] * way[2 * a] + column[2 * a + 1][k] * way[2 * a + 1];
+    }
+    const double best = sqrt(pull_back(column, 4, miss, pull));
+    double step[4], whole = 0, size = 0;
+    for (int c = 0; c < 4; c++) {
+        step[c] = column[c][0] * pull[0] + column[c][1] * pull[1];
+        whole = maths_hypot(whole, step[c]);
+    }
+    const double most = best > 0 ? DEAREST * maths_hypot(drag->moved_x, drag->moved_y) / best : 0;
+    for (int c = 0; c < 4; c++) {
+        step[c] = step[c] * fmin(1, most / fmax(whole, most)) - way[c];
+        size = maths_hypot(size, step[c]);
+    }
+    char why[STOPPED_SIZE] = "";
+    grab->hint[0] = '\0';
+    drag_restart(core);
+    for (int a = 0; a < 2; a++) {
+        const struct tail_drag_axis *axis = &grab->axis[a];
+        double to[2];
+        for (int part = 0; part < 2; part++) {
+            const int c = 2 * a + part;
+            const double by = way[c] + step[c] * fmin(1, LARGEST_STEP / fmax(size, LARGEST_STEP));
+            to[part] =
+                core_round(axis->start[part] + by * axis->values_per_radian, RESOLUTION * axis->values_per_radian);
+        }
+        if (axis->active) set_pose(stage, core, axis, to, why);
+    }
+    core->drag.hint = grab->hint[0] ? grab->hint : NULL;
+    drag_say_stopped(core, why);
+    grab->applied = true;
+    select_knot(stage, core);
+}
+
+static void end_pull(void *room, struct core *core, bool keep)
+{
+    const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
+    const bool steers = grab->axis[AXIS_SIDE].active || grab->axis[AXIS_UP].active;
+    if (keep && steers && !core->drag.moved) activate(grab, core);
+    stage_click(room, core, keep);
+}
+
+static void show_pull(void *room, struct core *core)
+{
+    const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
+    float line[2][2] = {{0}, {core->drag.x, core->drag.y}};
+    if (!stage_project(room, core, grab->rig, grab->joint, grab->fraction, line[0])) return;
+    const double across = grab->start[0] + core->drag.moved_x - (double)line[0][0];
+    const double down = grab->start[1] + core->drag.moved_y - (double)line[0][1];
+    if (grab->applied && maths_hypot(across, down) > LEAST_LINE)
+        drawlist_line(&core->list, line[0], 2, 1.25f, theme()->playhead);
+    stage_ring(core, line[0]);
+}
+
+static const struct drag_owner strand_owner = {
+    .cursor = CURSOR_HAND, .goes_on = true, .apply = pull_strand, .end = end_pull, .show = show_pull};
+
+static void press_strand(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    struct stage *stage = room;
+    const struct rig *rig = core->document->rigs[hover->rig];
+    struct tail_drag *grab = &stage->tail_drag;
+    struct rig_pose posed;
+    drag_begin(core, &strand_owner, stage, rig->kind == RIG_CHAIN ? "Pull chain" : "Pull tail", event);
+    *grab = (struct tail_drag){.rig = hover->rig, .joint = hover->joint, .fraction = hover->fraction};
+    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
+    grab->axis[AXIS_SIDE] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_SIDE);
+    grab->axis[AXIS_UP] = axis_for(core, rig, &posed.strand, grab->joint, AXIS_UP);
+    if (grab->axis[AXIS_SIDE].active && grab->axis[AXIS_SIDE].spline == grab->axis[AXIS_UP].spline) {
+        grab->axis[AXIS_UP].active = false;
+    }
+    drag_inertia_stop(stage, core->document, grab->rig);
+    grab->sample = sample_for(stage, core);
+    for (int a = 0; a < 2; a++) {
+        struct tail_drag_axis *axis = &grab->axis[a];
+        const wiggly_value now = evaluation_at(core->evaluation, axis->spline, grab->sample);
+        if (axis->active) axis->start[0] = now.y + now.re, axis->start[1] = now.im;
+        axis->swings = axis->active && core->look != LOOK_CUBIC &&
+                       spline_mode(core->document->splines[axis->spline]) == WIGGLY_COMPLEX;
+    }
+    core->playback.playing = false;
+    core->playback.position = grab->sample;
+    grab->start[0] = hover->x;
+    grab->start[1] = hover->y;
+    if (!strand_pose(stage, core, grab->rig, core->playback.position, NULL, &posed)) return;
+    strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, grab->start);
+}
+
+/// A place along it: 0 is the first joint, 1 the tip.
+static bool find_along(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const int joints = bones_joints(core, target->rig);
+    const double along = fmin(fmax(target->number[0], 0), 1) * joints;
+    const int joint = (int)fmin(floor(along), joints - 1);
+    return stage_project(room, core, target->rig, joint, along - joint, xy);
+}
+
+/// tail(tail,0.9)
+const struct thing thing_tail = {.cursor = CURSOR_HAND,
+                                 .hint = "Drag the tail: it is held where you let go. Ctrl+drag or H pins a joint",
+                                 .press = press_strand,
+                                 .name = "tail",
+                                 .of = OF_RIG,
+                                 .rig = RIG_TAIL,
+                                 .numbers = 1,
+                                 .find = find_along,
+                                 .missing = "that tail is not to be seen"};
+
+const struct thing thing_chain = {
+    .cursor = CURSOR_HAND,
+    .hint = "Drag the chain: it is held where you let go. Ctrl+drag or H pins a joint, a click selects the bone",
+    .press = press_strand,
+    .name = "chain",
+    .of = OF_RIG,
+    .rig = RIG_CHAIN,
+    .numbers = 1,
+    .find = find_along,
+    .missing = "that chain is not to be seen"};

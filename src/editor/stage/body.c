@@ -1,0 +1,1064 @@
+/// A body that is moved by hand: the drag over the ground, the follow-through of its tail meanwhile, the recorded path, and the
+/// edits that a drag leaves.
+///
+/// A channel whose spline has its own knots keeps that spline. The swing that the base causes goes into a new channel on a spline with the
+/// same poles. By linearity the motion is the same, and every existing key keeps its meaning. A tail without a channel for an axis gets a
+/// new one, too.
+#include "base/names.h"
+#include "base/need.h"
+#include "editor/core/core.h"
+#include "editor/core/drag.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
+#include "maths/maths.h"
+#include "model/fox.h"
+#include "model/figure.h"
+#include "model/vector.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Follow-through, which is not part of the document's solution but added to it.
+
+/// A spline's filter at the playhead, with parameters that follow splines evaluated there.
+static bool filter_now(const struct core *core, int index, struct swing_filter *filter)
+{
+    const struct spline *spline = core->document->splines[index];
+    double parameter[PARAMETER_COUNT];
+    for (int p = 0; p < PARAMETER_COUNT; p++) {
+        const struct param *param = &spline->parameter[p];
+        wiggly_value value = {.y = param->value};
+        if (param->track >= 0) value = evaluation_at(core->evaluation, param->track, core->playback.position);
+        parameter[p] = value.y + value.re;
+    }
+    return swing_filter(spline, parameter, filter);
+}
+
+/// Drives a rig's channels by a change of its base's velocity; returns whether any still swings.
+static bool drive(struct drag_inertia *inertia, const struct core *core, int rig, const double kick[3], double dt)
+{
+    const struct posing posing = stage_posing(core);
+    struct swing_arm arm;
+    int count;
+    const struct channel *channels = rig_channels(core->document->rigs[rig], &count);
+    bool swings = false;
+    if (!swing_arm(&posing, rig, &arm)) return false;
+    for (int c = 0; c < count; c++) {
+        const struct channel *channel = &channels[c];
+        struct swing_filter filter;
+        double direction[3];
+        inertia->scale[c] = 0;
+        if (!swing_hangs(channels, count, channel) || !filter_now(core, channel->spline, &filter)) {
+            inertia->channel[c] = (struct swing){0};
+            continue;
+        }
+        swing_direction(&arm, channel->axis, direction);
+        double along = kick[0] * direction[0] + kick[1] * direction[1] + kick[2] * direction[2];
+        swing_step(&inertia->channel[c], &filter, along, dt);
+        inertia->scale[c] = swing_scale(&arm, channel, &filter);
+        swings |= !swing_settled(&inertia->channel[c], &filter);
+    }
+    return swings;
+}
+
+/// Index of a rig's swing; id 0 finds a free one; −1: none.
+static int find(const struct stage *stage, unsigned id)
+{
+    int i = STAGE_MAX_STRANDS;
+    while (--i >= 0 && stage->inertia[i].rig != id) continue;
+    return i;
+}
+
+/// Returns false at rest, when the entry can be dropped.
+static bool advance(struct drag_inertia *inertia, const struct core *core, int rig, const double offset[3], double dt)
+{
+    double kick[3];
+    bool moves = false;
+    for (int k = 0; k < 3; k++) {
+        double velocity = (offset[k] - inertia->offset[k]) / dt;
+        kick[k] = velocity - inertia->velocity[k];
+        moves |= velocity != 0 || kick[k] != 0 || offset[k] != 0;
+        inertia->velocity[k] = velocity;
+        inertia->offset[k] = offset[k];
+    }
+    if (!moves && !inertia->swings) return false;
+    inertia->swings = drive(inertia, core, rig, kick, dt) || moves;
+    return inertia->swings;
+}
+
+void drag_inertia_advance(struct stage *stage, const struct core *core, double dt)
+{
+    const struct document *document = core->document;
+    if (!(dt > 0)) return;
+    if (core->look == LOOK_CUBIC) memset(stage->inertia, 0, sizeof stage->inertia); // a cubic has no restoring force
+    for (int r = 0; r < document->rig_count && core->look != LOOK_CUBIC; r++) {
+        const unsigned id = document->rigs[r]->id;
+        double offset[3];
+        if (document->rigs[r]->kind != RIG_TAIL && document->rigs[r]->kind != RIG_CHAIN) continue;
+        body_drag_offset(stage, core, r, offset);
+        int at = find(stage, id);
+        if (at < 0 && (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)) at = find(stage, 0);
+        if (at < 0) continue;
+        stage->inertia[at].rig = id;
+        if (!advance(&stage->inertia[at], core, r, offset, dt)) stage->inertia[at] = (struct drag_inertia){0};
+    }
+}
+
+void drag_inertia_land(struct stage *stage)
+{
+    for (int i = 0; i < STAGE_MAX_STRANDS; i++) memset(stage->inertia[i].offset, 0, sizeof stage->inertia[i].offset);
+}
+
+void drag_inertia_stop(struct stage *stage, const struct document *document, int body)
+{
+    for (int r = 0; r < document->rig_count; r++) {
+        const int at = rig_body(document, r) == body ? find(stage, document->rigs[r]->id) : -1;
+        if (at >= 0) stage->inertia[at] = (struct drag_inertia){0};
+    }
+}
+
+double drag_inertia_scale(const struct stage *stage, const struct document *document, int rig, int channel)
+{
+    const int at = find(stage, document->rigs[rig]->id);
+    return at >= 0 ? stage->inertia[at].scale[channel] : 0;
+}
+
+bool stage_is_moving(const struct stage *stage)
+{
+    for (int i = 0; i < STAGE_MAX_STRANDS; i++) {
+        if (stage->inertia[i].swings) return true;
+    }
+    return false;
+}
+
+void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,
+                      wiggly_value values[RIG_MAX_INPUTS])
+{
+    const int at = find(stage, document->rigs[rig]->id);
+    const struct drag_inertia *inertia = &stage->inertia[at < 0 ? 0 : at];
+    for (int c = 0; at >= 0 && inertia->swings && c < SCENE_MAX_CHANNELS; c++) {
+        values[c].re += inertia->scale[c] * inertia->channel[c].x[0];
+        values[c].im += inertia->scale[c] * inertia->channel[c].x[1];
+    }
+}
+
+// Splines that move a body, and channels that let its tail follow through.
+
+enum { NAME_SIZE = 300 };
+
+static const double RESOLUTION = 1e-3; ///< metres; values are rounded to this
+static const double LEAST_SHARE = 0.05;
+static const double MAIN_SHARE = 0.5; ///< least component of a coordinate along an axis' bending direction
+
+/// Appends a spline; returns its index, or -1.
+static int add_spline(struct core *core, const char *name)
+{
+    const bool done = edit_spline_add(core->document, -1, name, NULL, &core->error);
+    return done ? core->document->spline_count - 1 : -1;
+}
+
+void base_put_knot(struct core *core, int spline, int sample, double value, bool level, char why[STOPPED_SIZE])
+{
+    struct knot knot = core_knot_at(core->document, spline, sample);
+    knot.value = core_round(value, RESOLUTION);
+    core_hold(core->document->splines[spline], &knot, why);
+    knot.has_slope = level;
+    knot.slope = 0;
+    knot.stiffness = level ? RECORD_STIFFNESS : KNOT_DEFAULT_STIFFNESS;
+    core_put_knot(core, spline, &knot);
+}
+
+void base_begin(struct stage *stage, const struct core *core)
+{
+    struct body_drag *hold = &stage->body_drag;
+    const struct tail *tail = tail_of(core->document, hold->rig);
+    hold->loops = tail->channel_count > 0;
+    for (int c = 0; c < tail->channel_count; c++) {
+        hold->hangs[c] = swing_hangs(tail->channels, tail->channel_count, &tail->channels[c]);
+        hold->loops &= spline_start(core->document->splines[tail->channels[c].spline]) == WIGGLY_LOOP;
+    }
+}
+
+int base_spline(const struct stage *stage, struct core *core, int coordinate)
+{
+    const int rig = stage->body_drag.rig;
+    const struct tail *moved = tail_of(core->document, rig);
+    char name[NAME_SIZE];
+    if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
+    snprintf(name, sizeof name, "%.*s %s", name_fit(core->document->rigs[rig]->name, 250),
+             core->document->rigs[rig]->name, coordinate_name(coordinate));
+    int spline = add_spline(core, name);
+    if (spline < 0) return -1;
+    core_set_parameter(core, spline, PARAMETER_MODE, WIGGLY_CUBIC);
+    if (stage->body_drag.loops) core_set_parameter(core, spline, PARAMETER_START, WIGGLY_LOOP);
+    return spline;
+}
+
+double base_value(const struct core *core, int rig, int coordinate, int sample)
+{
+    const struct tail *moved = tail_of(core->document, rig);
+    const struct param *param = &moved->position[coordinate];
+    if (param->track >= 0) {
+        const wiggly_value value = evaluation_at(core->evaluation, param->track, sample);
+        return value.y + value.re;
+    }
+    // A fixed height stands for the ground; a height that follows a spline is above 0.
+    return coordinate == 1 ? moved->length * (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) : param->value;
+}
+
+void base_follow(const struct stage *stage, struct core *core, int coordinate, int base)
+{
+    const int rig = stage->body_drag.rig;
+    struct rig moved = *core->document->rigs[rig];
+    moved.tail.position[coordinate] = param_track(base);
+    edit_rig_set(core->document, rig, &moved, &core->error);
+}
+
+static void follow_base(struct core *core, int spline, int base)
+{
+    const struct param param = param_track(base);
+    edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
+}
+
+/// A spline with another's poles and no knots, driven by the base, from rest or as a loop; returns its index, or -1.
+static int add_follower(struct core *core, int model, const char *name, int base)
+{
+    int spline = add_spline(core, name);
+    if (spline < 0) return -1;
+    const struct spline *copied = core->document->splines[model];
+    const bool loops = spline_start(copied) == WIGGLY_LOOP;
+    core_set_parameter(core, spline, PARAMETER_MODE, spline_mode(copied));
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (p != PARAMETER_EQUILIBRIUM && p != PARAMETER_START)
+            edit_parameter(core->document, spline, p, &copied->parameter[p], &core->error);
+    }
+    core_set_parameter(core, spline, PARAMETER_START, loops ? WIGGLY_LOOP : WIGGLY_REST);
+    follow_base(core, spline, base);
+    return spline;
+}
+
+/// Adds a displacement channel about an axis, copying another channel; returns its spline, or -1.
+static int add_channel(const struct stage *stage, struct core *core, const struct channel *model, enum axis axis,
+                       const char *name, double scale, int base)
+{
+    struct document *document = core->document;
+    const int spline = add_follower(core, model->spline, name, base);
+    struct angles gain = model->gain;
+    const struct angles lag = model->lag;
+    if (spline < 0) return -1;
+    for (int i = 0; i < angles_count(&gain); i++)
+        angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
+    const int rig = stage->body_drag.rig;
+    if (!edit_channel_add(document, rig, spline, axis, PART_DISPLACEMENT, &core->error)) return -1;
+    const struct channel_place added = {rig, document->rigs[rig]->tail.channel_count - 1};
+    edit_angles(document, added, ANGLE_LAG, &lag, &core->error);
+    edit_angles(document, added, ANGLE_GAIN, &gain, &core->error);
+    return spline;
+}
+
+/// The axis about which the tail should bend when its base moves along a coordinate; AXES if a channel already bends about it, or if it
+/// bends too little along the coordinate.
+static enum axis missing_axis(const struct stage *stage, const struct core *core, int coordinate, double *share)
+{
+    const struct tail *tail = tail_of(core->document, stage->body_drag.rig);
+    const struct posing posing = stage_posing(core);
+    struct swing_arm arm = {.joints = 0};
+    swing_arm(&posing, stage->body_drag.rig, &arm);
+    const bool up = fabs(arm.direction[AXIS_UP][coordinate]) > fabs(arm.direction[AXIS_SIDE][coordinate]);
+    const enum axis axis = up ? AXIS_UP : AXIS_SIDE;
+    *share = arm.direction[axis][coordinate];
+    for (int c = 0; c < tail->channel_count; c++) {
+        if (tail->channels[c].axis == axis) return AXES;
+    }
+    return fabs(*share) >= MAIN_SHARE ? axis : AXES;
+}
+
+/// Adds a spline and channel that swing the tail with a coordinate, if missing; returns the spline, or -1.
+static int add_missing(const struct stage *stage, struct core *core, int coordinate, int base)
+{
+    const struct document *document = core->document;
+    const struct tail *tail = tail_of(document, stage->body_drag.rig);
+    double share;
+    const enum axis axis = missing_axis(stage, core, coordinate, &share);
+    char name[NAME_SIZE];
+    if (axis == AXES) return -1;
+    snprintf(name, sizeof name, "%.*s %s", name_fit(rig_title(document->rigs[stage->body_drag.rig]), 250),
+             rig_title(document->rigs[stage->body_drag.rig]), axis_word(axis));
+    for (int c = 0; c < tail->channel_count; c++) {
+        const struct channel model = tail->channels[c];
+        const double scale = drag_inertia_scale(stage, document, stage->body_drag.rig, c);
+        if (axis_bends(model.axis) && stage->body_drag.hangs[c] && scale != 0)
+            return add_channel(stage, core, &model, axis, name, scale * share, base);
+    }
+    return -1;
+}
+
+int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base)
+{
+    const int rig = stage->body_drag.rig, count = tail_of(core->document, rig)->channel_count;
+    const struct posing posing = stage_posing(core);
+    for (int c = 0; c < count; c++) {
+        const struct tail *tail = tail_of(core->document, rig);
+        const struct channel channel = tail->channels[c];
+        const struct param *equilibrium = &core->document->splines[channel.spline]->parameter[PARAMETER_EQUILIBRIUM];
+        double direction[3], scale = drag_inertia_scale(stage, core->document, rig, c);
+        struct swing_arm arm = {.joints = 0};
+        swing_arm(&posing, rig, &arm);
+        swing_direction(&arm, channel.axis, direction);
+        bool swung = stage->body_drag.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
+        if (!swung) continue;
+        if (channel.of == PART_TOTAL) {
+            char name[NAME_SIZE];
+            snprintf(name, sizeof name, "%.*s follow", name_fit(core->document->splines[channel.spline]->name, 280),
+                     core->document->splines[channel.spline]->name);
+            add_channel(stage, core, &channel, channel.axis, name, scale * direction[coordinate], base);
+        } else if (!param_follows(equilibrium)) {
+            follow_base(core, channel.spline, base);
+        }
+    }
+    return add_missing(stage, core, coordinate, base);
+}
+
+void base_say_channel(const struct core *core, int spline, char *text, size_t size)
+{
+    if (spline < 0) return;
+    const struct spline *made = core->document->splines[spline];
+    const int base = made->parameter[PARAMETER_EQUILIBRIUM].track;
+    const size_t length = strlen(text);
+    snprintf(text + length, size - length, " New spline %s: the tail swings after %s.", made->name,
+             base >= 0 ? core->document->splines[base]->name : "it");
+}
+
+// A recording: a place per sample, and knots fitted to them.
+
+void record_begin(struct stage *stage, struct core *core)
+{
+    struct record *record = &stage->record;
+    if (record->running) return;
+    *record = (struct record){.running = true, .first = (int)ceil(core->playback.position)};
+    core->playback.playing = true;
+    core_message(core, false, "Recording the body: release to keep it.");
+}
+
+void record_advance(struct stage *stage, const struct core *core)
+{
+    struct record *record = &stage->record;
+    if (!record->running || !body_is_held(core)) return;
+    double offset[3], position = core->playback.position;
+    body_drag_way(stage, core, offset);
+    int next = record->first + record->count;
+    bool ended = position < next - 1 || !core->playback.playing || record->count == RECORD_SAMPLES ||
+                 next >= document_samples(core->document);
+    if (ended) {
+        record->running = false;
+        return;
+    }
+    const double from = record->seen_position, span = position - from;
+    for (; next <= position && record->count < RECORD_SAMPLES; next++) {
+        double share = span > 0 && record->count > 0 ? fmax(0, (next - from) / span) : 1;
+        for (int k = 0; k < 3; k++) {
+            record->way[k][record->count] = record->seen[k] + share * (offset[k] - record->seen[k]);
+        }
+        record->count++;
+    }
+    record->seen_position = position;
+    for (int k = 0; k < 3; k++) record->seen[k] = offset[k];
+}
+
+bool record_has_motion(const struct stage *stage) { return stage->record.count >= 3; }
+
+void record_forget(struct stage *stage) { stage->record = (struct record){0}; }
+
+/// The cubic through some of the values, level at both ends; false if it cannot be solved.
+static bool solve_through(wiggly_solver *solver, const double *values, int count, const int *knots, int knot_count,
+                          wiggly_knot *buffer, double *total)
+{
+    wiggly_desc desc = wiggly_default_desc();
+    wiggly_curve curve = {.size = sizeof curve, .total = total};
+    desc.samples = count;
+    desc.mode = WIGGLY_CUBIC;
+    for (int i = 0; i < knot_count; i++) {
+        bool end = i == 0 || i == knot_count - 1;
+        buffer[i] = (wiggly_knot){
+            .sample = knots[i], .value = values[knots[i]], .has_slope = end, .stiffness = RECORD_STIFFNESS};
+    }
+    desc.knots = buffer;
+    desc.knot_count = knot_count;
+    return wiggly_solve(solver, &desc, &curve) < WIGGLY_ERROR_ARGUMENT;
+}
+
+/// The sample with the largest distance between two curves, and that distance. Excludes neighbours of the ends: a knot there would change
+/// the end's slope.
+static int farthest(const double *a, const double *b, int count, double *distance)
+{
+    int at = 0;
+    *distance = 0;
+    for (int i = 2; i < count - 2; i++) {
+        double d = fabs(a[i] - b[i]);
+        if (d > *distance) *distance = d, at = i;
+    }
+    return at;
+}
+
+static void insert_sorted(int *knots, int count, int sample)
+{
+    int i = count;
+    for (; i > 0 && knots[i - 1] > sample; i--) knots[i] = knots[i - 1];
+    knots[i] = sample;
+}
+
+int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity)
+{
+    wiggly_solver *solver = NULL;
+    double *total = need((size_t)count, sizeof *total), miss = 0;
+    wiggly_knot *buffer = need((size_t)capacity, sizeof *buffer);
+    int made = 2;
+    knots[0] = 0;
+    knots[1] = count - 1;
+    if (wiggly_create(count, capacity, &solver) != WIGGLY_OK) need_failed();
+    while (solve_through(solver, values, count, knots, made, buffer, total)) {
+        int at = farthest(values, total, count, &miss);
+        if (miss <= tolerance || made == capacity) break;
+        insert_sorted(knots, made++, at);
+    }
+    wiggly_destroy(solver);
+    free(buffer);
+    free(total);
+    return made;
+}
+
+enum { MAX_KNOTS = 64 };
+
+static const double STILL = 2e-3;     ///< metres; less is no movement
+static const double TOLERANCE = 4e-3; ///< metres between the recorded path and the cubic
+
+static double largest(const double *values, int count)
+{
+    double most = 0;
+    for (int i = 0; i < count; i++) most = fmax(most, fabs(values[i]));
+    return most;
+}
+
+static void clear_knots(struct core *core, int spline, int from, int to)
+{
+    const struct document *document = core->document;
+    for (;;) {
+        int at = spline_lower_bound(document, document->splines[spline], from);
+        const struct spline *cleared = document->splines[spline];
+        if (at == cleared->knot_count || document_sample(document, cleared->knots[at].frame) > to) return;
+        if (!edit_knot_remove(core->document, spline, cleared->knots[at].id, &core->error)) return;
+    }
+}
+
+/// Keys a coordinate's motion; returns the number of knots. `swings` receives a new spline that swings the tail with it; `why` what limited
+/// a knot. Before and after it a newly keyed body stands still, except in a loop, where it moves back by itself.
+static int key_way(const struct stage *stage, struct core *core, int coordinate, int *swings, char why[STOPPED_SIZE])
+{
+    const struct record *record = &stage->record;
+    const struct document *document = core->document;
+    const int rig = stage->body_drag.rig, last = document_samples(document) - 1;
+    const bool is_new = tail_of(document, rig)->position[coordinate].track < 0;
+    double way[RECORD_SAMPLES];
+    int knots[MAX_KNOTS];
+    int spline = base_spline(stage, core, coordinate);
+    if (spline < 0) return 0;
+    int count = record->count, end = document_last_knot_sample(document, document->splines[spline]);
+    if (record->first + count - 1 > end) count = end - record->first + 1;
+    for (int i = 0; i < count; i++)
+        way[i] = base_value(core, rig, coordinate, record->first + i) + record->way[coordinate][i];
+    int made = count >= 2 ? record_simplify(way, count, TOLERANCE, knots, MAX_KNOTS) : 0;
+    if (made == 0) return 0;
+    if (!is_new) clear_knots(core, spline, record->first, record->first + count - 1);
+    for (int i = 0; i < made; i++) {
+        base_put_knot(core, spline, record->first + knots[i], way[knots[i]], i == 0 || i == made - 1, why);
+    }
+    if (is_new && !stage->body_drag.loops) {
+        if (record->first > 1) base_put_knot(core, spline, 0, way[0], true, why);
+        if (record->first + count < last) base_put_knot(core, spline, last, way[count - 1], true, why);
+    }
+    if (is_new) base_follow(stage, core, coordinate, spline);
+    const int hung = base_hang_channels(stage, core, coordinate, spline);
+    if (hung >= 0) *swings = hung;
+    core_edited(core, spline);
+    return made;
+}
+
+void record_keep(struct stage *stage, struct core *core)
+{
+    struct record *record = &stage->record;
+    char text[768], why[STOPPED_SIZE] = "";
+    int made = 0, swings = -1;
+    base_begin(stage, core);
+    for (int k = 0; k < 3; k++) {
+        if (largest(record->way[k], record->count) >= STILL) made += key_way(stage, core, k, &swings, why);
+    }
+    snprintf(text, sizeof text, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.", made);
+    core_add_stopped(why, text, sizeof text);
+    base_say_channel(core, swings, text, sizeof text);
+    core_message(core, false, "%s", text);
+    record_forget(stage);
+}
+
+enum { MARGIN = 12, HEIGHT = 22, PAD = 8, DOT = 10, MAX_POINTS = 256 };
+
+/// In the top right corner, below the caption.
+static void show_sign(struct core *core, bool runs, const char *text)
+{
+    const struct rect stage = core->layout.stage;
+    const float width = ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_NORMAL, text)) + DOT + 3 * PAD;
+    const struct rect sign = {stage.x + stage.w - MARGIN - width,
+                              stage.y + fmaxf(MARGIN, caption_height(stage, core->document)), width, HEIGHT};
+    const struct rect dot = {sign.x + PAD, sign.y + (HEIGHT - DOT) / 2.0f, DOT, DOT};
+    drawlist_rounded(&core->list, sign, HEIGHT / 2.0f, theme()->panel);
+    if (runs) {
+        drawlist_rounded(&core->list, dot, DOT / 2.0f, theme()->error);
+    } else {
+        drawlist_rounded_line(&core->list, dot, DOT / 2.0f, 1.5f, theme()->error);
+    }
+    drawlist_text(&core->list, dot.x + DOT + PAD, sign.y + HEIGHT - 7, FONT_LABEL_BOLD, THEME_TEXT_NORMAL,
+                  theme()->error, text);
+}
+
+/// The recorded path, with the base's place at each sample.
+static void show_way(const struct stage *stage, struct core *core)
+{
+    const struct record *record = &stage->record;
+    const int rig = stage->body_drag.rig, step = record->count / MAX_POINTS + 1;
+    float points[MAX_POINTS][2];
+    int count = 0;
+    for (int i = 0; i < record->count; i += step) {
+        float place[3];
+        for (int k = 0; k < 3; k++) {
+            const struct param *param = &tail_of(core->document, rig)->position[k];
+            double value = param->value;
+            if (param->track >= 0) value = base_value(core, rig, k, record->first + i);
+            place[k] = (float)(value + record->way[k][i]);
+        }
+        if (!stage_project_point(stage, core->layout.stage, place, points[count++])) return;
+    }
+    if (count > 1) drawlist_line(&core->list, (const float *)points, count, 2, theme()->error);
+}
+
+void record_show(struct stage *stage, struct core *core)
+{
+    const struct document *document = core->document;
+    const bool is_held = body_is_held(core);
+    const int rig = is_held ? stage->body_drag.rig : core->hover.rig;
+    const struct tail *shown = is_held || core->hover.thing == &thing_body ? tail_of(document, rig) : NULL;
+    bool moves = false;
+    for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
+    if (moves && !core->overlays.trail) path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
+    if (is_held && stage->record.running) {
+        char text[32];
+        show_way(stage, core);
+        snprintf(text, sizeof text, "REC %.1f s", stage->record.count / (document->fps * document->substeps));
+        show_sign(core, true, text);
+    } else if (core->record_armed && document_tail(document, 0)) {
+        show_sign(core, false, "Drag the body to record it");
+    }
+}
+
+// The drag.
+
+enum { AXIS_X, AXIS_Y, AXIS_Z };
+
+/// Movement along one ground axis that keeps the body under the pointer, from the axis' direction on the screen.
+static double along_axis(const struct body_drag *hold, const double axis[2], double dx, double dy)
+{
+    double across = axis[0] * hold->right[0] + axis[1] * hold->right[1];
+    double away = (axis[0] * hold->right[1] - axis[1] * hold->right[0]) * hold->pitch;
+    return stage_along(across, away, dx, dy) / hold->pixels_per_metre;
+}
+
+void body_drag_way(const struct stage *stage, const struct core *core, double offset[3])
+{
+    const struct drag *drag = &core->drag;
+    const struct body_drag *hold = &stage->body_drag;
+    offset[0] = offset[1] = offset[2] = 0;
+    if (!body_is_held(core) || !drag->moved) return;
+    const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
+    const double across = drag->moved_x / hold->pixels_per_metre;
+    const double up = -drag->moved_y / hold->pixels_per_metre;
+    const double away = hold->lifts ? 0 : up / hold->pitch;
+    if (hold->axis == AXIS_X) {
+        offset[0] = along_axis(hold, x_axis, drag->moved_x, drag->moved_y);
+    } else if (hold->axis == AXIS_Z) {
+        offset[2] = along_axis(hold, z_axis, drag->moved_x, drag->moved_y);
+    } else if (hold->axis != AXIS_Y) {
+        offset[0] = across * hold->right[0] + away * hold->right[1];
+        offset[2] = across * hold->right[1] - away * hold->right[0];
+    }
+    if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
+}
+
+/// The message after a drag, and why a knot stopped.
+struct report {
+    char text[512], why[STOPPED_SIZE];
+    size_t length;
+};
+
+static void say(struct report *report, const char *text)
+{
+    report->length +=
+        (size_t)snprintf(report->text + report->length, sizeof report->text - report->length, "%s", text);
+    if (report->length >= sizeof report->text) report->length = sizeof report->text - 1;
+}
+
+/// Adds a name, with a comma before all but the first.
+static void say_name(struct report *report, bool is_first, const char *name)
+{
+    if (!is_first) say(report, ", ");
+    say(report, name);
+}
+
+/// The playhead's sample, clamped to where the spline may have knots.
+static int sample_of(const struct core *core, int spline)
+{
+    const struct document *document = core->document;
+    const int sample = document_sample(document, round(core_frame(core)));
+    const int last = document_last_knot_sample(document, document->splines[spline]);
+    return sample > last ? last : sample < 0 ? 0 : sample;
+}
+
+/// Sets a knot at the playhead. A fixed coordinate gets a spline that starts at the body's place. Returns the new spline that swings the
+/// tail with it, or -1.
+static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, double by,
+                          char why[STOPPED_SIZE])
+{
+    const struct document *document = core->document;
+    const int rig = stage->body_drag.rig;
+    const bool is_new = tail_of(document, rig)->position[coordinate].track < 0;
+    const int spline = base_spline(stage, core, coordinate);
+    if (spline < 0) return -1;
+    const int sample = sample_of(core, spline);
+    const double before = base_value(core, rig, coordinate, sample);
+    if (!is_new) {
+        struct knot knot = core_knot_at(document, spline, sample);
+        knot.value = core_round(before + by, RESOLUTION);
+        core_hold(document->splines[spline], &knot, why);
+        core_put_knot(core, spline, &knot);
+        core_edited(core, spline);
+        return -1;
+    }
+    if (sample > 1) base_put_knot(core, spline, 0, before, true, why);
+    base_put_knot(core, spline, sample, before + by, true, why);
+    base_follow(stage, core, coordinate, spline);
+    const int swings = base_hang_channels(stage, core, coordinate, spline);
+    core_edited(core, spline);
+    return swings;
+}
+
+static void key_body(struct stage *stage, struct core *core, const double offset[3])
+{
+    struct report report = {.length = 0};
+    char frame[64];
+    bool is_first = true;
+    int swings = -1;
+    base_begin(stage, core);
+    say(&report, "Keyed ");
+    for (int k = 0; k < 3; k++) {
+        if (offset[k] == 0) continue;
+        const int made = key_coordinate(stage, core, k, offset[k], report.why);
+        if (made >= 0) swings = made;
+        const int track = tail_of(core->document, stage->body_drag.rig)->position[k].track;
+        if (track < 0) continue;
+        say_name(&report, is_first, core->document->splines[track]->name);
+        is_first = false;
+    }
+    snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core)));
+    say(&report, frame);
+    core_add_stopped(report.why, report.text, sizeof report.text);
+    base_say_channel(core, swings, report.text, sizeof report.text);
+    if (!is_first) core_message(core, false, "%s", report.text);
+}
+
+/// How far all knots of a spline can move within its limits, and the knot that stops them, or NULL.
+static double room_for(const struct spline *spline, double by, const struct knot **stops)
+{
+    double room = by;
+    *stops = NULL;
+    for (int i = 0; i < spline->knot_count; i++) {
+        const double value = spline->knots[i].value, within = spline_within(spline, value + by);
+        if (spline->knots[i].still || within == value + by || fabs(within - value) >= fabs(room)) continue;
+        room = within - value;
+        *stops = &spline->knots[i];
+    }
+    return room;
+}
+
+/// Limits the held body's offset, in metres, as its splines' limits will in place_body() or a recording.
+static void place_within(const struct stage *stage, const struct core *core, double offset[3])
+{
+    const struct document *document = core->document;
+    const struct tail *tail = tail_of(document, stage->body_drag.rig);
+    const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
+    if (!tail) offset[1] = 0; // a character stays on its ground
+    for (int k = 0; tail && k < 3; k++) {
+        const int track = tail->position[k].track;
+        if (offset[k] == 0 || track < 0) continue;
+        const struct spline *spline = document->splines[track];
+        if (keys) {
+            const double before = base_value(core, stage->body_drag.rig, k, sample_of(core, track));
+            offset[k] = spline_within(spline, before + offset[k]) - before;
+        } else {
+            const struct knot *stops;
+            offset[k] = room_for(spline, offset[k], &stops);
+        }
+    }
+}
+
+/// Moves the equilibrium of still knots with the other knots, unless the equilibrium moves by itself.
+static void shift_still(struct core *core, int spline, double by)
+{
+    const struct spline *shifted = core->document->splines[spline];
+    const struct param *equilibrium = &shifted->parameter[PARAMETER_EQUILIBRIUM];
+    bool any = false;
+    for (int k = 0; k < shifted->knot_count; k++) any |= shifted->knots[k].still;
+    if (any && equilibrium->track < 0 && !equilibrium->motion)
+        core_set_parameter(core, spline, PARAMETER_EQUILIBRIUM, core_round(equilibrium->value + by, RESOLUTION));
+}
+
+/// Shifts all knots of a spline equally, as far as all can move, so that followers keep their motion. Returns the shift.
+static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
+{
+    const int count = core->document->splines[spline]->knot_count;
+    const struct knot *stops;
+    const double by = room_for(core->document->splines[spline], way, &stops);
+    if (stops) {
+        struct knot moved = *stops;
+        moved.value += way;
+        core_hold(core->document->splines[spline], &moved, why);
+    }
+    if (by == 0) return 0;
+    for (int i = 0; i < count; i++) {
+        struct knot knot = core->document->splines[spline]->knots[i];
+        knot.value = core_round(knot.value + by, RESOLUTION);
+        if (!knot.still) knot.value = spline_within(core->document->splines[spline], knot.value);
+        core_put_knot(core, spline, &knot);
+    }
+    shift_still(core, spline, by);
+    core_edited(core, spline);
+    return by;
+}
+
+static double shift_model(struct core *core, int rig, int coordinate, double by)
+{
+    struct rig moved = *core->document->rigs[rig];
+    moved.model.position[coordinate] = core_round(moved.model.position[coordinate] + by, RESOLUTION);
+    return edit_rig_set(core->document, rig, &moved, &core->error) ? by : 0;
+}
+
+/// Shifts a coordinate; returns the shift. A fixed height stands for the ground, which stays.
+static double shift_coordinate(struct core *core, int rig, int coordinate, double by, char why[STOPPED_SIZE])
+{
+    const struct tail *tail = tail_of(core->document, rig);
+    if (coordinate == 1 && (!tail || tail->position[1].track < 0)) return 0;
+    if (!tail) return shift_model(core, rig, coordinate, by);
+    const struct param *param = &tail->position[coordinate];
+    if (param->track >= 0) return shift_spline(core, param->track, by, why);
+    struct rig moved = *core->document->rigs[rig];
+    moved.tail.position[coordinate] = param_number(core_round(param->value + by, RESOLUTION));
+    edit_rig_set(core->document, rig, &moved, &core->error);
+    return by;
+}
+
+static void shift_body(struct stage *stage, struct core *core, const double offset[3])
+{
+    struct report report = {.length = 0};
+    bool is_first = true;
+    say(&report, "Moved for the whole shot: ");
+    for (int k = 0; k < 3; k++) {
+        char part[32];
+        if (offset[k] == 0) continue;
+        const double by = shift_coordinate(core, stage->body_drag.rig, k, offset[k], report.why);
+        if (by == 0) continue;
+        snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
+        say_name(&report, is_first, part);
+        is_first = false;
+    }
+    if (is_first && report.why[0]) {
+        core_stopped(core, report.why);
+    } else if (is_first) {
+        core_message(core, false, "Back on the ground. Turn on auto-key (Shift+A) or record (R) to keep the height.");
+    } else {
+        const bool keys = tail_of(core->document, stage->body_drag.rig) && !report.why[0];
+        say(&report, keys ? ". Auto-key (Shift+A) sets knots instead." : ".");
+        core_add_stopped(report.why, report.text, sizeof report.text);
+        core_message(core, false, "%s", report.text);
+    }
+}
+
+/// Moves the body by metres: knots at the playhead with auto-key, else the whole motion. Reports which.
+static void place_body(struct stage *stage, struct core *core, const double offset[3])
+{
+    if (core->auto_key && tail_of(core->document, stage->body_drag.rig)) {
+        key_body(stage, core, offset);
+    } else {
+        shift_body(stage, core, offset);
+    }
+    drag_inertia_land(stage);
+}
+
+void body_drag_advance(struct stage *stage, const struct core *core)
+{
+    body_drag_way(stage, core, stage->body_drag.offset);
+    place_within(stage, core, stage->body_drag.offset);
+}
+
+void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3])
+{
+    const bool held = body_is_held(core) && rig_body(core->document, rig) == stage->body_drag.rig;
+    for (int k = 0; k < 3; k++) offset[k] = held ? stage->body_drag.offset[k] : 0;
+}
+
+enum { RING_POINTS = 64 };
+
+static const double LEAST_PITCH = 0.35; ///< sine of the camera's elevation; below it depth follows the pointer less
+static const double LEAST_RISE = 0.3;   ///< cosine of the elevation; below it height follows the pointer less
+static const float ring_middle[2] = {0, -0.25f}; ///< x and z in bind space, metres
+static const float RING_RADIUS = 0.6f;
+
+struct tail *tail_of(const struct document *document, int rig)
+{
+    const bool is_tail = rig >= 0 && rig < document->rig_count && document->rigs[rig]->kind == RIG_TAIL;
+    return is_tail ? &document->rigs[rig]->tail : NULL;
+}
+
+/// Where a body stands.
+struct stand {
+    float base[3], middle[2]; ///< the grabbed point; x and z
+    float ground, radius;     ///< of a ring around it
+};
+
+/// False if there is no such body or it is not shown.
+static bool find_stand(const struct stage *stage, const struct core *core, int rig, struct stand *stand)
+{
+    const struct posing posing = stage_posing_by_hand(stage);
+    struct rig_pose pose;
+    float lo[3], hi[3];
+    if (!rig_pose(&posing, rig, core->playback.position, NULL, &pose)) return false;
+    if (pose.kind == RIG_TAIL) {
+        const float *base = pose.strand.matrix[0] + 12, scale = pose.strand.scale;
+        *stand = (struct stand){{base[0], base[1], base[2]},
+                                {base[0] + scale * ring_middle[0], base[2] + scale * ring_middle[1]},
+                                pose.strand.ground,
+                                scale * RING_RADIUS};
+        return true;
+    }
+    if (pose.kind != RIG_MODEL) return false;
+    rig_bounds(&pose, lo, hi);
+    const float *at = pose.model.root + 12, middle[2] = {0.5f * (lo[0] + hi[0]), 0.5f * (lo[2] + hi[2])};
+    *stand = (struct stand){{at[0], 0.5f * (lo[1] + hi[1]), at[2]},
+                            {middle[0], middle[1]},
+                            pose.model.ground,
+                            0.5f * maths_hypotf(hi[0] - lo[0], hi[2] - lo[2])};
+    return true;
+}
+
+/// Whether a ray hits a body's bounding box.
+static bool passes_box(const struct pose *pose, const float eye[3], const float direction[3])
+{
+    const float *base = pose->matrix[0] + 12, scale = pose->scale;
+    float near = 0, far = INFINITY, lo[3], hi[3];
+    limbs_bounds(&pose->limbs, lo, hi);
+    for (int k = 0; k < 3; k++) {
+        const float from = eye[k] - base[k];
+        const float a = (scale * lo[k] - from) / direction[k], b = (scale * hi[k] - from) / direction[k];
+        near = fmaxf(near, fminf(a, b));
+        far = fminf(far, fmaxf(a, b));
+    }
+    return near < far;
+}
+
+/// The ray's nearest hit on a part's body triangles, or `nearest`.
+static float meet(const struct gltf_part *part, const float (*place)[3], const float eye[3], const float direction[3],
+                  float nearest)
+{
+    for (int i = 0; i < part->index_count; i += 3) {
+        const uint32_t *own = part->indices + i;
+        const float *const corner[3] = {place[own[0]], place[own[1]], place[own[2]]};
+        float uv[2];
+        if (part->fur[own[0]][0] >= 1.0f) continue; // belongs to the tail
+        const float distance = pick_triangle(corner, eye, direction, uv);
+        if (distance > 0.0f) nearest = fminf(nearest, distance);
+    }
+    return nearest;
+}
+
+/// Distance along a ray to a fox's body, or INFINITY.
+static float body_distance(struct stage *stage, const struct rig_pose *fox, const float direction[3])
+{
+    const struct gltf *gltf = &fox->model.imported->gltf;
+    const float *root = fox->model.root;
+    const int node = gltf->node_count - 1, count = gltf_vertex_count(gltf, node);
+    float(*place)[3] = stage->skin.posed, nearest = INFINITY;
+    if (count > stage->skin.capacity) return INFINITY;
+    stage->skin.hash = 0;
+    gltf_pose_vertices(gltf, fox->model.pose, node, place, NULL);
+    for (int v = 0; v < count; v++)
+        for (int k = 0; k < 3; k++) place[v][k] = root[0] * place[v][k] + root[12 + k];
+    for (int p = 0; p < gltf->meshes->part_count; p++) {
+        const struct gltf_part *part = &gltf->meshes->parts[p];
+        nearest = meet(part, (const float(*)[3])place, stage->view.eye, direction, nearest);
+        place += part->vertex_count;
+    }
+    return nearest;
+}
+
+struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y)
+{
+    const struct stage_view *view = &stage->view;
+    const struct posing posing = stage_posing_by_hand(stage);
+    const float viewport[4] = {view->viewport.x, view->viewport.y, view->viewport.w, view->viewport.h};
+    struct hover hover = {.thing = NULL};
+    float direction[3], nearest = INFINITY;
+    camera_ray(view->view, view->projection, viewport, (const float[2]){x, y}, direction);
+    for (int t = 0; t < stage->tail_count; t++) {
+        const int rig = stage->strands[t].rig;
+        struct rig_pose pose;
+        if (!tail_of(core->document, rig) || !rig_pose(&posing, rig, position, NULL, &pose)) continue;
+        if (!passes_box(&pose.strand, view->eye, direction)) continue;
+        if (!rig_pose_body(&posing, rig, position, NULL, &pose)) continue;
+        const float distance = body_distance(stage, &pose, direction);
+        if (distance >= nearest) continue;
+        nearest = distance;
+        hover = (struct hover){.thing = &thing_body, .rig = rig, .x = x, .y = y};
+    }
+    return hover;
+}
+
+/// A point where body_hover() finds the body; the likeliest are tried first.
+static bool find_body(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    static const float places[][3] = {
+        {0, 0.18f, -0.45f}, {0, 0.54f, -0.385f}, {0, 0.05f, -0.25f}, {0, 0, -0.5f}}; // chest, head, rump, paws
+    const struct stage *stage = room;
+    if (target->nth >= stage->tail_count || stage->strands[target->nth].model < 0) return false;
+    const struct stage_model *fox = &stage->view.models[stage->strands[target->nth].model];
+    for (int point = 0; point < 4; point++) {
+        const mat4s moved = mat4_from(fox->pose->joints[point == 1 ? LIMB_HEAD : LIMB_BODY]);
+        const vec3s at = glms_mat4_mulv3(moved, vec3_from(places[point]), 1.0f);
+        const vec3s place = glms_mat4_mulv3(mat4_from(fox->root), at, 1.0f);
+        if (!stage_project_point(stage, core->layout.stage, place.raw, xy)) continue;
+        const struct hover hover = stage_hover(room, core, xy[0], xy[1]);
+        if (hover.thing == &thing_body && hover.rig == target->rig) return true;
+    }
+    return false;
+}
+
+/// One half of the ring, near or far.
+static void show_arc(struct core *core, const float point[RING_POINTS + 1][2], int from, int to, uint32_t color)
+{
+    drawlist_line(&core->list, point[from], to - from + 1, 1.5f, color);
+}
+
+void body_drag_show(struct stage *stage, struct core *core)
+{
+    const bool held = body_is_held(core);
+    const int rig = held ? stage->body_drag.rig : core->hover.rig;
+    struct stand stand;
+    if (!held && core->hover.thing != &thing_body) return;
+    if (!find_stand(stage, core, rig, &stand)) return;
+    const uint32_t color = held ? theme()->accent : theme()->playhead;
+    float point[RING_POINTS + 1][2];
+    for (int i = 0; i <= RING_POINTS; i++) { // from the right of the screen over the near half
+        float angle = 6.2831853f * (float)i / RING_POINTS - stage->camera.azimuth;
+        const float place[3] = {stand.middle[0] - stand.radius * maths_sinf(-angle), stand.ground,
+                                stand.middle[1] - stand.radius * maths_cosf(-angle)};
+        if (!stage_project_point(stage, core->layout.stage, place, point[i])) return;
+    }
+    show_arc(core, (const float(*)[2])point, 0, RING_POINTS / 2, color);
+    show_arc(core, (const float(*)[2])point, RING_POINTS / 2, RING_POINTS, theme_fade(color, 0.3f));
+}
+
+/// Edits the document in the open step: the recorded motion or the new place.
+static void release(struct stage *stage, struct core *core, bool keep)
+{
+    const int body = stage->body_drag.rig;
+    double offset[3];
+    keep = keep && body < core->document->rig_count; // an edit may have removed the body
+    body_drag_way(stage, core, offset);
+    if (keep && record_has_motion(stage) && tail_of(core->document, body)) {
+        record_keep(stage, core);
+        drag_inertia_stop(stage, core->document, body);
+    } else if (keep) {
+        place_body(stage, core, offset);
+    } else {
+        drag_inertia_stop(stage, core->document, body);
+    }
+    record_forget(stage);
+}
+
+/// The first movement starts an armed recording.
+static void body_moves(void *room, struct core *core)
+{
+    struct stage *stage = room;
+    if (stage->body_drag.begun) return;
+    stage->body_drag.begun = true;
+    if (core->record_armed && tail_of(core->document, stage->body_drag.rig)) record_begin(stage, core);
+}
+
+static enum drag_answer body_event(void *room, struct core *core, const struct event *event)
+{
+    // Ctrl may still be held from lifting the body.
+    const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
+    if (!key) return DRAG_PASSES;
+    struct stage *stage = room;
+    if (event->key != 'R')
+        return drag_lock_axis(&core->drag, &stage->body_drag.axis, event->key) ? DRAG_USED : DRAG_PASSES;
+    if (!tail_of(core->document, stage->body_drag.rig)) {
+        core_message(core, false, "An imported character stays in one place for the whole shot. Its clip moves it.");
+        return DRAG_USED;
+    }
+    drag_start_moving(core);
+    body_moves(room, core);
+    record_begin(room, core);
+    return DRAG_USED;
+}
+
+static void end_body(void *room, struct core *core, bool keep)
+{
+    if (core->drag.moved) release(room, core, keep);
+    stage_click(room, core, keep);
+}
+
+static const struct drag_owner body_owner = {
+    .cursor = CURSOR_MOVE, .move = body_moves, .event = body_event, .end = end_body};
+
+bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
+
+void press_body(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    struct stage *stage = room;
+    const int rig = hover->thing == &thing_bone ? hover->model : hover->rig;
+    struct body_drag *hold = &stage->body_drag;
+    const struct camera *camera = &stage->camera;
+    struct stand stand = {.radius = 0};
+    drag_begin(core, &body_owner, stage, "Move body", event);
+    *hold = (struct body_drag){.rig = rig, .axis = -1};
+    find_stand(stage, core, rig, &stand);
+    hold->pixels_per_metre = stage_pixels_per_metre(stage, core, stand.base);
+    double pitch = maths_sin((double)camera->elevation);
+    hold->pitch = copysign(fmax(fabs(pitch), LEAST_PITCH), pitch);
+    hold->rise = fmax(maths_cos((double)camera->elevation), LEAST_RISE);
+    hold->right[0] = -maths_sin((double)camera->azimuth);
+    hold->right[1] = -maths_cos((double)camera->azimuth);
+    const struct tail *tail = tail_of(core->document, rig);
+    if (!tail) return; // a character stays on its ground
+    hold->lifts = event->mods & MOD_CTRL;
+    const float sitting = stand.ground + FOX_BASE_HEIGHT * (float)tail->length / FOX_TAIL_LENGTH;
+    hold->lowest = fmin(0, (double)(sitting - stand.base[1]));
+}
+
+const struct thing thing_body = {
+    .cursor = CURSOR_MOVE,
+    .hint = "Drag the body: the tail follows through (Ctrl lifts it, X, Y or Z locks an axis, R records)",
+    .press = press_body,
+    .name = "body",
+    .of = OF_RIG,
+    .rig = RIG_TAIL,
+    .find = find_body,
+    .missing = "no body of that tail is to be seen"};

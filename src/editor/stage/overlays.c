@@ -1,0 +1,957 @@
+/// What is drawn over the stage to show a motion: onion skins, arcs and pins, and the dragging of these.
+#include "base/hash.h"
+#include "editor/core/bones.h"
+#include "editor/core/command.h"
+#include "editor/core/core.h"
+#include "editor/core/drag.h"
+#include "editor/core/knots.h"
+#include "editor/core/pins.h"
+#include "editor/core/selection.h"
+#include "editor/stage/stage.h"
+#include "editor/stage/state.h"
+#include "maths/maths.h"
+#include "model/fox.h"
+#include "model/figure.h"
+#include "model/vector.h"
+#include "scene/pins.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+// Outlines by marching squares: an edge lies between an inside and an outside node, where the field crosses 0.
+
+enum { LEAST_POINTS = 12 }; ///< smaller outlines are specks
+
+static const float FINEST = 2;   ///< pixels between nodes
+static const float AROUND = 8;   ///< pixels beside the stage, so that cut outlines end out of sight
+static const float OUTSIDE = -2; ///< cells; smaller values make no difference
+
+void silhouette_clear(struct silhouette *silhouette)
+{
+    silhouette->low[0] = silhouette->low[1] = INFINITY;
+    silhouette->high[0] = silhouette->high[1] = -INFINITY;
+}
+
+void silhouette_widen(struct silhouette *silhouette, const float middle[2], float radius)
+{
+    for (int k = 0; k < 2; k++) {
+        silhouette->low[k] = fminf(silhouette->low[k], middle[k] - radius);
+        silhouette->high[k] = fmaxf(silhouette->high[k], middle[k] + radius);
+    }
+}
+
+bool silhouette_open(struct silhouette *silhouette, struct rect stage)
+{
+    const float *low = silhouette->low, *high = silhouette->high;
+    const struct rect box = {low[0], low[1], high[0] - low[0], high[1] - low[1]};
+    const struct rect area = rect_intersect(rect_inset(stage, -AROUND), rect_inset(box, -AROUND));
+    const float across = fmaxf(area.w, area.h) / (SILHOUETTE_SIDE - 3);
+    if (area.w <= 0 || area.h <= 0) return false;
+    silhouette->cell = fmaxf(FINEST, across);
+    silhouette->area = rect_inset(area, -silhouette->cell);
+    silhouette->columns = (int)(silhouette->area.w / silhouette->cell) + 1;
+    silhouette->rows = (int)(silhouette->area.h / silhouette->cell) + 1;
+    for (int row = 0; row < silhouette->rows; row++) {
+        for (int column = 0; column < silhouette->columns; column++)
+            silhouette->inside[row][column] = OUTSIDE * silhouette->cell;
+        memset(silhouette->followed[row], 0, sizeof silhouette->followed[row]);
+    }
+    return true;
+}
+
+/// The nodes in a box, as first and last column and row. The outermost nodes stay outside, so that every outline closes.
+static void find_nodes(const struct silhouette *silhouette, const float low[2], const float high[2], int nodes[2][2])
+{
+    const float from[2] = {silhouette->area.x, silhouette->area.y};
+    const int count[2] = {silhouette->columns, silhouette->rows};
+    const double cell = (double)silhouette->cell;
+    for (int k = 0; k < 2; k++) {
+        nodes[k][0] = (int)fmax(ceil((double)(low[k] - from[k]) / cell), 1);
+        nodes[k][1] = (int)fmin(floor((double)(high[k] - from[k]) / cell), count[k] - 2);
+    }
+}
+
+static void place_node(const struct silhouette *silhouette, int row, int column, float xy[2])
+{
+    xy[0] = silhouette->area.x + silhouette->cell * (float)column;
+    xy[1] = silhouette->area.y + silhouette->cell * (float)row;
+}
+
+/// Inline, unlike hypotf(): called for every node of a grid that grows as the view comes closer.
+static float distance_of(float x, float y) { return sqrtf(x * x + y * y); }
+
+static float larger(float a, float b) { return a > b ? a : b; }
+
+/// How far inside the link a point is.
+static float depth_in_link(const float p[2], const float a[2], float a_radius, const float b[2], float b_radius)
+{
+    const float dx = b[0] - a[0], dy = b[1] - a[1], t = segment_nearest(a, b, p);
+    const float between =
+        a_radius + t * (b_radius - a_radius) - distance_of(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
+    const float at_a = a_radius - distance_of(p[0] - a[0], p[1] - a[1]),
+                at_b = b_radius - distance_of(p[0] - b[0], p[1] - b[1]);
+    return larger(between, larger(at_a, at_b));
+}
+
+void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],
+                         float to_radius)
+{
+    const float reach = fmaxf(from_radius, to_radius) - OUTSIDE * silhouette->cell;
+    const float low[2] = {fminf(from[0], to[0]) - reach, fminf(from[1], to[1]) - reach};
+    const float high[2] = {fmaxf(from[0], to[0]) + reach, fmaxf(from[1], to[1]) + reach};
+    int nodes[2][2];
+    find_nodes(silhouette, low, high, nodes);
+    for (int row = nodes[1][0]; row <= nodes[1][1]; row++) {
+        for (int column = nodes[0][0]; column <= nodes[0][1]; column++) {
+            float p[2];
+            place_node(silhouette, row, column, p);
+            float *inside = &silhouette->inside[row][column];
+            *inside = larger(*inside, depth_in_link(p, from, from_radius, to, to_radius));
+        }
+    }
+}
+
+/// Twice a triangle's area, positive if its corners are clockwise on the screen.
+static float turn(const float a[2], const float b[2], const float c[2])
+{
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
+}
+
+void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2], const float inside[3])
+{
+    float low[2], high[2];
+    int nodes[2][2];
+    for (int k = 0; k < 2; k++) {
+        low[k] = fminf(corner[0][k], fminf(corner[1][k], corner[2][k]));
+        high[k] = fmaxf(corner[0][k], fmaxf(corner[1][k], corner[2][k]));
+    }
+    find_nodes(silhouette, low, high, nodes);
+    const float area = turn(corner[0], corner[1], corner[2]), most = -OUTSIDE * silhouette->cell;
+    for (int row = nodes[1][0]; row <= nodes[1][1] && area != 0; row++) {
+        for (int column = nodes[0][0]; column <= nodes[0][1]; column++) {
+            float *node = &silhouette->inside[row][column], share[3], p[2];
+            if (*node >= most) continue; // another triangle has set it, as on a body's far side
+            place_node(silhouette, row, column, p);
+            for (int k = 0; k < 3; k++) share[k] = turn(corner[(k + 1) % 3], corner[(k + 2) % 3], p) / area;
+            if (!(share[0] >= 0 && share[1] >= 0 && share[2] >= 0)) continue;
+            const float depth = share[0] * inside[0] + share[1] * inside[1] + share[2] * inside[2];
+            *node = larger(*node, depth < most ? depth : most);
+        }
+    }
+}
+
+void silhouette_soften(struct silhouette *silhouette)
+{
+    for (int row = 1; row + 1 < silhouette->rows; row++) {
+        for (int column = 1; column + 1 < silhouette->columns; column++) {
+            float sum = 0;
+            for (int k = -1; k <= 1; k++) {
+                const float *there = &silhouette->inside[row + k][column];
+                sum += there[-1] + there[0] + there[1];
+            }
+            silhouette->blurred[row][column] = sum / 9;
+        }
+    }
+    for (int row = 1; row + 1 < silhouette->rows; row++)
+        memcpy(&silhouette->inside[row][1], &silhouette->blurred[row][1],
+               (size_t)(silhouette->columns - 2) * sizeof silhouette->inside[row][1]);
+}
+
+enum side { SIDE_TOP, SIDE_RIGHT, SIDE_BOTTOM, SIDE_LEFT };
+
+/// Whether the outline crosses a side of the cell with this upper left node, and where; `xy` may be NULL.
+static bool crosses(const struct silhouette *silhouette, int row, int column, enum side side, float xy[2])
+{
+    const int rows[2] = {row + (side == SIDE_BOTTOM), row + (side != SIDE_TOP)};
+    const int columns[2] = {column + (side == SIDE_RIGHT), column + (side != SIDE_LEFT)};
+    const float a = silhouette->inside[rows[0]][columns[0]], b = silhouette->inside[rows[1]][columns[1]];
+    if (!xy || (a >= 0) == (b >= 0)) return (a >= 0) != (b >= 0);
+    const float along = a / (a - b) * silhouette->cell;
+    place_node(silhouette, rows[0], columns[0], xy);
+    xy[0] += along * (float)(columns[1] - columns[0]);
+    xy[1] += along * (float)(rows[1] - rows[0]);
+    return true;
+}
+
+/// The side where the outline leaves. If all four are crossed, it turns left around the corner.
+static enum side leave(const struct silhouette *silhouette, int row, int column, enum side in)
+{
+    static const enum side order[] = {1, 3, 2};
+    for (int i = 0; i < 3; i++) {
+        const enum side out = (in + order[i]) % 4;
+        if (crosses(silhouette, row, column, out, NULL)) return out;
+    }
+    return in;
+}
+
+/// Follows the outline that crosses a cell's upper side downwards, until it closes.
+static int follow_from(struct silhouette *silhouette, int row, int column)
+{
+    static const int down[4] = {-1, 0, 1, 0}, right[4] = {0, 1, 0, -1};
+    const int first_row = row, first_column = column;
+    enum side in = SIDE_TOP;
+    int count = 0;
+    do {
+        if (in == SIDE_TOP) silhouette->followed[row][column] = true;
+        if (in == SIDE_BOTTOM) silhouette->followed[row + 1][column] = true;
+        if (count < SILHOUETTE_POINTS - 1) crosses(silhouette, row, column, in, silhouette->points[count++]);
+        const enum side out = leave(silhouette, row, column, in);
+        if (out == in) break;
+        row += down[out];
+        column += right[out];
+        in = (out + 2) % 4;
+    } while (row != first_row || column != first_column || in != SIDE_TOP);
+    memcpy(silhouette->points[count], silhouette->points[0], sizeof silhouette->points[0]);
+    return count + 1;
+}
+
+int silhouette_follow(struct silhouette *silhouette)
+{
+    for (int row = 1; row + 1 < silhouette->rows; row++) {
+        for (int column = 0; column + 1 < silhouette->columns; column++) {
+            if (silhouette->followed[row][column] || !crosses(silhouette, row, column, SIDE_TOP, NULL)) continue;
+            const int count = follow_from(silhouette, row, column);
+            if (count > LEAST_POINTS) return count;
+        }
+    }
+    return 0;
+}
+
+// Onion skins: outlines of a rig at knots near the playhead, and a ghost at the knot being edited.
+
+enum {
+    MAX_SKINS = 8,
+    CHARACTER_SKINS = 4, ///< each is a surface to pose, and the outlines overlap
+};
+
+static const float NEAREST = 0.75f, FARTHEST = 0.22f; ///< opacity of the first and last skin
+static const float GHOST = 0.85f;
+static const double FADE = 0.4; ///< seconds in which a nudged knot's ghost fades
+
+int overlay_rig(const struct stage *stage, const struct core *core)
+{
+    int rig, channel;
+    if (!core_active_channel(core, &rig, &channel)) rig = stage->strand_count > 0 ? stage->strands[0].rig : -1;
+    return rig >= 0 && strand_of(stage, rig) ? rig : -1;
+}
+
+/// The character that the active spline moves, else the tail or chain, else the first character; or -1.
+static int overlay_pose_rig(const struct stage *stage, const struct core *core)
+{
+    const struct document *document = core->document;
+    const int first = document_next_rig(document, RIG_CHARACTER, -1);
+    for (int r = first; r >= 0; r = document_next_rig(document, RIG_CHARACTER, r)) {
+        const struct rig *rig = document->rigs[r];
+        for (int i = 0; i < rig_input_count(rig); i++) {
+            if (rig_input(rig, i) == core->active) return r;
+        }
+    }
+    const int strand = overlay_rig(stage, core);
+    return strand >= 0 ? strand : first;
+}
+
+/// The spline whose knots are shown: the active one, or if it has none, its equilibrium's.
+static const struct spline *keyed_spline(const struct core *core)
+{
+    const struct spline *spline = core_active_spline(core);
+    if (!spline || spline->knot_count > 0) return spline;
+    int track = spline->parameter[PARAMETER_EQUILIBRIUM].track;
+    return track >= 0 ? core->document->splines[track] : spline;
+}
+
+/// Samples of the knots nearest to a position, nearest first; returns their number.
+static int nearest_knots(const struct document *document, const struct spline *spline, double position,
+                         int samples[MAX_SKINS], int most)
+{
+    int after = spline_lower_bound(document, spline, (int)ceil(position)), before = after - 1, count = 0;
+    while (count < most && (before >= 0 || after < spline->knot_count)) {
+        int low = before >= 0 ? document_sample(document, spline->knots[before].frame) : 0;
+        int high = after < spline->knot_count ? document_sample(document, spline->knots[after].frame) : 0;
+        bool back = after == spline->knot_count || (before >= 0 && position - low <= high - position);
+        samples[count++] = back ? low : high;
+        if (back) {
+            before--;
+        } else {
+            after++;
+        }
+    }
+    return count;
+}
+
+enum { STATIONS = 48 }; ///< along the tail
+
+static const double FROM = 0.16,
+                    TO = 0.985; ///< shares of the length: outside the body, and up to the rounded tip
+static const float OPEN = 1.5f; ///< cells from the root's disc; closer parts of a tail's outline are not drawn
+
+/// A disc of a tail, on the screen.
+struct disc {
+    float middle[2], radius;
+};
+
+/// The tail's disc at a share of its length; false if behind the eye.
+static bool station(const struct stage *stage, const struct core *core, const struct pose *pose, double share,
+                    struct disc *disc)
+{
+    const struct stage_view *view = &stage->view;
+    double at = share * (pose->count - 1);
+    int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
+    const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[joint + 1] + 12);
+    const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
+    if (!stage_project_point(stage, core->layout.stage, point.raw, disc->middle)) return false;
+    const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
+    float metres = fox_tail_radius((float)share * FOX_TAIL_LENGTH) * pose->scale;
+    disc->radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
+    return true;
+}
+
+/// Draws an outline without its longest part at the root, where the tail joins the body.
+static void show_open(struct stage *stage, struct core *core, int count, const struct disc *root, float width,
+                      uint32_t color)
+{
+    float(*points)[2] = stage->silhouette.points;
+    const float reach = root->radius + OPEN * stage->silhouette.cell;
+    const int whole = count - 1; // the last point repeats the first
+    int longest = 0, start = 0, run = 0;
+    memcpy(points[whole], points[0], (size_t)whole * sizeof points[0]);
+    for (int i = 0; i < 2 * whole; i++) {
+        run = maths_hypotf(points[i][0] - root->middle[0], points[i][1] - root->middle[1]) < reach ? run + 1 : 0;
+        if (run > longest && run < whole) longest = run, start = (i + 1) % whole;
+    }
+    drawlist_line(&core->list, points[start], longest > 0 ? whole - longest : count, width, color);
+}
+
+static bool show_tail(struct stage *stage, struct core *core, const struct pose *pose, float width, uint32_t color,
+                      float tip[2])
+{
+    struct disc discs[STATIONS];
+    struct silhouette *silhouette = &stage->silhouette;
+    silhouette_clear(silhouette);
+    for (int i = 0; i < STATIONS; i++) {
+        if (!station(stage, core, pose, FROM + (TO - FROM) * i / (STATIONS - 1), &discs[i])) return false;
+        silhouette_widen(silhouette, discs[i].middle, discs[i].radius);
+    }
+    if (!silhouette_open(silhouette, core->layout.stage)) return false;
+    for (int i = 1; i < STATIONS; i++)
+        silhouette_add_link(silhouette, discs[i - 1].middle, discs[i - 1].radius, discs[i].middle, discs[i].radius);
+    const int count = silhouette_follow(silhouette);
+    if (count > 0) show_open(stage, core, count, &discs[0], width, color);
+    const struct disc *last = &discs[STATIONS - 1], *before = &discs[STATIONS - 3];
+    const float dx = last->middle[0] - before->middle[0], dy = last->middle[1] - before->middle[1];
+    const float share = last->radius / fmaxf(maths_hypotf(dx, dy), 1);
+    tip[0] = last->middle[0] + share * dx;
+    tip[1] = last->middle[1] + share * dy;
+    return true;
+}
+
+static bool show_chain(struct stage *stage, struct core *core, const struct pose *pose, float width, uint32_t color,
+                       float tip[2])
+{
+    float points[ANGLES_MAX_JOINTS + 1][2];
+    for (int n = 0; n < pose->count; n++) {
+        if (!stage_project_point(stage, core->layout.stage, pose->matrix[n] + 12, points[n])) return false;
+    }
+    if (pose->count == 0) return false;
+    drawlist_line(&core->list, points[0], pose->count, width, color);
+    memcpy(tip, points[pose->count - 1], 2 * sizeof *tip);
+    return true;
+}
+
+/// Poses its surface in hover's skin and projects it to the screen; hover will pose the skin again.
+static bool project_surface(struct stage *stage, const struct core *core, const struct figure *figure,
+                            const struct morph *morph, const float position[3])
+{
+    float(*posed)[3] = stage->skin.posed;
+    if (figure->character.vertex_count > stage->skin.capacity) return false;
+    stage->skin.hash = 0;
+    silhouette_clear(&stage->silhouette);
+    morph_places(figure, morph, position, posed);
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        float xy[2];
+        if (!stage_project_point(stage, core->layout.stage, posed[i], xy)) return false;
+        memcpy(posed[i], xy, sizeof xy);
+        silhouette_widen(&stage->silhouette, xy, 0);
+    }
+    return true;
+}
+
+static bool show_character(struct stage *stage, struct core *core, const struct rig_pose *pose, int character,
+                           float width, uint32_t color, float tip[2])
+{
+    const struct figure *figure = pose->character.figure;
+    const struct stage_character *shown = stage_character_shown(stage, character);
+    struct silhouette *silhouette = &stage->silhouette;
+    if (!shown || !project_surface(stage, core, figure, &pose->character.morph, shown->position) ||
+        !silhouette_open(silhouette, core->layout.stage))
+        return false;
+    const float all[3] = {1e6f, 1e6f, 1e6f};
+    for (int t = 0; t < figure->character.index_count; t += 3) {
+        float corner[3][2];
+        for (int k = 0; k < 3; k++)
+            memcpy(corner[k], stage->skin.posed[figure->character.indices[t + k]], sizeof corner[k]);
+        silhouette_add_triangle(silhouette, (const float(*)[2])corner, all);
+    }
+    silhouette_soften(silhouette);
+    for (int count; (count = silhouette_follow(silhouette)) > 0;)
+        drawlist_line(&core->list, silhouette->points[0], count, width, color);
+    const float *low = silhouette->low, *high = silhouette->high;
+    tip[0] = fminf(high[0], core->layout.stage.x + 0.9f * core->layout.stage.w);
+    tip[1] = fmaxf(0.7f * low[1] + 0.3f * high[1], core->layout.stage.y + 20);
+    return true;
+}
+
+/// Outlines a rig at a sample; `tip` receives a place for text. False if not visible.
+static bool proxy_show(struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample,
+                       float width, uint32_t color, float tip[2])
+{
+    struct rig_pose pose;
+    if (!rig_pose(posing, rig, sample, NULL, &pose)) return false;
+    switch (pose.kind) {
+    case RIG_TAIL:
+        return show_tail(stage, core, &pose.strand, width, color, tip);
+    case RIG_CHAIN:
+        return show_chain(stage, core, &pose.strand, width, color, tip);
+    case RIG_CHARACTER:
+        return show_character(stage, core, &pose, document_rig_number(posing->document, rig), width, color, tip);
+    default:
+        return false;
+    }
+}
+
+void onion_show(struct stage *stage, struct core *core)
+{
+    const struct document *document = core->document;
+    const struct spline *spline = keyed_spline(core);
+    const int rig = overlay_pose_rig(stage, core);
+    int samples[MAX_SKINS];
+    if (!core->overlays.onion || !spline || rig < 0) return;
+    const int most = document->rigs[rig]->kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
+    const int count = nearest_knots(document, spline, core->playback.position, samples, most);
+    uint32_t color = spline_list_color(document, core->active);
+    const struct posing posing = stage_posing(core);
+    for (int i = count - 1; i >= 0; i--) {
+        float share = count > 1 ? (float)i / (float)(count - 1) : 0, tip[2];
+        proxy_show(stage, core, &posing, rig, samples[i], 1.25f,
+                   theme_fade(color, NEAREST + (FARTHEST - NEAREST) * share), tip);
+    }
+}
+
+/// The active spline's knot being edited: held by the pointer, or the only selected one after a nudge.
+static const struct knot *edited_knot(const struct core *core)
+{
+    const struct drag *drag = &core->drag;
+    const struct spline *spline = core_active_spline(core);
+    int at = -1;
+    if (spline && drag->owner && drag->knot && drag->moved) at = spline_find_id(spline, drag->knot);
+    if (spline && !drag->owner && core->nudged_seconds > 0) at = selection_single(&core->selection, spline);
+    return at >= 0 ? &spline->knots[at] : NULL;
+}
+
+void ghost_show(struct stage *stage, struct core *core)
+{
+    const struct document *document = core->document;
+    const struct knot *knot = core->overlays.ghost ? edited_knot(core) : NULL;
+    const int rig = knot ? overlay_pose_rig(stage, core) : -1;
+    if (rig < 0) return;
+    const int sample = document_sample(document, knot->frame);
+    if (fabs(sample - core->playback.position) < 0.5) return;
+    const struct posing posing = stage_posing(core);
+    const double left = !core->drag.owner ? fmin(core->nudged_seconds / FADE, 1) : 1;
+    const uint32_t color = theme_fade(spline_list_color(document, core->active), GHOST * (float)left);
+    float tip[2];
+    if (!proxy_show(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
+    char text[32];
+    snprintf(text, sizeof text, "%.4g", knot->frame);
+    stage_note(core, roundf(tip[0] + 8), roundf(tip[1] + 4), FONT_NUMBER, theme()->text_dim, text);
+}
+
+// Motion arcs: the path of a tip, a character's vertex or a held point, with one mark per frame, fading away from the playhead.
+
+enum {
+    MAX_REACH = TRAIL_FRAMES / 2 - 1, ///< frames to each side
+    PIECES = 3,                       ///< straight pieces per frame
+    RUN = 4,                          ///< frames of equal opacity
+};
+
+static const double REACH = 2;                            ///< seconds to each side
+static const float OPACITY = 0.85f, MARK = 2.5f, NOW = 5; ///< mark radii in pixels; NOW: at the playhead
+
+/// Searches all vertices once per figure and version.
+static int liveliest_vertex(struct liveliest *known, const struct figure *figure)
+{
+    const struct character *character = &figure->character;
+    if (known->figure == figure->id && known->version == figure->version) return known->vertex;
+    float most = -1;
+    int found = 0;
+    for (int i = 0; i < character->vertex_count; i++) {
+        float way = 0;
+        for (int k = 0; k < character->coordinate_count; k++) {
+            const struct coordinate *c = &character->coordinates[k];
+            way += glms_vec3_norm2(vec3_from(c->re[i])) + glms_vec3_norm2(vec3_from(c->im[i]));
+        }
+        if (way > most) found = i;
+        most = fmaxf(most, way);
+    }
+    *known = (struct liveliest){figure->id, figure->version, found};
+    return found;
+}
+
+struct rig_point overlay_point(struct stage *stage, const struct core *core)
+{
+    const int rig = overlay_rig(stage, core);
+    if (rig >= 0) return (struct rig_point){rig, bones_joints(core, rig) - 1};
+    const int n = core->characters.character;
+    const struct figure *figure = models_figure(core->models, n);
+    if (!figure) return (struct rig_point){-1, -1};
+    return (struct rig_point){document_find_rig(core->document, RIG_CHARACTER, n),
+                              liveliest_vertex(&stage->liveliest, figure)};
+}
+
+static bool loops(const struct document *document, int spline)
+{
+    return spline < 0 || spline_start(document->splines[spline]) == WIGGLY_LOOP;
+}
+
+/// Whether frames beyond the range repeat, because everything that moves the rig loops. A chain's clip repeats anyway.
+static bool rig_loops(const struct document *document, const struct rig *rig)
+{
+    bool all = rig_input_count(rig) > 0;
+    for (int i = 0; i < rig_input_count(rig); i++) all &= loops(document, rig_input(rig, i));
+    for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) all &= loops(document, rig->tail.position[k].track);
+    return all;
+}
+
+/// The point's world place at a frame counted from the first, cached until an edit.
+static const float *place_at(struct trail_point *trail, const struct core *core, struct rig_point point, int frame)
+{
+    uint64_t solved = core->evaluation ? core->evaluation->revision : 0;
+    uint64_t key = hash_word(hash_word(HASH_START, history_revision(core->history)), solved);
+    key = hash_word(hash_word(key, (uint64_t)point.rig << 8 | (uint64_t)core->look), (uint64_t)point.at);
+    struct trail_point *kept = &trail[(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
+    if (kept->known && kept->key == key && kept->frame == frame) return kept->place;
+    *kept = (struct trail_point){.known = true, .key = key, .frame = frame};
+    point_place(core, point, (double)frame * core->document->substeps, kept->place);
+    return kept->place;
+}
+
+/// Catmull-Rom interpolation on the screen.
+static void between(const float a[2], const float b[2], const float c[2], const float d[2], float u, float out[2])
+{
+    for (int k = 0; k < 2; k++) {
+        float m0 = 0.5f * (c[k] - a[k]), m1 = 0.5f * (d[k] - b[k]), step = c[k] - b[k];
+        out[k] = b[k] + u * (m0 + u * (3 * step - 2 * m0 - m1 + u * (m0 + m1 - 2 * step)));
+    }
+}
+
+/// Projects frames first … last, each followed by PIECES − 1 points; returns the number of points.
+static int lay_out(float screen[TRAIL_FRAMES][2], int count, float points[][2])
+{
+    int made = 0;
+    for (int i = 0; i + 1 < count; i++) {
+        const float *a = screen[i > 0 ? i - 1 : i], *d = screen[i + 2 < count ? i + 2 : i + 1];
+        for (int p = 0; p < PIECES; p++) {
+            between(a, screen[i], screen[i + 1], d, (float)p / PIECES, points[made++]);
+        }
+    }
+    points[made][0] = screen[count - 1][0];
+    points[made][1] = screen[count - 1][1];
+    return made + 1;
+}
+
+static float fade_at(double frames, double reach) { return OPACITY * fmaxf(0, 1 - (float)(fabs(frames) / reach)); }
+
+static void show_marks(struct core *core, float screen[TRAIL_FRAMES][2], int first, int count, double now,
+                       double reach)
+{
+    for (int i = 0; i < count; i++) {
+        float alpha = fade_at(first + i - now, reach);
+        struct rect mark = {screen[i][0] - MARK / 2, screen[i][1] - MARK / 2, MARK, MARK};
+        if (alpha > 0.02f) drawlist_rect(&core->list, mark, theme_fade(theme()->playhead, alpha));
+    }
+}
+
+static void show_line(struct core *core, float points[][2], int first, int count, double now, double reach)
+{
+    for (int i = 0; i + 1 < count; i += RUN * PIECES) {
+        int length = count - i < RUN * PIECES + 1 ? count - i : RUN * PIECES + 1;
+        float alpha = fade_at(first + (i + length / 2.0) / PIECES - now, reach);
+        if (alpha > 0.02f)
+            drawlist_line(&core->list, points[i], length, 1.5f, theme_fade(theme()->playhead, 0.7f * alpha));
+    }
+}
+
+/// Where the point is shown now: a tip follows a dragged body.
+static bool project_now(struct stage *stage, const struct core *core, struct rig_point point, float xy[2])
+{
+    float place[3];
+    if (strand_of(stage, point.rig)) return stage_project(stage, core, point.rig, point.at + 1, 0, xy);
+    return point_place(core, point, core->playback.position, place) &&
+           stage_project_point(stage, core->layout.stage, place, xy);
+}
+
+/// A ring around the point's current place.
+static void show_now(struct stage *stage, struct core *core, struct rig_point point)
+{
+    float xy[2];
+    if (!project_now(stage, core, point, xy)) return;
+    drawlist_circle(&core->list, xy, NOW, 1.5f, theme()->playhead);
+}
+
+void path_show(struct stage *stage, struct core *core, enum trail which, struct rig_point point)
+{
+    const struct document *document = core->document;
+    double now = core->playback.position / document->substeps;
+    double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
+    int first = (int)ceil(now - reach), last = (int)floor(now + reach);
+    if (!rig_loops(document, document->rigs[point.rig])) {
+        first = first < 0 ? 0 : first;
+        last =
+            last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;
+    }
+    float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
+    int count = 0;
+    for (int frame = first; frame <= last; frame++) {
+        const float *place = place_at(stage->trail[which], core, point, frame);
+        if (!stage_project_point(stage, core->layout.stage, place, screen[count++])) return;
+    }
+    if (count == 0) return;
+    show_line(core, points, first, lay_out(screen, count, points), now, reach);
+    show_marks(core, screen, first, count, now, reach);
+}
+
+void trail_show(struct stage *stage, struct core *core)
+{
+    if (!core->overlays.trail) return;
+    const struct rig_point point = overlay_point(stage, core);
+    if (!point_exists(core, point)) return;
+    path_show(stage, core, TRAIL_OF_TIP, point);
+    show_now(stage, core, point);
+}
+
+// Pins: hover, drags parallel to the screen, keys and markers.
+
+static const float MARKER_REACH = 9;    ///< pixels
+static const float LEAST_SHARE = 0.05f; ///< of the largest movement; vertices that move less are not offered
+
+/// A vertex's movement per unit of the coordinates, squared, relative to the largest movement along each axis.
+static float share_of(const struct stage_character *shown, int vertex)
+{
+    float own = 0, most = 0;
+    for (int k = 0; k < shown->morph.count; k++) {
+        const int c = shown->morph.coordinate[k];
+        const struct coordinate *coordinate = &shown->figure->character.coordinates[c];
+        const float *largest = shown->figure->largest[c];
+        own +=
+            glms_vec3_norm2(vec3_from(coordinate->re[vertex])) + glms_vec3_norm2(vec3_from(coordinate->im[vertex]));
+        most += glms_vec3_norm2(vec3_from(largest));
+    }
+    return most > 0 ? own / most : 0;
+}
+
+/// The surface vertex under a point; of several characters the one nearest to the eye.
+static struct hover find_vertex(struct stage *stage, const struct core *core, float x, float y)
+{
+    const struct stage_view *view = &stage->view;
+    struct hover hover = {.thing = NULL};
+    float nearest = INFINITY;
+    for (int c = 0; c < view->character_count; c++) {
+        const struct stage_character *shown = &view->characters[c];
+        struct surface_spot spot;
+        float xy[2];
+        if (!skin_pose(stage, shown->rig) || !skin_spot(stage, shown->figure, x, y, &spot)) continue;
+        int corner = 0;
+        for (int k = 1; k < 3; k++) {
+            if (spot.weight[k] > spot.weight[corner]) corner = k;
+        }
+        const int rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig),
+                  vertex = (int)spot.corner[corner];
+        if (!point_exists(core, (struct rig_point){rig, vertex})) continue; // an edit in the same frame removed it
+        const float *place = stage->skin.posed[vertex];
+        const float depth = camera_depth(view->view, view->eye, place);
+        if (depth >= nearest) continue;
+        nearest = depth;
+        hover.thing = NULL;
+        if (share_of(shown, vertex) < LEAST_SHARE * LEAST_SHARE) continue;
+        if (!stage_project_point(stage, view->viewport, place, xy)) continue;
+        hover = (struct hover){.thing = &thing_point, .rig = rig, .joint = vertex, .x = xy[0], .y = xy[1]};
+    }
+    return hover;
+}
+
+/// The next pin with a marker. Characters of a pair stand aside, so their pins have none.
+static const struct pin *next_marker(const struct core *core, struct pin_place *place)
+{
+    const struct pin *pin;
+    do {
+        pin = pins_next(core->document, place);
+    } while (pin && core->characters.compare && core->document->rigs[place->rig]->kind == RIG_CHARACTER);
+    return pin;
+}
+
+static bool project(const struct stage *stage, const struct core *core, const double place[3], float xy[2])
+{
+    const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
+    return stage_project_point(stage, core->layout.stage, at, xy);
+}
+
+struct hover pins_hover(struct stage *stage, const struct core *core, const struct hover *found, float x, float y)
+{
+    struct hover hover = {.thing = NULL};
+    const float reach = core_reach(core, MARKER_REACH);
+    float best = reach;
+    if (core->brush.on || core->pick.use != BONE_SELECTED) return hover;
+
+    // The marker under the point: the selected one, else the nearest.
+    struct pin_place place = PINS_START;
+    for (const struct pin *pin; (pin = next_marker(core, &place));) {
+        float xy[2];
+        if (!project(stage, core, pin->to, xy)) continue;
+        float distance = maths_hypotf(xy[0] - x, xy[1] - y);
+        if (distance < reach && core->pin.any && core->pin.id == pin->id) distance = 0;
+        if (distance >= best) continue;
+        best = distance;
+        hover = (struct hover){
+            .thing = &thing_pin, .rig = place.rig, .joint = pin->point, .pin = pin->id, .x = xy[0], .y = xy[1]};
+    }
+    if (hover.thing || found->thing || core->characters.compare) return hover;
+
+    // A vertex, cached while pointer and picture stay. Playback under a still pointer highlights nothing.
+    struct pointed *pointed = &stage->pointed;
+    const bool still = pointed->x == x && pointed->y == y, same = still && pointed->hash == stage->view.hash;
+    if (still && !same && core->playback.playing) return hover;
+    if (!same) *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, core, x, y)};
+    return pointed->hover;
+}
+
+/// The screen's directions in the world, and its scale at a place.
+static void pins_take_plane(const struct stage *stage, const struct core *core, const double place[3],
+                            struct pin_drag *drag)
+{
+    const struct stage_view *view = &stage->view;
+    const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
+    drag->pixels_per_metre = stage_pixels_per_metre(stage, core, at);
+    for (int k = 0; k < 3; k++) {
+        drag->right[k] = (double)view->view[4 * k];
+        drag->up[k] = (double)view->view[4 * k + 1];
+    }
+}
+
+/// Where the pointer has dragged the point.
+static void drag_to(const struct pin_drag *drag, double dx, double dy, double to[3])
+{
+    for (int k = 0; k < 3; k++) {
+        to[k] = drag->start[k];
+        if (drag->axis < 0) to[k] += (dx * drag->right[k] - dy * drag->up[k]) / drag->pixels_per_metre;
+    }
+    if (drag->axis < 0) return;
+    to[drag->axis] += stage_along(drag->right[drag->axis], drag->up[drag->axis], dx, dy) / drag->pixels_per_metre;
+}
+
+/// Moves the point or marker to the pointer.
+static void move_pin(void *room, struct core *core)
+{
+    const struct pin_drag *drag = &((const struct stage *)room)->pin_drag;
+    double to[3];
+    drag_to(drag, core->drag.moved_x, core->drag.moved_y, to);
+    pins_put(core, drag->point.rig, drag->point.at, drag->frame, to);
+}
+
+static enum drag_answer pin_event(void *room, struct core *core, const struct event *event)
+{
+    // Ctrl may still be held from grabbing a joint.
+    const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & MOD_ALT);
+    return key && drag_lock_axis(&core->drag, &((struct stage *)room)->pin_drag.axis, event->key) ? DRAG_USED
+                                                                                                  : DRAG_PASSES;
+}
+
+static const float HERE = 5, ELSEWHERE = 3.5f, RING = 8, LIT = 6.5f, END = 2; ///< radii, pixels
+static const float LEAST_LINE = 1.5f;                                         ///< pixels; shorter lines are not drawn
+static const float FAINT = 0.5f;                                              ///< opacity of markers at other frames
+static const float AXIS = 2; ///< metres of a locked axis to each side, as drawn
+
+/// Draws the axis of a locked drag.
+static void pins_show_axis(void *room, struct core *core)
+{
+    const struct stage *stage = room;
+    const struct pin_drag *drag = &stage->pin_drag;
+    float ends[2][3], line[2][2];
+    if (drag->axis < 0) return;
+    for (int e = 0; e < 2; e++) {
+        for (int k = 0; k < 3; k++) ends[e][k] = (float)drag->start[k];
+        ends[e][drag->axis] += e ? AXIS : -AXIS;
+        if (!stage_project_point(stage, core->layout.stage, ends[e], line[e])) return;
+    }
+    drawlist_dashed(&core->list, line[0], 2, 1, 6, 4, theme_fade(theme()->playhead, 0.7f));
+}
+
+static void press_pin(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    struct stage *stage = room;
+    static const struct drag_owner owner = {
+        .cursor = CURSOR_HAND, .apply = move_pin, .event = pin_event, .end = stage_click, .show = pins_show_axis};
+    struct pin_drag *drag = &stage->pin_drag;
+    const struct document *document = core->document;
+    drag_begin(core, &owner, stage, hover->thing == &thing_pin ? "Move pin" : "Pin", event);
+    *drag = (struct pin_drag){.point = {hover->rig, hover->joint}, .axis = -1};
+    if (hover->thing == &thing_pin) {
+        const struct rig *rig = document->rigs[hover->rig];
+        const struct pin *pin = &rig->pins[pins_find_id(rig, hover->pin)];
+        pins_visit(core, pin);
+        drag->frame = pin->frame;
+        memcpy(drag->start, pin->to, sizeof drag->start);
+    } else {
+        float place[3] = {0};
+        drag->frame = pins_frame_here(core, hover->rig);
+        playback_seek(core, drag->frame);
+        point_place(core, drag->point, core->playback.position, place);
+        for (int k = 0; k < 3; k++) drag->start[k] = (double)place[k];
+    }
+    pins_take_plane(stage, core, drag->start, drag);
+}
+
+static bool find_pin(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    return project(room, core, target->pin->to, xy);
+}
+
+/// pin(tail,0): a pin's marker, counted by frame.
+const struct thing thing_pin = {
+    .cursor = CURSOR_MOVE,
+    .hint = "Drag the pin (X, Y or Z locks an axis, Shift: fine); Del removes it; Alt+arrows nudge it",
+    .place = ON_PIN,
+    .press = press_pin,
+    .name = "pin",
+    .of = OF_PIN,
+    .numbers = 1,
+    .find = find_pin,
+    .missing = "that pin is not in sight"};
+
+/// character(up,0.5,0.8): a surface point where it is now. u runs across and v up the rest pose's box, seen from the front.
+const struct thing thing_point = {
+    .cursor = CURSOR_HAND,
+    .hint = "Drag to pin this point at the playhead (X, Y or Z locks an axis, Shift: fine); H pins it where it is",
+    .press = press_pin,
+    .name = "character",
+    .of = OF_RIG,
+    .rig = RIG_CHARACTER,
+    .numbers = 2,
+    .find = find_character,
+    .missing = "that character is not to be seen"};
+
+static const double NUDGE = 0.01; ///< of the view's height
+
+void stage_nudge_pin(struct stage *stage, struct core *core, double right, double up)
+{
+    int rig;
+    struct pin_drag plane;
+    const struct pin *pin = pins_selected(core, &rig);
+    if (!pin) return;
+    pins_take_plane(stage, core, pin->to, &plane);
+    const double step = core_round(NUDGE * (double)core->layout.stage.h / plane.pixels_per_metre, 0.01);
+    double by[3];
+    for (int k = 0; k < 3; k++) by[k] = step * (right * plane.right[k] + up * plane.up[k]);
+    pins_nudge(core, by);
+}
+
+/// Pins a point at the playhead where it is.
+static void hold(struct core *core, struct rig_point point)
+{
+    float place[3];
+    if (!point_exists(core, point)) {
+        core_message(core, false, "There is no tail, chain or character to pin.");
+        return;
+    }
+    const double frame = pins_frame_here(core, point.rig);
+    if (!point_place(core, point, core_position(core->document, frame), place)) return;
+    pins_put_here(core, point.rig, point.at, (const double[3]){place[0], place[1], place[2]});
+}
+
+void stage_hold_point(struct stage *stage, struct core *core)
+{
+    int rig;
+    struct hover hover = core->hover;
+    if (is_strand(&hover)) hover = strand_end(stage, core, &hover);
+    const struct pin *selected = pins_selected(core, &rig);
+    if (hover.thing == &thing_point) {
+        hold(core, (struct rig_point){hover.rig, hover.joint});
+    } else if (selected) {
+        const struct pin pin = *selected;
+        pins_put_here(core, rig, pin.point, pin.to);
+    } else {
+        hold(core, overlay_point(stage, core));
+    }
+}
+
+/// The target, and a line to the point at the pin's frame if known.
+static void show_marker(const struct stage *stage, struct core *core, struct pin_place place, const struct pin *pin)
+{
+    struct drawlist *list = &core->list;
+    const struct document *document = core->document;
+    const struct pin_left *left = evaluation_pin(core->evaluation, document, place.rig, place.at);
+    const bool here = document_sample(document, pin->frame) == document_sample(document, core_frame(core));
+    const bool selected = core->pin.any && core->pin.id == pin->id;
+    const bool hot = core->hover.thing == &thing_pin && core->hover.pin == pin->id;
+    const float radius = here || selected || hot ? HERE : ELSEWHERE;
+    const uint32_t color = theme_fade(pins_color(document, place.rig), here || selected || hot ? 1 : FAINT);
+    float line[2][2];
+    if (!project(stage, core, pin->to, line[0])) return;
+    const bool has_end = left && left->is_found && project(stage, core, left->at, line[1]);
+    if (has_end && maths_hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
+        drawlist_line(list, line[0], 2, 1.25f, color);
+        drawlist_disc(list, line[1], END, color);
+    }
+    drawlist_disc(list, line[0], radius + 1.5f, theme_fade(theme()->panel, here || selected ? 0.8f : 0.4f));
+    drawlist_disc(list, line[0], radius, color);
+    if (!selected && !hot) return;
+    char text[32];
+    snprintf(text, sizeof text, "%.6g", pin->frame);
+    drawlist_circle(list, line[0], RING, 1.5f, theme()->playhead);
+    stage_note(core, line[0][0] + RING + 8, line[0][1] + 4, FONT_NUMBER, theme()->text, text);
+}
+
+void pins_show(struct stage *stage, struct core *core)
+{
+    int rig;
+    struct pin_place place = PINS_START;
+    const struct pin *selected = pins_selected(core, &rig);
+    if (selected && point_exists(core, (struct rig_point){rig, selected->point}))
+        path_show(stage, core, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
+    for (const struct pin *pin; (pin = next_marker(core, &place));) show_marker(stage, core, place, pin);
+    if (core->hover.thing != &thing_point || core->drag.owner) return;
+    const float xy[2] = {core->hover.x, core->hover.y}; // the target of a press
+    drawlist_circle(&core->list, xy, LIT + 1.5f, 1.5f, theme_fade(theme()->panel, 0.6f));
+    drawlist_circle(&core->list, xy, LIT, 1.5f, theme()->playhead);
+    drawlist_disc(&core->list, xy, END, theme()->playhead);
+}
+
+bool point_exists(const struct core *core, struct rig_point point)
+{
+    const struct document *document = core->document;
+    if (point.rig < 0 || point.rig >= document->rig_count) return false;
+    const enum rig_kind kind = document->rigs[point.rig]->kind;
+    if (point.at < 0) return point.at == POINT_BASE && kind == RIG_TAIL;
+    if (kind == RIG_TAIL || kind == RIG_CHAIN) return point.at < bones_joints(core, point.rig);
+    const int n = document_rig_number(document, point.rig);
+    const struct figure *figure = kind == RIG_CHARACTER ? models_figure(core->models, n) : NULL;
+    return figure && point.at < figure->character.vertex_count;
+}
+
+/// Reads a place from a posed rig.
+static void take_place(const struct rig_pose *pose, int at, float place[3])
+{
+    if (pose->kind == RIG_CHARACTER) {
+        stage_vertex(pose->character.figure, &pose->character.morph, pose->character.position, at, place);
+    } else {
+        memcpy(place, pose->strand.matrix[at + 1] + 12, 3 * sizeof *place);
+    }
+}
+
+bool point_place(const struct core *core, struct rig_point point, double position, float place[3])
+{
+    struct rig_pose pose;
+    const struct posing posing = stage_posing(core);
+    if (!point_exists(core, point) || !rig_pose(&posing, point.rig, position, NULL, &pose)) return false;
+    take_place(&pose, point.at, place);
+    return true;
+}
