@@ -1,4 +1,5 @@
-/// The curves panel: its life, hover, presses, box selection, and the active spline's limits.
+/// The curves panel: what part is visible, mouse and wheel, and warnings with their fixes.
+#include "base/hash.h"
 #include "base/need.h"
 #include "editor/core/command.h"
 #include "editor/core/core.h"
@@ -7,9 +8,373 @@
 #include "editor/core/selection.h"
 #include "editor/curves/state.h"
 #include "maths/maths.h"
+#include "scene/warnings.h"
+#include "ui/font.h"
 #include "ui/theme.h"
+#include <limits.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+
+// Panning, zooming, normalised curves, and following edits. A normalised curve with values c … d is drawn over the active curve's a … b:
+// v at a + (v − c)·(b − a)/(d − c).
+
+/// Pixels from the plot. Points further away look the same, and clamped ones are safe as floats.
+static const double FAR_PIXELS = 4000;
+
+static double bounded(double pixels, double lo, double hi)
+{
+    return fmin(fmax(pixels, lo - FAR_PIXELS), hi + FAR_PIXELS);
+}
+
+double curves_pixels_per_frame(const struct curves *curves, const struct core *core)
+{
+    return core->layout.plot.w / (curves->view.frame1 - curves->view.frame0);
+}
+
+double curves_pixels_per_value(const struct curves *curves, const struct core *core)
+{
+    return core->layout.plot.h / (curves->view.value1 - curves->view.value0);
+}
+
+float curves_x(const struct curves *curves, const struct core *core, double frame)
+{
+    const struct rect *plot = &core->layout.plot;
+    double x = plot->x + (frame - curves->view.frame0) * curves_pixels_per_frame(curves, core);
+    return (float)bounded(x, plot->x, plot->x + plot->w);
+}
+
+float curves_knot_x(const struct curves *curves, const struct core *core, const struct knot *knot)
+{
+    return curves_x(curves, core, document_frame(core->document, document_sample(core->document, knot->frame)));
+}
+
+int curves_knot_from(const struct curves *curves, const struct core *core, const struct spline *spline, double x)
+{
+    const double sample = floor(core_position(core->document, curves_frame(curves, core, x)));
+    return spline_lower_bound(core->document, spline, (int)fmin(fmax(sample, INT_MIN), INT_MAX));
+}
+
+float curves_y(const struct curves *curves, const struct core *core, double value)
+{
+    const struct rect *plot = &core->layout.plot;
+    double y = plot->y + (curves->view.value1 - value) * curves_pixels_per_value(curves, core);
+    return (float)bounded(y, plot->y, plot->y + plot->h);
+}
+
+double curves_frame(const struct curves *curves, const struct core *core, double x)
+{
+    return curves->view.frame0 + (x - core->layout.plot.x) / curves_pixels_per_frame(curves, core);
+}
+
+double curves_value(const struct curves *curves, const struct core *core, double y)
+{
+    return curves->view.value1 - (y - core->layout.plot.y) / curves_pixels_per_value(curves, core);
+}
+
+/// Keeps the view wider than rounding errors and within a sensible maximum.
+static void keep_sane(struct curves *curves, struct core *core)
+{
+    struct view *view = &curves->view;
+    double frames = fmin(fmax(view->frame1 - view->frame0, 0.5), 1e8);
+    double values = fmin(fmax(view->value1 - view->value0, 1e-9), 1e15);
+    double frame = fmin(fmax((view->frame0 + view->frame1) / 2, -1e9), 1e9);
+    double value = fmin(fmax((view->value0 + view->value1) / 2, -1e15), 1e15);
+    values = fmax(values, fabs(value) * 1e-9);
+    *view = (struct view){frame - frames / 2, frame + frames / 2, value - values / 2, value + values / 2};
+    core->visible = view->value1 - view->value0;
+}
+
+/// An empty view, before anything is included.
+static const struct view NOTHING = {INFINITY, -INFINITY, INFINITY, -INFINITY};
+
+static void include_value(struct view *part, double value)
+{
+    if (!isfinite(value)) return;
+    part->value0 = fmin(part->value0, value);
+    part->value1 = fmax(part->value1, value);
+}
+
+/// Widens a view to a knot.
+static void include_knot(const struct curves *curves, const struct core *core, struct knot_place at,
+                         struct view *part)
+{
+    const struct value_map map = normal_map(curves, core, at.spline);
+    const struct knot *knot = knot_at(core->document, at);
+    part->frame0 = fmin(part->frame0, knot->frame);
+    part->frame1 = fmax(part->frame1, knot->frame);
+    include_value(part, map.scale * core_knot_value(core, at.spline, knot) + map.offset);
+}
+
+/// Widens a view to the drawn values of a curve between two samples.
+static void include_curve(const struct curves *curves, const struct core *core, int spline, double first, double last,
+                          struct view *part)
+{
+    const struct evaluation *evaluation = core->evaluation;
+    const struct value_map map = normal_map(curves, core, spline);
+    if (!evaluation || spline >= evaluation->count || evaluation->samples == 0) return;
+    last = fmin(last, evaluation->samples - 1);
+    for (int highest = 0; highest < 2 && first <= last; highest++) {
+        const int sample = evaluation_extreme(evaluation, spline, (int)first, (int)last, highest);
+        include_value(part, map.scale * evaluation->curves[spline].total[sample] + map.offset);
+    }
+}
+
+/// The same for the visible part of those samples.
+static void include_seen(const struct curves *curves, const struct core *core, int spline, double first, double last,
+                         struct view *part)
+{
+    const double left = floor(core_position(core->document, curves->view.frame0));
+    const double right = ceil(core_position(core->document, curves->view.frame1));
+    include_curve(curves, core, spline, fmax(first, fmax(left, 0)), fmin(last, right), part);
+}
+
+/// Fits the visible values to those of `part` with a margin; a flat part gets one unit.
+static void show_values(struct view *view, const struct view *part)
+{
+    const double span = part->value1 - part->value0, largest = fmax(fabs(part->value0), fabs(part->value1));
+    const double margin = span > 1e-9 * largest && span > 1e-9 ? 0.12 * span : 1;
+    const bool known = isfinite(span);
+    view->value0 = known ? part->value0 - margin : -1;
+    view->value1 = known ? part->value1 + margin : 1;
+}
+
+/// Includes the phase curve and the equilibrium of the active spline.
+static void include_rest(struct curves *curves, const struct core *core)
+{
+    enum { COLUMNS = 200 };
+    const double margin = 0.06, last = document_samples(core->document) - 1;
+    struct view *view = &curves->view;
+    struct view part = *view;
+    for (int column = 0; column <= COLUMNS && core->active >= 0; column++) {
+        const wiggly_value v = evaluation_at(core->evaluation, core->active, last * column / COLUMNS);
+        include_value(&part, v.y);
+        include_value(&part, v.y + v.im);
+    }
+    const double span = part.value1 - part.value0;
+    if (part.value0 < view->value0) view->value0 = part.value0 - margin * span;
+    if (part.value1 > view->value1) view->value1 = part.value1 + margin * span;
+}
+
+static void follow_stop(struct curves *curves, struct core *core)
+{
+    curves->following = (struct following){0};
+    core->edited = (struct edited){0};
+}
+
+/// Sets the view within limits, and stops following edits.
+static void view_set(struct curves *curves, struct core *core, struct view view)
+{
+    follow_stop(curves, core);
+    curves->view = view;
+    keep_sane(curves, core);
+}
+
+void curves_frame_all(struct curves *curves, struct core *core)
+{
+    const struct document *document = core->document;
+    struct view part = NOTHING;
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct spline *spline = document->splines[s];
+        if (core->curves.normalise && s != core->active) continue;
+        for (int k = 0; k < spline->knot_count; k++)
+            include_value(&part, core_knot_value(core, s, &spline->knots[k]));
+        include_curve(curves, core, s, 0, INFINITY, &part);
+    }
+    show_values(&curves->view, &part);
+    include_rest(curves, core);
+    const double margin = fmax(0.02 * (document->last_frame - document->first_frame), 0.5);
+    view_set(curves, core,
+             (struct view){document->first_frame - margin, document->last_frame + margin, curves->view.value0,
+                           curves->view.value1});
+}
+
+void curves_frame_selection(struct curves *curves, struct core *core)
+{
+    struct view part = NOTHING;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) include_knot(curves, core, at, &part);
+    if (part.frame0 > part.frame1) {
+        curves_frame_all(curves, core);
+        return;
+    }
+    const double margin = fmax(0.25 * (part.frame1 - part.frame0), 6);
+    curves->view.frame0 = part.frame0 - margin;
+    curves->view.frame1 = part.frame1 + margin;
+    int seen = -1;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at); seen = at.spline) {
+        if (at.spline != seen) include_seen(curves, core, at.spline, 0, INFINITY, &part);
+    }
+    show_values(&curves->view, &part);
+    view_set(curves, core, curves->view);
+}
+
+static void shift(struct curves *curves, struct core *core, double frames, double values)
+{
+    const struct view *v = &curves->view;
+    view_set(curves, core,
+             (struct view){v->frame0 + frames, v->frame1 + frames, v->value0 + values, v->value1 + values});
+}
+
+void curves_reveal(struct curves *curves, struct core *core, double frame, double value)
+{
+    const struct view *view = &curves->view;
+    const double frames = 0.05 * (view->frame1 - view->frame0), values = 0.05 * (view->value1 - view->value0);
+    shift(curves, core, fmin(frame - frames - view->frame0, 0) + fmax(frame + frames - view->frame1, 0),
+          fmin(value - values - view->value0, 0) + fmax(value + values - view->value1, 0));
+}
+
+void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
+{
+    shift(curves, core, -dx / curves_pixels_per_frame(curves, core), dy / curves_pixels_per_value(curves, core));
+}
+
+void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
+{
+    const struct view *view = &curves->view;
+    const double frame = curves_frame(curves, core, x), value = curves_value(curves, core, y);
+    view_set(curves, core,
+             (struct view){frame + (view->frame0 - frame) * time_factor, frame + (view->frame1 - frame) * time_factor,
+                           value + (view->value0 - value) * value_factor,
+                           value + (view->value1 - value) * value_factor});
+}
+
+static bool has_height(const double range[2]) { return range[1] - range[0] > 1e-12 * fmax(1, fabs(range[0])); }
+
+/// Maps the values of one spline to those of another.
+static struct value_map map_between(const struct curves *curves, const struct core *core, int active, int spline)
+{
+    const struct value_map as_it_is = {1, 0};
+    const struct curve_cache *cache = &curves->cache;
+    bool known = spline < cache->range_count && active >= 0 && active < cache->range_count;
+    if (!core->curves.normalise || spline == active || !known) return as_it_is;
+    const double *to = cache->range[active], *from = cache->range[spline];
+    if (!has_height(to)) return as_it_is;
+    if (!has_height(from)) return (struct value_map){1, (to[0] + to[1]) / 2 - from[0]};
+    double scale = (to[1] - to[0]) / (from[1] - from[0]);
+    return (struct value_map){scale, to[0] - scale * from[0]};
+}
+
+struct value_map normal_map(const struct curves *curves, const struct core *core, int spline)
+{
+    return map_between(curves, core, core->active, spline);
+}
+
+float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value)
+{
+    struct value_map map = normal_map(curves, core, spline);
+    return curves_y(curves, core, map.scale * value + map.offset);
+}
+
+float curves_knot_y(const struct curves *curves, const struct core *core, int spline, const struct knot *knot)
+{
+    return curves_y_of(curves, core, spline, core_knot_value(core, spline, knot));
+}
+
+void normal_update(struct curves *curves, const struct core *core)
+{
+    struct curve_cache *cache = &curves->cache;
+    const struct evaluation *evaluation = core->evaluation;
+    if (!core->curves.normalise || core->drag.owner || !evaluation) return;
+    cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
+    for (int s = 0; s < cache->range_count; s++) {
+        for (int highest = 0; highest < 2; highest++) {
+            int sample = evaluation_extreme(evaluation, s, 0, evaluation->samples - 1, highest);
+            cache->range[s][highest] = evaluation->curves[s].total[sample];
+        }
+    }
+}
+
+void curves_activate(struct curves *curves, struct core *core, int before)
+{
+    const struct value_map map = map_between(curves, core, before, core->active);
+    const struct view *view = &curves->view;
+    view_set(curves, core,
+             (struct view){view->frame0, view->frame1, (view->value0 - map.offset) / map.scale,
+                           (view->value1 - map.offset) / map.scale});
+}
+
+static const double RATE = 14;     ///< share of the remaining distance per second
+static const double CLOSE = 0.25;  ///< pixels: close enough to stop
+static const double MARGIN = 0.06; ///< of the view, around the edit
+static const double WIDEST = 1.7;  ///< of the visible frames; further edits pan instead
+
+/// Widens a view to a knot and to the curve between its neighbours.
+static void include_around(const struct curves *curves, const struct core *core, struct knot_place at,
+                           struct view *part)
+{
+    const struct document *document = core->document;
+    const struct knot *knot = knot_at(document, at);
+    const bool has_next = at.knot + 1 < document->splines[at.spline]->knot_count;
+    include_knot(curves, core, at, part);
+    const double first = at.knot > 0 ? document_sample(document, knot[-1].frame) : 0;
+    const double last = has_next ? (double)document_sample(document, knot[1].frame) : INFINITY;
+    include_seen(curves, core, at.spline, first, last, part);
+}
+
+/// Frames and values of everything edited since the last frame; for splines only the visible values.
+static struct view edited_part(const struct curves *curves, const struct core *core)
+{
+    const struct edited *edited = &core->edited;
+    struct view part = NOTHING;
+    for (struct knot_place at = SELECTED_START; edited->selection && selected_next(core, &at);)
+        include_around(curves, core, at, &part);
+    for (int i = 0; i < edited->count; i++) include_seen(curves, core, edited->spline[i], 0, INFINITY, &part);
+    return part;
+}
+
+/// Widens the view to the edit, or pans if that would be too wide.
+static void widen(double *low, double *high, const double part[2], double widest)
+{
+    const double least = fmin(*low, part[0]), most = fmax(*high, part[1]), span = *high - *low;
+    if (least >= *low && most <= *high) return;
+    const double margin = MARGIN * (most - least);
+    if (most - least <= widest * span) {
+        if (least < *low) *low = least - margin;
+        if (most > *high) *high = most + margin;
+        return;
+    }
+    const double by = part[0] < *low ? part[0] - margin - *low : part[1] + margin - *high;
+    *low += by;
+    *high += by;
+}
+
+void follow_edits(struct curves *curves, struct core *core)
+{
+    struct following *following = &curves->following;
+    if (!core->edited.selection && core->edited.count == 0) return;
+    const struct view edited = edited_part(curves, core);
+    struct view goal = following->moves ? following->goal : curves->view;
+    if (edited.frame0 <= edited.frame1)
+        widen(&goal.frame0, &goal.frame1, (double[2]){edited.frame0, edited.frame1}, WIDEST);
+    if (edited.value0 <= edited.value1)
+        widen(&goal.value0, &goal.value1, (double[2]){edited.value0, edited.value1}, INFINITY);
+    const bool moves = goal.frame0 != curves->view.frame0 || goal.frame1 != curves->view.frame1 ||
+                       goal.value0 != curves->view.value0 || goal.value1 != curves->view.value1;
+    *following = (struct following){.moves = moves, .goal = goal};
+    core->edited = (struct edited){0};
+}
+
+void curves_advance(struct curves *curves, struct core *core, double dt)
+{
+    keep_ghost(curves, core);
+    struct following *following = &curves->following;
+    const bool is_measured = core->drag.owner && core->drag.room == curves; // curves must not rescale during a drag
+    if (!following->moves || is_measured) return;
+    const double share = 1 - maths_exp(-RATE * fmax(dt, 0));
+    const struct view *view = &curves->view, *goal = &following->goal;
+    const double left[4] = {goal->frame0 - view->frame0, goal->frame1 - view->frame1, goal->value0 - view->value0,
+                            goal->value1 - view->value1};
+    const double frames = fmax(fabs(left[0]), fabs(left[1])) * curves_pixels_per_frame(curves, core);
+    const double values = fmax(fabs(left[2]), fabs(left[3])) * curves_pixels_per_value(curves, core);
+    const bool there = fmax(frames, values) < CLOSE;
+    curves->view = there ? *goal
+                         : (struct view){view->frame0 + share * left[0], view->frame1 + share * left[1],
+                                         view->value0 + share * left[2], view->value1 + share * left[3]};
+    keep_sane(curves, core);
+    following->moves = !there;
+}
+
+// The mouse.
 
 struct curves *curves_create(void)
 {
@@ -56,7 +421,7 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
 }
 
 /// A press that did not move deselects; `keep` false restores the former selection.
-static void end(void *room, struct core *core, bool keep)
+static void end_box(void *room, struct core *core, bool keep)
 {
     const struct curves *curves = room;
     if (!keep) selection_copy(&core->selection, &curves->before_box);
@@ -182,9 +547,12 @@ const struct thing thing_sheet = {.cursor = CURSOR_HAND,
                                   .place = ON_TIME,
                                   .press = press_switch};
 
-static void pan(void *room, struct core *core) { curves_pan(room, core, core->drag.moved_x, core->drag.moved_y); }
+static void pan_view(void *room, struct core *core)
+{
+    curves_pan(room, core, core->drag.moved_x, core->drag.moved_y);
+}
 
-static void apply(void *room, struct core *core)
+static void move_limit(void *room, struct core *core)
 {
     const struct curves *curves = room;
     const struct limit_drag *drag = &curves->limit_drag;
@@ -203,7 +571,7 @@ static void apply(void *room, struct core *core)
 
 static void press_limit(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
-    static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = apply};
+    static const struct drag_owner owner = {.cursor = CURSOR_VERTICAL, .apply = move_limit};
     struct curves *curves = room;
     const enum parameter limit = limit_of(hover->handle);
     drag_begin(core, &owner, curves, parameter_rows[limit].undo, event);
@@ -219,7 +587,7 @@ const struct thing *const curves_things[] = {&thing_knot,    &thing_mark,  &thin
 
 void curves_press(struct curves *curves, struct core *core, const struct event *event)
 {
-    static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan};
+    static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan_view};
     const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
     if (pans) {
         core->space_used = core->space_down;
@@ -267,7 +635,7 @@ static void take_inside(const struct curves *curves, struct core *core, int s, f
     }
 }
 
-static void move(void *room, struct core *core)
+static void draw_box(void *room, struct core *core)
 {
     const struct curves *curves = room;
     const struct document *document = core->document;
@@ -285,7 +653,7 @@ static void move(void *room, struct core *core)
     }
 }
 
-static void show(void *room, struct core *core)
+static void show_box(void *room, struct core *core)
 {
     const struct curves *curves = room;
     const struct rect r = box_rect(&core->drag);
@@ -301,7 +669,8 @@ static void show(void *room, struct core *core)
 
 void box_begin(struct curves *curves, struct core *core, const struct event *event)
 {
-    static const struct drag_owner owner = {.cursor = CURSOR_ARROW, .move = move, .end = end, .show = show};
+    static const struct drag_owner owner = {
+        .cursor = CURSOR_ARROW, .move = draw_box, .end = end_box, .show = show_box};
     drag_begin(core, &owner, curves, NULL, event);
     curves->knot_drag = (struct knot_drag){0};
     bool removes = event->mods & (MOD_CTRL | MOD_ALT);
@@ -323,4 +692,345 @@ void limits_show(const struct curves *curves, struct core *core)
         drawlist_dashed(&core->list, &line[0][0], 2, hot ? 2 : 1.25f, 10, 6,
                         theme_fade(spline_list_color(core->document, core->active), hot ? 1 : 0.6f));
     }
+}
+
+// Warnings on the curves: their marks and fixes.
+
+/// Other curves, and during a drag the active one too, warn only when they swing far beyond their knots. The other warnings would change at
+/// every step of a drag.
+void warnings_update(struct curves *curves, const struct core *core)
+{
+    struct warnings *warnings = &curves->warnings;
+    const struct spline *spline = spline_list_seen(core);
+    const struct evaluation *evaluation = core->evaluation;
+    const struct document *document = core->document;
+    const bool solved = evaluation && evaluation->samples == document_samples(document), drags = core->drag.owner;
+    const uint64_t state[] = {history_revision(core->history),
+                              (uint64_t)(core->active + 1),
+                              (uint64_t)core->look,
+                              solved,
+                              solved ? evaluation->revision : 0,
+                              drags,
+                              curves->cache.key};
+    const uint64_t key = hash_bytes(HASH_START, state, sizeof state);
+    if (key == curves->warnings_key) return;
+    warnings->count = 0;
+    curves->warnings_key = key;
+    if (!solved) return;
+    memset(curves->fixes, 0, sizeof curves->fixes);
+    if (spline && drags) warnings_add_far(document, evaluation, core->active, warnings);
+    if (spline && !drags) warnings_add(document, evaluation, core->active, warnings);
+    for (int i = 0; i < curves->cache.other_count; i++)
+        warnings_add_far(document, evaluation, curves_other(curves, document, i), warnings);
+}
+
+// The remedies. Each edits any document and describes itself in a text that fits after "Click to" and "Done:".
+
+static bool set(struct document *document, const struct warning *warning, enum parameter parameter, double value,
+                struct error *error)
+{
+    const struct param param = param_number(value);
+    return edit_parameter(document, warning->spline, parameter, &param, error);
+}
+
+static bool raise_calm(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                       struct error *error)
+{
+    snprintf(text, FIX_TEXT, "raise calm to 1");
+    return set(document, warning, PARAMETER_CALM, 1, error);
+}
+
+static bool set_limits(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                       struct error *error)
+{
+    snprintf(text, FIX_TEXT, "set limits from %.6g to %.6g", warning->low, warning->high);
+    return set(document, warning, PARAMETER_LOW, warning->low, error) &&
+           set(document, warning, PARAMETER_HIGH, warning->high, error);
+}
+
+/// Adds a pose, or outside complex mode a plain knot.
+static bool add_knot(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                     struct error *error)
+{
+    const bool is_pose = spline_mode(document->splines[warning->spline]) == WIGGLY_COMPLEX;
+    const struct knot knot = {.frame = warning->frame,
+                              .value = warning->remedy,
+                              .has_phase = is_pose,
+                              .phase = is_pose ? warning->phase : 0,
+                              .stiffness = KNOT_DEFAULT_STIFFNESS};
+    snprintf(text, FIX_TEXT, "add a %s at frame %.6g", is_pose ? "pose" : "knot", warning->frame);
+    return edit_knot_insert(document, warning->spline, &knot, error);
+}
+
+/// Keeps the motion.
+static bool add_substeps(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                         struct error *error)
+{
+    snprintf(text, FIX_TEXT, "use %.0f substeps per frame", warning->remedy);
+    return warning->remedy <= SCENE_MAX_SUBSTEPS && edit_substeps(document, (int)warning->remedy, error);
+}
+
+static bool lower_frequency(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                            struct error *error)
+{
+    const double now = document->splines[warning->spline]->parameter[PARAMETER_FREQUENCY].value;
+    const double lower = core_round(0.99 * now * warning->limit / warning->amount, 0.01);
+    snprintf(text, FIX_TEXT, "lower the frequency to %.3g Hz", lower);
+    return set(document, warning, PARAMETER_FREQUENCY, lower, error);
+}
+
+static bool narrow_bandwidth(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                             struct error *error)
+{
+    snprintf(text, FIX_TEXT, "narrow the bandwidth to %.3g", warning->remedy);
+    return set(document, warning, PARAMETER_BANDWIDTH, warning->remedy, error);
+}
+
+/// Frees the slope or the phase of the knot at a frame.
+static bool free_knot(struct document *document, const struct warning *warning, double frame, bool slope,
+                      struct error *error)
+{
+    const struct spline *spline = document->splines[warning->spline];
+    const int k = spline_find_knot(document, spline, document_sample(document, frame));
+    if (k < 0) return false;
+    struct knot knot = spline->knots[k];
+    if (slope) knot.has_slope = false;
+    if (!slope) knot.has_phase = false, knot.phase = 0;
+    return edit_knot_set(document, warning->spline, &knot, error);
+}
+
+static bool free_later(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                       struct error *error)
+{
+    snprintf(text, FIX_TEXT, "free the phase at frame %.6g", warning->to);
+    return free_knot(document, warning, warning->to, false, error);
+}
+
+static bool free_earlier(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                         struct error *error)
+{
+    snprintf(text, FIX_TEXT, "free the phase at frame %.6g", warning->from);
+    return free_knot(document, warning, warning->from, false, error);
+}
+
+static bool free_both(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                      struct error *error)
+{
+    const bool good = free_later(document, warning, text, error) && free_earlier(document, warning, text, error);
+    snprintf(text, FIX_TEXT, "free the phases at frames %.6g and %.6g", warning->from, warning->to);
+    return good;
+}
+
+static bool free_all(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                     struct error *error)
+{
+    bool good = true;
+    for (int k = 0; k < document->splines[warning->spline]->knot_count && good; k++)
+        good = free_knot(document, warning, document->splines[warning->spline]->knots[k].frame, false, error);
+    snprintf(text, FIX_TEXT, "turn the spline's poses into plain knots");
+    return good;
+}
+
+static bool drop_slope(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                       struct error *error)
+{
+    snprintf(text, FIX_TEXT, "switch off the slope at frame %.6g", warning->frame);
+    return free_knot(document, warning, warning->frame, true, error);
+}
+
+static bool drop_wind_up(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                         struct error *error)
+{
+    snprintf(text, FIX_TEXT, "set the wind-up to 0");
+    return set(document, warning, PARAMETER_WIND_UP, 0, error);
+}
+
+static bool lengthen_wind_up(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                             struct error *error)
+{
+    snprintf(text, FIX_TEXT, "lengthen the wind-up to %.3g periods", warning->remedy);
+    return set(document, warning, PARAMETER_WIND_UP, warning->remedy, error);
+}
+
+static bool unsettle_all(struct document *document, const struct warning *warning, char text[FIX_TEXT],
+                         struct error *error)
+{
+    snprintf(text, FIX_TEXT, "let its knots be plain ones");
+    return edit_spline_settles(document, warning->spline, false, error);
+}
+
+/// Remedies for each kind of warning, the gentlest first. A later one must beat those before it, and doing nothing, by a factor.
+static const struct cure {
+    const char *label; ///< of the undo step
+    remedy *remedies[4];
+    double worth;
+} cures[] = {
+    [WARNING_FAR] = {"Tame swing", {raise_calm, set_limits, add_knot}, 1},
+    [WARNING_RATE] = {"Add substeps", {add_substeps, lower_frequency}, 1},
+    [WARNING_DRIFT] = {"Narrow bandwidth", {narrow_bandwidth}, 1},
+    [WARNING_FORCED] = {"Free the phase", {free_later, free_earlier, free_both}, 1.25},
+    [WARNING_SLOPE] = {"Slope off", {drop_slope}, 1},
+    [WARNING_PHASE] = {"Free the phase", {free_all}, 1},
+    [WARNING_WIND_UP] = {"Wind-up off", {drop_wind_up}, 1},
+    [WARNING_SUDDEN] = {"Lengthen wind-up", {lengthen_wind_up}, 1},
+    [WARNING_SETTLES] = {"Settle off", {unsettle_all}, 1},
+};
+
+static bool has_choice(const struct warning *warning) { return cures[warning->kind].remedies[1] != NULL; }
+
+/// What is left of a problem after a remedy, tried in a copy; infinity if it cannot apply. A kind's only remedy counts as enough.
+/// `trial` keeps earlier results, so only what differs is solved.
+static double left_with(const struct core *core, const struct warning *warning, struct fix *fix,
+                        struct evaluation *trial)
+{
+    struct error error;
+    struct document *document = document_copy(core->document);
+    double left = INFINITY;
+    if (fix->apply(document, warning, fix->text, &error)) {
+        left = 0;
+        if (has_choice(warning)) {
+            evaluation_update(trial, document, false);
+            left = warning_left(warning, document, trial);
+        }
+    }
+    document_destroy(document);
+    return left;
+}
+
+/// The first remedy if it suffices, else the best.
+static struct fix choose(const struct core *core, const struct warning *warning)
+{
+    const struct cure *cure = &cures[warning->kind];
+    struct evaluation trial = {.solver = core->evaluation->solver, .models = core->evaluation->models};
+    struct fix best = {.is_chosen = true};
+    double least = has_choice(warning) ? warning_left(warning, core->document, core->evaluation) : INFINITY;
+    for (int i = 0; cure->remedies[i] && (i != 1 || least > 1); i++) {
+        struct fix fix = {true, cure->remedies[i], ""};
+        const double left = left_with(core, warning, &fix, &trial);
+        if (left * cure->worth >= least) continue;
+        best = fix;
+        least = left;
+    }
+    evaluation_free(&trial);
+    return best;
+}
+
+/// The chosen fix, cached.
+static const struct fix *fix_of(struct curves *curves, const struct core *core, int index)
+{
+    struct fix *fix = &curves->fixes[index];
+    if (!fix->is_chosen) *fix = choose(core, &curves->warnings.list[index]);
+    return fix;
+}
+
+static const char NO_REMEDY[] = "No fix helps here. Move the knots, or change the frequency.";
+
+/// Fixes a warning in one undo step.
+static void press_warning(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    struct curves *curves = room;
+    const struct warning warning = curves->warnings.list[hover->handle];
+    struct fix fix = *fix_of(curves, core, hover->handle);
+    (void)event;
+    char text[FIX_TEXT + 8];
+    core_activate(core, warning.spline);
+    if (!core_active_spline(core) || !core_begin(core, cures[warning.kind].label, 0)) return;
+    const bool good = fix.apply && fix.apply(core->document, &warning, fix.text, &core->error);
+    snprintf(text, sizeof text, "Done: %s.", fix.text);
+    core_end(core, good);
+    if (good || !fix.apply) core_message(core, false, "%s", good ? text : NO_REMEDY);
+}
+
+void curves_remedy_first(struct curves *curves, struct core *core, int unused)
+{
+    (void)unused;
+    warnings_update(curves, core);
+    if (curves->warnings.count > 0) {
+        press_warning(curves, core, &(struct hover){.handle = 0}, NULL);
+    } else {
+        core_message(core, false, "This spline has no warnings.");
+    }
+}
+
+static const float SIZE = 7, LIFT = 16,
+                   EDGE = 12; ///< pixels: half a marker; distance above its point; distance from the plot's edge
+
+bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning, float xy[2])
+{
+    const struct rect plot = core->layout.plot;
+    xy[0] = plot.x + EDGE;
+    xy[1] = plot.y + EDGE;
+    if (warning->kind == WARNING_RATE) return true;
+    xy[0] = curves_x(curves, core, warning->frame);
+    xy[1] = fminf(fmaxf(curves_y_of(curves, core, warning->spline, warning->value) - LIFT, plot.y + EDGE),
+                  plot.y + plot.h - EDGE);
+    return xy[0] >= plot.x && xy[0] <= plot.x + plot.w;
+}
+
+static bool find_warning(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const struct curves *curves = room;
+    const double number = target->number[0];
+    bool there = number >= 0 && number < curves->warnings.count;
+    return there && warning_place(curves, core, &curves->warnings.list[(int)number], xy);
+}
+
+const struct thing thing_warning = {.cursor = CURSOR_HAND,
+                                    .hint = "Click to fix; Ctrl+Z undoes it",
+                                    .press = press_warning,
+                                    .name = "warning",
+                                    .numbers = 1,
+                                    .find = find_warning,
+                                    .missing = "that warning is not to be seen"};
+
+/// The warning under the pointer, or -1.
+static int hovered_warning(const struct curves *curves, const struct core *core)
+{
+    const int index = core->hover.handle;
+    return core->hover.thing == &thing_warning && index < curves->warnings.count ? index : -1;
+}
+
+static void show_marker(struct drawlist *list, const float xy[2], bool hovered)
+{
+    const float x = xy[0], y = xy[1], r = hovered ? SIZE + 1.5f : SIZE;
+    const float corners[] = {x, y - r, x + r, y + 0.8f * r, x - r, y + 0.8f * r};
+    drawlist_convex(list, corners, 3, theme()->warning);
+    drawlist_rect(list, (struct rect){x - 0.75f, y - 0.4f * r, 1.5f, 0.6f * r}, theme()->panel);
+    drawlist_rect(list, (struct rect){x - 0.75f, y + 0.38f * r, 1.5f, 1.5f}, theme()->panel);
+}
+
+void warnings_show(const struct curves *curves, struct core *core)
+{
+    const int hovered = hovered_warning(curves, core);
+    for (int i = 0; i < curves->warnings.count; i++) {
+        float xy[2];
+        if (warning_place(curves, core, &curves->warnings.list[i], xy)) show_marker(&core->list, xy, i == hovered);
+    }
+}
+
+void warnings_show_words(struct curves *curves, struct core *core)
+{
+    enum { PAD = 10, LINE = 18 };
+    const int index = hovered_warning(curves, core);
+    float xy[2];
+    if (index < 0 || !warning_place(curves, core, &curves->warnings.list[index], xy)) return;
+    char what[WARNING_SENTENCE], click[FIX_TEXT + 16] = "";
+    warning_say(&curves->warnings.list[index], what);
+    if (!core->drag.owner) {
+        const struct fix *fix = fix_of(curves, core, index);
+        snprintf(click, sizeof click, fix->apply ? "Click to %s." : NO_REMEDY, fix->text);
+    }
+    const struct rect panel = core->layout.curves;
+    float width =
+        fmaxf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, what), font_width(FONT_LABEL, THEME_TEXT_NORMAL, click));
+    float w = fminf(width + 2 * PAD, panel.w - 16), h = 2 * LINE + PAD;
+    float x = fminf(fmaxf(xy[0] - w / 2, panel.x + 8), panel.x + panel.w - 8 - w);
+    float y = xy[1] + 14 + h < panel.y + panel.h ? xy[1] + 14 : xy[1] - 14 - h;
+    struct rect box = {roundf(x), roundf(y), w, h};
+    drawlist_rounded(&core->list, box, 5, theme()->raised);
+    drawlist_rounded_line(&core->list, box, 5, 1, theme_fade(theme()->warning, 0.6f));
+    drawlist_text_fit(&core->list, box.x + PAD, box.y + LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+                      theme()->text, what);
+    drawlist_text_fit(&core->list, box.x + PAD, box.y + 2 * LINE, w - 2 * PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+                      theme()->warning, click);
 }

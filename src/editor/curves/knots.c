@@ -1,0 +1,956 @@
+/// Edits knots on the curves and the dope sheet: drags of knots and slopes, scaling, and the sheet's rows.
+#include "editor/core/knots.h"
+#include "editor/core/command.h"
+#include "editor/core/core.h"
+#include "editor/core/selection.h"
+#include "editor/curves/state.h"
+#include "maths/maths.h"
+#include "ui/font.h"
+#include "ui/theme.h"
+#include <assert.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Drags. Each step starts again from the original knots. Ripple moves the later knots too.
+
+static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
+static const double LENGTH_SLACK = 8;        ///< pixels; a longer pull also changes the stiffness
+
+static void collect(const struct curves *curves, struct core *core)
+{
+    core_collect(core, curves->knot_drag.ripple);
+    core->drag.label = core->originals.count == 1 ? "Move knot" : "Move knots";
+}
+
+/// R: the later knots keep their distances to the dragged ones.
+static void toggle_ripple(struct curves *curves, struct core *core)
+{
+    struct knot_drag *drag = &curves->knot_drag;
+    drag_restart(core);
+    drag->ripple = !drag->ripple;
+    drag->free_frames = 0;
+    core->drag.stale = true;
+    collect(curves, core);
+    core_message(core, false,
+                 drag->ripple ? "Ripple on: later knots move too (R turns it off)."
+                              : "Ripple off: later knots stay.");
+}
+
+/// How far left a spline's first original may go, in frames: to the first frame or, with ripple, just after the unmoved knot before it.
+static double least_frames(const struct curves *curves, const struct document *document, const struct original *first)
+{
+    const struct spline *spline = document->splines[first->spline];
+    int sample = document_sample(document, first->knot.frame);
+    int before = spline_lower_bound(document, spline, sample) - 1;
+    if (!curves->knot_drag.ripple || before < 0) return document->first_frame - first->knot.frame;
+    int least = document_sample(document, spline->knots[before].frame) + 1;
+    return document_frame(document, least) - document_frame(document, sample);
+}
+
+/// The range of shifts, in frames, that keeps all originals inside the scene's range.
+static void shift_limits(const struct curves *curves, const struct originals *originals,
+                         const struct document *document, double *least, double *most)
+{
+    *least = -INFINITY;
+    *most = INFINITY;
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[i];
+        const struct spline *spline = document->splines[original->spline];
+        const bool is_first = i == 0 || originals->list[i - 1].spline != original->spline;
+        const double end = document_frame(document, document_last_knot_sample(document, spline));
+        if (is_first) *least = fmax(*least, least_frames(curves, document, original));
+        *most = fmin(*most, end - original->knot.frame);
+    }
+}
+
+/// The pointer's shift in frames: the held knot snaps to whole frames and all knots stay in range. `why` says what stopped it.
+static double wanted_frames(const struct curves *curves, const struct core *core, char why[STOPPED_SIZE])
+{
+    const struct drag *drag = &core->drag;
+    const struct originals *originals = &core->originals;
+    if (drag->lock_y) return 0;
+    double frames = drag->moved_x / curves_pixels_per_frame(curves, core), least, most;
+    const struct original *held = &originals->list[0];
+    for (int i = 0; i < originals->count; i++) {
+        if (originals->list[i].knot.id == drag->knot) held = &originals->list[i];
+    }
+    if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
+    shift_limits(curves, originals, core->document, &least, &most);
+    if (frames < least || frames > most) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
+    if (curves->knot_drag.ripple && frames > most)
+        snprintf(why, STOPPED_SIZE, "the last knot has reached the end of the range. Extend the range to make room");
+    return fmax(fmin(frames, most), least);
+}
+
+/// Moves knots in time; selected ones also in value, measured in values of the active spline.
+struct moving {
+    const struct curves *curves;
+    const struct core *core;
+    double frames, up, resolution;
+};
+
+static struct knot moved(const void *how, const struct original *original)
+{
+    const struct moving *moving = how;
+    const double scale = normal_map(moving->curves, moving->core, original->spline).scale;
+    struct knot knot = original->knot;
+    knot.frame += moving->frames;
+    if (moving->up != 0 && !knot.still && selection_has(&moving->core->selection, knot.id))
+        knot.value = core_round(knot.value + moving->up / scale, moving->resolution / scale);
+    return knot;
+}
+
+static void apply_knots(void *of, struct core *core)
+{
+    struct curves *curves = of;
+    const double pixels = curves_pixels_per_value(curves, core);
+    char why[STOPPED_SIZE] = "";
+    if (core->originals.count == 0) return;
+    struct moving moving = {curves, core, wanted_frames(curves, core, why),
+                            core->drag.lock_x ? 0 : -core->drag.moved_y / pixels, 0.01 / pixels};
+    if (originals_room(core, moved, &moving, why) != ROOM_FREE) moving.frames = curves->knot_drag.free_frames;
+    curves->knot_drag.free_frames = moving.frames;
+    if (!originals_put(core, moved, &moving, why)) drag_restart(core);
+    drag_say_stopped(core, why);
+}
+
+/// Turns the held end of the handle towards the pointer. Its length sets the stiffness.
+static void apply_slope(void *of, struct core *core)
+{
+    const struct curves *curves = of;
+    const struct drag *drag = &core->drag;
+    const struct knot *knot = &core->originals.list[0].knot;
+    float end[2];
+    curves_handle(curves, core, knot, curves->knot_drag.handle, end);
+    double x = curves_knot_x(curves, core, knot);
+    double across = end[0] + drag->moved_x - x;
+    double down = end[1] + drag->moved_y - curves_y(curves, core, knot->value);
+    across = curves->knot_drag.handle ? fmax(across, 2) : fmin(across, -2);
+    double seconds = across / curves_pixels_per_frame(curves, core) / core->document->fps;
+    struct knot turned = *knot;
+    turned.slope =
+        core_round(-down / curves_pixels_per_value(curves, core) / seconds, SLOPE_RESOLUTION * core->visible);
+    double length = handle_length(knot->stiffness), longer = maths_hypot(across, down) - length;
+    if (fabs(longer) > LENGTH_SLACK) {
+        turned.stiffness = handle_stiffness(length + longer - copysign(LENGTH_SLACK, longer));
+    }
+    core_put_knot(core, core->active, &turned);
+}
+
+static enum drag_answer knots_event(void *room, struct core *core, const struct event *event)
+{
+    bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
+    if (!key) return DRAG_PASSES;
+    if (event->key == 'R') toggle_ripple(room, core);
+    return event->key == 'R' || drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
+}
+
+/// A click on one of several selected knots selects it alone.
+static void end_knots(void *room, struct core *core, bool keep)
+{
+    struct curves *curves = room;
+    if (!keep) return;
+    if (core->drag.moved) {
+        core_edited(core, -1);
+    } else if (curves->knot_drag.collapse) {
+        selection_clear(&core->selection);
+        selection_set(&core->selection, core->drag.knot, true);
+    }
+}
+
+static void show_knots(void *room, struct core *core) { scale_box_show(room, core, false); }
+
+/// Shift adds or removes the knot. Without Shift a drag moves all selected knots.
+static void press_knot(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    static const struct drag_owner owner = {
+        .cursor = CURSOR_MOVE, .apply = apply_knots, .event = knots_event, .end = end_knots, .show = show_knots};
+    struct curves *curves = room;
+    unsigned id = hover->knot;
+    bool selected = selection_has(&core->selection, id);
+    core_turn_to(core, hover->spline);
+    core->limb = 0;
+    if (event->clicks == 2) {
+        const struct spline *spline = core->document->splines[hover->spline];
+        playback_seek(core, spline->knots[spline_find_id(spline, id)].frame);
+        return;
+    }
+    if (event->mods & MOD_SHIFT) {
+        selection_set(&core->selection, id, !selected);
+        selected_settle(core);
+        if (selected) return;
+    } else if (!selected) {
+        selection_clear(&core->selection);
+        selection_set(&core->selection, id, true);
+    }
+    drag_begin(core, &owner, curves, NULL, event);
+    core->drag.knot = id;
+    curves->knot_drag = (struct knot_drag){.collapse = selected && !(event->mods & MOD_SHIFT)};
+    collect(curves, core);
+    core->drag.lock_x = rect_contains(core->layout.sheet, event->x, event->y); // the dope sheet has only time
+}
+
+bool curves_in_plot(const struct curves *curves, const struct core *core, double frame, double value, float xy[2])
+{
+    const struct rect *plot = &core->layout.plot;
+    xy[0] = curves_x(curves, core, frame);
+    xy[1] = curves_y(curves, core, value);
+    return xy[0] >= plot->x && xy[1] >= plot->y && xy[0] <= plot->x + plot->w && xy[1] <= plot->y + plot->h;
+}
+
+static bool find_knot(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const struct document *document = core->document;
+    return curves_in_plot(room, core, document_frame(document, document_sample(document, target->knot->frame)),
+                          core_knot_value(core, target->spline, target->knot), xy);
+}
+
+const struct thing thing_knot = {.cursor = CURSOR_MOVE,
+                                 .hint = "Drag it (X, Y: one axis, R: later ones too, Shift: fine, Ctrl: off frames)",
+                                 .place = ON_KNOT,
+                                 .press = press_knot,
+                                 .name = "knot",
+                                 .of = OF_KNOT,
+                                 .numbers = 1,
+                                 .find = find_knot,
+                                 .missing = "that knot is not in the visible part of the curves"};
+
+static void press_slope(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    static const struct drag_owner owner = {.cursor = CURSOR_MOVE, .apply = apply_slope, .end = end_knots};
+    const struct spline *spline = core_active_spline(core);
+    struct curves *curves = room;
+    assert(spline);
+    drag_begin(core, &owner, curves, "Change slope", event);
+    core->drag.knot = hover->knot;
+    curves->knot_drag = (struct knot_drag){.handle = hover->handle};
+    core->originals.count = 0;
+    originals_add(&core->originals, core->active, &spline->knots[spline_find_id(spline, hover->knot)]);
+}
+
+static bool find_slope(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    curves_handle(room, core, target->knot, target->number[1] > 0, xy);
+    return target->knot->has_slope;
+}
+
+/// handle(sway,2,1): a slope handle's end, 0 before and 1 after the knot.
+const struct thing thing_slope = {.cursor = CURSOR_MOVE,
+                                  .hint = "Drag to turn the slope, pull to make it firmer; T removes it",
+                                  .place = ON_KNOT,
+                                  .press = press_slope,
+                                  .name = "handle",
+                                  .of = OF_KNOT,
+                                  .numbers = 2,
+                                  .find = find_slope,
+                                  .missing = "that knot has no slope"};
+
+static const double GHOST_SECONDS = 1.2;
+
+/// Kinds of nudges for core_merge_key().
+enum nudge_kind { NUDGE_FRAMES = 1, NUDGE_VALUE };
+
+void curves_nudge(const struct curves *curves, struct core *core, double frames, double hundredths)
+{
+    const double up = 0.01 * hundredths * core->visible;
+    struct moving moving = {curves, core, frames, up, 0.01 * fabs(up)};
+    enum room room = ROOM_FREE;
+    char why[STOPPED_SIZE] = "";
+    if (history_is_open(core->history)) return;
+    core_collect(core, false);
+    // jump over knots in the way
+    while (frames != 0 && (room = originals_room(core, moved, &moving, why)) == ROOM_OCCUPIED)
+        moving.frames += frames;
+    if (room == ROOM_OUTSIDE) moving.frames = 0;
+    if (room == ROOM_OUTSIDE) core_stopped(core, why);
+    if (core->originals.count == 0 || (moving.frames == 0 && up == 0)) return;
+    if (room == ROOM_FREE) why[0] = 0;
+    core_begin(core, "Nudge knots", core_merge_key(core, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE));
+    originals_put(core, moved, &moving, why);
+    core_end(core, true);
+    if (*why) core_stopped(core, why);
+    core->nudged_seconds = GHOST_SECONDS;
+    core_edited(core, -1);
+}
+
+// Scales the selected knots in time and value, by S and the pointer, by typed factors, or by a handle of their box.
+//
+// A knot (t, v) goes to (p + a·(t − p), q + b·(v − q)) about the pivot (p, q); its slope is multiplied by b/a, so the curve's shape
+// scales too. "About the equilibrium" takes q from the knot's own spline at the knot.
+
+static const double LEAST_REACH = 40;  ///< pixels from the pivot for factor 1, so that small movements stay precise
+static const double LEAST_SIDE = 8;    ///< likewise for a box dragged by its handle
+static const double FINE_SLOPE = 1e-6; ///< resolution of a scaled slope, of the visible values a second
+static const double MOST = 1e4;        ///< largest factor
+
+/// Lowest and highest frame and drawn value of the selection.
+static void measure_selection(const struct curves *curves, const struct core *core, double frames[2],
+                              double values[2])
+{
+    frames[0] = values[0] = INFINITY;
+    frames[1] = values[1] = -INFINITY;
+    for (int i = 0; i < core->originals.count; i++) {
+        const struct original *original = &core->originals.list[i];
+        const struct value_map map = normal_map(curves, core, original->spline);
+        const double value = map.scale * original->value + map.offset;
+        frames[0] = fmin(frames[0], original->knot.frame);
+        frames[1] = fmax(frames[1], original->knot.frame);
+        values[0] = fmin(values[0], value);
+        values[1] = fmax(values[1], value);
+    }
+}
+
+/// Stores the equilibria before any edit changes them.
+static void note_equilibria(struct curves *curves, struct core *core)
+{
+    struct scaling *scaling = &curves->scaling;
+    const struct evaluation *evaluation = core->evaluation;
+    double frames[2], values[2];
+    measure_selection(curves, core, frames, values);
+    for (int i = 0; i < core->originals.count; i++) {
+        struct original *original = &core->originals.list[i];
+        const int sample = document_sample(core->document, original->knot.frame);
+        original->equilibrium = evaluation_at(evaluation, original->spline, sample).y;
+    }
+    const double position = round(core->playback.position), middle = (frames[0] + frames[1]) / 2;
+    scaling->playhead[0] = document_frame(core->document, (int)position);
+    scaling->playhead[1] = evaluation_at(evaluation, core->active, position).y;
+    scaling->balance[0] = middle;
+    scaling->balance[1] = evaluation_at(evaluation, core->active, core_position(core->document, middle)).y;
+}
+
+/// The equilibrium, as drawn, of the knot at the held edge. That knot stays under the pointer.
+static double edge_equilibrium(const struct curves *curves, const struct core *core)
+{
+    for (int i = 0; i < core->originals.count; i++) {
+        const struct original *original = &core->originals.list[i];
+        const struct value_map map = normal_map(curves, core, original->spline);
+        if (map.scale * original->value + map.offset == curves->scaling.edge[1])
+            return map.scale * original->equilibrium + map.offset;
+    }
+    return curves->scaling.balance[1];
+}
+
+static void place_pivot(struct curves *curves, const struct core *core)
+{
+    struct scaling *scaling = &curves->scaling;
+    double frames[2], values[2];
+    measure_selection(curves, core, frames, values);
+    const bool held = scaling->handle >= 0, left = held && box_column(scaling->handle) < 0,
+               top = held && box_row(scaling->handle) < 0;
+    const double middle[2] = {(frames[0] + frames[1]) / 2, (values[0] + values[1]) / 2};
+    const double side[2] = {frames[left], values[!top]};
+    scaling->edge[0] = frames[!left];
+    scaling->edge[1] = values[top];
+    if (held) scaling->balance[1] = edge_equilibrium(curves, core);
+    const double *const places[PIVOTS] = {middle, scaling->playhead, scaling->balance, side};
+    scaling->frame = places[scaling->pivot][0];
+    scaling->value = places[scaling->pivot][1];
+}
+
+static enum pivot next_pivot(const struct scaling *scaling)
+{
+    if (scaling->handle >= 0) return scaling->pivot == PIVOT_SIDE ? PIVOT_EQUILIBRIUM : PIVOT_SIDE;
+    return (scaling->pivot + 1) % PIVOT_SIDE;
+}
+
+static const char *pivot_name(const struct scaling *scaling, enum pivot pivot)
+{
+    static const char *const names[PIVOTS] = {"middle", "playhead", "equilibrium", "other side"};
+    const bool time_only = scaling->handle >= 0 && box_row(scaling->handle) == 0;
+    return time_only && pivot == PIVOT_EQUILIBRIUM ? names[PIVOT_MIDDLE] : names[pivot];
+}
+
+/// "time × 1.2 (what stopped it)"
+static void say_factor(char out[128], const char *what, double factor, const char *stopped)
+{
+    snprintf(out, 128, *stopped ? "%s × %.3g (%s)" : "%s × %.3g", what, factor, stopped);
+}
+
+static void say_scale(struct curves *curves, const struct core *core)
+{
+    struct scaling *scaling = &curves->scaling;
+    const struct drag *drag = &core->drag;
+    const char *keys = scaling->handle < 0 ? "X, Y;  Enter, Esc" : box_corner(scaling->handle) ? "X, Y;  Esc" : "Esc";
+    char time[128] = "", value[128] = "";
+    if (!drag->lock_y) say_factor(time, "time", scaling->by.time, scaling->stopped[0]);
+    if (!drag->lock_x) say_factor(value, "value", scaling->by.value, scaling->stopped[1]);
+    snprintf(scaling->sentence, sizeof scaling->sentence, "%s%sScale %s%s%s about the %s.  P: the %s;  %s",
+             scaling->typed, scaling->typed[0] ? "_   " : "", time, *time && *value ? ", " : "", value,
+             pivot_name(scaling, scaling->pivot), pivot_name(scaling, next_pivot(scaling)), keys);
+}
+
+/// Distance of the pointer from the pivot relative to its distance at the start, along one axis.
+static double stretch_along(double pivot, double start, double now)
+{
+    double reach = start - pivot;
+    if (fabs(reach) < LEAST_REACH) reach = reach < 0 ? -LEAST_REACH : LEAST_REACH;
+    return 1 + (now - start) / reach;
+}
+
+static double clamped(double factor) { return fmin(fmax(factor, -MOST), MOST); }
+
+static void end_scale(void *room, struct core *core, bool keep)
+{
+    (void)room;
+    if (keep && core->drag.moved) core_edited(core, -1);
+}
+
+/// One typed factor scales both axes; two scale time and value.
+static void read_typed(const char *typed, struct factors *by)
+{
+    char *end;
+    double first = strtod(typed, &end);
+    if (end == typed) return;
+    *by = (struct factors){first, first};
+    const char *rest = end;
+    double second = strtod(rest, &end);
+    if (end != rest) by->value = second;
+}
+
+/// The factor that keeps an edge of the box under the pointer. Distances are pixels from the pivot.
+static double pulled(double reach, double by, int direction)
+{
+    return 1 + by / (fabs(reach) < LEAST_SIDE ? direction * LEAST_REACH : reach);
+}
+
+static struct factors pulled_box(const struct curves *curves, const struct core *core)
+{
+    const struct drag *drag = &core->drag;
+    const struct scaling *scaling = &curves->scaling;
+    const int column = box_column(scaling->handle), row = box_row(scaling->handle);
+    const double across = curves_x(curves, core, scaling->edge[0]) - curves_x(curves, core, scaling->frame);
+    const double down = curves_y(curves, core, scaling->edge[1]) - curves_y(curves, core, scaling->value);
+    return (struct factors){column ? pulled(across, drag->moved_x, column) : 1,
+                            row ? pulled(down, drag->moved_y, row) : 1};
+}
+
+/// Factors from the pointer after S.
+static struct factors pulled_freely(const struct curves *curves, const struct core *core)
+{
+    const struct drag *drag = &core->drag;
+    const struct scaling *scaling = &curves->scaling;
+    double x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value);
+    double to_x = drag->start_x + drag->moved_x, to_y = drag->start_y + drag->moved_y;
+    double before = fmax(maths_hypot(drag->start_x - x, drag->start_y - y), LEAST_REACH);
+    double factor =
+        1 + (maths_hypot(to_x - x, to_y - y) - maths_hypot(drag->start_x - x, drag->start_y - y)) / before;
+    if (drag->lock_x) factor = stretch_along(x, drag->start_x, to_x);
+    if (drag->lock_y) factor = stretch_along(y, drag->start_y, to_y);
+    return (struct factors){factor, factor};
+}
+
+static struct factors wanted(const struct curves *curves, const struct core *core)
+{
+    const struct drag *drag = &core->drag;
+    const struct scaling *scaling = &curves->scaling;
+    struct factors by = scaling->handle >= 0 ? pulled_box(curves, core) : pulled_freely(curves, core);
+    read_typed(scaling->typed, &by);
+    return (struct factors){drag->lock_y ? 1 : clamped(by.time), drag->lock_x ? 1 : clamped(by.value)};
+}
+
+static double scaled_value(const struct curves *curves, const struct core *core, const struct original *original,
+                           double factor)
+{
+    const struct scaling *scaling = &curves->scaling;
+    const struct value_map map = normal_map(curves, core, original->spline);
+    const double drawn = (scaling->value - map.offset) / map.scale;
+    const double pivot = scaling->pivot == PIVOT_EQUILIBRIUM ? original->equilibrium : drawn;
+    const double resolution = 0.01 / curves_pixels_per_value(curves, core) / map.scale;
+    return core_round(pivot + factor * (original->value - pivot), resolution);
+}
+
+struct scale {
+    const struct curves *curves;
+    const struct core *core;
+};
+
+static struct knot scaled(const void *how, const struct original *original)
+{
+    const struct curves *curves = ((const struct scale *)how)->curves;
+    const struct core *core = ((const struct scale *)how)->core;
+    const struct factors by = curves->scaling.by;
+    const double pivot = curves->scaling.frame, steeper = by.value / by.time;
+    const double frame = pivot + by.time * (original->knot.frame - pivot);
+    struct knot to = original->knot;
+    if (by.time != 1) to.frame = core->drag.snap ? round(frame) : frame;
+    if (by.value != 1 && !to.still) to.value = scaled_value(curves, core, original, by.value);
+    to.phase *= by.time < 0 ? -by.value : by.value; // time runs backwards, so the swing does
+    if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, FINE_SLOPE * core->visible);
+    return to;
+}
+
+static bool changes_values(const struct core *core, const struct scale *scale)
+{
+    bool changes = false;
+    for (int i = 0; i < core->originals.count && !changes; i++)
+        changes = !core->originals.list[i].knot.still &&
+                  scaled(scale, &core->originals.list[i]).value != core->originals.list[i].value;
+    return changes;
+}
+
+static void scale_knots(void *room, struct core *core)
+{
+    struct curves *curves = room;
+    struct scaling *scaling = &curves->scaling;
+    const struct scale scale = {curves, core};
+    scaling->by = wanted(curves, core);
+    scaling->stopped[0][0] = scaling->stopped[1][0] = 0;
+    if (originals_room(core, scaled, &scale, scaling->stopped[0]) != ROOM_FREE) scaling->by.time = scaling->free_time;
+    scaling->free_time = scaling->by.time;
+    if (scaling->by.value != 1 && scaling->by.time == 1 && !changes_values(core, &scale))
+        snprintf(scaling->stopped[1], STOPPED_SIZE, "all are on the %s", pivot_name(scaling, scaling->pivot));
+    if (!originals_put(core, scaled, &scale, scaling->stopped[1])) drag_restart(core);
+    say_scale(curves, core);
+}
+
+/// Accepts digits, sign, point, and a space before a second factor. Characters, because keyboard layouts differ.
+static bool type_factor(struct scaling *scaling, uint32_t c)
+{
+    size_t length = strlen(scaling->typed);
+    bool digit = c >= '0' && c <= '9';
+    const char *space = strchr(scaling->typed, ' '), *number = space ? space + 1 : scaling->typed;
+    bool sign = c == '-' && !*number, point = (c == '.' || c == ',') && !strchr(number, '.');
+    bool next = c == ' ' && !space && *number;
+    if (!(digit || sign || point || next) || length + 1 >= sizeof scaling->typed) return false;
+    scaling->typed[length] = (char)(c == ',' ? '.' : c);
+    scaling->typed[length + 1] = 0;
+    return true;
+}
+
+static void erase_factor(struct scaling *scaling)
+{
+    size_t length = strlen(scaling->typed);
+    if (length > 0) scaling->typed[length - 1] = 0;
+}
+
+static void change_scale(struct core *core)
+{
+    drag_start_moving(core);
+    core->drag.stale = true;
+}
+
+static enum drag_answer press_key(struct curves *curves, struct core *core, const struct event *event)
+{
+    struct scaling *scaling = &curves->scaling;
+    if (event->key == KEY_ESCAPE) return DRAG_TAKE_BACK;
+    if (event->key == KEY_ENTER) return DRAG_KEEP;
+    if (event->key == 'P') {
+        drag_restart(core);
+        scaling->pivot = next_pivot(scaling);
+        place_pivot(curves, core);
+    } else if (event->key == KEY_BACKSPACE) {
+        erase_factor(scaling);
+    } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) || !drag_lock(&core->drag, event->key)) {
+        return DRAG_USED;
+    }
+    change_scale(core);
+    return DRAG_USED;
+}
+
+/// Keys and clicks while scaling: axes, pivot, typed factors, the end.
+static enum drag_answer scale_event(void *room, struct core *core, const struct event *event)
+{
+    struct curves *curves = room;
+    bool press = event->action != ACTION_RELEASE;
+    switch (event->kind) {
+    case EVENT_BUTTON:
+        if (curves->scaling.handle >= 0) return DRAG_PASSES;
+        return !press ? DRAG_USED : event->button == BUTTON_LEFT ? DRAG_KEEP : DRAG_TAKE_BACK;
+    case EVENT_KEY:
+        return press ? press_key(curves, core, event)
+                     : DRAG_PASSES; /* of a key that was held before, the release is somebody else's */
+    case EVENT_TEXT:
+        if (type_factor(&curves->scaling, event->codepoint)) change_scale(core);
+        return DRAG_USED;
+    default:
+        return event->kind == EVENT_WHEEL ? DRAG_USED
+                                          : DRAG_PASSES; /* the factor is measured in pixels: no zooming meanwhile */
+    }
+}
+
+enum { TAG_PAD = 8, LINE = 16, MARGIN = 4, MOST_LINES = 4 };
+
+/// The text beside the pointer.
+struct tag {
+    int count;
+    struct {
+        char text[STOPPED_SIZE];
+        bool is_stop;
+    } line[MOST_LINES];
+};
+
+/// A factor, and what stopped it on a second line.
+static void add_factor(struct tag *tag, const char *what, double factor, const char *stopped)
+{
+    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s × %.3g", what, factor);
+    if (!*stopped) return;
+    tag->line[tag->count].is_stop = true;
+    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s", stopped);
+}
+
+static const float BESIDE = 16, BELOW = 20; ///< pixels from the pointer
+
+static void show_tag(struct core *core, const struct tag *tag)
+{
+    const struct rect panel = core->layout.curves;
+    float width = 0;
+    for (int i = 0; i < tag->count; i++)
+        width = fmaxf(width, ceilf(font_width(FONT_LABEL, THEME_TEXT_SMALL, tag->line[i].text)));
+    const float w = width + 2 * TAG_PAD, h = (float)(tag->count * LINE + TAG_PAD);
+    const float right = panel.x + panel.w - MARGIN - w, bottom = panel.y + panel.h - MARGIN - h;
+    const struct rect box = {roundf(fmaxf(panel.x + MARGIN, fminf(core->drag.x + BESIDE, right))),
+                             roundf(core->drag.y + BELOW <= bottom ? core->drag.y + BELOW : core->drag.y - BELOW - h),
+                             w, h};
+    drawlist_rounded(&core->list, box, 4, theme()->raised);
+    drawlist_rounded_line(&core->list, box, 4, 1, theme()->control);
+    for (int i = 0; i < tag->count; i++)
+        drawlist_text(&core->list, box.x + TAG_PAD, box.y + (float)((i + 1) * LINE), FONT_LABEL, THEME_TEXT_SMALL,
+                      tag->line[i].is_stop ? theme()->warning : theme()->text, tag->line[i].text);
+}
+
+static void show_pivot(const struct curves *curves, struct core *core)
+{
+    const struct scaling *scaling = &curves->scaling;
+    const float x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value), arm = 7;
+    const float across[] = {x - arm, y, x + arm, y}, down[] = {x, y - arm, x, y + arm};
+    const float line[] = {x, y, core->drag.x, core->drag.y};
+    const bool pointed = scaling->handle < 0 && !scaling->typed[0];
+    if (pointed) drawlist_dashed(&core->list, line, 2, 1, 3, 4, theme_fade(theme()->playhead, 0.5f));
+    if (!core->drag.lock_y) drawlist_line(&core->list, across, 2, 1.5f, theme()->playhead);
+    if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
+}
+
+static void scale_show(void *room, struct core *core)
+{
+    const struct curves *curves = room;
+    const struct scaling *scaling = &curves->scaling;
+    struct tag tag = {0};
+    const struct rect clip = drawlist_push_clip(&core->list, core->layout.plot);
+    scale_box_show(curves, core, true);
+    show_pivot(curves, core);
+    drawlist_set_clip(&core->list, clip);
+    if (!core->drag.lock_y) add_factor(&tag, "time", scaling->by.time, scaling->stopped[0]);
+    if (!core->drag.lock_x) add_factor(&tag, "value", scaling->by.value, scaling->stopped[1]);
+    show_tag(core, &tag);
+}
+
+/// Started by S (a click or Enter ends it) or by pressing a handle of the selection box.
+static const struct drag_owner scale_owner = {
+    .cursor = CURSOR_MOVE, .apply = scale_knots, .event = scale_event, .end = end_scale, .show = scale_show};
+
+/// `handle`: of the selection box, or -1 for S.
+static void begin_scale(struct curves *curves, struct core *core, enum pivot pivot, int handle)
+{
+    curves->scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
+    core->message.text[0] = 0;
+    core->hover = (struct hover){.thing = NULL};
+    note_equilibria(curves, core);
+    place_pivot(curves, core);
+    core->drag.hint = curves->scaling.sentence;
+    say_scale(curves, core);
+}
+
+void curves_scale(struct curves *curves, struct core *core, int about_equilibrium)
+{
+    core_collect(core, false);
+    if (core->originals.count == 0) {
+        core_message(core, false, "Select the knots to scale first.");
+        return;
+    }
+    const struct event event = {.button = BUTTON_LEFT, .x = core->pointer_x, .y = core->pointer_y};
+    drag_begin(core, &scale_owner, curves, "Scale knots", &event);
+    core->drag.lock_y = about_equilibrium;
+    const enum pivot pivot = core->originals.count == 1 ? PIVOT_PLAYHEAD : PIVOT_MIDDLE;
+    begin_scale(curves, core, about_equilibrium ? PIVOT_EQUILIBRIUM : pivot, -1);
+}
+
+/// Starts scaling by a handle: about the opposite side or, with Alt, about the equilibrium.
+static void press_box(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    struct curves *curves = room;
+    const int handle = hover->handle;
+    core_collect(core, false);
+    drag_begin(core, &scale_owner, curves, "Scale knots", event);
+    core->drag.lock_x = box_row(handle) == 0;
+    core->drag.lock_y = box_column(handle) == 0;
+    begin_scale(curves, core, event->mods & MOD_ALT ? PIVOT_EQUILIBRIUM : PIVOT_SIDE, handle);
+    core->hover = (struct hover){.thing = &thing_box, .spline = core->active, .handle = handle};
+}
+
+static const float BOX_PAD = 12;     ///< from the outermost knots: outside their own targets
+static const float HANDLE_REACH = 7; ///< pixels at which a handle is hit
+static const float HANDLE = 6;       ///< size in pixels
+static const float INSIDE = 4;       ///< pixels from the plot's edge, so that handles stay reachable
+static const float LEAST = 2;        ///< pixels; knots closer than this cannot be scaled apart
+
+/// The selection box inside the visible plot, and the axes along which its knots differ.
+struct knot_box {
+    struct rect area;
+    bool wide, high;
+};
+
+/// false with fewer than two knots selected, or none visible.
+static bool find_knot_box(const struct curves *curves, const struct core *core, struct knot_box *box)
+{
+    float left = INFINITY, right = -INFINITY, top = INFINITY, bottom = -INFINITY;
+    int count = 0;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at); count++) {
+        const struct knot *knot = knot_at(core->document, at);
+        const float x = curves_knot_x(curves, core, knot);
+        const float y = curves_knot_y(curves, core, at.spline, knot);
+        left = fminf(left, x);
+        right = fmaxf(right, x);
+        top = fminf(top, y);
+        bottom = fmaxf(bottom, y);
+    }
+    if (count < 2) return false;
+    const struct rect whole = {left - BOX_PAD, top - BOX_PAD, right - left + 2 * BOX_PAD, bottom - top + 2 * BOX_PAD};
+    *box = (struct knot_box){rect_intersect(whole, rect_inset(core->layout.plot, INSIDE)), right - left >= LEAST,
+                             bottom - top >= LEAST};
+    return box->area.w > 0 && box->area.h > 0;
+}
+
+/// false if the box has no extent along the handle's axis.
+static bool handle_place(const struct knot_box *box, int handle, float xy[2])
+{
+    const int column = box_column(handle), row = box_row(handle);
+    if (handle == BOX_MIDDLE || (column && !box->wide) || (column && row && !box->high)) return false;
+    xy[0] = box->area.x + box->area.w * 0.5f * (float)(column + 1);
+    xy[1] = box->area.y + box->area.h * 0.5f * (float)(row + 1);
+    return true;
+}
+
+static bool find_box(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    struct knot_box box;
+    const int column = (int)target->number[0], row = (int)target->number[1];
+    const bool known = abs(column) <= 1 && abs(row) <= 1 && find_knot_box(room, core, &box);
+    return known && handle_place(&box, 3 * (row + 1) + column + 1, xy);
+}
+
+/// box(1,0): a handle of the selection box, here the middle of its right edge; box(-1,-1) is the upper left corner.
+const struct thing thing_box = {
+    .cursor = CURSOR_MOVE,
+    .hint =
+        "Drag to scale the selected knots about the other side; with Alt about the equilibrium (P while you drag)",
+    .place = ON_KNOT,
+    .press = press_box,
+    .name = "box",
+    .numbers = 2,
+    .find = find_box,
+    .missing = "the selected knots have no such handle"};
+
+void scale_box_hover(const struct curves *curves, const struct core *core, float x, float y, struct hover *hover)
+{
+    struct knot_box box;
+    float best = HANDLE_REACH, xy[2];
+    if (!find_knot_box(curves, core, &box)) return;
+    for (int i = 0; i < BOX_HANDLES; i++) {
+        if (!handle_place(&box, i, xy)) continue;
+        if (is_nearest(maths_hypotf(x - xy[0], y - xy[1]), &best))
+            *hover = (struct hover){.thing = &thing_box, .spline = core->active, .handle = i};
+    }
+}
+
+static void show_box_handle(struct core *core, int handle, const float xy[2])
+{
+    const bool hot = core->hover.thing == &thing_box && core->hover.handle == handle;
+    const float size = hot ? HANDLE + 3 : HANDLE;
+    const struct rect r = {roundf(xy[0] - size / 2), roundf(xy[1] - size / 2), size, size};
+    drawlist_rounded(&core->list, r, 1.5f, hot ? theme()->playhead : theme()->panel);
+    drawlist_rounded_line(&core->list, r, 1.5f, 1, theme_fade(theme()->playhead, hot ? 1 : 0.75f));
+}
+
+void scale_box_show(const struct curves *curves, struct core *core, bool handles)
+{
+    struct knot_box box;
+    if (!find_knot_box(curves, core, &box)) return;
+    drawlist_rounded_line(&core->list, rect_inset(box.area, -0.5f), 0, 1, theme_fade(theme()->playhead, 0.3f));
+    for (int i = 0; i < BOX_HANDLES && handles; i++) {
+        float xy[2];
+        if (handle_place(&box, i, xy)) show_box_handle(core, i, xy);
+    }
+}
+
+// The dope sheet (F7): one row per spline between ruler and curves. Its knots are marks you drag in time.
+
+enum { ROW = 16, SHEET_PAD = 3, MOST_ROWS = 6 }; ///< pixels; padding above and below; more rows scroll
+
+static const float LEAST_PLOT = 90; ///< least height of the curves, in pixels
+static const float MARK_REACH = 7;  ///< pixels at which a mark is hit
+
+/// Lists the splines of all shown rows; returns how many.
+static int list_rows(const struct core *core, int first, int *splines, int most)
+{
+    int count = 0;
+    for (int s = 0; s < core->document->spline_count; s++) {
+        if (!spline_list_shows(core, s)) continue;
+        if (count >= first && count - first < most) splines[count - first] = s;
+        count++;
+    }
+    return count;
+}
+
+void sheet_update(struct curves *curves, struct core *core)
+{
+    struct dope_sheet *sheet = &curves->sheet;
+    const float room = core->layout.curves.h - core->layout.ruler.h - LEAST_PLOT - 2 * SHEET_PAD;
+    const int total = core->curves.sheet ? list_rows(core, 0, NULL, 0) : 0;
+    int rows = total < MOST_ROWS ? total : MOST_ROWS;
+    if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
+    if (sheet->active != core->active_id) { // scroll its row into view
+        const bool is_shown = spline_list_shows(core, core->active);
+        int active = 0;
+        for (int s = 0; s < core->active; s++) active += spline_list_shows(core, s);
+        if (is_shown && active < sheet->first) sheet->first = active;
+        if (is_shown && active >= sheet->first + rows) sheet->first = active - rows + 1;
+        sheet->active = core->active_id;
+    }
+    if (sheet->first > total - rows) sheet->first = total - rows;
+    sheet->rows = rows;
+    sheet->total = total;
+    list_rows(core, sheet->first, sheet->spline, rows);
+    const float height = rows > 0 ? (float)(rows * ROW + 2 * SHEET_PAD) : 0;
+    if (core->layout.sheet_height == height) return;
+    core->layout.sheet_height = height;
+    core_layout(core);
+}
+
+static float row_y(const struct core *core, int row)
+{
+    return core->layout.sheet.y + SHEET_PAD + ((float)row + 0.5f) * ROW;
+}
+
+struct rect sheet_area(const struct core *core)
+{
+    const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
+    return (struct rect){panel->x, sheet->y, panel->w, sheet->h};
+}
+
+struct rect sheet_switch(const struct core *core)
+{
+    const struct rect corner = ruler_corner(core);
+    return (struct rect){corner.x, corner.y, 13, corner.h};
+}
+
+struct hover sheet_hover(const struct curves *curves, const struct core *core, float x, float y)
+{
+    const int row = (int)floorf((y - core->layout.sheet.y - SHEET_PAD) / ROW);
+    const int at = row < 0 ? 0 : row >= curves->sheet.rows ? curves->sheet.rows - 1 : row;
+    const int spline = at >= 0 ? curves->sheet.spline[at] : -1;
+    const int s = spline < core->document->spline_count ? spline : -1;
+    struct hover hover = {.thing = s >= 0 ? &thing_row : NULL, .spline = s};
+    if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
+    nearest_knot(curves, core, s, y, x, y, MARK_REACH, &hover);
+    return hover;
+}
+
+/// Beside the marks: activates the spline; a double-click inserts a knot on its curve, a drag starts a box.
+static void press_row(void *room, struct core *core, const struct hover *hover, const struct event *event)
+{
+    struct curves *curves = room;
+    const bool keeps = event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT);
+    const bool inside = rect_contains(core->layout.sheet, event->x, event->y);
+    if (!keeps || event->clicks == 2) core_choose(core, hover->spline);
+    if (!inside) return;
+    if (event->clicks == 2) {
+        core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
+                             event->mods & MOD_SHIFT);
+        return;
+    }
+    box_begin(curves, core, event);
+    curves->knot_drag.in_sheet = true;
+}
+
+const struct thing thing_row = {
+    .hint = "Click to edit this spline; double-click to insert a knot on its curve; drag to select with a box",
+    .place = ON_TIME,
+    .press = press_row};
+
+float sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box)
+{
+    for (int row = 0; row < curves->sheet.rows; row++) {
+        const float y = row_y(core, row), half = ROW / 2.0f;
+        if (curves->sheet.spline[row] == spline) return y + half > box.y && y - half < box.y + box.h ? y : NAN;
+    }
+    return NAN;
+}
+
+bool sheet_wheel(struct curves *curves, struct core *core, const struct event *event)
+{
+    struct dope_sheet *sheet = &curves->sheet;
+    if (!rect_contains(sheet_area(core), event->x, event->y)) return false;
+    if (event->mods || sheet->total <= sheet->rows) return false;
+    sheet->first += event->dy > 0 ? -1 : 1;
+    if (sheet->first < 0) sheet->first = 0; // sheet_update() bounds the other end
+    return true;
+}
+
+static bool find_mark(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const struct curves *curves = room;
+    for (int row = 0; row < curves->sheet.rows; row++) {
+        if (curves->sheet.spline[row] != target->spline) continue;
+        xy[0] = curves_knot_x(curves, core, target->knot);
+        xy[1] = row_y(core, row);
+        return rect_contains(core->layout.sheet, xy[0], xy[1]);
+    }
+    return false;
+}
+
+/// mark(sway,2): a knot on the dope sheet.
+const struct thing thing_mark = {.name = "mark",
+                                 .of = OF_KNOT,
+                                 .numbers = 1,
+                                 .find = find_mark,
+                                 .missing = "the dope sheet does not show that knot"};
+
+/// Draws a row: a tint if it is active, a line from first to last mark, the marks, and the name.
+static void show_row(const struct curves *curves, struct core *core, int row)
+{
+    const struct document *document = core->document;
+    const int s = curves->sheet.spline[row];
+    if (s >= document->spline_count) return; // an undo in this frame removed it
+    const struct spline *spline = document->splines[s];
+    const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
+    const bool active = s == core->active, hot = core->hover.thing == &thing_row && core->hover.spline == s;
+    const float y = row_y(core, row), left = sheet->x + sheet->w + 6;
+    const uint32_t color = spline_list_color(document, s);
+    const struct rect band = {sheet->x, y - ROW / 2.0f, sheet->w, ROW};
+    if (active || hot) drawlist_rect(&core->list, band, theme_fade(theme()->text, active ? 0.07f : 0.035f));
+    struct rect clip = drawlist_push_clip(&core->list, *sheet);
+    if (spline->knot_count > 1) {
+        const float from = curves_knot_x(curves, core, &spline->knots[0]);
+        const float to = curves_knot_x(curves, core, &spline->knots[spline->knot_count - 1]);
+        drawlist_rect(&core->list, (struct rect){from, roundf(y) - 0.5f, to - from, 1}, theme_fade(color, 0.35f));
+    }
+    knots_show(curves, core, s, y);
+    drawlist_set_clip(&core->list, clip);
+    drawlist_text_fit(&core->list, left, roundf(y + 4), panel->x + panel->w - 6 - left,
+                      active ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL,
+                      theme_readable(color, theme()->panel, 4.5f), spline->name);
+}
+
+void sheet_show(const struct curves *curves, struct core *core)
+{
+    const struct rect *area = &core->layout.sheet;
+    // The triangle in the ruler's corner points down while the sheet is open.
+    const struct rect r = sheet_switch(core);
+    const float x = r.x + 8, y = r.y + r.h / 2, a = 3.5f;
+    const float right[] = {x - a + 1, y - a, x + a, y, x - a + 1, y + a},
+                down[] = {x - a, y - a + 1, x + a, y - a + 1, x, y + a};
+    drawlist_convex(&core->list, core->curves.sheet ? down : right, 3,
+                    core->hover.thing == &thing_sheet ? theme()->text : theme()->text_dim);
+    if (area->h <= 0) return;
+    const struct dope_sheet *sheet = &curves->sheet;
+    for (int row = 0; row < sheet->rows; row++) show_row(curves, core, row);
+    if (sheet->total > sheet->rows) { // more rows lie above or below
+        const float track = area->h - 2 * SHEET_PAD, length = track * (float)sheet->rows / (float)sheet->total;
+        const float top = area->y + SHEET_PAD + track * (float)sheet->first / (float)sheet->total;
+        drawlist_rounded(&core->list, (struct rect){area->x - 7, top, 3, length}, 1.5f, theme()->control);
+    }
+    drawlist_rect(&core->list, (struct rect){area->x, area->y + area->h - 1, area->w, 1}, theme()->border);
+}
