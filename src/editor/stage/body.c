@@ -23,22 +23,17 @@
 
 // Follow-through, which is not part of the document's solution but added to it.
 
-/// A spline's filter at the playhead, with parameters that follow splines evaluated there.
-static bool filter_now(const struct core *core, int index, struct swing_filter *filter)
+/// Index of a rig's swing; id 0 finds a free one; −1: none.
+static int find_inertia(const struct stage *stage, unsigned id)
 {
-    const struct spline *spline = core->document->splines[index];
-    double parameter[PARAMETER_COUNT];
-    for (int p = 0; p < PARAMETER_COUNT; p++) {
-        const struct param *param = &spline->parameter[p];
-        wiggly_value value = {.y = param->value};
-        if (param->track >= 0) value = evaluation_at(core->evaluation, param->track, core->playback.position);
-        parameter[p] = value.y + value.re;
-    }
-    return swing_filter(spline, parameter, filter);
+    int i = STAGE_MAX_STRANDS;
+    while (--i >= 0 && stage->inertia[i].rig != id) continue;
+    return i;
 }
 
 /// Drives a rig's channels by a change of its base's velocity; returns whether any still swings.
-static bool drive(struct drag_inertia *inertia, const struct core *core, int rig, const double kick[3], double dt)
+static bool drive_channels(struct drag_inertia *inertia, const struct core *core, int rig, const double kick[3],
+                           double dt)
 {
     const struct posing posing = stage_posing(core);
     struct swing_arm arm;
@@ -48,10 +43,17 @@ static bool drive(struct drag_inertia *inertia, const struct core *core, int rig
     if (!swing_arm(&posing, rig, &arm)) return false;
     for (int c = 0; c < count; c++) {
         const struct channel *channel = &channels[c];
+        const struct spline *spline = core->document->splines[channel->spline];
         struct swing_filter filter;
-        double direction[3];
+        double direction[3], parameter[PARAMETER_COUNT]; // at the playhead, those that follow splines too
+        for (int p = 0; p < PARAMETER_COUNT; p++) {
+            const struct param *param = &spline->parameter[p];
+            wiggly_value value = {.y = param->value};
+            if (param->track >= 0) value = evaluation_at(core->evaluation, param->track, core->playback.position);
+            parameter[p] = value.y + value.re;
+        }
         inertia->scale[c] = 0;
-        if (!swing_hangs(channels, count, channel) || !filter_now(core, channel->spline, &filter)) {
+        if (!swing_hangs(channels, count, channel) || !swing_filter(spline, parameter, &filter)) {
             inertia->channel[c] = (struct swing){0};
             continue;
         }
@@ -64,31 +66,6 @@ static bool drive(struct drag_inertia *inertia, const struct core *core, int rig
     return swings;
 }
 
-/// Index of a rig's swing; id 0 finds a free one; −1: none.
-static int find(const struct stage *stage, unsigned id)
-{
-    int i = STAGE_MAX_STRANDS;
-    while (--i >= 0 && stage->inertia[i].rig != id) continue;
-    return i;
-}
-
-/// Returns false at rest, when the entry can be dropped.
-static bool advance(struct drag_inertia *inertia, const struct core *core, int rig, const double offset[3], double dt)
-{
-    double kick[3];
-    bool moves = false;
-    for (int k = 0; k < 3; k++) {
-        double velocity = (offset[k] - inertia->offset[k]) / dt;
-        kick[k] = velocity - inertia->velocity[k];
-        moves |= velocity != 0 || kick[k] != 0 || offset[k] != 0;
-        inertia->velocity[k] = velocity;
-        inertia->offset[k] = offset[k];
-    }
-    if (!moves && !inertia->swings) return false;
-    inertia->swings = drive(inertia, core, rig, kick, dt) || moves;
-    return inertia->swings;
-}
-
 void drag_inertia_advance(struct stage *stage, const struct core *core, double dt)
 {
     const struct document *document = core->document;
@@ -96,33 +73,38 @@ void drag_inertia_advance(struct stage *stage, const struct core *core, double d
     if (core->look == LOOK_CUBIC) memset(stage->inertia, 0, sizeof stage->inertia); // a cubic has no restoring force
     for (int r = 0; r < document->rig_count && core->look != LOOK_CUBIC; r++) {
         const unsigned id = document->rigs[r]->id;
-        double offset[3];
+        double offset[3], kick[3];
+        bool moves = false;
         if (document->rigs[r]->kind != RIG_TAIL && document->rigs[r]->kind != RIG_CHAIN) continue;
         body_drag_offset(stage, core, r, offset);
-        int at = find(stage, id);
-        if (at < 0 && (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)) at = find(stage, 0);
+        int at = find_inertia(stage, id);
+        if (at < 0 && (offset[0] != 0 || offset[1] != 0 || offset[2] != 0)) at = find_inertia(stage, 0);
         if (at < 0) continue;
-        stage->inertia[at].rig = id;
-        if (!advance(&stage->inertia[at], core, r, offset, dt)) stage->inertia[at] = (struct drag_inertia){0};
+        struct drag_inertia *inertia = &stage->inertia[at];
+        inertia->rig = id;
+        for (int k = 0; k < 3; k++) {
+            double velocity = (offset[k] - inertia->offset[k]) / dt;
+            kick[k] = velocity - inertia->velocity[k];
+            moves |= velocity != 0 || kick[k] != 0 || offset[k] != 0;
+            inertia->velocity[k] = velocity;
+            inertia->offset[k] = offset[k];
+        }
+        if (moves || inertia->swings) inertia->swings = drive_channels(inertia, core, r, kick, dt) || moves;
+        if (!inertia->swings) *inertia = (struct drag_inertia){0}; // at rest
     }
-}
-
-void drag_inertia_land(struct stage *stage)
-{
-    for (int i = 0; i < STAGE_MAX_STRANDS; i++) memset(stage->inertia[i].offset, 0, sizeof stage->inertia[i].offset);
 }
 
 void drag_inertia_stop(struct stage *stage, const struct document *document, int body)
 {
     for (int r = 0; r < document->rig_count; r++) {
-        const int at = rig_body(document, r) == body ? find(stage, document->rigs[r]->id) : -1;
+        const int at = rig_body(document, r) == body ? find_inertia(stage, document->rigs[r]->id) : -1;
         if (at >= 0) stage->inertia[at] = (struct drag_inertia){0};
     }
 }
 
-double drag_inertia_scale(const struct stage *stage, const struct document *document, int rig, int channel)
+static double drag_inertia_scale(const struct stage *stage, const struct document *document, int rig, int channel)
 {
-    const int at = find(stage, document->rigs[rig]->id);
+    const int at = find_inertia(stage, document->rigs[rig]->id);
     return at >= 0 ? stage->inertia[at].scale[channel] : 0;
 }
 
@@ -137,7 +119,7 @@ bool stage_is_moving(const struct stage *stage)
 void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,
                       wiggly_value values[RIG_MAX_INPUTS])
 {
-    const int at = find(stage, document->rigs[rig]->id);
+    const int at = find_inertia(stage, document->rigs[rig]->id);
     const struct drag_inertia *inertia = &stage->inertia[at < 0 ? 0 : at];
     for (int c = 0; at >= 0 && inertia->swings && c < SCENE_MAX_CHANNELS; c++) {
         values[c].re += inertia->scale[c] * inertia->channel[c].x[0];
@@ -153,14 +135,8 @@ static const double RESOLUTION = 1e-3; ///< metres; values are rounded to this
 static const double LEAST_SHARE = 0.05;
 static const double MAIN_SHARE = 0.5; ///< least component of a coordinate along an axis' bending direction
 
-/// Appends a spline; returns its index, or -1.
-static int add_spline(struct core *core, const char *name)
-{
-    const bool done = edit_spline_add(core->document, -1, name, NULL, &core->error);
-    return done ? core->document->spline_count - 1 : -1;
-}
-
-void base_put_knot(struct core *core, int spline, int sample, double value, bool level, char why[STOPPED_SIZE])
+/// Sets or inserts a knot within its spline's limits (see core_hold()); `level`: with slope 0.
+static void base_put_knot(struct core *core, int spline, int sample, double value, bool level, char why[STOPPED_SIZE])
 {
     struct knot knot = core_knot_at(core->document, spline, sample);
     knot.value = core_round(value, RESOLUTION);
@@ -171,7 +147,8 @@ void base_put_knot(struct core *core, int spline, int sample, double value, bool
     core_put_knot(core, spline, &knot);
 }
 
-void base_begin(struct stage *stage, const struct core *core)
+/// Remembers the rigs on the held body, before any edit.
+static void base_begin(struct stage *stage, const struct core *core)
 {
     struct body_drag *hold = &stage->body_drag;
     const struct tail *tail = tail_of(core->document, hold->rig);
@@ -182,7 +159,8 @@ void base_begin(struct stage *stage, const struct core *core)
     }
 }
 
-int base_spline(const struct stage *stage, struct core *core, int coordinate)
+/// The spline of a coordinate; creates a cubic if it is fixed. -1 on failure.
+static int base_spline(const struct stage *stage, struct core *core, int coordinate)
 {
     const int rig = stage->body_drag.rig;
     const struct tail *moved = tail_of(core->document, rig);
@@ -190,14 +168,15 @@ int base_spline(const struct stage *stage, struct core *core, int coordinate)
     if (moved->position[coordinate].track >= 0) return moved->position[coordinate].track;
     snprintf(name, sizeof name, "%.*s %s", name_fit(core->document->rigs[rig]->name, 250),
              core->document->rigs[rig]->name, coordinate_name(coordinate));
-    int spline = add_spline(core, name);
-    if (spline < 0) return -1;
+    if (!edit_spline_add(core->document, -1, name, NULL, &core->error)) return -1;
+    const int spline = core->document->spline_count - 1;
     core_set_parameter(core, spline, PARAMETER_MODE, WIGGLY_CUBIC);
     if (stage->body_drag.loops) core_set_parameter(core, spline, PARAMETER_START, WIGGLY_LOOP);
     return spline;
 }
 
-double base_value(const struct core *core, int rig, int coordinate, int sample)
+/// A coordinate at a sample, in metres, as a spline would have it.
+static double base_value(const struct core *core, int rig, int coordinate, int sample)
 {
     const struct tail *moved = tail_of(core->document, rig);
     const struct param *param = &moved->position[coordinate];
@@ -209,7 +188,8 @@ double base_value(const struct core *core, int rig, int coordinate, int sample)
     return coordinate == 1 ? moved->length * (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) : param->value;
 }
 
-void base_follow(const struct stage *stage, struct core *core, int coordinate, int base)
+/// Makes the coordinate follow the spline.
+static void base_follow(const struct stage *stage, struct core *core, int coordinate, int base)
 {
     const int rig = stage->body_drag.rig;
     struct rig moved = *core->document->rigs[rig];
@@ -223,32 +203,26 @@ static void follow_base(struct core *core, int spline, int base)
     edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
 }
 
-/// A spline with another's poles and no knots, driven by the base, from rest or as a loop; returns its index, or -1.
-static int add_follower(struct core *core, int model, const char *name, int base)
-{
-    int spline = add_spline(core, name);
-    if (spline < 0) return -1;
-    const struct spline *copied = core->document->splines[model];
-    const bool loops = spline_start(copied) == WIGGLY_LOOP;
-    core_set_parameter(core, spline, PARAMETER_MODE, spline_mode(copied));
-    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
-        if (p != PARAMETER_EQUILIBRIUM && p != PARAMETER_START)
-            edit_parameter(core->document, spline, p, &copied->parameter[p], &core->error);
-    }
-    core_set_parameter(core, spline, PARAMETER_START, loops ? WIGGLY_LOOP : WIGGLY_REST);
-    follow_base(core, spline, base);
-    return spline;
-}
-
-/// Adds a displacement channel about an axis, copying another channel; returns its spline, or -1.
+/// Adds a displacement channel about an axis, copying another channel; returns its spline, or -1. The spline has the copied one's poles and
+/// no knots, and is driven by the base, from rest or as a loop.
 static int add_channel(const struct stage *stage, struct core *core, const struct channel *model, enum axis axis,
                        const char *name, double scale, int base)
 {
     struct document *document = core->document;
-    const int spline = add_follower(core, model->spline, name, base);
+    if (!edit_spline_add(document, -1, name, NULL, &core->error)) return -1;
+    const int spline = document->spline_count - 1;
+    const struct spline *copied = document->splines[model->spline];
+    const bool loops = spline_start(copied) == WIGGLY_LOOP;
+    core_set_parameter(core, spline, PARAMETER_MODE, spline_mode(copied));
+    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) {
+        if (p != PARAMETER_EQUILIBRIUM && p != PARAMETER_START)
+            edit_parameter(document, spline, p, &copied->parameter[p], &core->error);
+    }
+    core_set_parameter(core, spline, PARAMETER_START, loops ? WIGGLY_LOOP : WIGGLY_REST);
+    follow_base(core, spline, base);
+
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
-    if (spline < 0) return -1;
     for (int i = 0; i < angles_count(&gain); i++)
         angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
     const int rig = stage->body_drag.rig;
@@ -259,47 +233,13 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
     return spline;
 }
 
-/// The axis about which the tail should bend when its base moves along a coordinate; AXES if a channel already bends about it, or if it
-/// bends too little along the coordinate.
-static enum axis missing_axis(const struct stage *stage, const struct core *core, int coordinate, double *share)
-{
-    const struct tail *tail = tail_of(core->document, stage->body_drag.rig);
-    const struct posing posing = stage_posing(core);
-    struct swing_arm arm = {.joints = 0};
-    swing_arm(&posing, stage->body_drag.rig, &arm);
-    const bool up = fabs(arm.direction[AXIS_UP][coordinate]) > fabs(arm.direction[AXIS_SIDE][coordinate]);
-    const enum axis axis = up ? AXIS_UP : AXIS_SIDE;
-    *share = arm.direction[axis][coordinate];
-    for (int c = 0; c < tail->channel_count; c++) {
-        if (tail->channels[c].axis == axis) return AXES;
-    }
-    return fabs(*share) >= MAIN_SHARE ? axis : AXES;
-}
-
-/// Adds a spline and channel that swing the tail with a coordinate, if missing; returns the spline, or -1.
-static int add_missing(const struct stage *stage, struct core *core, int coordinate, int base)
-{
-    const struct document *document = core->document;
-    const struct tail *tail = tail_of(document, stage->body_drag.rig);
-    double share;
-    const enum axis axis = missing_axis(stage, core, coordinate, &share);
-    char name[NAME_SIZE];
-    if (axis == AXES) return -1;
-    snprintf(name, sizeof name, "%.*s %s", name_fit(rig_title(document->rigs[stage->body_drag.rig]), 250),
-             rig_title(document->rigs[stage->body_drag.rig]), axis_word(axis));
-    for (int c = 0; c < tail->channel_count; c++) {
-        const struct channel model = tail->channels[c];
-        const double scale = drag_inertia_scale(stage, document, stage->body_drag.rig, c);
-        if (axis_bends(model.axis) && stage->body_drag.hangs[c] && scale != 0)
-            return add_channel(stage, core, &model, axis, name, scale * share, base);
-    }
-    return -1;
-}
-
-int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base)
+/// Makes the channels that swing with a coordinate follow its spline. A tail that bends mainly along the coordinate gets a channel about
+/// that axis, if it has none. Returns the new spline, or -1.
+static int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base)
 {
     const int rig = stage->body_drag.rig, count = tail_of(core->document, rig)->channel_count;
     const struct posing posing = stage_posing(core);
+    char name[NAME_SIZE];
     for (int c = 0; c < count; c++) {
         const struct tail *tail = tail_of(core->document, rig);
         const struct channel channel = tail->channels[c];
@@ -311,7 +251,6 @@ int base_hang_channels(const struct stage *stage, struct core *core, int coordin
         bool swung = stage->body_drag.hangs[c] && fabs(direction[coordinate]) > LEAST_SHARE && scale != 0;
         if (!swung) continue;
         if (channel.of == PART_TOTAL) {
-            char name[NAME_SIZE];
             snprintf(name, sizeof name, "%.*s follow", name_fit(core->document->splines[channel.spline]->name, 280),
                      core->document->splines[channel.spline]->name);
             add_channel(stage, core, &channel, channel.axis, name, scale * direction[coordinate], base);
@@ -319,10 +258,28 @@ int base_hang_channels(const struct stage *stage, struct core *core, int coordin
             follow_base(core, channel.spline, base);
         }
     }
-    return add_missing(stage, core, coordinate, base);
+
+    const struct tail *tail = tail_of(core->document, rig);
+    struct swing_arm arm = {.joints = 0};
+    swing_arm(&posing, rig, &arm);
+    const bool up = fabs(arm.direction[AXIS_UP][coordinate]) > fabs(arm.direction[AXIS_SIDE][coordinate]);
+    const enum axis axis = up ? AXIS_UP : AXIS_SIDE;
+    const double share = arm.direction[axis][coordinate];
+    bool missing = fabs(share) >= MAIN_SHARE;
+    for (int c = 0; c < tail->channel_count; c++) missing &= tail->channels[c].axis != axis;
+    snprintf(name, sizeof name, "%.*s %s", name_fit(rig_title(core->document->rigs[rig]), 250),
+             rig_title(core->document->rigs[rig]), axis_word(axis));
+    for (int c = 0; missing && c < tail->channel_count; c++) {
+        const struct channel model = tail->channels[c];
+        const double scale = drag_inertia_scale(stage, core->document, rig, c);
+        if (axis_bends(model.axis) && stage->body_drag.hangs[c] && scale != 0)
+            return add_channel(stage, core, &model, axis, name, scale * share, base);
+    }
+    return -1;
 }
 
-void base_say_channel(const struct core *core, int spline, char *text, size_t size)
+/// Adds a sentence about the new spline to a message; nothing for -1.
+static void base_say_channel(const struct core *core, int spline, char *text, size_t size)
 {
     if (spline < 0) return;
     const struct spline *made = core->document->splines[spline];
@@ -334,7 +291,8 @@ void base_say_channel(const struct core *core, int spline, char *text, size_t si
 
 // A recording: a place per sample, and knots fitted to them.
 
-void record_begin(struct stage *stage, struct core *core)
+/// Starts to record at the playhead, and plays. The body must be held.
+static void record_begin(struct stage *stage, struct core *core)
 {
     struct record *record = &stage->record;
     if (record->running) return;
@@ -370,7 +328,7 @@ void record_advance(struct stage *stage, const struct core *core)
 
 bool record_has_motion(const struct stage *stage) { return stage->record.count >= 3; }
 
-void record_forget(struct stage *stage) { stage->record = (struct record){0}; }
+static void record_forget(struct stage *stage) { stage->record = (struct record){0}; }
 
 /// The cubic through some of the values, level at both ends; false if it cannot be solved.
 static bool solve_through(wiggly_solver *solver, const double *values, int count, const int *knots, int knot_count,
@@ -390,39 +348,27 @@ static bool solve_through(wiggly_solver *solver, const double *values, int count
     return wiggly_solve(solver, &desc, &curve) < WIGGLY_ERROR_ARGUMENT;
 }
 
-/// The sample with the largest distance between two curves, and that distance. Excludes neighbours of the ends: a knot there would change
-/// the end's slope.
-static int farthest(const double *a, const double *b, int count, double *distance)
-{
-    int at = 0;
-    *distance = 0;
-    for (int i = 2; i < count - 2; i++) {
-        double d = fabs(a[i] - b[i]);
-        if (d > *distance) *distance = d, at = i;
-    }
-    return at;
-}
-
-static void insert_sorted(int *knots, int count, int sample)
-{
-    int i = count;
-    for (; i > 0 && knots[i - 1] > sample; i--) knots[i] = knots[i - 1];
-    knots[i] = sample;
-}
-
 int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity)
 {
     wiggly_solver *solver = NULL;
-    double *total = need((size_t)count, sizeof *total), miss = 0;
+    double *total = need((size_t)count, sizeof *total);
     wiggly_knot *buffer = need((size_t)capacity, sizeof *buffer);
     int made = 2;
     knots[0] = 0;
     knots[1] = count - 1;
     if (wiggly_create(count, capacity, &solver) != WIGGLY_OK) need_failed();
     while (solve_through(solver, values, count, knots, made, buffer, total)) {
-        int at = farthest(values, total, count, &miss);
+        // The sample that is missed most. Not beside the ends: a knot there would change the end's slope.
+        double miss = 0;
+        int at = 0, to = made;
+        for (int i = 2; i < count - 2; i++) {
+            const double distance = fabs(values[i] - total[i]);
+            if (distance > miss) miss = distance, at = i;
+        }
         if (miss <= tolerance || made == capacity) break;
-        insert_sorted(knots, made++, at);
+        for (; to > 0 && knots[to - 1] > at; to--) knots[to] = knots[to - 1];
+        knots[to] = at;
+        made++;
     }
     wiggly_destroy(solver);
     free(buffer);
@@ -434,24 +380,6 @@ enum { MAX_KNOTS = 64 };
 
 static const double STILL = 2e-3;     ///< metres; less is no movement
 static const double TOLERANCE = 4e-3; ///< metres between the recorded path and the cubic
-
-static double largest(const double *values, int count)
-{
-    double most = 0;
-    for (int i = 0; i < count; i++) most = fmax(most, fabs(values[i]));
-    return most;
-}
-
-static void clear_knots(struct core *core, int spline, int from, int to)
-{
-    const struct document *document = core->document;
-    for (;;) {
-        int at = spline_lower_bound(document, document->splines[spline], from);
-        const struct spline *cleared = document->splines[spline];
-        if (at == cleared->knot_count || document_sample(document, cleared->knots[at].frame) > to) return;
-        if (!edit_knot_remove(core->document, spline, cleared->knots[at].id, &core->error)) return;
-    }
-}
 
 /// Keys a coordinate's motion; returns the number of knots. `swings` receives a new spline that swings the tail with it; `why` what limited
 /// a knot. Before and after it a newly keyed body stands still, except in a loop, where it moves back by itself.
@@ -471,7 +399,13 @@ static int key_way(const struct stage *stage, struct core *core, int coordinate,
         way[i] = base_value(core, rig, coordinate, record->first + i) + record->way[coordinate][i];
     int made = count >= 2 ? record_simplify(way, count, TOLERANCE, knots, MAX_KNOTS) : 0;
     if (made == 0) return 0;
-    if (!is_new) clear_knots(core, spline, record->first, record->first + count - 1);
+    for (bool clears = !is_new; clears;) { // the knots that were there
+        const struct spline *cleared = document->splines[spline];
+        const int at = spline_lower_bound(document, cleared, record->first);
+        clears = at < cleared->knot_count &&
+                 document_sample(document, cleared->knots[at].frame) <= record->first + count - 1 &&
+                 edit_knot_remove(core->document, spline, cleared->knots[at].id, &core->error);
+    }
     for (int i = 0; i < made; i++) {
         base_put_knot(core, spline, record->first + knots[i], way[knots[i]], i == 0 || i == made - 1, why);
     }
@@ -486,14 +420,18 @@ static int key_way(const struct stage *stage, struct core *core, int coordinate,
     return made;
 }
 
-void record_keep(struct stage *stage, struct core *core)
+/// Makes the edits in the open step: base splines for coordinates that moved, and channels that follow them. Reports the number of knots,
+/// then forgets the motion.
+static void record_keep(struct stage *stage, struct core *core)
 {
     struct record *record = &stage->record;
     char text[768], why[STOPPED_SIZE] = "";
     int made = 0, swings = -1;
     base_begin(stage, core);
     for (int k = 0; k < 3; k++) {
-        if (largest(record->way[k], record->count) >= STILL) made += key_way(stage, core, k, &swings, why);
+        double most = 0;
+        for (int i = 0; i < record->count; i++) most = fmax(most, fabs(record->way[k][i]));
+        if (most >= STILL) made += key_way(stage, core, k, &swings, why);
     }
     snprintf(text, sizeof text, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.", made);
     core_add_stopped(why, text, sizeof text);
@@ -522,43 +460,39 @@ static void show_sign(struct core *core, bool runs, const char *text)
                   theme()->error, text);
 }
 
-/// The recorded path, with the base's place at each sample.
-static void show_way(const struct stage *stage, struct core *core)
-{
-    const struct record *record = &stage->record;
-    const int rig = stage->body_drag.rig, step = record->count / MAX_POINTS + 1;
-    float points[MAX_POINTS][2];
-    int count = 0;
-    for (int i = 0; i < record->count; i += step) {
-        float place[3];
-        for (int k = 0; k < 3; k++) {
-            const struct param *param = &tail_of(core->document, rig)->position[k];
-            double value = param->value;
-            if (param->track >= 0) value = base_value(core, rig, k, record->first + i);
-            place[k] = (float)(value + record->way[k][i]);
-        }
-        if (!stage_project_point(stage, core->layout.stage, place, points[count++])) return;
-    }
-    if (count > 1) drawlist_line(&core->list, (const float *)points, count, 2, theme()->error);
-}
-
 void record_show(struct stage *stage, struct core *core)
 {
     const struct document *document = core->document;
+    const struct record *record = &stage->record;
     const bool is_held = body_is_held(core);
     const int rig = is_held ? stage->body_drag.rig : core->hover.rig;
     const struct tail *shown = is_held || core->hover.thing == &thing_body ? tail_of(document, rig) : NULL;
     bool moves = false;
     for (int k = 0; shown && k < 3; k++) moves |= shown->position[k].track >= 0;
     if (moves && !core->overlays.trail) path_show(stage, core, TRAIL_OF_BODY, (struct rig_point){rig, POINT_BASE});
-    if (is_held && stage->record.running) {
-        char text[32];
-        show_way(stage, core);
-        snprintf(text, sizeof text, "REC %.1f s", stage->record.count / (document->fps * document->substeps));
-        show_sign(core, true, text);
-    } else if (core->record_armed && document_tail(document, 0)) {
-        show_sign(core, false, "Drag the body to record it");
+    if (!is_held || !record->running) {
+        if (core->record_armed && document_tail(document, 0)) show_sign(core, false, "Drag the body to record it");
+        return;
     }
+
+    // The recorded path, with the base's place at each sample.
+    const int step = record->count / MAX_POINTS + 1;
+    float points[MAX_POINTS][2];
+    int count = 0;
+    bool seen = true;
+    for (int i = 0; i < record->count && seen; i += step) {
+        float place[3];
+        for (int k = 0; k < 3; k++) {
+            const struct param *param = &tail_of(document, rig)->position[k];
+            const double value = param->track >= 0 ? base_value(core, rig, k, record->first + i) : param->value;
+            place[k] = (float)(value + record->way[k][i]);
+        }
+        seen = stage_project_point(stage, core->layout.stage, place, points[count++]);
+    }
+    if (seen && count > 1) drawlist_line(&core->list, (const float *)points, count, 2, theme()->error);
+    char text[32];
+    snprintf(text, sizeof text, "REC %.1f s", record->count / (document->fps * document->substeps));
+    show_sign(core, true, text);
 }
 
 // The drag.
@@ -607,13 +541,6 @@ static void say(struct report *report, const char *text)
     if (report->length >= sizeof report->text) report->length = sizeof report->text - 1;
 }
 
-/// Adds a name, with a comma before all but the first.
-static void say_name(struct report *report, bool is_first, const char *name)
-{
-    if (!is_first) say(report, ", ");
-    say(report, name);
-}
-
 /// The playhead's sample, clamped to where the spline may have knots.
 static int sample_of(const struct core *core, int spline)
 {
@@ -651,30 +578,6 @@ static int key_coordinate(const struct stage *stage, struct core *core, int coor
     return swings;
 }
 
-static void key_body(struct stage *stage, struct core *core, const double offset[3])
-{
-    struct report report = {.length = 0};
-    char frame[64];
-    bool is_first = true;
-    int swings = -1;
-    base_begin(stage, core);
-    say(&report, "Keyed ");
-    for (int k = 0; k < 3; k++) {
-        if (offset[k] == 0) continue;
-        const int made = key_coordinate(stage, core, k, offset[k], report.why);
-        if (made >= 0) swings = made;
-        const int track = tail_of(core->document, stage->body_drag.rig)->position[k].track;
-        if (track < 0) continue;
-        say_name(&report, is_first, core->document->splines[track]->name);
-        is_first = false;
-    }
-    snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core)));
-    say(&report, frame);
-    core_add_stopped(report.why, report.text, sizeof report.text);
-    base_say_channel(core, swings, report.text, sizeof report.text);
-    if (!is_first) core_message(core, false, "%s", report.text);
-}
-
 /// How far all knots of a spline can move within its limits, and the knot that stops them, or NULL.
 static double room_for(const struct spline *spline, double by, const struct knot **stops)
 {
@@ -689,10 +592,105 @@ static double room_for(const struct spline *spline, double by, const struct knot
     return room;
 }
 
-/// Limits the held body's offset, in metres, as its splines' limits will in place_body() or a recording.
-static void place_within(const struct stage *stage, const struct core *core, double offset[3])
+/// Shifts all knots of a spline equally, as far as all can move, so that followers keep their motion. Returns the shift.
+static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
 {
+    const int count = core->document->splines[spline]->knot_count;
+    const struct knot *stops;
+    const double by = room_for(core->document->splines[spline], way, &stops);
+    bool any_still = false;
+    if (stops) {
+        struct knot moved = *stops;
+        moved.value += way;
+        core_hold(core->document->splines[spline], &moved, why);
+    }
+    if (by == 0) return 0;
+    for (int i = 0; i < count; i++) {
+        struct knot knot = core->document->splines[spline]->knots[i];
+        knot.value = core_round(knot.value + by, RESOLUTION);
+        if (!knot.still) knot.value = spline_within(core->document->splines[spline], knot.value);
+        any_still |= knot.still;
+        core_put_knot(core, spline, &knot);
+    }
+    // The equilibrium of still knots moves with the other knots, unless it moves by itself.
+    const struct param *equilibrium = &core->document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM];
+    if (any_still && equilibrium->track < 0 && !equilibrium->motion)
+        core_set_parameter(core, spline, PARAMETER_EQUILIBRIUM, core_round(equilibrium->value + by, RESOLUTION));
+    core_edited(core, spline);
+    return by;
+}
+
+/// Shifts a coordinate; returns the shift. A fixed height stands for the ground, which stays.
+static double shift_coordinate(struct core *core, int rig, int coordinate, double by, char why[STOPPED_SIZE])
+{
+    const struct tail *tail = tail_of(core->document, rig);
+    if (coordinate == 1 && (!tail || tail->position[1].track < 0)) return 0;
+    if (tail && tail->position[coordinate].track >= 0)
+        return shift_spline(core, tail->position[coordinate].track, by, why);
+    struct rig moved = *core->document->rigs[rig];
+    if (tail) {
+        moved.tail.position[coordinate] = param_number(core_round(tail->position[coordinate].value + by, RESOLUTION));
+        edit_rig_set(core->document, rig, &moved, &core->error);
+        return by;
+    }
+    moved.model.position[coordinate] = core_round(moved.model.position[coordinate] + by, RESOLUTION);
+    return edit_rig_set(core->document, rig, &moved, &core->error) ? by : 0;
+}
+
+/// Moves the body by metres: knots at the playhead with auto-key, else the whole motion. Reports which.
+static void place_body(struct stage *stage, struct core *core, const double offset[3])
+{
+    const int rig = stage->body_drag.rig;
+    const bool is_tail = tail_of(core->document, rig), keys = core->auto_key && is_tail;
+    struct report report = {.length = 0};
+    bool any = false;
+    int swings = -1;
+    if (keys) base_begin(stage, core);
+    say(&report, keys ? "Keyed " : "Moved for the whole shot: ");
+    for (int k = 0; k < 3; k++) {
+        char part[32];
+        const char *name = part;
+        if (offset[k] == 0) continue;
+        if (keys) {
+            const int made = key_coordinate(stage, core, k, offset[k], report.why);
+            if (made >= 0) swings = made;
+            const int track = tail_of(core->document, rig)->position[k].track;
+            if (track < 0) continue;
+            name = core->document->splines[track]->name;
+        } else {
+            const double by = shift_coordinate(core, rig, k, offset[k], report.why);
+            if (by == 0) continue;
+            snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
+        }
+        if (any) say(&report, ", ");
+        say(&report, name);
+        any = true;
+    }
+    if (keys) {
+        char frame[64];
+        snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core)));
+        say(&report, frame);
+    } else if (any) {
+        say(&report, is_tail && !report.why[0] ? ". Auto-key (Shift+A) sets knots instead." : ".");
+    } else if (report.why[0]) {
+        core_stopped(core, report.why);
+    } else {
+        core_message(core, false, "Back on the ground. Turn on auto-key (Shift+A) or record (R) to keep the height.");
+    }
+    core_add_stopped(report.why, report.text, sizeof report.text);
+    base_say_channel(core, swings, report.text, sizeof report.text);
+    if (any) core_message(core, false, "%s", report.text);
+    for (int i = 0; i < STAGE_MAX_STRANDS; i++) // the document now contains the offset: no new movement of the base
+        memset(stage->inertia[i].offset, 0, sizeof stage->inertia[i].offset);
+}
+
+void body_drag_advance(struct stage *stage, const struct core *core)
+{
+    double *offset = stage->body_drag.offset;
     const struct document *document = core->document;
+    body_drag_way(stage, core, offset);
+
+    // As the splines' limits will limit it in place_body() or a recording.
     const struct tail *tail = tail_of(document, stage->body_drag.rig);
     const bool keys = core->auto_key || stage->record.running || record_has_motion(stage);
     if (!tail) offset[1] = 0; // a character stays on its ground
@@ -708,104 +706,6 @@ static void place_within(const struct stage *stage, const struct core *core, dou
             offset[k] = room_for(spline, offset[k], &stops);
         }
     }
-}
-
-/// Moves the equilibrium of still knots with the other knots, unless the equilibrium moves by itself.
-static void shift_still(struct core *core, int spline, double by)
-{
-    const struct spline *shifted = core->document->splines[spline];
-    const struct param *equilibrium = &shifted->parameter[PARAMETER_EQUILIBRIUM];
-    bool any = false;
-    for (int k = 0; k < shifted->knot_count; k++) any |= shifted->knots[k].still;
-    if (any && equilibrium->track < 0 && !equilibrium->motion)
-        core_set_parameter(core, spline, PARAMETER_EQUILIBRIUM, core_round(equilibrium->value + by, RESOLUTION));
-}
-
-/// Shifts all knots of a spline equally, as far as all can move, so that followers keep their motion. Returns the shift.
-static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
-{
-    const int count = core->document->splines[spline]->knot_count;
-    const struct knot *stops;
-    const double by = room_for(core->document->splines[spline], way, &stops);
-    if (stops) {
-        struct knot moved = *stops;
-        moved.value += way;
-        core_hold(core->document->splines[spline], &moved, why);
-    }
-    if (by == 0) return 0;
-    for (int i = 0; i < count; i++) {
-        struct knot knot = core->document->splines[spline]->knots[i];
-        knot.value = core_round(knot.value + by, RESOLUTION);
-        if (!knot.still) knot.value = spline_within(core->document->splines[spline], knot.value);
-        core_put_knot(core, spline, &knot);
-    }
-    shift_still(core, spline, by);
-    core_edited(core, spline);
-    return by;
-}
-
-static double shift_model(struct core *core, int rig, int coordinate, double by)
-{
-    struct rig moved = *core->document->rigs[rig];
-    moved.model.position[coordinate] = core_round(moved.model.position[coordinate] + by, RESOLUTION);
-    return edit_rig_set(core->document, rig, &moved, &core->error) ? by : 0;
-}
-
-/// Shifts a coordinate; returns the shift. A fixed height stands for the ground, which stays.
-static double shift_coordinate(struct core *core, int rig, int coordinate, double by, char why[STOPPED_SIZE])
-{
-    const struct tail *tail = tail_of(core->document, rig);
-    if (coordinate == 1 && (!tail || tail->position[1].track < 0)) return 0;
-    if (!tail) return shift_model(core, rig, coordinate, by);
-    const struct param *param = &tail->position[coordinate];
-    if (param->track >= 0) return shift_spline(core, param->track, by, why);
-    struct rig moved = *core->document->rigs[rig];
-    moved.tail.position[coordinate] = param_number(core_round(param->value + by, RESOLUTION));
-    edit_rig_set(core->document, rig, &moved, &core->error);
-    return by;
-}
-
-static void shift_body(struct stage *stage, struct core *core, const double offset[3])
-{
-    struct report report = {.length = 0};
-    bool is_first = true;
-    say(&report, "Moved for the whole shot: ");
-    for (int k = 0; k < 3; k++) {
-        char part[32];
-        if (offset[k] == 0) continue;
-        const double by = shift_coordinate(core, stage->body_drag.rig, k, offset[k], report.why);
-        if (by == 0) continue;
-        snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
-        say_name(&report, is_first, part);
-        is_first = false;
-    }
-    if (is_first && report.why[0]) {
-        core_stopped(core, report.why);
-    } else if (is_first) {
-        core_message(core, false, "Back on the ground. Turn on auto-key (Shift+A) or record (R) to keep the height.");
-    } else {
-        const bool keys = tail_of(core->document, stage->body_drag.rig) && !report.why[0];
-        say(&report, keys ? ". Auto-key (Shift+A) sets knots instead." : ".");
-        core_add_stopped(report.why, report.text, sizeof report.text);
-        core_message(core, false, "%s", report.text);
-    }
-}
-
-/// Moves the body by metres: knots at the playhead with auto-key, else the whole motion. Reports which.
-static void place_body(struct stage *stage, struct core *core, const double offset[3])
-{
-    if (core->auto_key && tail_of(core->document, stage->body_drag.rig)) {
-        key_body(stage, core, offset);
-    } else {
-        shift_body(stage, core, offset);
-    }
-    drag_inertia_land(stage);
-}
-
-void body_drag_advance(struct stage *stage, const struct core *core)
-{
-    body_drag_way(stage, core, stage->body_drag.offset);
-    place_within(stage, core, stage->body_drag.offset);
 }
 
 void body_drag_offset(const struct stage *stage, const struct core *core, int rig, double offset[3])
@@ -858,36 +758,6 @@ static bool find_stand(const struct stage *stage, const struct core *core, int r
     return true;
 }
 
-/// Whether a ray hits a body's bounding box.
-static bool passes_box(const struct pose *pose, const float eye[3], const float direction[3])
-{
-    const float *base = pose->matrix[0] + 12, scale = pose->scale;
-    float near = 0, far = INFINITY, lo[3], hi[3];
-    limbs_bounds(&pose->limbs, lo, hi);
-    for (int k = 0; k < 3; k++) {
-        const float from = eye[k] - base[k];
-        const float a = (scale * lo[k] - from) / direction[k], b = (scale * hi[k] - from) / direction[k];
-        near = fmaxf(near, fminf(a, b));
-        far = fminf(far, fmaxf(a, b));
-    }
-    return near < far;
-}
-
-/// The ray's nearest hit on a part's body triangles, or `nearest`.
-static float meet(const struct gltf_part *part, const float (*place)[3], const float eye[3], const float direction[3],
-                  float nearest)
-{
-    for (int i = 0; i < part->index_count; i += 3) {
-        const uint32_t *own = part->indices + i;
-        const float *const corner[3] = {place[own[0]], place[own[1]], place[own[2]]};
-        float uv[2];
-        if (part->fur[own[0]][0] >= 1.0f) continue; // belongs to the tail
-        const float distance = pick_triangle(corner, eye, direction, uv);
-        if (distance > 0.0f) nearest = fminf(nearest, distance);
-    }
-    return nearest;
-}
-
 /// Distance along a ray to a fox's body, or INFINITY.
 static float body_distance(struct stage *stage, const struct rig_pose *fox, const float direction[3])
 {
@@ -902,7 +772,14 @@ static float body_distance(struct stage *stage, const struct rig_pose *fox, cons
         for (int k = 0; k < 3; k++) place[v][k] = root[0] * place[v][k] + root[12 + k];
     for (int p = 0; p < gltf->meshes->part_count; p++) {
         const struct gltf_part *part = &gltf->meshes->parts[p];
-        nearest = meet(part, (const float(*)[3])place, stage->view.eye, direction, nearest);
+        for (int i = 0; i < part->index_count; i += 3) {
+            const uint32_t *own = part->indices + i;
+            const float *const corner[3] = {place[own[0]], place[own[1]], place[own[2]]};
+            float uv[2];
+            if (part->fur[own[0]][0] >= 1.0f) continue; // belongs to the tail
+            const float distance = pick_triangle(corner, stage->view.eye, direction, uv);
+            if (distance > 0.0f) nearest = fminf(nearest, distance);
+        }
         place += part->vertex_count;
     }
     return nearest;
@@ -920,8 +797,18 @@ struct hover body_hover(struct stage *stage, const struct core *core, double pos
         const int rig = stage->strands[t].rig;
         struct rig_pose pose;
         if (!tail_of(core->document, rig) || !rig_pose(&posing, rig, position, NULL, &pose)) continue;
-        if (!passes_box(&pose.strand, view->eye, direction)) continue;
-        if (!rig_pose_body(&posing, rig, position, NULL, &pose)) continue;
+
+        // Where the ray enters and leaves the bounding box.
+        const float *base = pose.strand.matrix[0] + 12, scale = pose.strand.scale;
+        float enter = 0, leave = INFINITY, lo[3], hi[3];
+        limbs_bounds(&pose.strand.limbs, lo, hi);
+        for (int k = 0; k < 3; k++) {
+            const float from = view->eye[k] - base[k];
+            const float a = (scale * lo[k] - from) / direction[k], b = (scale * hi[k] - from) / direction[k];
+            enter = fmaxf(enter, fminf(a, b));
+            leave = fminf(leave, fmaxf(a, b));
+        }
+        if (!(enter < leave) || !rig_pose_body(&posing, rig, position, NULL, &pose)) continue;
         const float distance = body_distance(stage, &pose, direction);
         if (distance >= nearest) continue;
         nearest = distance;
@@ -949,12 +836,6 @@ static bool find_body(void *room, const struct core *core, const struct target *
     return false;
 }
 
-/// One half of the ring, near or far.
-static void show_arc(struct core *core, const float point[RING_POINTS + 1][2], int from, int to, uint32_t color)
-{
-    drawlist_line(&core->list, point[from], to - from + 1, 1.5f, color);
-}
-
 void body_drag_show(struct stage *stage, struct core *core)
 {
     const bool held = body_is_held(core);
@@ -970,26 +851,9 @@ void body_drag_show(struct stage *stage, struct core *core)
                                 stand.middle[1] - stand.radius * maths_cosf(-angle)};
         if (!stage_project_point(stage, core->layout.stage, place, point[i])) return;
     }
-    show_arc(core, (const float(*)[2])point, 0, RING_POINTS / 2, color);
-    show_arc(core, (const float(*)[2])point, RING_POINTS / 2, RING_POINTS, theme_fade(color, 0.3f));
-}
-
-/// Edits the document in the open step: the recorded motion or the new place.
-static void release(struct stage *stage, struct core *core, bool keep)
-{
-    const int body = stage->body_drag.rig;
-    double offset[3];
-    keep = keep && body < core->document->rig_count; // an edit may have removed the body
-    body_drag_way(stage, core, offset);
-    if (keep && record_has_motion(stage) && tail_of(core->document, body)) {
-        record_keep(stage, core);
-        drag_inertia_stop(stage, core->document, body);
-    } else if (keep) {
-        place_body(stage, core, offset);
-    } else {
-        drag_inertia_stop(stage, core->document, body);
-    }
-    record_forget(stage);
+    const int half = RING_POINTS / 2;
+    drawlist_line(&core->list, point[0], half + 1, 1.5f, color);
+    drawlist_line(&core->list, point[half], half + 1, 1.5f, theme_fade(color, 0.3f));
 }
 
 /// The first movement starts an armed recording.
@@ -1019,9 +883,21 @@ static enum drag_answer body_event(void *room, struct core *core, const struct e
     return DRAG_USED;
 }
 
+/// Edits the document in the open step: the recorded motion or the new place.
 static void end_body(void *room, struct core *core, bool keep)
 {
-    if (core->drag.moved) release(room, core, keep);
+    struct stage *stage = room;
+    const int body = stage->body_drag.rig;
+    if (core->drag.moved) {
+        double offset[3];
+        const bool edits = keep && body < core->document->rig_count; // an edit may have removed the body
+        const bool records = edits && record_has_motion(stage) && tail_of(core->document, body);
+        body_drag_way(stage, core, offset);
+        if (records) record_keep(stage, core);
+        if (edits && !records) place_body(stage, core, offset);
+        if (!edits || records) drag_inertia_stop(stage, core->document, body);
+        record_forget(stage);
+    }
     stage_click(room, core, keep);
 }
 

@@ -29,51 +29,39 @@ void stage_note(struct core *core, float x, float y, enum font font, uint32_t co
     drawlist_text(&core->list, x, y, font, THEME_TEXT_SMALL, color, text);
 }
 
-/// Place of a tail's name; false if its feet are behind the eye.
-static bool place_name(const struct stage *stage, const struct core *core, int tail, const char *name,
-                       struct rect *place)
-{
-    const struct pose *pose = &stage->strands[tail].pose;
-    const float *base = pose->matrix[0] + 12;
-    const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose->scale};
-    const struct rect r = core->layout.stage;
-    float xy[2];
-    if (!stage_project_point(stage, r, feet, xy)) return false;
-    place->w = ceilf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, name)) + DOT + 3 * PAD;
-    place->h = HEIGHT;
-    place->x = roundf(fmaxf(fminf(xy[0] - place->w / 2, r.x + r.w - place->w), r.x));
-    place->y = roundf(fminf(xy[1] + BELOW, r.y + r.h - HEIGHT));
-    return true;
-}
-
-static bool overlap(const struct rect *a, const struct rect *b)
-{
-    return a->x < b->x + b->w && b->x < a->x + a->w && a->y < b->y + b->h && b->y < a->y + a->h;
-}
-
-static void show_name(struct core *core, const struct rect *place, uint32_t color, const char *name)
-{
-    const struct rect dot = {place->x + PAD, place->y + (HEIGHT - DOT) / 2.0f, DOT, DOT};
-    drawlist_rounded(&core->list, *place, HEIGHT / 2.0f, theme()->panel);
-    drawlist_rounded(&core->list, dot, 2, color);
-    drawlist_text(&core->list, dot.x + DOT + PAD, place->y + HEIGHT - PAD, FONT_LABEL, THEME_TEXT_NORMAL,
-                  theme()->text, name);
-}
-
-/// Skips names that would overlap others.
-void names_show(const struct stage *stage, struct core *core)
+/// Skips names that would overlap others, or whose tail's feet are behind the eye.
+static void names_show(const struct stage *stage, struct core *core)
 {
     const struct document *document = core->document;
-    struct rect shown[STAGE_MAX_TAILS], place;
+    const struct rect r = core->layout.stage;
+    struct rect shown[STAGE_MAX_TAILS];
     int count = 0;
     for (int t = 0; t < stage->tail_count && stage->tail_count > 1; t++) {
         const struct rig *rig = document->rigs[stage->strands[t].rig];
         const int spline = rig->tail.channel_count > 0 ? rig->tail.channels[0].spline : -1;
         const uint32_t color = spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
-        bool free = place_name(stage, core, t, rig->name, &place);
-        for (int i = 0; i < count && free; i++) free = !overlap(&place, &shown[i]);
-        if (free) show_name(core, &place, color, rig->name);
-        if (free) shown[count++] = place;
+        const struct pose *pose = &stage->strands[t].pose;
+        const float *base = pose->matrix[0] + 12;
+        const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose->scale};
+        float xy[2];
+        bool free = stage_project_point(stage, r, feet, xy);
+        if (!free) continue;
+        struct rect place = {.w = ceilf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, rig->name)) + DOT + 3 * PAD,
+                             .h = HEIGHT};
+        place.x = roundf(fmaxf(fminf(xy[0] - place.w / 2, r.x + r.w - place.w), r.x));
+        place.y = roundf(fminf(xy[1] + BELOW, r.y + r.h - HEIGHT));
+        for (int i = 0; i < count && free; i++) {
+            const struct rect *other = &shown[i];
+            free = !(place.x < other->x + other->w && other->x < place.x + place.w && place.y < other->y + other->h &&
+                     other->y < place.y + place.h);
+        }
+        if (!free) continue;
+        const struct rect dot = {place.x + PAD, place.y + (HEIGHT - DOT) / 2.0f, DOT, DOT};
+        drawlist_rounded(&core->list, place, HEIGHT / 2.0f, theme()->panel);
+        drawlist_rounded(&core->list, dot, 2, color);
+        drawlist_text(&core->list, dot.x + DOT + PAD, place.y + HEIGHT - PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+                      theme()->text, rig->name);
+        shown[count++] = place;
     }
 }
 
@@ -154,19 +142,14 @@ const struct stage_view *stage_seen(const struct stage *stage) { return &stage->
 static const float TURN_STEP = 0.08f; ///< per notch sideways, radians
 static const double ZOOM_STEP = 0.12; ///< per wheel notch, as a power of e
 
-/// The one nearer on the screen; the first if the second is nothing.
-static struct hover nearer(struct hover a, struct hover b, float x, float y)
-{
-    if (!b.thing) return a;
-    return !a.thing || maths_hypotf(b.x - x, b.y - y) < maths_hypotf(a.x - x, a.y - y) ? b : a;
-}
-
 struct hover stage_hover(struct stage *stage, const struct core *core, float x, float y)
 {
-    struct hover joint = nearer(strand_hover(stage, core, x, y), bone_hover(stage, core, x, y), x, y);
+    const struct hover bone = bone_hover(stage, core, x, y);
+    struct hover found = strand_hover(stage, core, x, y);
+    if (bone.thing && (!found.thing || maths_hypotf(bone.x - x, bone.y - y) < maths_hypotf(found.x - x, found.y - y)))
+        found = bone;
     const bool pins = core->mods & MOD_CTRL && !core->brush.on && core->pick.use == BONE_SELECTED;
-    if (pins && is_strand(&joint)) joint = strand_end(stage, core, &joint);
-    struct hover found = joint;
+    if (pins && is_strand(&found)) found = strand_end(stage, core, &found);
     if (!found.thing) found = floors_hover(stage, core, x, y);
     if (!found.thing) found = body_hover(stage, core, core->playback.position, x, y);
     const struct hover pin = pins_hover(stage, core, &found, x, y);

@@ -264,22 +264,6 @@ const struct stage_character *stage_character_shown(const struct stage *stage, i
 void stage_vertex(const struct figure *figure, const struct morph *morph, const float position[3], int vertex,
                   float place[3]);
 
-/// Remembers the rigs on the held body, before any edit.
-void base_begin(struct stage *stage, const struct core *core);
-/// A coordinate at a sample, in metres, as a spline would have it.
-double base_value(const struct core *core, int rig, int coordinate, int sample);
-/// The spline of a coordinate; creates a cubic if it is fixed. -1 on failure.
-int base_spline(const struct stage *stage, struct core *core, int coordinate);
-/// Sets or inserts a knot within its spline's limits (see core_hold()); `level`: with slope 0.
-void base_put_knot(struct core *core, int spline, int sample, double value, bool level, char why[STOPPED_SIZE]);
-/// Makes the coordinate follow the spline.
-void base_follow(const struct stage *stage, struct core *core, int coordinate, int base);
-/// Makes the channels that swing with a coordinate follow its spline. A tail without such a channel gets one. Returns the new spline, or
-/// -1.
-int base_hang_channels(const struct stage *stage, struct core *core, int coordinate, int base);
-/// Adds a sentence about the new spline to a message; nothing for -1.
-void base_say_channel(const struct core *core, int spline, char *text, size_t size);
-
 /// Shows a rig's model: an imported character, or a tail's fox. NULL if missing or the view is full.
 struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed);
 
@@ -288,9 +272,6 @@ const struct shown_strand *strand_of(const struct stage *stage, int rig);
 /// Poses a strand with the movement by hand; `change` may be NULL. False if it or its model is missing.
 bool strand_pose(const struct stage *stage, const struct core *core, int rig, double position,
                  const struct what_if *change, struct rig_pose *pose);
-/// Projects a point of a strand: `fraction` 0 … 1 of the way from joint to joint + 1. False if it is behind the eye.
-bool strand_project(const struct stage *stage, const struct core *core, const struct pose *strand, int joint,
-                    double fraction, float xy[2]);
 /// Projects a point of a tail or chain, as last posed: `fraction` 0 … 1 of the way from joint to joint + 1.
 bool stage_project(const struct stage *stage, const struct core *core, int rig, int joint, double fraction,
                    float xy[2]);
@@ -376,31 +357,20 @@ void body_drag_offset(const struct stage *stage, const struct core *core, int ri
 
 /// Advances by `dt` seconds: bases follow body_drag_offset(), their tails and chains swing.
 void drag_inertia_advance(struct stage *stage, const struct core *core, double dt);
-/// The document now contains the offset, which is no new movement of the base.
-void drag_inertia_land(struct stage *stage);
 /// Stops a body's follow-through at once.
 void drag_inertia_stop(struct stage *stage, const struct document *document, int body);
-/// swing_scale() of a swinging channel; else 0.
-double drag_inertia_scale(const struct stage *stage, const struct document *document, int rig, int channel);
 /// Adds the follow-through to the values of a rig's channels.
 void drag_inertia_add(const struct stage *stage, const struct document *document, int rig,
                       wiggly_value values[RIG_MAX_INPUTS]);
 
-/// Starts to record at the playhead, and plays. The body must be held.
-void record_begin(struct stage *stage, struct core *core);
 /// Records the body's place up to the playhead; stops at the end of the played range.
 void record_advance(struct stage *stage, const struct core *core);
 /// The path of the body under the pointer or held, and the motion recorded so far.
 void record_show(struct stage *stage, struct core *core);
 bool record_has_motion(const struct stage *stage);
-void record_forget(struct stage *stage);
 /// Chooses knots (indices from 0) so that a cubic through them, level at both ends, stays within `tolerance` of `count` values, one per
 /// sample. At most `capacity` (at least 2). Returns their number. Allocates.
 int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity);
-
-/// Makes the edits in the open step: base splines for coordinates that moved, and channels that follow them. Reports the number of knots,
-/// then forgets the motion.
-void record_keep(struct stage *stage, struct core *core);
 
 /// Whether the document has the tail or chain, and the joint.
 bool tail_drag_holds(const struct document *document, int rig, int joint);
@@ -423,8 +393,6 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
 
 /// Height of the scene's description at the top of a stage, pixels; 0 without one.
 float caption_height(struct rect place, const struct document *document);
-/// Tails' names at their feet, in the colour of their spline, if there are several.
-void names_show(const struct stage *stage, struct core *core);
 
 /// The legend's place.
 struct rect characters_legend(const struct core *core);

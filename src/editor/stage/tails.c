@@ -67,21 +67,16 @@ bool strand_pose(const struct stage *stage, const struct core *core, int rig, do
     return rig_pose(&posing, rig, position, &hand, pose);
 }
 
-static void add_blobs(struct stage_view *view, const struct pose *pose)
-{
-    const int room = STAGE_MAX_BLOBS - view->blob_count;
-    view->blob_count += pose_blobs(pose, view->key_from, view->blobs + view->blob_count,
-                                   room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
-}
-
-static void pose(struct stage *stage, const struct core *core, int rig, int n)
+static void pose_tail(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct stage_view *view = &stage->view;
     struct rig_pose posed, body;
     (void)n;
     if (stage->tail_count == STAGE_MAX_TAILS) return;
     strand_pose(stage, core, rig, core->playback.position, NULL, &posed);
-    add_blobs(view, &posed.strand);
+    const int room = STAGE_MAX_BLOBS - view->blob_count;
+    view->blob_count += pose_blobs(&posed.strand, view->key_from, view->blobs + view->blob_count,
+                                   room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
     struct stage_model *fox = models_show(stage, core, rig, &body);
     if (fox) fox->dusk = DUSK * posed.strand.scale;
     stage->strands[stage->strand_count++] =
@@ -89,9 +84,9 @@ static void pose(struct stage *stage, const struct core *core, int rig, int n)
     stage->tail_count++;
 }
 
-const struct stage_kind tail_stage = {.pose = pose, .bound_steps = BOUND_STEPS};
+const struct stage_kind tail_stage = {.pose = pose_tail, .bound_steps = BOUND_STEPS};
 
-static void chain_pose(struct stage *stage, const struct core *core, int rig, int n)
+static void pose_chain(struct stage *stage, const struct core *core, int rig, int n)
 {
     const struct chain *chain = &core->document->rigs[rig]->chain;
     const int model = rig_body(core->document, rig);
@@ -106,7 +101,7 @@ static void chain_pose(struct stage *stage, const struct core *core, int rig, in
         stage->strands[stage->strand_count++] = (struct shown_strand){rig, -1, posed.strand};
 }
 
-const struct stage_kind chain_stage = {.pose = chain_pose};
+const struct stage_kind chain_stage = {.pose = pose_chain};
 
 const struct shown_strand *strand_of(const struct stage *stage, int rig)
 {
@@ -116,8 +111,9 @@ const struct shown_strand *strand_of(const struct stage *stage, int rig)
     return NULL;
 }
 
-bool strand_project(const struct stage *stage, const struct core *core, const struct pose *strand, int joint,
-                    double fraction, float xy[2])
+/// Projects a point of a strand: `fraction` 0 … 1 of the way from joint to joint + 1. False if it is behind the eye.
+static bool strand_project(const struct stage *stage, const struct core *core, const struct pose *strand, int joint,
+                           double fraction, float xy[2])
 {
     assert(joint >= 0 && joint < strand->count);
     const int next = joint + 1 < strand->count ? joint + 1 : joint;
@@ -188,43 +184,23 @@ static const double DEAREST = 2;         ///< times the change that the best dir
 static const double LEAST_LINE = 1.5;    ///< pixels; shorter lines to the pointer are not drawn
 static const double DEGREE = 0.017453292519943295;
 
-/// The rig's channel for an axis, preferably the active spline's; or NULL.
-static const struct channel *channel_for(const struct core *core, const struct rig *rig, enum axis axis)
-{
-    const struct channel *found = NULL;
-    int count;
-    const struct channel *channels = rig_channels(rig, &count);
-    for (int c = 0; c < count; c++) {
-        const struct channel *channel = &channels[c];
-        if (channel->axis == axis && (!found || channel->spline == core->active)) found = channel;
-    }
-    return found;
-}
-
+/// How a pull controls an axis: by the rig's channel for it, preferably the active spline's.
 static struct tail_drag_axis axis_for(const struct core *core, const struct rig *rig, const struct pose *strand,
                                       int joint, enum axis axis)
 {
-    const struct channel *channel = channel_for(core, rig, axis);
+    const struct channel *channel = NULL;
     const int joints = strand->count - 1;
     double gain = 0;
+    int count;
+    const struct channel *channels = rig_channels(rig, &count);
+    for (int c = 0; c < count; c++) {
+        const bool is_better = !channel || channels[c].spline == core->active;
+        if (channels[c].axis == axis && is_better) channel = &channels[c];
+    }
     for (int n = 0; channel && n <= joint && n < joints; n++)
         gain += fabs(angles_at(&channel->gain, n, joints)) * DEGREE;
     if (!(gain > 1e-9)) return (struct tail_drag_axis){0};
     return (struct tail_drag_axis){.active = true, .spline = channel->spline, .values_per_radian = 1 / gain};
-}
-
-/// The sample on a whole frame nearest to the playhead where all controlled splines may have knots.
-static int sample_for(const struct stage *stage, const struct core *core)
-{
-    const struct document *document = core->document;
-    int sample = document_sample(document, round(core_frame(core)));
-    for (int a = 0; a < 2; a++) {
-        const struct tail_drag_axis *axis = &stage->tail_drag.axis[a];
-        if (!axis->active) continue;
-        int last = document_last_knot_sample(document, document->splines[axis->spline]);
-        sample = sample > last ? last : sample;
-    }
-    return sample < 0 ? 0 : sample;
 }
 
 bool tail_drag_holds(const struct document *document, int rig, int joint)
@@ -250,13 +226,6 @@ static void derivative(const struct stage *stage, const struct core *core, const
     }
 }
 
-/// How much a direction gives way whose eigenvalue is `share` of the largest: not, if it moves at least a fifth as far as the best one.
-static double gives_way(double share)
-{
-    const double beyond = share > 0 ? fmax(0, REACH / share * (REACH / share) - 1) : INFINITY;
-    return beyond * beyond;
-}
-
 /// (JJᵀ + Φ)⁻¹ miss; J by columns. Returns JJᵀ's largest eigenvalue, and with it 0 if nothing moves the point.
 static double pull_back(const double (*column)[2], int columns, const double miss[2], double pull[2])
 {
@@ -273,9 +242,12 @@ static double pull_back(const double (*column)[2], int columns, const double mis
     pull[0] = pull[1] = 0;
     if (!(most > 0)) return 0;
     for (int k = 0; k < 2; k++) way[k] /= length;
+
+    // The other direction gives way, unless it moves at least a fifth as far as the best one.
     const double least = fmax(middle - apart, 0), share = least / most;
+    const double beyond = share > 0 ? fmax(0, REACH / share * (REACH / share) - 1) : INFINITY;
     const double along = (way[0] * miss[0] + way[1] * miss[1]) / most;
-    const double across = (way[0] * miss[1] - way[1] * miss[0]) / (least + gives_way(share) * most);
+    const double across = (way[0] * miss[1] - way[1] * miss[0]) / (least + beyond * beyond * most);
     pull[0] = along * way[0] - across * way[1];
     pull[1] = along * way[1] + across * way[0];
     return most;
@@ -350,24 +322,6 @@ static void activate(const struct tail_drag *grab, struct core *core)
     if (!steered) core_activate(core, grab->axis[grab->axis[AXIS_SIDE].active ? AXIS_SIDE : AXIS_UP].spline);
 }
 
-/// Selects the pulled knot.
-static void select_knot(const struct stage *stage, struct core *core)
-{
-    const struct tail_drag *grab = &stage->tail_drag;
-    activate(grab, core);
-    const struct spline *spline = core_active_spline(core);
-    int at = spline ? spline_find_knot(core->document, spline, grab->sample) : -1;
-    if (at < 0) return;
-    pins_clear(core);
-    selection_clear(&core->selection);
-    selection_set(&core->selection, spline->knots[at].id, true);
-    core_edited(core, -1);
-    for (int a = 0; a < 2; a++) {
-        const struct tail_drag_axis *axis = &grab->axis[a];
-        if (axis->active && axis->spline != core->active) core_edited(core, axis->spline);
-    }
-}
-
 /// One step towards the pointer; needs the last solved frame's pose.
 static void pull_strand(void *room, struct core *core)
 {
@@ -420,7 +374,20 @@ static void pull_strand(void *room, struct core *core)
     core->drag.hint = grab->hint[0] ? grab->hint : NULL;
     drag_say_stopped(core, why);
     grab->applied = true;
-    select_knot(stage, core);
+
+    // Selects the pulled knot.
+    activate(grab, core);
+    const struct spline *spline = core_active_spline(core);
+    const int pulled = spline ? spline_find_knot(core->document, spline, grab->sample) : -1;
+    if (pulled < 0) return;
+    pins_clear(core);
+    selection_clear(&core->selection);
+    selection_set(&core->selection, spline->knots[pulled].id, true);
+    core_edited(core, -1);
+    for (int a = 0; a < 2; a++) {
+        const struct tail_drag_axis *axis = &grab->axis[a];
+        if (axis->active && axis->spline != core->active) core_edited(core, axis->spline);
+    }
 }
 
 static void end_pull(void *room, struct core *core, bool keep)
@@ -461,7 +428,17 @@ static void press_strand(void *room, struct core *core, const struct hover *hove
         grab->axis[AXIS_UP].active = false;
     }
     drag_inertia_stop(stage, core->document, grab->rig);
-    grab->sample = sample_for(stage, core);
+
+    // The sample on a whole frame nearest to the playhead where all controlled splines may have knots.
+    const struct document *document = core->document;
+    grab->sample = document_sample(document, round(core_frame(core)));
+    for (int a = 0; a < 2; a++) {
+        const struct tail_drag_axis *axis = &grab->axis[a];
+        if (!axis->active) continue;
+        const int last = document_last_knot_sample(document, document->splines[axis->spline]);
+        if (grab->sample > last) grab->sample = last;
+    }
+    if (grab->sample < 0) grab->sample = 0;
     for (int a = 0; a < 2; a++) {
         struct tail_drag_axis *axis = &grab->axis[a];
         const wiggly_value now = evaluation_at(core->evaluation, axis->spline, grab->sample);
