@@ -25,19 +25,6 @@ static const float FRONT_SHARE = 0.1f; ///< weight of depth, to prefer front ver
 /// Each one's distance from the middle of a pair.
 static float pair_offset(const struct figure *figure) { return PAIR_GAP * (figure->hi[0] - figure->lo[0]); }
 
-static void add_soles(struct stage_view *view, const struct stage_character *shown)
-{
-    const struct figure *figure = shown->figure;
-    const float width = figure->hi[0] - figure->lo[0], depth = figure->hi[2] - figure->lo[2];
-    const float *p = shown->position;
-    stage_add_blob(view, p[0] + 0.5f * (figure->lo[0] + figure->hi[0]), p[2] + 0.5f * (figure->lo[2] + figure->hi[2]),
-                   0.32f * (width + depth), 0.5f);
-    for (int s = 0; s < FIGURE_SOLES; s++) {
-        const struct sole *sole = &figure->soles[s];
-        if (sole->radius > 0.0f) stage_add_blob(view, p[0] + sole->x, p[2] + sole->z, 1.35f * sole->radius, 0.7f);
-    }
-}
-
 /// A figure on the stage, `aside` metres beside its rig's place.
 static void add_character(struct stage *stage, const struct core *core, int rig, int n, float aside)
 {
@@ -49,9 +36,10 @@ static void add_character(struct stage *stage, const struct core *core, int rig,
     if (aside > 0) posing.look = LOOK_STIFF;
     if (view->character_count == STAGE_MAX_CHARACTERS) return;
     if (!rig_pose(&posing, rig, core->playback.position, NULL, &posed)) return;
+    const struct figure *figure = posed.character.figure;
     struct stage_character *shown = &view->characters[view->character_count++];
     *shown =
-        (struct stage_character){.figure = posed.character.figure,
+        (struct stage_character){.figure = figure,
                                  .morph = posed.character.morph,
                                  .rig = n,
                                  .is_twin = aside > 0,
@@ -62,11 +50,20 @@ static void add_character(struct stage *stage, const struct core *core, int rig,
     const int drive = how->drive < character->drive_count ? how->drive : 0;
     const bool is_painted = core->brush.on && n == how->character;
     if ((how->mapped || is_painted) && character->drive_count > 0)
-        shown->map_coordinate = figure_find(shown->figure, character->drives[drive].name);
-    add_soles(view, shown);
+        shown->map_coordinate = figure_find(figure, character->drives[drive].name);
+
+    // Shadows under the whole and under each sole.
+    const float width = figure->hi[0] - figure->lo[0], depth = figure->hi[2] - figure->lo[2];
+    const float *p = shown->position;
+    stage_add_blob(view, p[0] + 0.5f * (figure->lo[0] + figure->hi[0]), p[2] + 0.5f * (figure->lo[2] + figure->hi[2]),
+                   0.32f * (width + depth), 0.5f);
+    for (int s = 0; s < FIGURE_SOLES; s++) {
+        const struct sole *sole = &figure->soles[s];
+        if (sole->radius > 0.0f) stage_add_blob(view, p[0] + sole->x, p[2] + sole->z, 1.35f * sole->radius, 0.7f);
+    }
 }
 
-static void pose(struct stage *stage, const struct core *core, int rig, int n)
+static void pose_soft(struct stage *stage, const struct core *core, int rig, int n)
 {
     const struct figure *figure = models_figure(core->models, n);
     if (!figure) return;
@@ -98,34 +95,29 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
     return sum;
 }
 
-const struct stage_kind character_stage = {.pose = pose, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
+const struct stage_kind character_stage = {
+    .pose = pose_soft, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
 
-/// The vertex seen at `uv` from the front, at rest.
-static int front_vertex(const struct figure *figure, const double uv[2])
+/// The vertex seen at a share of the width and height from the front, at rest.
+bool find_character(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    const float *lo = figure->lo, *hi = figure->hi;
-    const float x = lo[0] + (float)uv[0] * (hi[0] - lo[0]), y = lo[1] + (float)uv[1] * (hi[1] - lo[1]);
-    float best = INFINITY;
+    const struct stage *stage = room;
+    const struct stage_character *shown = stage_character_shown(stage, target->nth);
+    (void)core;
+    if (!shown) return false;
+    const float *lo = shown->figure->lo, *hi = shown->figure->hi;
+    const float x = lo[0] + (float)target->number[0] * (hi[0] - lo[0]);
+    const float y = lo[1] + (float)target->number[1] * (hi[1] - lo[1]);
+    float best = INFINITY, point[3];
     int found = 0;
-    for (int i = 0; i < figure->character.vertex_count; i++) {
-        const float *p = figure->character.position[i];
+    for (int i = 0; i < shown->figure->character.vertex_count; i++) {
+        const float *p = shown->figure->character.position[i];
         const float cost = maths_hypotf(p[0] - x, p[1] - y) - FRONT_SHARE * p[2];
         if (!(cost < best)) continue;
         best = cost;
         found = i;
     }
-    return found;
-}
-
-bool find_character(void *room, const struct core *core, const struct target *target, float xy[2])
-{
-    const struct stage *stage = room;
-    const struct stage_character *shown = stage_character_shown(stage, target->nth);
-    float point[3];
-    (void)core;
-    if (!shown) return false;
-    const int vertex = front_vertex(shown->figure, target->number);
-    stage_vertex(shown->figure, &shown->morph, shown->position, vertex, point);
+    stage_vertex(shown->figure, &shown->morph, shown->position, found, point);
     return stage_project_point(stage, stage->view.viewport, point, xy);
 }
 
@@ -134,43 +126,14 @@ enum { SECTORS = 36, RINGS = 5, LEGEND_WIDTH = 196, LEGEND_HEIGHT = 132 };
 static const float WHEEL = 30; ///< radius
 static const float TEXT_SIZE = 11;
 
-/// Amplitude grows outwards. Rings and sectors overlap, so that no edges show.
-static void show_wheel(struct drawlist *list, float x, float y)
-{
-    const float step = 6.28318531f / SECTORS;
-    for (int ring = RINGS; ring >= 1; ring--) {
-        const float radius = WHEEL * (float)ring / RINGS, amplitude = ((float)ring - 0.5f) / (RINGS - 0.5f);
-        for (int s = 0; s < SECTORS; s++) {
-            const float middle = step * (float)s, from = middle - 0.62f * step, to = middle + 0.62f * step;
-            const float xy[] = {x,
-                                y,
-                                x + radius * maths_cosf(from),
-                                y - radius * maths_sinf(from),
-                                x + radius * maths_cosf(to),
-                                y - radius * maths_sinf(to)};
-            drawlist_convex(list, xy, 3, phase_color(amplitude * maths_cosf(middle), amplitude * maths_sinf(middle)));
-        }
-    }
-}
-
-/// The same lines as on the character (stage_mesh.frag).
-static void show_spokes(struct drawlist *list, float x, float y)
-{
-    for (int i = 0; i < 8; i++) {
-        const float angle = 0.785398163f * ((float)i + 0.5f), along = maths_cosf(angle), up = maths_sinf(angle),
-                    from = 0.2f * WHEEL;
-        const float xy[] = {x + from * along, y - from * up, x + WHEEL * along, y - WHEEL * up};
-        drawlist_line(list, xy, 2, 1.25f, 0x000000A0u);
-    }
-}
-
 static void show_centred(struct drawlist *list, float x, float y, const char *text, uint32_t color)
 {
     const float width = font_width(FONT_LABEL, TEXT_SIZE, text);
     drawlist_text(list, x - width / 2, y, FONT_LABEL, TEXT_SIZE, color, text);
 }
 
-struct rect characters_legend(const struct core *core)
+/// The legend's place.
+static struct rect characters_legend(const struct core *core)
 {
     const struct rect stage = core->layout.stage;
     return (struct rect){stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
@@ -188,8 +151,28 @@ static void show_legend(struct core *core, const struct coordinate *coordinate)
              directions[core->characters.axis]);
     stage_scrim(core, box);
     drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
-    show_wheel(list, x, y);
-    show_spokes(list, x, y);
+
+    // The wheel: amplitude grows outwards. Rings and sectors overlap, so that no edges show.
+    const float step = 6.28318531f / SECTORS;
+    for (int ring = RINGS; ring >= 1; ring--) {
+        const float radius = WHEEL * (float)ring / RINGS, amplitude = ((float)ring - 0.5f) / (RINGS - 0.5f);
+        for (int s = 0; s < SECTORS; s++) {
+            const float middle = step * (float)s, from = middle - 0.62f * step, to = middle + 0.62f * step;
+            const float xy[] = {x,
+                                y,
+                                x + radius * maths_cosf(from),
+                                y - radius * maths_sinf(from),
+                                x + radius * maths_cosf(to),
+                                y - radius * maths_sinf(to)};
+            drawlist_convex(list, xy, 3, phase_color(amplitude * maths_cosf(middle), amplitude * maths_sinf(middle)));
+        }
+    }
+    for (int i = 0; i < 8; i++) { // the same lines as on the character (stage_mesh.frag)
+        const float angle = 0.785398163f * ((float)i + 0.5f), along = maths_cosf(angle), up = maths_sinf(angle),
+                    from = 0.2f * WHEEL;
+        const float xy[] = {x + from * along, y - from * up, x + WHEEL * along, y - WHEEL * up};
+        drawlist_line(list, xy, 2, 1.25f, 0x000000A0u);
+    }
     show_centred(list, x, y - WHEEL - 6, "ahead", theme()->text_dim);
     show_centred(list, x, y + WHEEL + 14, "behind", theme()->text_dim);
     drawlist_text(list, x + WHEEL + 8, y + 4, FONT_LABEL, TEXT_SIZE, theme()->text_dim, "in step");
@@ -198,26 +181,19 @@ static void show_legend(struct core *core, const struct coordinate *coordinate)
                   theme()->text_dim, left);
 }
 
-/// A line under the feet of each of a pair.
-static void show_pair(const struct stage *stage, struct core *core)
+void characters_show(const struct stage *stage, struct core *core)
 {
-    static const char *const names[] = {"with phases", "without phases"};
-    const struct stage_view *view = &stage->view;
+    static const char *const names[] = {"with phases", "without phases"}; // a line under the feet of each of a pair
+    const struct coordinate *coordinate = characters_coordinate(core);
     const struct rect r = core->layout.stage;
-    for (int i = 0; i < view->character_count; i++) {
-        const struct stage_character *shown = &view->characters[i];
+    if ((core->characters.mapped || core->brush.on) && coordinate) show_legend(core, coordinate);
+    for (int i = 0; core->characters.compare && i < stage->view.character_count; i++) {
+        const struct stage_character *shown = &stage->view.characters[i];
         const float feet[3] = {shown->position[0], shown->position[1], shown->position[2] + shown->figure->hi[2]};
         float xy[2];
         if (!stage_project_point(stage, r, feet, xy)) continue;
         show_centred(&core->list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], theme()->text_dim);
     }
-}
-
-void characters_show(const struct stage *stage, struct core *core)
-{
-    const struct coordinate *coordinate = characters_coordinate(core);
-    if ((core->characters.mapped || core->brush.on) && coordinate) show_legend(core, coordinate);
-    if (core->characters.compare) show_pair(stage, core);
 }
 
 // Floors: hover, vertical drags and drawing.
@@ -403,39 +379,34 @@ static float radius_of(const struct brush *brush, const struct figure *figure)
     return (float)brush->radius * (figure->hi[1] - figure->lo[1]);
 }
 
-static void free_work(struct brush_work *work)
+void brush_free(struct painting *painting)
 {
-    pool_free(&work->pool);
-    *work = (struct brush_work){0};
+    pool_free(&painting->work.pool);
+    painting->work = (struct brush_work){0};
 }
 
-void brush_free(struct painting *painting) { free_work(&painting->work); }
-
-/// Allocates for a figure, unless there is enough already.
-static void reserve(struct brush_work *work, int vertices)
-{
-    const size_t room = (size_t)vertices;
-    if (work->capacity >= vertices) return;
-    free_work(work);
-    work->vertices = pool_take(&work->pool, room, sizeof *work->vertices);
-    work->values = pool_take(&work->pool, room, sizeof *work->values);
-    work->steps = pool_take(&work->pool, room, sizeof *work->steps);
-    work->turned = pool_take(&work->pool, room, sizeof *work->turned);
-    work->spent = pool_take(&work->pool, room, sizeof *work->spent);
-    reach_create(&work->reach, &work->pool, vertices);
-    for (int i = 0; i < vertices; i++) {
-        work->turned[i][0] = 1;
-        work->turned[i][1] = 0;
-    }
-    work->capacity = vertices;
-}
-
-/// The painted figure, with the skin posed as shown, or NULL.
+/// The painted figure, with the skin posed as shown, or NULL. Allocates if the figure has more vertices than any before.
 static const struct figure *pose_figure(struct stage *stage, const struct core *core, int *coordinate)
 {
+    struct brush_work *work = &stage->painting.work;
     const struct figure *figure = characters_figure(core, coordinate);
     if (!figure) return NULL;
-    reserve(&stage->painting.work, figure->character.vertex_count);
+    const int vertices = figure->character.vertex_count;
+    if (work->capacity < vertices) {
+        const size_t room = (size_t)vertices;
+        brush_free(&stage->painting);
+        work->vertices = pool_take(&work->pool, room, sizeof *work->vertices);
+        work->values = pool_take(&work->pool, room, sizeof *work->values);
+        work->steps = pool_take(&work->pool, room, sizeof *work->steps);
+        work->turned = pool_take(&work->pool, room, sizeof *work->turned);
+        work->spent = pool_take(&work->pool, room, sizeof *work->spent);
+        reach_create(&work->reach, &work->pool, vertices);
+        for (int i = 0; i < vertices; i++) {
+            work->turned[i][0] = 1;
+            work->turned[i][1] = 0;
+        }
+        work->capacity = vertices;
+    }
     return skin_pose(stage, core->characters.character) ? figure : NULL;
 }
 
@@ -460,23 +431,6 @@ static enum brush_mode brush_stroke(const struct brush *brush, unsigned mods)
     return mods & MOD_SHIFT ? stroke->smoothed : mods & MOD_CTRL ? stroke->other : brush->mode;
 }
 
-/// The surface points under the pointer's path since the last frame.
-static int find_way(const struct stage *stage, const struct core *core, const struct figure *figure,
-                    struct surface_spot spots[REACH_MAX_SPOTS])
-{
-    const struct painting *painting = &stage->painting;
-    const float dx = core->pointer_x - painting->x, dy = core->pointer_y - painting->y;
-    const float metres = 2 * stage->camera.distance / stage->view.projection[5] / core->layout.stage.h;
-    const float stride = fmaxf(1, STRIDE * radius_of(&core->brush, figure) / metres);
-    const int steps = (int)fminf(REACH_MAX_SPOTS, fmaxf(1, ceilf(maths_hypotf(dx, dy) / stride)));
-    int count = 0;
-    for (int i = 1; i <= steps; i++) {
-        const float share = (float)i / (float)steps;
-        count += skin_spot(stage, figure, painting->x + share * dx, painting->y + share * dy, &spots[count]);
-    }
-    return count;
-}
-
 /// 1 in the middle, 0 at the rim, with zero slope at both.
 static float falloff(float distance, float radius)
 {
@@ -495,8 +449,6 @@ static const double BLENDING_FLOW = 12;       ///< of smoothing and erasing, 1/s
 static const double MOST_BLEND = 0.5;         ///< per pass; more would overshoot
 static const float MOST_LEAD = 12.5663706f, LEAST_SWELL = -4.60517f, MOST_SWELL = 1.3862944f; ///< ±720°; 0.01 … 4
 static const float STILL = 1e-4f; ///< of the largest amplitude; phases below this mean nothing
-
-static double blend(double flow) { return fmin(MOST_BLEND, BLENDING_FLOW * flow / SMOOTHINGS); }
 
 static void multiply(const float a[2], const float b[2], float out[2])
 {
@@ -546,7 +498,7 @@ static void smooth_once(struct painting *painting, const struct figure *figure, 
 {
     struct brush_work *work = &painting->work;
     const bool phase = painting->stroke == BRUSH_SMOOTH_PHASE;
-    const float share = (float)blend(flow);
+    const float share = (float)fmin(MOST_BLEND, BLENDING_FLOW * flow / SMOOTHINGS);
     for (int i = 0; i < count; i++) {
         const int vertex = work->vertices[i];
         const float weight = share * falloff(work->reach.distance[vertex], radius);
@@ -566,17 +518,6 @@ static void smooth_once(struct painting *painting, const struct figure *figure, 
     }
 }
 
-static void smooth(struct painting *painting, const struct figure *figure, int coordinate, float radius, int count,
-                   double flow)
-{
-    struct brush_work *work = &painting->work;
-    for (int pass = 0; pass < SMOOTHINGS; pass++) smooth_once(painting, figure, coordinate, radius, count, flow);
-    for (int i = 0; i < count; i++) {
-        work->turned[work->vertices[i]][0] = 1;
-        work->turned[work->vertices[i]][1] = 0;
-    }
-}
-
 /// Limits a step so that the stroke's sum `spent` stays within `most`; adds the step to it.
 static float saturate(float step, float most, float *spent)
 {
@@ -586,7 +527,7 @@ static float saturate(float step, float most, float *spent)
 }
 
 /// Changes one vertex's paint, in modes that ignore its neighbours.
-static void change(enum brush_mode mode, double flow, float weight, float *spent, float value[2])
+static void change_paint(enum brush_mode mode, double flow, float weight, float *spent, float value[2])
 {
     const bool turns = mode == BRUSH_ADVANCE || mode == BRUSH_DELAY,
                swells = mode == BRUSH_MORE || mode == BRUSH_LESS;
@@ -601,46 +542,55 @@ static void change(enum brush_mode mode, double flow, float weight, float *spent
     for (int k = 0; k < 2; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
 }
 
-/// A dab on the vertices of work.reach: `flow` is strength times time. The brush owns the arrays.
-static struct dab brush_dab(struct painting *painting, const struct paint *paint, const struct figure *figure,
-                            int coordinate, float radius, double flow)
+/// Continues the stroke for drag.dt seconds.
+static void paint_stroke(void *room, struct core *core)
 {
+    struct stage *stage = room;
+    struct painting *painting = &stage->painting;
     struct brush_work *work = &painting->work;
-    const bool smooths = painting->stroke == BRUSH_SMOOTH_PHASE || painting->stroke == BRUSH_SMOOTH_AMPLITUDE;
-    int count = 0;
+    struct surface_spot spots[REACH_MAX_SPOTS];
+    int coordinate, count = 0;
+    const struct figure *figure = pose_figure(stage, core, &coordinate);
+    const struct paint *paint = figure ? characters_selected(core)->painted : NULL;
+    if (!paint || !models_paint_fits(paint, figure)) return;
+
+    // The surface points under the pointer's path since the last frame.
+    const float radius = radius_of(&core->brush, figure);
+    const float dx = core->pointer_x - painting->x, dy = core->pointer_y - painting->y;
+    const float metres = 2 * stage->camera.distance / stage->view.projection[5] / core->layout.stage.h;
+    const float stride = fmaxf(1, STRIDE * radius / metres);
+    const int steps = (int)fminf(REACH_MAX_SPOTS, fmaxf(1, ceilf(maths_hypotf(dx, dy) / stride)));
+    for (int i = 1; i <= steps; i++) {
+        const float share = (float)i / (float)steps;
+        count += skin_spot(stage, figure, painting->x + share * dx, painting->y + share * dy, &spots[count]);
+    }
+    painting->x = core->pointer_x;
+    painting->y = core->pointer_y;
+    painting->has_dabbed = true;
+    if (count == 0) return;
+    reach_find(&work->reach, figure, spots, count, radius);
+
+    // A dab on the vertices within reach.
+    const double flow = core->brush.strength * core->drag.dt;
+    struct dab dab = {coordinate, 0, work->vertices, (const float(*)[2])work->values};
     for (int i = 0; i < work->reach.count; i++) {
         const int vertex = work->reach.vertices[i];
         const float weight = falloff(work->reach.distance[vertex], radius);
         const float *old = paint->values[(size_t)coordinate * (size_t)paint->vertices + (size_t)vertex];
         if (!(weight > 0)) continue;
-        work->vertices[count] = vertex;
-        for (int k = 0; k < 2; k++) work->values[count][k] = old[k];
-        change(painting->stroke, flow, weight, &work->spent[vertex], work->values[count]);
-        count++;
+        work->vertices[dab.count] = vertex;
+        for (int k = 0; k < 2; k++) work->values[dab.count][k] = old[k];
+        change_paint(painting->stroke, flow, weight, &work->spent[vertex], work->values[dab.count]);
+        dab.count++;
     }
-    if (smooths) smooth(painting, figure, coordinate, radius, count, flow);
-    return (struct dab){coordinate, count, work->vertices, (const float(*)[2])work->values};
-}
-
-/// Continues the stroke for drag.dt seconds.
-static void paint_stroke(void *room, struct core *core)
-{
-    struct stage *stage = room;
-    const struct brush *brush = &core->brush;
-    struct painting *painting = &stage->painting;
-    struct surface_spot spots[REACH_MAX_SPOTS];
-    int coordinate;
-    const struct figure *figure = pose_figure(stage, core, &coordinate);
-    const struct paint *paint = figure ? characters_selected(core)->painted : NULL;
-    if (!paint || !models_paint_fits(paint, figure)) return;
-    const int count = find_way(stage, core, figure, spots);
-    painting->x = core->pointer_x;
-    painting->y = core->pointer_y;
-    painting->has_dabbed = true;
-    if (count == 0) return;
-    reach_find(&painting->work.reach, figure, spots, count, radius_of(brush, figure));
-    const struct dab dab =
-        brush_dab(painting, paint, figure, coordinate, radius_of(brush, figure), brush->strength * core->drag.dt);
+    if (painting->stroke == BRUSH_SMOOTH_PHASE || painting->stroke == BRUSH_SMOOTH_AMPLITUDE) {
+        for (int pass = 0; pass < SMOOTHINGS; pass++)
+            smooth_once(painting, figure, coordinate, radius, dab.count, flow);
+        for (int i = 0; i < dab.count; i++) {
+            work->turned[work->vertices[i]][0] = 1;
+            work->turned[work->vertices[i]][1] = 0;
+        }
+    }
     edit_paint(core->document, characters_rig(core), &dab, &core->error);
 }
 
@@ -720,19 +670,6 @@ static const double DEGREES = 57.29577951308232;
 static const float RING_WIDTH = 1.5f, SHADE_WIDTH = 3.5f;
 static const uint32_t RING = 0xFFFFFFFFu, SHADE = 0x00000060u; ///< in every theme, on the map's colours
 
-/// Adds a triangle that faces the eye. A corner is inside by the rest of `radius`, in pixels by `scale`.
-static void add_reached(struct stage *stage, const uint32_t *corner, float radius, float scale)
-{
-    float xy[3][2], inside[3];
-    for (int c = 0; c < 3; c++) {
-        inside[c] = (radius - stage->painting.work.reach.distance[corner[c]]) * scale;
-        if (!isfinite(inside[c])) return;
-        if (!stage_project_point(stage, stage->view.viewport, stage->skin.posed[corner[c]], xy[c])) return;
-    }
-    if ((xy[1][0] - xy[0][0]) * (xy[2][1] - xy[0][1]) < (xy[1][1] - xy[0][1]) * (xy[2][0] - xy[0][0]))
-        silhouette_add_triangle(&stage->silhouette, (const float(*)[2])xy, inside);
-}
-
 /// Outlines the brush's reach.
 static void show_ring(struct stage *stage, struct core *core, const struct figure *figure)
 {
@@ -746,9 +683,21 @@ static void show_ring(struct stage *stage, struct core *core, const struct figur
         silhouette_widen(silhouette, xy, 0);
     }
     if (!silhouette_open(silhouette, core->layout.stage)) return;
+
+    // Triangles that face the eye. A corner is inside by the rest of the radius, in pixels.
     const float scale = 0.5f * fmaxf(silhouette->area.w, silhouette->area.h) / radius;
-    for (int t = 0; t < figure->character.index_count; t += 3)
-        add_reached(stage, figure->character.indices + t, radius, scale);
+    for (int t = 0; t < figure->character.index_count; t += 3) {
+        const uint32_t *corner = figure->character.indices + t;
+        float xy[3][2], inside[3];
+        bool all = true;
+        for (int c = 0; c < 3 && all; c++) {
+            inside[c] = (radius - reach->distance[corner[c]]) * scale;
+            all = isfinite(inside[c]) &&
+                  stage_project_point(stage, stage->view.viewport, stage->skin.posed[corner[c]], xy[c]);
+        }
+        if (all && (xy[1][0] - xy[0][0]) * (xy[2][1] - xy[0][1]) < (xy[1][1] - xy[0][1]) * (xy[2][0] - xy[0][0]))
+            silhouette_add_triangle(silhouette, (const float(*)[2])xy, inside);
+    }
     silhouette_soften(silhouette);
     for (int count; (count = silhouette_follow(silhouette)) > 0;) {
         drawlist_line(&core->list, silhouette->points[0], count, SHADE_WIDTH, SHADE);
@@ -756,46 +705,37 @@ static void show_ring(struct stage *stage, struct core *core, const struct figur
     }
 }
 
-/// Describes the paint at the vertex nearest to the pointer; leaves the text alone if it has none.
-static void describe_spot(const struct stage *stage, const struct paint *paint, int coordinate, char *text,
-                          size_t size)
-{
-    const struct surface_spot *spot = &stage->painting.spot;
-    int nearest = 0;
-    for (int c = 1; c < 3; c++) {
-        if (spot->weight[c] > spot->weight[nearest]) nearest = c;
-    }
-    const float *value = paint->values[(size_t)coordinate * (size_t)paint->vertices + spot->corner[nearest]];
-    if (value[0] == 0 && value[1] == 0) return;
-    snprintf(text, size, "painted here: %+.0f°, × %.2f", printable_number((double)value[1] * DEGREES, 1),
-             maths_exp((double)value[0]));
-}
-
-static void show_state(const struct stage *stage, struct core *core, const struct paint *paint, int coordinate)
+void brush_show(struct stage *stage, struct core *core)
 {
     const struct brush *brush = &core->brush;
     const struct painting *painting = &stage->painting;
+    int coordinate;
+    const struct figure *figure = brush->on ? characters_figure(core, &coordinate) : NULL;
+    if (!figure) return;
+    const struct paint *paint = characters_selected(core)->painted;
+    if (paint && !models_paint_fits(paint, figure)) paint = NULL;
+    if (painting->covers) show_ring(stage, core, figure);
+
     const struct rect legend = characters_legend(core);
     const struct rect box = {legend.x, legend.y - STATE_HEIGHT - 8, legend.w, STATE_HEIGHT};
-    const bool paints = brush_paints(core);
-    const char *label = strokes[paints ? painting->stroke : brush_stroke(brush, core->mods)].label;
+    const char *label = strokes[brush_paints(core) ? painting->stroke : brush_stroke(brush, core->mods)].label;
     char text[64] = "nothing painted here";
-    if (painting->covers && paint) describe_spot(stage, paint, coordinate, text, sizeof text);
-    if (!painting->covers)
+    if (!painting->covers) {
         snprintf(text, sizeof text, "radius %.0f %%, strength %.0f %%", 100 * brush->radius, 100 * brush->strength);
+    } else if (paint) { // at the vertex nearest to the pointer
+        const struct surface_spot *spot = &painting->spot;
+        int nearest = 0;
+        for (int c = 1; c < 3; c++) {
+            if (spot->weight[c] > spot->weight[nearest]) nearest = c;
+        }
+        const float *value = paint->values[(size_t)coordinate * (size_t)paint->vertices + spot->corner[nearest]];
+        if (value[0] != 0 || value[1] != 0)
+            snprintf(text, sizeof text, "painted here: %+.0f°, × %.2f",
+                     printable_number((double)value[1] * DEGREES, 1), maths_exp((double)value[0]));
+    }
     stage_scrim(core, box);
     drawlist_text_fit(&core->list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
                       theme()->text, label);
     drawlist_text_fit(&core->list, box.x + 10, box.y + 35, box.w - 20, FONT_LABEL, THEME_TEXT_SMALL,
                       theme()->text_dim, text);
-}
-
-void brush_show(struct stage *stage, struct core *core)
-{
-    int coordinate;
-    const struct figure *figure = core->brush.on ? characters_figure(core, &coordinate) : NULL;
-    if (!figure) return;
-    const struct paint *paint = characters_selected(core)->painted;
-    if (stage->painting.covers) show_ring(stage, core, figure);
-    show_state(stage, core, paint && models_paint_fits(paint, figure) ? paint : NULL, coordinate);
 }

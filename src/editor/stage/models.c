@@ -40,6 +40,25 @@ static void add_shadows(struct stage_view *view, const struct stage_model *shown
     }
 }
 
+/// Adds the bones of a shown character.
+static void bones_add(struct stage *stage, int model, const struct rig_pose *pose)
+{
+    const struct skeleton *skeleton = &pose->model.imported->skeleton;
+    const mat4s to_world = mat4_from(pose->model.root);
+    for (int b = 0; b < skeleton->count && stage->bone_count < STAGE_MAX_BONES; b++) {
+        const struct bone *bone = &skeleton->bones[b];
+        struct shown_bone *shown = &stage->bones[stage->bone_count++];
+        float ends[2][3];
+        *shown =
+            (struct shown_bone){.model = model, .part = *bone, .carries = skeleton->carries[bone->node], .chain = -1};
+        skeleton_ends(bone, pose->model.pose, ends);
+        for (int e = 0; e < 2; e++) {
+            const vec3s at = glms_mat4_mulv3(to_world, vec3_from(ends[e]), 1.0f);
+            memcpy(shown->ends[e], at.raw, sizeof at.raw);
+        }
+    }
+}
+
 struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed)
 {
     struct stage_view *view = &stage->view;
@@ -65,32 +84,28 @@ static float aside(const struct core *core, int n)
     return ASIDE * (float)core->document->rigs[rig]->model.scale * fmaxf(hi[0] - lo[0], hi[2] - lo[2]);
 }
 
-/// Adds the clip without its chains, beside the model that was added last.
-static void add_original(struct stage *stage, const struct core *core, int rig, float by)
+static void pose_imported(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct stage_view *view = &stage->view;
     struct rig_pose posed;
+    struct stage_model *shown = models_show(stage, core, rig, &posed);
+    if (!shown) return;
+    bones_add(stage, rig, &posed);
+    shown->dusk = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
+    add_shadows(view, shown, &posed.model.imported->skeleton);
+
+    // The clip without its chains, beside it.
     const struct posing posing = {.document = core->document, .models = core->models, .memory = POSE_BESIDE};
-    if (view->model_count == STAGE_MAX_MODELS) return;
+    if (!core->overlays.original || view->model_count == STAGE_MAX_MODELS) return;
     if (!rig_pose_body(&posing, rig, core->playback.position, NULL, &posed)) return;
-    struct stage_model *shown = &view->models[view->model_count++];
+    const float by = aside(core, n);
+    shown = &view->models[view->model_count++];
     *shown = shown[-1];
     shown->pose = posed.model.pose;
     shown->root[12] += by;
     shown->lo[0] += by;
     shown->hi[0] += by;
     add_shadows(view, shown, &posed.model.imported->skeleton);
-}
-
-static void pose(struct stage *stage, const struct core *core, int rig, int n)
-{
-    struct rig_pose posed;
-    struct stage_model *shown = models_show(stage, core, rig, &posed);
-    if (!shown) return;
-    bones_add(stage, rig, &posed);
-    shown->dusk = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
-    add_shadows(&stage->view, shown, &posed.model.imported->skeleton);
-    if (core->overlays.original) add_original(stage, core, rig, aside(core, n));
 }
 
 static uint64_t hash(uint64_t sum, const struct stage_view *view)
@@ -106,7 +121,8 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
     return sum;
 }
 
-const struct stage_kind model_stage = {.pose = pose, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
+const struct stage_kind model_stage = {
+    .pose = pose_imported, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
 
 void skin_free(struct skin *skin)
 {
@@ -161,36 +177,14 @@ static const float OVERLAP = 4;     ///< pixels; of bones this close, the neares
 static const float AS_DEEP = 0.02f; ///< share of the depth; closer bones count as equally deep
 static const float AS_FAR = 0.5f;   ///< pixels; closer bones count as equally near
 
-void bones_add(struct stage *stage, int model, const struct rig_pose *pose)
-{
-    const struct skeleton *skeleton = &pose->model.imported->skeleton;
-    const mat4s to_world = mat4_from(pose->model.root);
-    for (int b = 0; b < skeleton->count && stage->bone_count < STAGE_MAX_BONES; b++) {
-        const struct bone *bone = &skeleton->bones[b];
-        struct shown_bone *shown = &stage->bones[stage->bone_count++];
-        float ends[2][3];
-        *shown =
-            (struct shown_bone){.model = model, .part = *bone, .carries = skeleton->carries[bone->node], .chain = -1};
-        skeleton_ends(bone, pose->model.pose, ends);
-        for (int e = 0; e < 2; e++) {
-            const vec3s at = glms_mat4_mulv3(to_world, vec3_from(ends[e]), 1.0f);
-            memcpy(shown->ends[e], at.raw, sizeof at.raw);
-        }
-    }
-}
-
-/// The spline that gives a chain its colour: the active one if it bends the chain.
-static int spline_of(const struct core *core, const struct chain *chain)
-{
-    for (int c = 0; c < chain->channel_count; c++) {
-        if (chain->channels[c].spline == core->active) return core->active;
-    }
-    return chain->channel_count > 0 ? chain->channels[0].spline : -1;
-}
-
 void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones)
 {
-    const int spline = spline_of(core, &core->document->rigs[rig]->chain);
+    // The spline that gives the chain its colour: the active one if it bends the chain.
+    const struct chain *chain = &core->document->rigs[rig]->chain;
+    int spline = chain->channel_count > 0 ? chain->channels[0].spline : -1;
+    for (int c = 0; c < chain->channel_count; c++) {
+        if (chain->channels[c].spline == core->active) spline = core->active;
+    }
     for (int b = 0; b < stage->bone_count; b++) {
         struct shown_bone *bone = &stage->bones[b];
         if (bone->model != model || (bone->chain >= 0 && spline != core->active)) continue;
@@ -219,13 +213,6 @@ static bool is_hidden(const struct core *core, const struct shown_bone *bone)
     return bone->part.hidden && !(core->mods & MOD_ALT);
 }
 
-/// An edit in the same frame may have removed the bone.
-static bool exists(const struct document *document, const struct shown_bone *bone)
-{
-    const bool is_there = bone->model < document->rig_count && document->rigs[bone->model]->kind == RIG_MODEL;
-    return is_there && (bone->chain < 0 || tail_drag_holds(document, bone->chain, bone->joint));
-}
-
 static bool project_bone(const struct stage *stage, const struct core *core, const struct shown_bone *bone,
                          float ends[2][2])
 {
@@ -233,14 +220,17 @@ static bool project_bone(const struct stage *stage, const struct core *core, con
            stage_project_point(stage, core->layout.stage, bone->ends[1], ends[1]);
 }
 
-/// False if the bone is hidden or out of reach. A bone without vertices counts as farther.
-static bool measure(const struct stage *stage, const struct core *core, int bone, const float p[2],
-                    struct candidate *found)
+/// False if the bone is gone, hidden or out of reach. A bone without vertices counts as farther.
+static bool measure_bone(const struct stage *stage, const struct core *core, int bone, const float p[2],
+                         struct candidate *found)
 {
     const struct shown_bone *shown = &stage->bones[bone];
+    const struct document *document = core->document;
     float ends[2][2];
-    if (!exists(core->document, shown) || is_hidden(core, shown) || !project_bone(stage, core, shown, ends))
-        return false;
+    if (shown->model >= document->rig_count || document->rigs[shown->model]->kind != RIG_MODEL ||
+        (shown->chain >= 0 && !tail_drag_holds(document, shown->chain, shown->joint)))
+        return false; // an edit in the same frame removed it
+    if (is_hidden(core, shown) || !project_bone(stage, core, shown, ends)) return false;
     found->bone = bone;
     found->fraction = segment_nearest(ends[0], ends[1], p);
     for (int k = 0; k < 2; k++) found->xy[k] = ends[0][k] + (ends[1][k] - ends[0][k]) * found->fraction;
@@ -265,10 +255,10 @@ struct hover bone_hover(const struct stage *stage, const struct core *core, floa
     struct candidate best = {.bone = -1}, candidate;
     float nearest = REACH;
     for (int b = 0; b < stage->bone_count; b++) {
-        if (measure(stage, core, b, p, &candidate)) nearest = fminf(nearest, candidate.distance);
+        if (measure_bone(stage, core, b, p, &candidate)) nearest = fminf(nearest, candidate.distance);
     }
     for (int b = 0; b < stage->bone_count && !core->brush.on; b++) {
-        if (measure(stage, core, b, p, &candidate) && candidate.distance < nearest + OVERLAP &&
+        if (measure_bone(stage, core, b, p, &candidate) && candidate.distance < nearest + OVERLAP &&
             is_better(&candidate, &best))
             best = candidate;
     }
@@ -335,15 +325,7 @@ static const float THICKEST = 5, THINNEST = 1.5f;    ///< pixels: half of a bone
 static const float SHARE = 0.09f, WIDEST_AT = 0.14f; ///< of a bone's length: half its width, and where it is widest
 static const float PLAIN = 0.3f, MEANT = 0.6f, CHOSEN = 0.85f; ///< opacity of the fill
 
-/// Whether the pointer is over a character's bounding box on the screen.
-static bool is_over(const struct stage *stage, const struct core *core, const struct stage_model *model)
-{
-    struct rect box;
-    return !stage_project_box(stage, core->layout.stage, model->lo, model->hi, &box) ||
-           rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y);
-}
-
-/// The rig whose bones show because the pointer is over its character, or −1.
+/// The rig whose bones show because the pointer is over its character's bounding box on the screen, or −1.
 static int model_under(const struct stage *stage, const struct core *core)
 {
     const struct stage_view *view = &stage->view;
@@ -352,7 +334,11 @@ static int model_under(const struct stage *stage, const struct core *core)
     for (int rig = -1; (rig = document_next_rig(core->document, RIG_MODEL, rig)) >= 0;) {
         const struct gltf_pose *pose = models_pose(core->models, core->document, rig, POSE_SHOWN);
         for (int m = 0; pose && m < view->model_count; m++) {
-            if (view->models[m].pose == pose && is_over(stage, core, &view->models[m])) return rig;
+            const struct stage_model *model = &view->models[m];
+            struct rect box;
+            if (model->pose == pose && (!stage_project_box(stage, core->layout.stage, model->lo, model->hi, &box) ||
+                                        rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y)))
+                return rig;
         }
     }
     return -1;
@@ -372,30 +358,9 @@ static void show_bone(struct drawlist *list, const float a[2], const float b[2],
     drawlist_line(list, corners[0], 5, 1.25f, theme_fade(edge, 0.5f + 0.5f * opacity));
 }
 
-/// The bone's name beside the pointer, inside the stage.
-static void show_name(struct core *core, const char *name)
-{
-    const struct rect stage = core->layout.stage;
-    const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, name), stage.w / 2) + 2 * LABEL_PAD + 2;
-    struct rect r = {core->pointer_x + LABEL_AWAY, core->pointer_y - LABEL_AWAY - LABEL_HEIGHT, width, LABEL_HEIGHT};
-    if (r.x + r.w > stage.x + stage.w) r.x = core->pointer_x - LABEL_AWAY - r.w;
-    if (r.y < stage.y) r.y = core->pointer_y + LABEL_AWAY;
-    drawlist_rounded(&core->list, r, 4, theme_fade(theme()->raised, 0.92f));
-    drawlist_rounded_line(&core->list, r, 4, 1, theme()->border);
-    drawlist_text_fit(&core->list, r.x + LABEL_PAD, r.y + 14, r.w - LABEL_PAD, FONT_LABEL, THEME_TEXT_NORMAL,
-                      theme()->text, name);
-}
-
 /// The bones from a node down to a tip, which a new chain would bend; −1: none.
 struct way {
     int model, node, tip;
-};
-
-/// Shown in this frame: a character's bones, and the ways from the selected bone and from the one under the pointer.
-struct showing {
-    bool all; ///< for picking a bone
-    int model;
-    struct way chosen, meant;
 };
 
 static struct way way_from(const struct core *core, int model, int node)
@@ -423,56 +388,53 @@ static int way_count(const struct core *core, const struct way *way, int model, 
     return 0;
 }
 
-static float opacity_of(const struct showing *showing, const struct core *core, const struct shown_bone *bone)
-{
-    const int model = bone->model, node = bone->part.node;
-    if (model == showing->chosen.model && node == showing->chosen.node) return CHOSEN;
-    if (model == showing->meant.model && node == showing->meant.node) return MEANT;
-    const bool ahead =
-        way_count(core, &showing->chosen, model, node) > 0 || way_count(core, &showing->meant, model, node) > 0;
-    return ahead ? MEANT : PLAIN;
-}
-
-static void show_all(const struct stage *stage, struct core *core, const struct showing *showing)
-{
-    for (int b = 0; b < stage->bone_count; b++) {
-        const struct shown_bone *bone = &stage->bones[b];
-        float ends[2][2];
-        if (bone->model != showing->model && bone->model != showing->chosen.model && !showing->all) continue;
-        const float opacity = opacity_of(showing, core, bone);
-        if ((is_hidden(core, bone) && opacity == PLAIN) || !project_bone(stage, core, bone, ends)) continue;
-        const uint32_t color = bone->chain >= 0 && bone->color ? bone->color : theme()->playhead;
-        if (bone->part.node != bone->part.from) {
-            drawlist_line(&core->list, ends[0], 2, 1.25f, theme_fade(color, opacity));
-            continue;
-        }
-        show_bone(&core->list, ends[0], ends[1], color, opacity == CHOSEN ? theme()->text : color, opacity);
-    }
-}
-
 void bones_show(const struct stage *stage, struct core *core)
 {
     const struct hover *hover = &core->hover;
-    struct showing showing = {.all = core->pick.use != BONE_SELECTED,
-                              .model = model_under(stage, core),
-                              .chosen = way_chosen(core),
-                              .meant = {-1, -1, -1}};
+    const struct way chosen = way_chosen(core);
+    const int under = model_under(stage, core);
+    struct way meant = {-1, -1, -1};
     if (!core->drag.owner && hover->thing == &thing_bone)
-        showing.meant = way_from(core, hover->model, hover->node);
+        meant = way_from(core, hover->model, hover->node);
     else if (!core->drag.owner && hover->thing == &thing_chain)
-        showing.meant = (struct way){hover->model, hover->node, -1};
-    show_all(stage, core, &showing);
-    const struct way *meant = &showing.meant;
-    if (meant->node < 0) return;
+        meant = (struct way){hover->model, hover->node, -1};
+    for (int b = 0; b < stage->bone_count; b++) {
+        const struct shown_bone *bone = &stage->bones[b];
+        const int model = bone->model, node = bone->part.node;
+        float ends[2][2];
+        if (model != under && model != chosen.model && core->pick.use == BONE_SELECTED) continue;
+        const bool is_chosen = model == chosen.model && node == chosen.node;
+        const bool is_meant = (model == meant.model && node == meant.node) ||
+                              way_count(core, &chosen, model, node) > 0 || way_count(core, &meant, model, node) > 0;
+        const float opacity = is_chosen ? CHOSEN : is_meant ? MEANT : PLAIN;
+        if ((is_hidden(core, bone) && opacity == PLAIN) || !project_bone(stage, core, bone, ends)) continue;
+        const uint32_t color = bone->chain >= 0 && bone->color ? bone->color : theme()->playhead;
+        if (node != bone->part.from) {
+            drawlist_line(&core->list, ends[0], 2, 1.25f, theme_fade(color, opacity));
+            continue;
+        }
+        show_bone(&core->list, ends[0], ends[1], color, is_chosen ? theme()->text : color, opacity);
+    }
+    if (meant.node < 0) return;
+
+    // The bone's name beside the pointer, inside the stage.
     char title[BONES_TITLE], text[2 * BONES_TITLE];
-    const struct gltf_node *nodes = bones_character(core, meant->model)->gltf.nodes;
-    const int count = way_count(core, meant, meant->model, meant->node);
+    const struct gltf_node *nodes = bones_character(core, meant.model)->gltf.nodes;
+    const int count = way_count(core, &meant, meant.model, meant.node);
     int length =
-        snprintf(text, sizeof text, "%s", bones_title(core->document, meant->model, nodes[meant->node].name, title));
+        snprintf(text, sizeof text, "%s", bones_title(core->document, meant.model, nodes[meant.node].name, title));
     if (count > 1)
         snprintf(text + length, sizeof text - (size_t)length, " to %.*s, %d bones",
-                 name_fit(nodes[meant->tip].name, 200), nodes[meant->tip].name, count);
-    show_name(core, text);
+                 name_fit(nodes[meant.tip].name, 200), nodes[meant.tip].name, count);
+    const struct rect place = core->layout.stage;
+    const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, text), place.w / 2) + 2 * LABEL_PAD + 2;
+    struct rect r = {core->pointer_x + LABEL_AWAY, core->pointer_y - LABEL_AWAY - LABEL_HEIGHT, width, LABEL_HEIGHT};
+    if (r.x + r.w > place.x + place.w) r.x = core->pointer_x - LABEL_AWAY - r.w;
+    if (r.y < place.y) r.y = core->pointer_y + LABEL_AWAY;
+    drawlist_rounded(&core->list, r, 4, theme_fade(theme()->raised, 0.92f));
+    drawlist_rounded_line(&core->list, r, 4, 1, theme()->border);
+    drawlist_text_fit(&core->list, r.x + LABEL_PAD, r.y + 14, r.w - LABEL_PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+                      theme()->text, text);
 }
 
 bool bones_box(const struct stage *stage, const struct core *core, float lo[3], float hi[3])

@@ -83,31 +83,27 @@ static float distance_of(float x, float y) { return sqrtf(x * x + y * y); }
 
 static float larger(float a, float b) { return a > b ? a : b; }
 
-/// How far inside the link a point is.
-static float depth_in_link(const float p[2], const float a[2], float a_radius, const float b[2], float b_radius)
-{
-    const float dx = b[0] - a[0], dy = b[1] - a[1], t = segment_nearest(a, b, p);
-    const float between =
-        a_radius + t * (b_radius - a_radius) - distance_of(p[0] - a[0] - t * dx, p[1] - a[1] - t * dy);
-    const float at_a = a_radius - distance_of(p[0] - a[0], p[1] - a[1]),
-                at_b = b_radius - distance_of(p[0] - b[0], p[1] - b[1]);
-    return larger(between, larger(at_a, at_b));
-}
-
-void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],
-                         float to_radius)
+/// Adds two discs and the area between them.
+static void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius,
+                                const float to[2], float to_radius)
 {
     const float reach = fmaxf(from_radius, to_radius) - OUTSIDE * silhouette->cell;
     const float low[2] = {fminf(from[0], to[0]) - reach, fminf(from[1], to[1]) - reach};
     const float high[2] = {fmaxf(from[0], to[0]) + reach, fmaxf(from[1], to[1]) + reach};
+    const float dx = to[0] - from[0], dy = to[1] - from[1];
     int nodes[2][2];
     find_nodes(silhouette, low, high, nodes);
     for (int row = nodes[1][0]; row <= nodes[1][1]; row++) {
         for (int column = nodes[0][0]; column <= nodes[0][1]; column++) {
             float p[2];
             place_node(silhouette, row, column, p);
+            const float x = p[0] - from[0], y = p[1] - from[1], t = segment_nearest(from, to, p);
+            const float between = from_radius + t * (to_radius - from_radius) -
+                                  distance_of(p[0] - from[0] - t * dx, p[1] - from[1] - t * dy);
+            const float at_from = from_radius - distance_of(x, y),
+                        at_to = to_radius - distance_of(p[0] - to[0], p[1] - to[1]);
             float *inside = &silhouette->inside[row][column];
-            *inside = larger(*inside, depth_in_link(p, from, from_radius, to, to_radius));
+            *inside = larger(*inside, larger(between, larger(at_from, at_to)));
         }
     }
 }
@@ -251,34 +247,6 @@ static int overlay_pose_rig(const struct stage *stage, const struct core *core)
     return strand >= 0 ? strand : first;
 }
 
-/// The spline whose knots are shown: the active one, or if it has none, its equilibrium's.
-static const struct spline *keyed_spline(const struct core *core)
-{
-    const struct spline *spline = core_active_spline(core);
-    if (!spline || spline->knot_count > 0) return spline;
-    int track = spline->parameter[PARAMETER_EQUILIBRIUM].track;
-    return track >= 0 ? core->document->splines[track] : spline;
-}
-
-/// Samples of the knots nearest to a position, nearest first; returns their number.
-static int nearest_knots(const struct document *document, const struct spline *spline, double position,
-                         int samples[MAX_SKINS], int most)
-{
-    int after = spline_lower_bound(document, spline, (int)ceil(position)), before = after - 1, count = 0;
-    while (count < most && (before >= 0 || after < spline->knot_count)) {
-        int low = before >= 0 ? document_sample(document, spline->knots[before].frame) : 0;
-        int high = after < spline->knot_count ? document_sample(document, spline->knots[after].frame) : 0;
-        bool back = after == spline->knot_count || (before >= 0 && position - low <= high - position);
-        samples[count++] = back ? low : high;
-        if (back) {
-            before--;
-        } else {
-            after++;
-        }
-    }
-    return count;
-}
-
 enum { STATIONS = 48 }; ///< along the tail
 
 static const double FROM = 0.16,
@@ -290,53 +258,40 @@ struct disc {
     float middle[2], radius;
 };
 
-/// The tail's disc at a share of its length; false if behind the eye.
-static bool station(const struct stage *stage, const struct core *core, const struct pose *pose, double share,
-                    struct disc *disc)
-{
-    const struct stage_view *view = &stage->view;
-    double at = share * (pose->count - 1);
-    int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
-    const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[joint + 1] + 12);
-    const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
-    if (!stage_project_point(stage, core->layout.stage, point.raw, disc->middle)) return false;
-    const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
-    float metres = fox_tail_radius((float)share * FOX_TAIL_LENGTH) * pose->scale;
-    disc->radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
-    return true;
-}
-
-/// Draws an outline without its longest part at the root, where the tail joins the body.
-static void show_open(struct stage *stage, struct core *core, int count, const struct disc *root, float width,
-                      uint32_t color)
-{
-    float(*points)[2] = stage->silhouette.points;
-    const float reach = root->radius + OPEN * stage->silhouette.cell;
-    const int whole = count - 1; // the last point repeats the first
-    int longest = 0, start = 0, run = 0;
-    memcpy(points[whole], points[0], (size_t)whole * sizeof points[0]);
-    for (int i = 0; i < 2 * whole; i++) {
-        run = maths_hypotf(points[i][0] - root->middle[0], points[i][1] - root->middle[1]) < reach ? run + 1 : 0;
-        if (run > longest && run < whole) longest = run, start = (i + 1) % whole;
-    }
-    drawlist_line(&core->list, points[start], longest > 0 ? whole - longest : count, width, color);
-}
-
+/// Outlines a tail, but for the outline's longest part at the root, where it joins the body.
 static bool show_tail(struct stage *stage, struct core *core, const struct pose *pose, float width, uint32_t color,
                       float tip[2])
 {
+    const struct stage_view *view = &stage->view;
     struct disc discs[STATIONS];
     struct silhouette *silhouette = &stage->silhouette;
     silhouette_clear(silhouette);
     for (int i = 0; i < STATIONS; i++) {
-        if (!station(stage, core, pose, FROM + (TO - FROM) * i / (STATIONS - 1), &discs[i])) return false;
+        const double share = FROM + (TO - FROM) * i / (STATIONS - 1), at = share * (pose->count - 1);
+        const int joint = at >= pose->count - 1 ? pose->count - 2 : (int)at;
+        const vec3s from = vec3_from(pose->matrix[joint] + 12), to = vec3_from(pose->matrix[joint + 1] + 12);
+        const vec3s point = glms_vec3_lerp(from, to, (float)(at - joint));
+        if (!stage_project_point(stage, core->layout.stage, point.raw, discs[i].middle)) return false;
+        const float depth = camera_depth(view->view, view->eye, pose->matrix[joint] + 12);
+        const float metres = fox_tail_radius((float)share * FOX_TAIL_LENGTH) * pose->scale;
+        discs[i].radius = metres * 0.5f * view->viewport.h * view->projection[5] / fmaxf(depth, 0.1f);
         silhouette_widen(silhouette, discs[i].middle, discs[i].radius);
     }
     if (!silhouette_open(silhouette, core->layout.stage)) return false;
     for (int i = 1; i < STATIONS; i++)
         silhouette_add_link(silhouette, discs[i - 1].middle, discs[i - 1].radius, discs[i].middle, discs[i].radius);
-    const int count = silhouette_follow(silhouette);
-    if (count > 0) show_open(stage, core, count, &discs[0], width, color);
+    const int count = silhouette_follow(silhouette), whole = count - 1; // the last point repeats the first
+    if (count > 0) {
+        float(*points)[2] = silhouette->points;
+        const float *root = discs[0].middle, reach = discs[0].radius + OPEN * silhouette->cell;
+        int longest = 0, start = 0, run = 0;
+        memcpy(points[whole], points[0], (size_t)whole * sizeof points[0]);
+        for (int i = 0; i < 2 * whole; i++) {
+            run = maths_hypotf(points[i][0] - root[0], points[i][1] - root[1]) < reach ? run + 1 : 0;
+            if (run > longest && run < whole) longest = run, start = (i + 1) % whole;
+        }
+        drawlist_line(&core->list, points[start], longest > 0 ? whole - longest : count, width, color);
+    }
     const struct disc *last = &discs[STATIONS - 1], *before = &discs[STATIONS - 3];
     const float dx = last->middle[0] - before->middle[0], dy = last->middle[1] - before->middle[1];
     const float share = last->radius / fmaxf(maths_hypotf(dx, dy), 1);
@@ -345,51 +300,29 @@ static bool show_tail(struct stage *stage, struct core *core, const struct pose 
     return true;
 }
 
-static bool show_chain(struct stage *stage, struct core *core, const struct pose *pose, float width, uint32_t color,
-                       float tip[2])
-{
-    float points[ANGLES_MAX_JOINTS + 1][2];
-    for (int n = 0; n < pose->count; n++) {
-        if (!stage_project_point(stage, core->layout.stage, pose->matrix[n] + 12, points[n])) return false;
-    }
-    if (pose->count == 0) return false;
-    drawlist_line(&core->list, points[0], pose->count, width, color);
-    memcpy(tip, points[pose->count - 1], 2 * sizeof *tip);
-    return true;
-}
-
-/// Poses its surface in hover's skin and projects it to the screen; hover will pose the skin again.
-static bool project_surface(struct stage *stage, const struct core *core, const struct figure *figure,
-                            const struct morph *morph, const float position[3])
-{
-    float(*posed)[3] = stage->skin.posed;
-    if (figure->character.vertex_count > stage->skin.capacity) return false;
-    stage->skin.hash = 0;
-    silhouette_clear(&stage->silhouette);
-    morph_places(figure, morph, position, posed);
-    for (int i = 0; i < figure->character.vertex_count; i++) {
-        float xy[2];
-        if (!stage_project_point(stage, core->layout.stage, posed[i], xy)) return false;
-        memcpy(posed[i], xy, sizeof xy);
-        silhouette_widen(&stage->silhouette, xy, 0);
-    }
-    return true;
-}
-
+/// Outlines a character. Its surface is posed in hover's skin and projected there; hover will pose the skin again.
 static bool show_character(struct stage *stage, struct core *core, const struct rig_pose *pose, int character,
                            float width, uint32_t color, float tip[2])
 {
     const struct figure *figure = pose->character.figure;
     const struct stage_character *shown = stage_character_shown(stage, character);
     struct silhouette *silhouette = &stage->silhouette;
-    if (!shown || !project_surface(stage, core, figure, &pose->character.morph, shown->position) ||
-        !silhouette_open(silhouette, core->layout.stage))
-        return false;
+    float(*posed)[3] = stage->skin.posed;
+    if (!shown || figure->character.vertex_count > stage->skin.capacity) return false;
+    stage->skin.hash = 0;
+    silhouette_clear(silhouette);
+    morph_places(figure, &pose->character.morph, shown->position, posed);
+    for (int i = 0; i < figure->character.vertex_count; i++) {
+        float xy[2];
+        if (!stage_project_point(stage, core->layout.stage, posed[i], xy)) return false;
+        memcpy(posed[i], xy, sizeof xy);
+        silhouette_widen(silhouette, xy, 0);
+    }
+    if (!silhouette_open(silhouette, core->layout.stage)) return false;
     const float all[3] = {1e6f, 1e6f, 1e6f};
     for (int t = 0; t < figure->character.index_count; t += 3) {
         float corner[3][2];
-        for (int k = 0; k < 3; k++)
-            memcpy(corner[k], stage->skin.posed[figure->character.indices[t + k]], sizeof corner[k]);
+        for (int k = 0; k < 3; k++) memcpy(corner[k], posed[figure->character.indices[t + k]], sizeof corner[k]);
         silhouette_add_triangle(silhouette, (const float(*)[2])corner, all);
     }
     silhouette_soften(silhouette);
@@ -401,33 +334,50 @@ static bool show_character(struct stage *stage, struct core *core, const struct 
     return true;
 }
 
-/// Outlines a rig at a sample; `tip` receives a place for text. False if not visible.
+/// Outlines a rig at a sample, a chain by its line; `tip` receives a place for text. False if not visible.
 static bool proxy_show(struct stage *stage, struct core *core, const struct posing *posing, int rig, int sample,
                        float width, uint32_t color, float tip[2])
 {
     struct rig_pose pose;
+    float points[ANGLES_MAX_JOINTS + 1][2];
     if (!rig_pose(posing, rig, sample, NULL, &pose)) return false;
-    switch (pose.kind) {
-    case RIG_TAIL:
-        return show_tail(stage, core, &pose.strand, width, color, tip);
-    case RIG_CHAIN:
-        return show_chain(stage, core, &pose.strand, width, color, tip);
-    case RIG_CHARACTER:
+    if (pose.kind == RIG_TAIL) return show_tail(stage, core, &pose.strand, width, color, tip);
+    if (pose.kind == RIG_CHARACTER)
         return show_character(stage, core, &pose, document_rig_number(posing->document, rig), width, color, tip);
-    default:
-        return false;
+    if (pose.kind != RIG_CHAIN || pose.strand.count == 0) return false;
+    for (int n = 0; n < pose.strand.count; n++) {
+        if (!stage_project_point(stage, core->layout.stage, pose.strand.matrix[n] + 12, points[n])) return false;
     }
+    drawlist_line(&core->list, points[0], pose.strand.count, width, color);
+    memcpy(tip, points[pose.strand.count - 1], 2 * sizeof *tip);
+    return true;
 }
 
 void onion_show(struct stage *stage, struct core *core)
 {
     const struct document *document = core->document;
-    const struct spline *spline = keyed_spline(core);
+    const struct spline *spline = core_active_spline(core);
     const int rig = overlay_pose_rig(stage, core);
-    int samples[MAX_SKINS];
     if (!core->overlays.onion || !spline || rig < 0) return;
+    const int track = spline->parameter[PARAMETER_EQUILIBRIUM].track;
+    if (spline->knot_count == 0 && track >= 0) spline = document->splines[track]; // its equilibrium's knots
+
+    // Samples of the knots nearest to the playhead, nearest first.
     const int most = document->rigs[rig]->kind == RIG_CHARACTER ? CHARACTER_SKINS : MAX_SKINS;
-    const int count = nearest_knots(document, spline, core->playback.position, samples, most);
+    const double position = core->playback.position;
+    int samples[MAX_SKINS], count = 0;
+    int after = spline_lower_bound(document, spline, (int)ceil(position)), before = after - 1;
+    while (count < most && (before >= 0 || after < spline->knot_count)) {
+        const int low = before >= 0 ? document_sample(document, spline->knots[before].frame) : 0;
+        const int high = after < spline->knot_count ? document_sample(document, spline->knots[after].frame) : 0;
+        const bool back = after == spline->knot_count || (before >= 0 && position - low <= high - position);
+        samples[count++] = back ? low : high;
+        if (back) {
+            before--;
+        } else {
+            after++;
+        }
+    }
     uint32_t color = spline_list_color(document, core->active);
     const struct posing posing = stage_posing(core);
     for (int i = count - 1; i >= 0; i--) {
@@ -437,27 +387,22 @@ void onion_show(struct stage *stage, struct core *core)
     }
 }
 
-/// The active spline's knot being edited: held by the pointer, or the only selected one after a nudge.
-static const struct knot *edited_knot(const struct core *core)
+void ghost_show(struct stage *stage, struct core *core)
 {
+    // The active spline's knot that is held by the pointer, or the only selected one after a nudge.
+    const struct document *document = core->document;
     const struct drag *drag = &core->drag;
-    const struct spline *spline = core_active_spline(core);
+    const struct spline *spline = core->overlays.ghost ? core_active_spline(core) : NULL;
     int at = -1;
     if (spline && drag->owner && drag->knot && drag->moved) at = spline_find_id(spline, drag->knot);
     if (spline && !drag->owner && core->nudged_seconds > 0) at = selection_single(&core->selection, spline);
-    return at >= 0 ? &spline->knots[at] : NULL;
-}
-
-void ghost_show(struct stage *stage, struct core *core)
-{
-    const struct document *document = core->document;
-    const struct knot *knot = core->overlays.ghost ? edited_knot(core) : NULL;
-    const int rig = knot ? overlay_pose_rig(stage, core) : -1;
+    const int rig = at >= 0 ? overlay_pose_rig(stage, core) : -1;
     if (rig < 0) return;
+    const struct knot *knot = &spline->knots[at];
     const int sample = document_sample(document, knot->frame);
     if (fabs(sample - core->playback.position) < 0.5) return;
     const struct posing posing = stage_posing(core);
-    const double left = !core->drag.owner ? fmin(core->nudged_seconds / FADE, 1) : 1;
+    const double left = !drag->owner ? fmin(core->nudged_seconds / FADE, 1) : 1;
     const uint32_t color = theme_fade(spline_list_color(document, core->active), GHOST * (float)left);
     float tip[2];
     if (!proxy_show(stage, core, &posing, rig, sample, 1.5f, color, tip)) return;
@@ -513,13 +458,31 @@ static bool loops(const struct document *document, int spline)
     return spline < 0 || spline_start(document->splines[spline]) == WIGGLY_LOOP;
 }
 
-/// Whether frames beyond the range repeat, because everything that moves the rig loops. A chain's clip repeats anyway.
-static bool rig_loops(const struct document *document, const struct rig *rig)
+/// Whether the document has the point and, for a character, its model.
+static bool point_exists(const struct core *core, struct rig_point point)
 {
-    bool all = rig_input_count(rig) > 0;
-    for (int i = 0; i < rig_input_count(rig); i++) all &= loops(document, rig_input(rig, i));
-    for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) all &= loops(document, rig->tail.position[k].track);
-    return all;
+    const struct document *document = core->document;
+    if (point.rig < 0 || point.rig >= document->rig_count) return false;
+    const enum rig_kind kind = document->rigs[point.rig]->kind;
+    if (point.at < 0) return point.at == POINT_BASE && kind == RIG_TAIL;
+    if (kind == RIG_TAIL || kind == RIG_CHAIN) return point.at < bones_joints(core, point.rig);
+    const int n = document_rig_number(document, point.rig);
+    const struct figure *figure = kind == RIG_CHARACTER ? models_figure(core->models, n) : NULL;
+    return figure && point.at < figure->character.vertex_count;
+}
+
+/// World place of the point at a position in samples; false if its model is missing.
+static bool point_place(const struct core *core, struct rig_point point, double position, float place[3])
+{
+    struct rig_pose pose;
+    const struct posing posing = stage_posing(core);
+    if (!point_exists(core, point) || !rig_pose(&posing, point.rig, position, NULL, &pose)) return false;
+    if (pose.kind == RIG_CHARACTER) {
+        stage_vertex(pose.character.figure, &pose.character.morph, pose.character.position, point.at, place);
+    } else {
+        memcpy(place, pose.strand.matrix[point.at + 1] + 12, 3 * sizeof *place);
+    }
+    return true;
 }
 
 /// The point's world place at a frame counted from the first, cached until an edit.
@@ -535,98 +498,72 @@ static const float *place_at(struct trail_point *trail, const struct core *core,
     return kept->place;
 }
 
-/// Catmull-Rom interpolation on the screen.
-static void between(const float a[2], const float b[2], const float c[2], const float d[2], float u, float out[2])
-{
-    for (int k = 0; k < 2; k++) {
-        float m0 = 0.5f * (c[k] - a[k]), m1 = 0.5f * (d[k] - b[k]), step = c[k] - b[k];
-        out[k] = b[k] + u * (m0 + u * (3 * step - 2 * m0 - m1 + u * (m0 + m1 - 2 * step)));
-    }
-}
-
-/// Projects frames first … last, each followed by PIECES − 1 points; returns the number of points.
-static int lay_out(float screen[TRAIL_FRAMES][2], int count, float points[][2])
-{
-    int made = 0;
-    for (int i = 0; i + 1 < count; i++) {
-        const float *a = screen[i > 0 ? i - 1 : i], *d = screen[i + 2 < count ? i + 2 : i + 1];
-        for (int p = 0; p < PIECES; p++) {
-            between(a, screen[i], screen[i + 1], d, (float)p / PIECES, points[made++]);
-        }
-    }
-    points[made][0] = screen[count - 1][0];
-    points[made][1] = screen[count - 1][1];
-    return made + 1;
-}
-
 static float fade_at(double frames, double reach) { return OPACITY * fmaxf(0, 1 - (float)(fabs(frames) / reach)); }
-
-static void show_marks(struct core *core, float screen[TRAIL_FRAMES][2], int first, int count, double now,
-                       double reach)
-{
-    for (int i = 0; i < count; i++) {
-        float alpha = fade_at(first + i - now, reach);
-        struct rect mark = {screen[i][0] - MARK / 2, screen[i][1] - MARK / 2, MARK, MARK};
-        if (alpha > 0.02f) drawlist_rect(&core->list, mark, theme_fade(theme()->playhead, alpha));
-    }
-}
-
-static void show_line(struct core *core, float points[][2], int first, int count, double now, double reach)
-{
-    for (int i = 0; i + 1 < count; i += RUN * PIECES) {
-        int length = count - i < RUN * PIECES + 1 ? count - i : RUN * PIECES + 1;
-        float alpha = fade_at(first + (i + length / 2.0) / PIECES - now, reach);
-        if (alpha > 0.02f)
-            drawlist_line(&core->list, points[i], length, 1.5f, theme_fade(theme()->playhead, 0.7f * alpha));
-    }
-}
-
-/// Where the point is shown now: a tip follows a dragged body.
-static bool project_now(struct stage *stage, const struct core *core, struct rig_point point, float xy[2])
-{
-    float place[3];
-    if (strand_of(stage, point.rig)) return stage_project(stage, core, point.rig, point.at + 1, 0, xy);
-    return point_place(core, point, core->playback.position, place) &&
-           stage_project_point(stage, core->layout.stage, place, xy);
-}
-
-/// A ring around the point's current place.
-static void show_now(struct stage *stage, struct core *core, struct rig_point point)
-{
-    float xy[2];
-    if (!project_now(stage, core, point, xy)) return;
-    drawlist_circle(&core->list, xy, NOW, 1.5f, theme()->playhead);
-}
 
 void path_show(struct stage *stage, struct core *core, enum trail which, struct rig_point point)
 {
     const struct document *document = core->document;
-    double now = core->playback.position / document->substeps;
-    double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
-    int first = (int)ceil(now - reach), last = (int)floor(now + reach);
-    if (!rig_loops(document, document->rigs[point.rig])) {
-        first = first < 0 ? 0 : first;
-        last =
-            last < document->last_frame - document->first_frame ? last : document->last_frame - document->first_frame;
-    }
+    const struct rig *rig = document->rigs[point.rig];
+    const double now = core->playback.position / document->substeps;
+    const double reach = fmin(fmax(REACH * document->fps, 1), MAX_REACH);
+    int first = (int)ceil(now - reach), last = (int)floor(now + reach), count = 0;
+
+    // Frames beyond the range repeat if everything that moves the rig loops. A chain's clip repeats anyway.
+    bool repeats = rig_input_count(rig) > 0;
+    for (int i = 0; i < rig_input_count(rig); i++) repeats &= loops(document, rig_input(rig, i));
+    for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) repeats &= loops(document, rig->tail.position[k].track);
+    const int end = document->last_frame - document->first_frame;
+    if (!repeats && first < 0) first = 0;
+    if (!repeats && last > end) last = end;
+
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
-    int count = 0;
     for (int frame = first; frame <= last; frame++) {
         const float *place = place_at(stage->trail[which], core, point, frame);
         if (!stage_project_point(stage, core->layout.stage, place, screen[count++])) return;
     }
     if (count == 0) return;
-    show_line(core, points, first, lay_out(screen, count, points), now, reach);
-    show_marks(core, screen, first, count, now, reach);
+
+    // Catmull-Rom interpolation on the screen.
+    int made = 0;
+    for (int i = 0; i + 1 < count; i++) {
+        const float *a = screen[i > 0 ? i - 1 : i], *b = screen[i], *c = screen[i + 1];
+        const float *d = screen[i + 2 < count ? i + 2 : i + 1];
+        for (int p = 0; p < PIECES; p++, made++) {
+            const float u = (float)p / PIECES;
+            for (int k = 0; k < 2; k++) {
+                const float m0 = 0.5f * (c[k] - a[k]), m1 = 0.5f * (d[k] - b[k]), step = c[k] - b[k];
+                points[made][k] = b[k] + u * (m0 + u * (3 * step - 2 * m0 - m1 + u * (m0 + m1 - 2 * step)));
+            }
+        }
+    }
+    points[made][0] = screen[count - 1][0];
+    points[made++][1] = screen[count - 1][1];
+    for (int i = 0; i + 1 < made; i += RUN * PIECES) {
+        const int length = made - i < RUN * PIECES + 1 ? made - i : RUN * PIECES + 1;
+        const float alpha = fade_at(first + (i + length / 2.0) / PIECES - now, reach);
+        if (alpha > 0.02f)
+            drawlist_line(&core->list, points[i], length, 1.5f, theme_fade(theme()->playhead, 0.7f * alpha));
+    }
+    for (int i = 0; i < count; i++) {
+        const float alpha = fade_at(first + i - now, reach);
+        const struct rect mark = {screen[i][0] - MARK / 2, screen[i][1] - MARK / 2, MARK, MARK};
+        if (alpha > 0.02f) drawlist_rect(&core->list, mark, theme_fade(theme()->playhead, alpha));
+    }
 }
 
 void trail_show(struct stage *stage, struct core *core)
 {
+    float place[3], xy[2];
     if (!core->overlays.trail) return;
     const struct rig_point point = overlay_point(stage, core);
     if (!point_exists(core, point)) return;
     path_show(stage, core, TRAIL_OF_TIP, point);
-    show_now(stage, core, point);
+
+    // A ring where the point is now: a tip follows a dragged body.
+    const bool seen = strand_of(stage, point.rig) ? stage_project(stage, core, point.rig, point.at + 1, 0, xy)
+                                                  : point_place(core, point, core->playback.position, place) &&
+                                                        stage_project_point(stage, core->layout.stage, place, xy);
+    if (seen) drawlist_circle(&core->list, xy, NOW, 1.5f, theme()->playhead);
 }
 
 // Pins: hover, drags parallel to the screen, keys and markers.
@@ -737,23 +674,18 @@ static void pins_take_plane(const struct stage *stage, const struct core *core, 
     }
 }
 
-/// Where the pointer has dragged the point.
-static void drag_to(const struct pin_drag *drag, double dx, double dy, double to[3])
-{
-    for (int k = 0; k < 3; k++) {
-        to[k] = drag->start[k];
-        if (drag->axis < 0) to[k] += (dx * drag->right[k] - dy * drag->up[k]) / drag->pixels_per_metre;
-    }
-    if (drag->axis < 0) return;
-    to[drag->axis] += stage_along(drag->right[drag->axis], drag->up[drag->axis], dx, dy) / drag->pixels_per_metre;
-}
-
 /// Moves the point or marker to the pointer.
 static void move_pin(void *room, struct core *core)
 {
     const struct pin_drag *drag = &((const struct stage *)room)->pin_drag;
+    const double dx = core->drag.moved_x, dy = core->drag.moved_y;
+    const int axis = drag->axis;
     double to[3];
-    drag_to(drag, core->drag.moved_x, core->drag.moved_y, to);
+    for (int k = 0; k < 3; k++) {
+        to[k] = drag->start[k];
+        if (axis < 0) to[k] += (dx * drag->right[k] - dy * drag->up[k]) / drag->pixels_per_metre;
+    }
+    if (axis >= 0) to[axis] += stage_along(drag->right[axis], drag->up[axis], dx, dy) / drag->pixels_per_metre;
     pins_put(core, drag->point.rig, drag->point.at, drag->frame, to);
 }
 
@@ -923,35 +855,4 @@ void pins_show(struct stage *stage, struct core *core)
     drawlist_circle(&core->list, xy, LIT + 1.5f, 1.5f, theme_fade(theme()->panel, 0.6f));
     drawlist_circle(&core->list, xy, LIT, 1.5f, theme()->playhead);
     drawlist_disc(&core->list, xy, END, theme()->playhead);
-}
-
-bool point_exists(const struct core *core, struct rig_point point)
-{
-    const struct document *document = core->document;
-    if (point.rig < 0 || point.rig >= document->rig_count) return false;
-    const enum rig_kind kind = document->rigs[point.rig]->kind;
-    if (point.at < 0) return point.at == POINT_BASE && kind == RIG_TAIL;
-    if (kind == RIG_TAIL || kind == RIG_CHAIN) return point.at < bones_joints(core, point.rig);
-    const int n = document_rig_number(document, point.rig);
-    const struct figure *figure = kind == RIG_CHARACTER ? models_figure(core->models, n) : NULL;
-    return figure && point.at < figure->character.vertex_count;
-}
-
-/// Reads a place from a posed rig.
-static void take_place(const struct rig_pose *pose, int at, float place[3])
-{
-    if (pose->kind == RIG_CHARACTER) {
-        stage_vertex(pose->character.figure, &pose->character.morph, pose->character.position, at, place);
-    } else {
-        memcpy(place, pose->strand.matrix[at + 1] + 12, 3 * sizeof *place);
-    }
-}
-
-bool point_place(const struct core *core, struct rig_point point, double position, float place[3])
-{
-    struct rig_pose pose;
-    const struct posing posing = stage_posing(core);
-    if (!point_exists(core, point) || !rig_pose(&posing, point.rig, position, NULL, &pose)) return false;
-    take_place(&pose, point.at, place);
-    return true;
 }

@@ -285,13 +285,6 @@ struct hover strand_hover(const struct stage *stage, const struct core *core, fl
 /// The joint end nearest to a point of a tail or chain (a point); nothing if it is behind the eye.
 struct hover strand_end(const struct stage *stage, const struct core *core, const struct hover *between);
 
-/// Whether the document has the point and, for a character, its model.
-bool point_exists(const struct core *core, struct rig_point point);
-/// World place of the point at a position in samples; false if its model is missing.
-bool point_place(const struct core *core, struct rig_point point, double position, float place[3]);
-
-/// Adds the bones of a shown character.
-void bones_add(struct stage *stage, int model, const struct rig_pose *pose);
 /// Marks the bones of a chain.
 void bones_mark(struct stage *stage, const struct core *core, int rig, int model, const struct chain_bones *bones);
 
@@ -394,8 +387,6 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
 /// Height of the scene's description at the top of a stage, pixels; 0 without one.
 float caption_height(struct rect place, const struct document *document);
 
-/// The legend's place.
-struct rect characters_legend(const struct core *core);
 /// Legend of the phase map, and the labels of a pair.
 void characters_show(const struct stage *stage, struct core *core);
 
@@ -422,9 +413,6 @@ void silhouette_clear(struct silhouette *silhouette);
 void silhouette_widen(struct silhouette *silhouette, const float middle[2], float radius);
 /// Sets up the grid for all discs; false if none is on the stage.
 bool silhouette_open(struct silhouette *silhouette, struct rect stage);
-/// Adds two discs and the area between them.
-void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius, const float to[2],
-                         float to_radius);
 /// Adds a triangle; `inside` is its corners' distance inside the shape, pixels.
 void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3][2], const float inside[3]);
 /// Smooths the steps of triangles.
