@@ -24,60 +24,34 @@ static void collect(const struct curves *curves, struct core *core)
     core->drag.label = core->originals.count == 1 ? "Move knot" : "Move knots";
 }
 
-/// R: the later knots keep their distances to the dragged ones.
-static void toggle_ripple(struct curves *curves, struct core *core)
-{
-    struct knot_drag *drag = &curves->knot_drag;
-    drag_restart(core);
-    drag->ripple = !drag->ripple;
-    drag->free_frames = 0;
-    core->drag.stale = true;
-    collect(curves, core);
-    core_message(core, false,
-                 drag->ripple ? "Ripple on: later knots move too (R turns it off)."
-                              : "Ripple off: later knots stay.");
-}
-
-/// How far left a spline's first original may go, in frames: to the first frame or, with ripple, just after the unmoved knot before it.
-static double least_frames(const struct curves *curves, const struct document *document, const struct original *first)
-{
-    const struct spline *spline = document->splines[first->spline];
-    int sample = document_sample(document, first->knot.frame);
-    int before = spline_lower_bound(document, spline, sample) - 1;
-    if (!curves->knot_drag.ripple || before < 0) return document->first_frame - first->knot.frame;
-    int least = document_sample(document, spline->knots[before].frame) + 1;
-    return document_frame(document, least) - document_frame(document, sample);
-}
-
-/// The range of shifts, in frames, that keeps all originals inside the scene's range.
-static void shift_limits(const struct curves *curves, const struct originals *originals,
-                         const struct document *document, double *least, double *most)
-{
-    *least = -INFINITY;
-    *most = INFINITY;
-    for (int i = 0; i < originals->count; i++) {
-        const struct original *original = &originals->list[i];
-        const struct spline *spline = document->splines[original->spline];
-        const bool is_first = i == 0 || originals->list[i - 1].spline != original->spline;
-        const double end = document_frame(document, document_last_knot_sample(document, spline));
-        if (is_first) *least = fmax(*least, least_frames(curves, document, original));
-        *most = fmin(*most, end - original->knot.frame);
-    }
-}
-
 /// The pointer's shift in frames: the held knot snaps to whole frames and all knots stay in range. `why` says what stopped it.
 static double wanted_frames(const struct curves *curves, const struct core *core, char why[STOPPED_SIZE])
 {
     const struct drag *drag = &core->drag;
     const struct originals *originals = &core->originals;
+    const struct document *document = core->document;
     if (drag->lock_y) return 0;
-    double frames = drag->moved_x / curves_pixels_per_frame(curves, core), least, most;
+    double frames = drag->moved_x / curves_pixels_per_frame(curves, core), least = -INFINITY, most = INFINITY;
     const struct original *held = &originals->list[0];
     for (int i = 0; i < originals->count; i++) {
         if (originals->list[i].knot.id == drag->knot) held = &originals->list[i];
     }
     if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
-    shift_limits(curves, originals, core->document, &least, &most);
+
+    // To the left a spline's first original may go to the first frame or, with ripple, just after the unmoved knot before it.
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[i];
+        const struct spline *spline = document->splines[original->spline];
+        const int sample = document_sample(document, original->knot.frame);
+        const int before = spline_lower_bound(document, spline, sample) - 1;
+        double left = document->first_frame - original->knot.frame;
+        if (curves->knot_drag.ripple && before >= 0)
+            left = document_frame(document, document_sample(document, spline->knots[before].frame) + 1) -
+                   document_frame(document, sample);
+        if (i == 0 || originals->list[i - 1].spline != original->spline) least = fmax(least, left);
+        most =
+            fmin(most, document_frame(document, document_last_knot_sample(document, spline)) - original->knot.frame);
+    }
     if (frames < least || frames > most) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
     if (curves->knot_drag.ripple && frames > most)
         snprintf(why, STOPPED_SIZE, "the last knot has reached the end of the range. Extend the range to make room");
@@ -141,10 +115,19 @@ static void apply_slope(void *of, struct core *core)
 
 static enum drag_answer knots_event(void *room, struct core *core, const struct event *event)
 {
+    struct knot_drag *drag = &((struct curves *)room)->knot_drag;
     bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS && !(event->mods & (MOD_CTRL | MOD_ALT));
     if (!key) return DRAG_PASSES;
-    if (event->key == 'R') toggle_ripple(room, core);
-    return event->key == 'R' || drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
+    if (event->key != 'R') return drag_lock(&core->drag, event->key) ? DRAG_USED : DRAG_PASSES;
+    drag_restart(core);
+    drag->ripple = !drag->ripple; // the later knots keep their distances to the dragged ones
+    drag->free_frames = 0;
+    core->drag.stale = true;
+    collect(room, core);
+    core_message(core, false,
+                 drag->ripple ? "Ripple on: later knots move too (R turns it off)."
+                              : "Ripple off: later knots stay.");
+    return DRAG_USED;
 }
 
 /// A click on one of several selected knots selects it alone.
@@ -302,37 +285,6 @@ static void measure_selection(const struct curves *curves, const struct core *co
     }
 }
 
-/// Stores the equilibria before any edit changes them.
-static void note_equilibria(struct curves *curves, struct core *core)
-{
-    struct scaling *scaling = &curves->scaling;
-    const struct evaluation *evaluation = core->evaluation;
-    double frames[2], values[2];
-    measure_selection(curves, core, frames, values);
-    for (int i = 0; i < core->originals.count; i++) {
-        struct original *original = &core->originals.list[i];
-        const int sample = document_sample(core->document, original->knot.frame);
-        original->equilibrium = evaluation_at(evaluation, original->spline, sample).y;
-    }
-    const double position = round(core->playback.position), middle = (frames[0] + frames[1]) / 2;
-    scaling->playhead[0] = document_frame(core->document, (int)position);
-    scaling->playhead[1] = evaluation_at(evaluation, core->active, position).y;
-    scaling->balance[0] = middle;
-    scaling->balance[1] = evaluation_at(evaluation, core->active, core_position(core->document, middle)).y;
-}
-
-/// The equilibrium, as drawn, of the knot at the held edge. That knot stays under the pointer.
-static double edge_equilibrium(const struct curves *curves, const struct core *core)
-{
-    for (int i = 0; i < core->originals.count; i++) {
-        const struct original *original = &core->originals.list[i];
-        const struct value_map map = normal_map(curves, core, original->spline);
-        if (map.scale * original->value + map.offset == curves->scaling.edge[1])
-            return map.scale * original->equilibrium + map.offset;
-    }
-    return curves->scaling.balance[1];
-}
-
 static void place_pivot(struct curves *curves, const struct core *core)
 {
     struct scaling *scaling = &curves->scaling;
@@ -344,7 +296,13 @@ static void place_pivot(struct curves *curves, const struct core *core)
     const double side[2] = {frames[left], values[!top]};
     scaling->edge[0] = frames[!left];
     scaling->edge[1] = values[top];
-    if (held) scaling->balance[1] = edge_equilibrium(curves, core);
+    for (int i = 0; held && i < core->originals.count; i++) { // the knot at the held edge stays under the pointer
+        const struct original *original = &core->originals.list[i];
+        const struct value_map map = normal_map(curves, core, original->spline);
+        if (map.scale * original->value + map.offset != scaling->edge[1]) continue;
+        scaling->balance[1] = map.scale * original->equilibrium + map.offset;
+        break;
+    }
     const double *const places[PIVOTS] = {middle, scaling->playhead, scaling->balance, side};
     scaling->frame = places[scaling->pivot][0];
     scaling->value = places[scaling->pivot][1];
@@ -398,68 +356,39 @@ static void end_scale(void *room, struct core *core, bool keep)
     if (keep && core->drag.moved) core_edited(core, -1);
 }
 
-/// One typed factor scales both axes; two scale time and value.
-static void read_typed(const char *typed, struct factors *by)
-{
-    char *end;
-    double first = strtod(typed, &end);
-    if (end == typed) return;
-    *by = (struct factors){first, first};
-    const char *rest = end;
-    double second = strtod(rest, &end);
-    if (end != rest) by->value = second;
-}
-
 /// The factor that keeps an edge of the box under the pointer. Distances are pixels from the pivot.
 static double pulled(double reach, double by, int direction)
 {
     return 1 + by / (fabs(reach) < LEAST_SIDE ? direction * LEAST_REACH : reach);
 }
 
-static struct factors pulled_box(const struct curves *curves, const struct core *core)
+/// The factors that the pointer or the typed ones ask for.
+static struct factors wanted_factors(const struct curves *curves, const struct core *core)
 {
     const struct drag *drag = &core->drag;
     const struct scaling *scaling = &curves->scaling;
-    const int column = box_column(scaling->handle), row = box_row(scaling->handle);
-    const double across = curves_x(curves, core, scaling->edge[0]) - curves_x(curves, core, scaling->frame);
-    const double down = curves_y(curves, core, scaling->edge[1]) - curves_y(curves, core, scaling->value);
-    return (struct factors){column ? pulled(across, drag->moved_x, column) : 1,
-                            row ? pulled(down, drag->moved_y, row) : 1};
-}
+    const double x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value);
+    struct factors by;
+    if (scaling->handle >= 0) {
+        const int column = box_column(scaling->handle), row = box_row(scaling->handle);
+        const double across = curves_x(curves, core, scaling->edge[0]) - (float)x;
+        const double down = curves_y(curves, core, scaling->edge[1]) - (float)y;
+        by = (struct factors){column ? pulled(across, drag->moved_x, column) : 1,
+                              row ? pulled(down, drag->moved_y, row) : 1};
+    } else {
+        const double to_x = drag->start_x + drag->moved_x, to_y = drag->start_y + drag->moved_y;
+        const double before = maths_hypot(drag->start_x - x, drag->start_y - y);
+        double factor = 1 + (maths_hypot(to_x - x, to_y - y) - before) / fmax(before, LEAST_REACH);
+        if (drag->lock_x) factor = stretch_along(x, drag->start_x, to_x);
+        if (drag->lock_y) factor = stretch_along(y, drag->start_y, to_y);
+        by = (struct factors){factor, factor};
+    }
 
-/// Factors from the pointer after S.
-static struct factors pulled_freely(const struct curves *curves, const struct core *core)
-{
-    const struct drag *drag = &core->drag;
-    const struct scaling *scaling = &curves->scaling;
-    double x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value);
-    double to_x = drag->start_x + drag->moved_x, to_y = drag->start_y + drag->moved_y;
-    double before = fmax(maths_hypot(drag->start_x - x, drag->start_y - y), LEAST_REACH);
-    double factor =
-        1 + (maths_hypot(to_x - x, to_y - y) - maths_hypot(drag->start_x - x, drag->start_y - y)) / before;
-    if (drag->lock_x) factor = stretch_along(x, drag->start_x, to_x);
-    if (drag->lock_y) factor = stretch_along(y, drag->start_y, to_y);
-    return (struct factors){factor, factor};
-}
-
-static struct factors wanted(const struct curves *curves, const struct core *core)
-{
-    const struct drag *drag = &core->drag;
-    const struct scaling *scaling = &curves->scaling;
-    struct factors by = scaling->handle >= 0 ? pulled_box(curves, core) : pulled_freely(curves, core);
-    read_typed(scaling->typed, &by);
+    // One typed factor scales both axes; two scale time and value.
+    char *end, *second_end;
+    const double first = strtod(scaling->typed, &end), second = strtod(end, &second_end);
+    if (end != scaling->typed) by = (struct factors){first, second_end != end ? second : first};
     return (struct factors){drag->lock_y ? 1 : clamped(by.time), drag->lock_x ? 1 : clamped(by.value)};
-}
-
-static double scaled_value(const struct curves *curves, const struct core *core, const struct original *original,
-                           double factor)
-{
-    const struct scaling *scaling = &curves->scaling;
-    const struct value_map map = normal_map(curves, core, original->spline);
-    const double drawn = (scaling->value - map.offset) / map.scale;
-    const double pivot = scaling->pivot == PIVOT_EQUILIBRIUM ? original->equilibrium : drawn;
-    const double resolution = 0.01 / curves_pixels_per_value(curves, core) / map.scale;
-    return core_round(pivot + factor * (original->value - pivot), resolution);
 }
 
 struct scale {
@@ -471,36 +400,39 @@ static struct knot scaled(const void *how, const struct original *original)
 {
     const struct curves *curves = ((const struct scale *)how)->curves;
     const struct core *core = ((const struct scale *)how)->core;
-    const struct factors by = curves->scaling.by;
-    const double pivot = curves->scaling.frame, steeper = by.value / by.time;
-    const double frame = pivot + by.time * (original->knot.frame - pivot);
+    const struct scaling *scaling = &curves->scaling;
+    const struct factors by = scaling->by;
+    const double steeper = by.value / by.time;
+    const double frame = scaling->frame + by.time * (original->knot.frame - scaling->frame);
     struct knot to = original->knot;
     if (by.time != 1) to.frame = core->drag.snap ? round(frame) : frame;
-    if (by.value != 1 && !to.still) to.value = scaled_value(curves, core, original, by.value);
+    if (by.value != 1 && !to.still) {
+        const struct value_map map = normal_map(curves, core, original->spline);
+        const double drawn = (scaling->value - map.offset) / map.scale;
+        const double pivot = scaling->pivot == PIVOT_EQUILIBRIUM ? original->equilibrium : drawn;
+        const double resolution = 0.01 / curves_pixels_per_value(curves, core) / map.scale;
+        to.value = core_round(pivot + by.value * (original->value - pivot), resolution);
+    }
     to.phase *= by.time < 0 ? -by.value : by.value; // time runs backwards, so the swing does
     if (steeper != 1) to.slope = core_round(original->knot.slope * steeper, FINE_SLOPE * core->visible);
     return to;
-}
-
-static bool changes_values(const struct core *core, const struct scale *scale)
-{
-    bool changes = false;
-    for (int i = 0; i < core->originals.count && !changes; i++)
-        changes = !core->originals.list[i].knot.still &&
-                  scaled(scale, &core->originals.list[i]).value != core->originals.list[i].value;
-    return changes;
 }
 
 static void scale_knots(void *room, struct core *core)
 {
     struct curves *curves = room;
     struct scaling *scaling = &curves->scaling;
+    const struct originals *originals = &core->originals;
     const struct scale scale = {curves, core};
-    scaling->by = wanted(curves, core);
+    scaling->by = wanted_factors(curves, core);
     scaling->stopped[0][0] = scaling->stopped[1][0] = 0;
     if (originals_room(core, scaled, &scale, scaling->stopped[0]) != ROOM_FREE) scaling->by.time = scaling->free_time;
     scaling->free_time = scaling->by.time;
-    if (scaling->by.value != 1 && scaling->by.time == 1 && !changes_values(core, &scale))
+    bool changes = scaling->by.value == 1 || scaling->by.time != 1;
+    for (int i = 0; i < originals->count && !changes; i++)
+        changes =
+            !originals->list[i].knot.still && scaled(&scale, &originals->list[i]).value != originals->list[i].value;
+    if (!changes)
         snprintf(scaling->stopped[1], STOPPED_SIZE, "all are on the %s", pivot_name(scaling, scaling->pivot));
     if (!originals_put(core, scaled, &scale, scaling->stopped[1])) drag_restart(core);
     say_scale(curves, core);
@@ -520,21 +452,16 @@ static bool type_factor(struct scaling *scaling, uint32_t c)
     return true;
 }
 
-static void erase_factor(struct scaling *scaling)
-{
-    size_t length = strlen(scaling->typed);
-    if (length > 0) scaling->typed[length - 1] = 0;
-}
-
 static void change_scale(struct core *core)
 {
     drag_start_moving(core);
     core->drag.stale = true;
 }
 
-static enum drag_answer press_key(struct curves *curves, struct core *core, const struct event *event)
+static enum drag_answer press_scale_key(struct curves *curves, struct core *core, const struct event *event)
 {
     struct scaling *scaling = &curves->scaling;
+    const size_t length = strlen(scaling->typed);
     if (event->key == KEY_ESCAPE) return DRAG_TAKE_BACK;
     if (event->key == KEY_ENTER) return DRAG_KEEP;
     if (event->key == 'P') {
@@ -542,7 +469,7 @@ static enum drag_answer press_key(struct curves *curves, struct core *core, cons
         scaling->pivot = next_pivot(scaling);
         place_pivot(curves, core);
     } else if (event->key == KEY_BACKSPACE) {
-        erase_factor(scaling);
+        if (length > 0) scaling->typed[length - 1] = 0;
     } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) || !drag_lock(&core->drag, event->key)) {
         return DRAG_USED;
     }
@@ -560,7 +487,7 @@ static enum drag_answer scale_event(void *room, struct core *core, const struct 
         if (curves->scaling.handle >= 0) return DRAG_PASSES;
         return !press ? DRAG_USED : event->button == BUTTON_LEFT ? DRAG_KEEP : DRAG_TAKE_BACK;
     case EVENT_KEY:
-        return press ? press_key(curves, core, event)
+        return press ? press_scale_key(curves, core, event)
                      : DRAG_PASSES; /* of a key that was held before, the release is somebody else's */
     case EVENT_TEXT:
         if (type_factor(&curves->scaling, event->codepoint)) change_scale(core);
@@ -593,48 +520,40 @@ static void add_factor(struct tag *tag, const char *what, double factor, const c
 
 static const float BESIDE = 16, BELOW = 20; ///< pixels from the pointer
 
-static void show_tag(struct core *core, const struct tag *tag)
-{
-    const struct rect panel = core->layout.curves;
-    float width = 0;
-    for (int i = 0; i < tag->count; i++)
-        width = fmaxf(width, ceilf(font_width(FONT_LABEL, THEME_TEXT_SMALL, tag->line[i].text)));
-    const float w = width + 2 * TAG_PAD, h = (float)(tag->count * LINE + TAG_PAD);
-    const float right = panel.x + panel.w - MARGIN - w, bottom = panel.y + panel.h - MARGIN - h;
-    const struct rect box = {roundf(fmaxf(panel.x + MARGIN, fminf(core->drag.x + BESIDE, right))),
-                             roundf(core->drag.y + BELOW <= bottom ? core->drag.y + BELOW : core->drag.y - BELOW - h),
-                             w, h};
-    drawlist_rounded(&core->list, box, 4, theme()->raised);
-    drawlist_rounded_line(&core->list, box, 4, 1, theme()->control);
-    for (int i = 0; i < tag->count; i++)
-        drawlist_text(&core->list, box.x + TAG_PAD, box.y + (float)((i + 1) * LINE), FONT_LABEL, THEME_TEXT_SMALL,
-                      tag->line[i].is_stop ? theme()->warning : theme()->text, tag->line[i].text);
-}
-
-static void show_pivot(const struct curves *curves, struct core *core)
-{
-    const struct scaling *scaling = &curves->scaling;
-    const float x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value), arm = 7;
-    const float across[] = {x - arm, y, x + arm, y}, down[] = {x, y - arm, x, y + arm};
-    const float line[] = {x, y, core->drag.x, core->drag.y};
-    const bool pointed = scaling->handle < 0 && !scaling->typed[0];
-    if (pointed) drawlist_dashed(&core->list, line, 2, 1, 3, 4, theme_fade(theme()->playhead, 0.5f));
-    if (!core->drag.lock_y) drawlist_line(&core->list, across, 2, 1.5f, theme()->playhead);
-    if (!core->drag.lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
-}
-
 static void scale_show(void *room, struct core *core)
 {
     const struct curves *curves = room;
     const struct scaling *scaling = &curves->scaling;
-    struct tag tag = {0};
+    const struct drag *drag = &core->drag;
     const struct rect clip = drawlist_push_clip(&core->list, core->layout.plot);
     scale_box_show(curves, core, true);
-    show_pivot(curves, core);
+    const float pivot_x = curves_x(curves, core, scaling->frame), pivot_y = curves_y(curves, core, scaling->value);
+    const float arm = 7, across[] = {pivot_x - arm, pivot_y, pivot_x + arm, pivot_y},
+                down[] = {pivot_x, pivot_y - arm, pivot_x, pivot_y + arm};
+    const float line[] = {pivot_x, pivot_y, drag->x, drag->y};
+    const bool pointed = scaling->handle < 0 && !scaling->typed[0];
+    if (pointed) drawlist_dashed(&core->list, line, 2, 1, 3, 4, theme_fade(theme()->playhead, 0.5f));
+    if (!drag->lock_y) drawlist_line(&core->list, across, 2, 1.5f, theme()->playhead);
+    if (!drag->lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
     drawlist_set_clip(&core->list, clip);
-    if (!core->drag.lock_y) add_factor(&tag, "time", scaling->by.time, scaling->stopped[0]);
-    if (!core->drag.lock_x) add_factor(&tag, "value", scaling->by.value, scaling->stopped[1]);
-    show_tag(core, &tag);
+
+    // The factors beside the pointer.
+    struct tag tag = {0};
+    if (!drag->lock_y) add_factor(&tag, "time", scaling->by.time, scaling->stopped[0]);
+    if (!drag->lock_x) add_factor(&tag, "value", scaling->by.value, scaling->stopped[1]);
+    const struct rect panel = core->layout.curves;
+    float width = 0;
+    for (int i = 0; i < tag.count; i++)
+        width = fmaxf(width, ceilf(font_width(FONT_LABEL, THEME_TEXT_SMALL, tag.line[i].text)));
+    const float w = width + 2 * TAG_PAD, h = (float)(tag.count * LINE + TAG_PAD);
+    const float right = panel.x + panel.w - MARGIN - w, bottom = panel.y + panel.h - MARGIN - h;
+    const struct rect box = {roundf(fmaxf(panel.x + MARGIN, fminf(drag->x + BESIDE, right))),
+                             roundf(drag->y + BELOW <= bottom ? drag->y + BELOW : drag->y - BELOW - h), w, h};
+    drawlist_rounded(&core->list, box, 4, theme()->raised);
+    drawlist_rounded_line(&core->list, box, 4, 1, theme()->control);
+    for (int i = 0; i < tag.count; i++)
+        drawlist_text(&core->list, box.x + TAG_PAD, box.y + (float)((i + 1) * LINE), FONT_LABEL, THEME_TEXT_SMALL,
+                      tag.line[i].is_stop ? theme()->warning : theme()->text, tag.line[i].text);
 }
 
 /// Started by S (a click or Enter ends it) or by pressing a handle of the selection box.
@@ -644,12 +563,27 @@ static const struct drag_owner scale_owner = {
 /// `handle`: of the selection box, or -1 for S.
 static void begin_scale(struct curves *curves, struct core *core, enum pivot pivot, int handle)
 {
-    curves->scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
+    struct scaling *scaling = &curves->scaling;
+    const struct evaluation *evaluation = core->evaluation;
+    double frames[2], values[2];
+    *scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
     core->message.text[0] = 0;
     core->hover = (struct hover){.thing = NULL};
-    note_equilibria(curves, core);
+
+    // The equilibria before any edit changes them.
+    measure_selection(curves, core, frames, values);
+    for (int i = 0; i < core->originals.count; i++) {
+        struct original *original = &core->originals.list[i];
+        const int sample = document_sample(core->document, original->knot.frame);
+        original->equilibrium = evaluation_at(evaluation, original->spline, sample).y;
+    }
+    const double position = round(core->playback.position), middle = (frames[0] + frames[1]) / 2;
+    scaling->playhead[0] = document_frame(core->document, (int)position);
+    scaling->playhead[1] = evaluation_at(evaluation, core->active, position).y;
+    scaling->balance[0] = middle;
+    scaling->balance[1] = evaluation_at(evaluation, core->active, core_position(core->document, middle)).y;
     place_pivot(curves, core);
-    core->drag.hint = curves->scaling.sentence;
+    core->drag.hint = scaling->sentence;
     say_scale(curves, core);
 }
 
@@ -755,15 +689,6 @@ void scale_box_hover(const struct curves *curves, const struct core *core, float
     }
 }
 
-static void show_box_handle(struct core *core, int handle, const float xy[2])
-{
-    const bool hot = core->hover.thing == &thing_box && core->hover.handle == handle;
-    const float size = hot ? HANDLE + 3 : HANDLE;
-    const struct rect r = {roundf(xy[0] - size / 2), roundf(xy[1] - size / 2), size, size};
-    drawlist_rounded(&core->list, r, 1.5f, hot ? theme()->playhead : theme()->panel);
-    drawlist_rounded_line(&core->list, r, 1.5f, 1, theme_fade(theme()->playhead, hot ? 1 : 0.75f));
-}
-
 void scale_box_show(const struct curves *curves, struct core *core, bool handles)
 {
     struct knot_box box;
@@ -771,7 +696,12 @@ void scale_box_show(const struct curves *curves, struct core *core, bool handles
     drawlist_rounded_line(&core->list, rect_inset(box.area, -0.5f), 0, 1, theme_fade(theme()->playhead, 0.3f));
     for (int i = 0; i < BOX_HANDLES && handles; i++) {
         float xy[2];
-        if (handle_place(&box, i, xy)) show_box_handle(core, i, xy);
+        if (!handle_place(&box, i, xy)) continue;
+        const bool hot = core->hover.thing == &thing_box && core->hover.handle == i;
+        const float size = hot ? HANDLE + 3 : HANDLE;
+        const struct rect r = {roundf(xy[0] - size / 2), roundf(xy[1] - size / 2), size, size};
+        drawlist_rounded(&core->list, r, 1.5f, hot ? theme()->playhead : theme()->panel);
+        drawlist_rounded_line(&core->list, r, 1.5f, 1, theme_fade(theme()->playhead, hot ? 1 : 0.75f));
     }
 }
 

@@ -20,41 +20,6 @@
 
 // Polylines: one vertex per pixel column, and one exactly on each knot.
 
-static uint64_t cache_key(const struct curves *curves, const struct core *core)
-{
-    uint64_t revision[2] = {history_revision(core->history), core->evaluation ? core->evaluation->revision : 0};
-    int choice[3] = {core->active, (int)core->look, core->curves.normalise};
-    bool held = core->curves.normalise && core->drag.owner != NULL;
-    uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
-    key = hash_bytes(key, choice, sizeof choice);
-    key = hash_bytes(key, &held, sizeof held);
-    key = hash_bytes(key, &core->visibility, sizeof core->visibility);
-    key = hash_bytes(key, &curves->view, sizeof curves->view);
-    key = hash_bytes(key, &core->layout.plot, sizeof core->layout.plot);
-    return key ? key : 1;
-}
-
-/// Moves the nearest column onto each knot of the active spline, unless several knots share that column.
-static void hit_knots(struct curves *curves, const struct core *core, double first, double by)
-{
-    struct curve_cache *cache = &curves->cache;
-    const struct spline *spline = core_active_spline(core);
-    if (!spline) return;
-    int k = spline_lower_bound(core->document, spline, (int)fmax(floor(first - by), 0));
-    for (double before = -1; k < spline->knot_count; k++) {
-        const double sample = document_sample(core->document, spline->knots[k].frame);
-        const double column = floor((sample - first) / by + 0.5);
-        if (column >= cache->count) break;
-        const double after =
-            k + 1 < spline->knot_count
-                ? floor((document_sample(core->document, spline->knots[k + 1].frame) - first) / by + 0.5)
-                : INFINITY;
-        // Where knots share a column, its lowest and highest samples show them.
-        if (column >= 0 && column != before && column != after) cache->position[(int)column] = sample;
-        before = column;
-    }
-}
-
 /// A column that covers many samples shows their maximum, the next column their minimum. An oscillation finer than a pixel then fills a
 /// band instead of aliasing to a slow wave.
 static double outermost(const struct evaluation *evaluation, int spline, double position, double by, bool highest)
@@ -65,44 +30,9 @@ static double outermost(const struct evaluation *evaluation, int spline, double 
     return first <= end ? evaluation_extreme(evaluation, spline, first, end, highest) : position;
 }
 
-/// Columns of the visible part of the scene's range.
-static void place_columns(struct curves *curves, const struct core *core)
-{
-    struct curve_cache *cache = &curves->cache;
-    const struct document *document = core->document;
-    double left = fmax(curves->view.frame0, document->first_frame);
-    double right = fmin(curves->view.frame1, document->last_frame);
-    cache->count = 0;
-    if (!(right > left)) return;
-    double pixels = (right - left) * curves_pixels_per_frame(curves, core);
-    cache->count = (int)fmin(fmax(ceil(pixels) + 1, 2), EDITOR_MAX_COLUMNS);
-    double first = core_position(document, left);
-    double by = (core_position(document, right) - first) / (cache->count - 1);
-    cache->first = first;
-    cache->by = by;
-    for (int c = 0; c < cache->count; c++) {
-        cache->position[c] = outermost(core->evaluation, core->active, first + by * c, by, c % 2);
-    }
-    hit_knots(curves, core, first, by);
-}
-
 static double frame_of(const struct document *document, double position)
 {
     return document->first_frame + position / document->substeps;
-}
-
-/// Spreads the fan's lags (radians) evenly along the tail or chain that the active spline moves. Returns how many.
-static int fan_lags(const struct core *core, double lags[CURVES_FAN])
-{
-    int rig, number;
-    const struct channel *channel = core_active_channel(core, &rig, &number);
-    if (!channel || channel->spline != core->active || !axis_bends(channel->axis)) return 0;
-    const int joints = bones_joints(core, rig);
-    for (int i = 0; i < CURVES_FAN; i++) {
-        int joint = (joints - 1) * (i + 1) / CURVES_FAN;
-        lags[i] = angles_lag(&channel->lag, joint, joints) * (M_PI / 180);
-    }
-    return CURVES_FAN;
 }
 
 /// Whether a line of alternating maxima and minima swings in most columns: the next point is far away, the one after it near.
@@ -134,86 +64,8 @@ static void draw_band(const struct curves *curves, const struct core *core, int 
     }
 }
 
-/// Im x as a band, from at most about sixteen samples a column.
-static void draw_imaginary_band(struct curves *curves, const struct core *core)
-{
-    struct curve_cache *cache = &curves->cache;
-    const double reach = widened(cache) / 2, step = 1 + floor(reach / 8), last = core->evaluation->samples - 1;
-    for (int c = 0; c < cache->count; c++) {
-        const double middle = cache->first + cache->by * c;
-        double most = c % 2 ? -INFINITY : INFINITY;
-        for (double at = fmax(ceil(middle - reach), 0); at <= fmin(middle + reach, last); at += step) {
-            const wiggly_value v = evaluation_at(core->evaluation, core->active, at);
-            most = c % 2 ? fmax(most, v.y + v.im) : fmin(most, v.y + v.im);
-        }
-        cache->im[c][0] = cache->re[c][0];
-        if (isfinite(most)) cache->im[c][1] = curves_y(curves, core, most);
-    }
-}
-
-/// Whether the active spline's visible knots are too close together to tell its lagged copies apart.
-static bool is_crowded(const struct curves *curves, const struct core *core)
-{
-    static const int apart = 3; // columns
-    const struct curve_cache *cache = &curves->cache;
-    const struct spline *spline = core_active_spline(core);
-    if (!spline) return false;
-    const double end = fmin(cache->first + cache->by * cache->count, INT_MAX);
-    const int knots = spline_lower_bound(core->document, spline, (int)end) -
-                      spline_lower_bound(core->document, spline, (int)cache->first);
-    return knots > cache->count / apart;
-}
-
-static void draw_active(struct curves *curves, const struct core *core)
-{
-    struct curve_cache *cache = &curves->cache;
-    double lags[CURVES_FAN], turn[CURVES_FAN][2];
-    const bool fans = core->look == LOOK_WIGGLY && !is_crowded(curves, core);
-    cache->fan_count = fans ? fan_lags(core, lags) : 0;
-    for (int i = 0; i < cache->fan_count; i++) {
-        turn[i][0] = maths_cos(lags[i]);
-        turn[i][1] = maths_sin(lags[i]);
-    }
-    for (int c = 0; c < cache->count; c++) {
-        wiggly_value v = evaluation_at(core->evaluation, core->active, cache->position[c]);
-        float x = curves_x(curves, core, frame_of(core->document, cache->position[c]));
-        memcpy(cache->re[c], (float[2]){x, curves_y(curves, core, v.y + v.re)}, sizeof cache->re[c]);
-        memcpy(cache->im[c], (float[2]){x, curves_y(curves, core, v.y + v.im)}, sizeof cache->im[c]);
-        memcpy(cache->equilibrium[c], (float[2]){x, curves_y(curves, core, v.y)}, sizeof cache->equilibrium[c]);
-        for (int i = 0; i < cache->fan_count; i++) { /* eq. 27: Re(e^{−jφ} x) */
-            cache->fan[i][c][0] = x;
-            cache->fan[i][c][1] = curves_y(curves, core, v.y + turn[i][0] * v.re + turn[i][1] * v.im);
-        }
-    }
-    cache->band = is_band(cache, cache->re);
-    if (!cache->band) return;
-    cache->fan_count = 0; // the copies would fill the same band
-    draw_band(curves, core, core->active, (struct value_map){1, 0}, cache->re);
-    draw_imaginary_band(curves, core);
-}
-
-static void draw_others(struct curves *curves, const struct core *core)
-{
-    struct curve_cache *cache = &curves->cache;
-    cache->other_count = 0;
-    for (int s = 0; s < core->document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
-        if (s == core->active || !spline_list_shows(core, s)) continue;
-        polyline *line = &cache->others[cache->other_count];
-        const struct value_map map = normal_map(curves, core, s);
-        cache->other_spline[cache->other_count] = s;
-        cache->other_id[cache->other_count] = core->document->splines[s]->id;
-        for (int c = 0; c < cache->count; c++) {
-            double position = outermost(core->evaluation, s, cache->position[c], cache->by, c % 2);
-            wiggly_value v = evaluation_at(core->evaluation, s, position);
-            (*line)[c][0] = curves_x(curves, core, frame_of(core->document, position));
-            (*line)[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
-        }
-        const bool band = cache->other_band[cache->other_count++] = is_band(cache, *line);
-        if (band) draw_band(curves, core, s, map, *line);
-    }
-}
-
-int take_line(const struct curves *curves, const struct core *core, int spline, float *xy)
+/// Writes the points of a spline as the take has it; returns how many. Allocates nothing.
+static int take_line(const struct curves *curves, const struct core *core, int spline, float *xy)
 {
     const struct curve_cache *cache = &curves->cache;
     const struct take *take = &core->take;
@@ -241,15 +93,131 @@ int curves_other(const struct curves *curves, const struct document *document, i
     return same ? spline : -1;
 }
 
-void curves_update(struct curves *curves, struct core *core)
+/// Places the columns of the visible part of the scene's range.
+static void place_columns(struct curves *curves, const struct core *core)
 {
-    uint64_t key = cache_key(curves, core);
-    if (key == curves->cache.key) return;
-    curves->cache.key = key;
+    struct curve_cache *cache = &curves->cache;
+    const struct document *document = core->document;
+    const struct spline *spline = core_active_spline(core);
+    double left = fmax(curves->view.frame0, document->first_frame);
+    double right = fmin(curves->view.frame1, document->last_frame);
+    cache->count = 0;
+    if (!(right > left)) return;
+    double pixels = (right - left) * curves_pixels_per_frame(curves, core);
+    cache->count = (int)fmin(fmax(ceil(pixels) + 1, 2), EDITOR_MAX_COLUMNS);
+    double first = core_position(document, left);
+    double by = (core_position(document, right) - first) / (cache->count - 1);
+    cache->first = first;
+    cache->by = by;
+    for (int c = 0; c < cache->count; c++) {
+        cache->position[c] = outermost(core->evaluation, core->active, first + by * c, by, c % 2);
+    }
+    if (!spline) return;
+
+    // The nearest column moves onto each knot of the active spline. Where knots share one, its lowest and highest samples show them.
+    int k = spline_lower_bound(document, spline, (int)fmax(floor(first - by), 0));
+    for (double before = -1; k < spline->knot_count; k++) {
+        const double sample = document_sample(document, spline->knots[k].frame);
+        const double column = floor((sample - first) / by + 0.5);
+        if (column >= cache->count) break;
+        const double after = k + 1 < spline->knot_count
+                                 ? floor((document_sample(document, spline->knots[k + 1].frame) - first) / by + 0.5)
+                                 : INFINITY;
+        if (column >= 0 && column != before && column != after) cache->position[(int)column] = sample;
+        before = column;
+    }
+}
+
+/// Draws the active spline's lines. Its lagged copies are spread evenly along the tail or chain that it moves, unless its visible knots are
+/// too close together to tell them apart.
+static void draw_active(struct curves *curves, const struct core *core)
+{
+    static const int apart = 3; // columns
+    struct curve_cache *cache = &curves->cache;
+    const struct evaluation *evaluation = core->evaluation;
+    const struct spline *spline = core_active_spline(core);
+    int rig, number;
+    const struct channel *channel = core_active_channel(core, &rig, &number);
+    double turn[CURVES_FAN][2];
+    bool fans = core->look == LOOK_WIGGLY && channel && channel->spline == core->active && axis_bends(channel->axis);
+    if (spline && fans) {
+        const double end = fmin(cache->first + cache->by * cache->count, INT_MAX);
+        const int knots = spline_lower_bound(core->document, spline, (int)end) -
+                          spline_lower_bound(core->document, spline, (int)cache->first);
+        fans = knots <= cache->count / apart;
+    }
+    cache->fan_count = fans ? CURVES_FAN : 0;
+    for (int i = 0; i < cache->fan_count; i++) {
+        const int joints = bones_joints(core, rig), joint = (joints - 1) * (i + 1) / CURVES_FAN;
+        const double lag = angles_lag(&channel->lag, joint, joints) * (M_PI / 180);
+        turn[i][0] = maths_cos(lag);
+        turn[i][1] = maths_sin(lag);
+    }
+    for (int c = 0; c < cache->count; c++) {
+        wiggly_value v = evaluation_at(evaluation, core->active, cache->position[c]);
+        float x = curves_x(curves, core, frame_of(core->document, cache->position[c]));
+        memcpy(cache->re[c], (float[2]){x, curves_y(curves, core, v.y + v.re)}, sizeof cache->re[c]);
+        memcpy(cache->im[c], (float[2]){x, curves_y(curves, core, v.y + v.im)}, sizeof cache->im[c]);
+        memcpy(cache->equilibrium[c], (float[2]){x, curves_y(curves, core, v.y)}, sizeof cache->equilibrium[c]);
+        for (int i = 0; i < cache->fan_count; i++) { /* eq. 27: Re(e^{−jφ} x) */
+            cache->fan[i][c][0] = x;
+            cache->fan[i][c][1] = curves_y(curves, core, v.y + turn[i][0] * v.re + turn[i][1] * v.im);
+        }
+    }
+    cache->band = is_band(cache, cache->re);
+    if (!cache->band) return;
+    cache->fan_count = 0; // the copies would fill the same band
+    draw_band(curves, core, core->active, (struct value_map){1, 0}, cache->re);
+
+    // Im x as a band, from at most about sixteen samples a column.
+    const double reach = widened(cache) / 2, step = 1 + floor(reach / 8), last = evaluation->samples - 1;
+    for (int c = 0; c < cache->count; c++) {
+        const double middle = cache->first + cache->by * c;
+        double most = c % 2 ? -INFINITY : INFINITY;
+        for (double at = fmax(ceil(middle - reach), 0); at <= fmin(middle + reach, last); at += step) {
+            const wiggly_value v = evaluation_at(evaluation, core->active, at);
+            most = c % 2 ? fmax(most, v.y + v.im) : fmin(most, v.y + v.im);
+        }
+        cache->im[c][0] = cache->re[c][0];
+        if (isfinite(most)) cache->im[c][1] = curves_y(curves, core, most);
+    }
+}
+
+/// Rebuilds the vertices if document, view or layout changed. Allocates nothing.
+static void curves_update(struct curves *curves, struct core *core)
+{
+    struct curve_cache *cache = &curves->cache;
+    uint64_t revision[2] = {history_revision(core->history), core->evaluation ? core->evaluation->revision : 0};
+    int choice[3] = {core->active, (int)core->look, core->curves.normalise};
+    bool held = core->curves.normalise && core->drag.owner != NULL;
+    uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
+    key = hash_bytes(key, choice, sizeof choice);
+    key = hash_bytes(key, &held, sizeof held);
+    key = hash_bytes(key, &core->visibility, sizeof core->visibility);
+    key = hash_bytes(key, &curves->view, sizeof curves->view);
+    key = hash_bytes(key, &core->layout.plot, sizeof core->layout.plot);
+    if (key == 0) key = 1;
+    if (key == cache->key) return;
+    cache->key = key;
     place_columns(curves, core);
     draw_active(curves, core);
     normal_update(curves, core);
-    draw_others(curves, core);
+    cache->other_count = 0;
+    for (int s = 0; s < core->document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
+        if (s == core->active || !spline_list_shows(core, s)) continue;
+        polyline *line = &cache->others[cache->other_count];
+        const struct value_map map = normal_map(curves, core, s);
+        cache->other_spline[cache->other_count] = s;
+        cache->other_id[cache->other_count] = core->document->splines[s]->id;
+        for (int c = 0; c < cache->count; c++) {
+            double position = outermost(core->evaluation, s, cache->position[c], cache->by, c % 2);
+            wiggly_value v = evaluation_at(core->evaluation, s, position);
+            (*line)[c][0] = curves_x(curves, core, frame_of(core->document, position));
+            (*line)[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
+        }
+        const bool band = cache->other_band[cache->other_count++] = is_band(cache, *line);
+        if (band) draw_band(curves, core, s, map, *line);
+    }
 }
 
 void keep_ghost(struct curves *curves, const struct core *core)
@@ -323,9 +291,94 @@ static void horizontal(const struct curves *curves, struct core *core, double va
     drawlist_rect(&core->list, (struct rect){plot->x, y, plot->w, 1}, color);
 }
 
-static void shade_outside(const struct curves *curves, struct core *core)
+struct rect ruler_corner(const struct core *core)
 {
-    const struct rect field = field_of(core);
+    const struct layout *layout = &core->layout;
+    return (struct rect){layout->value_axis.x, layout->ruler.y, layout->value_axis.w, layout->ruler.h};
+}
+
+/// A press that did not move plays the whole scene again; `keep` false restores the former range.
+static void end_range(void *room, struct core *core, bool keep)
+{
+    const double *before = ((const struct curves *)room)->range_before;
+    if (!keep) {
+        playback_choose(core, before[0], before[1]);
+    } else if (!core->drag.moved) {
+        playback_choose(core, -INFINITY, INFINITY);
+        playback_say_range(core);
+    }
+}
+
+static void tag_text(const struct core *core, char text[32])
+{
+    double frame = round(core_frame(core)) + 0.0; /* the one that I would insert at */
+    snprintf(text, 32, core->curves.seconds ? "%.2f" : "%.0f",
+             core->curves.seconds ? frame / core->document->fps : frame);
+}
+
+/// The rectangle of the playhead's frame number on the ruler; empty if the playhead is not visible.
+static struct rect playhead_tag(const struct curves *curves, const struct core *core)
+{
+    const struct rect *ruler = &core->layout.ruler;
+    float x = curves_x(curves, core, core_frame(core));
+    if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
+    char text[32];
+    tag_text(core, text);
+    float width = roundf(font_width(FONT_NUMBER, THEME_TEXT_SMALL, text)) + 10;
+    float left = fminf(fmaxf(roundf(x - width / 2), ruler->x), ruler->x + ruler->w - width);
+    return (struct rect){left, ruler->y + 3, width, 16};
+}
+
+/// Writes the numbers beside the grid: values, and frames or seconds.
+static void show_numbers(const struct curves *curves, struct core *core, struct grid_step times, double unit,
+                         struct grid_step values)
+{
+    const struct rect *ruler = &core->layout.ruler, *axis = &core->layout.value_axis;
+    struct rect clip = drawlist_push_clip(&core->list, *ruler);
+    const struct rect tag = playhead_tag(curves, core);
+    for (double i = ceil(curves->view.frame0 / unit / times.size); i * times.size <= curves->view.frame1 / unit;
+         i++) { // centred over the grid lines, but for the one under the playhead's tag
+        char text[32];
+        snprintf(text, sizeof text, "%.*f", times.decimals, i * times.size + 0.0);
+        float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+        float x = curves_x(curves, core, i * times.size * unit) - width / 2;
+        if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
+        if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
+        drawlist_text(&core->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
+    }
+    drawlist_set_clip(&core->list, clip);
+
+    const struct rect corner = ruler_corner(core);
+    const char *name = core->curves.seconds ? "s" : "frame";
+    const float left = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, name);
+    drawlist_text(&core->list, left, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
+                  core->hover.thing == &thing_units ? theme()->text : theme()->text_dim, name);
+    clip = drawlist_push_clip(&core->list, *axis);
+    float half = font_cap_height(FONT_NUMBER, THEME_TEXT_SMALL) / 2;
+    for (double i = ceil(curves->view.value0 / values.size); i * values.size <= curves->view.value1; i++) {
+        double value = i * values.size;
+        float y = curves_y(curves, core, value);
+        if (y < axis->y + 8 || y > axis->y + axis->h - 8) continue;
+        char text[32];
+        bool wide = fabs(value) >= 1e6 || values.size < 1e-6;
+        snprintf(text, sizeof text, wide ? "%.*g" : "%.*f", wide ? 3 : values.decimals, value + 0.0);
+        float x = axis->x + axis->w - 8 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+        drawlist_text(&core->list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL,
+                      theme()->text_dim, text);
+    }
+    drawlist_set_clip(&core->list, clip);
+}
+
+static void grid_show(const struct curves *curves, struct core *core)
+{
+    const struct layout *layout = &core->layout;
+    const struct rect field = field_of(core), *plot = &layout->plot, *ruler = &layout->ruler;
+    const struct view *view = &curves->view;
+    const double unit = core->curves.seconds ? core->document->fps : 1; // frames per unit of the ruler
+    struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
+    struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
+    drawlist_rect(&core->list, layout->curves, theme()->panel);
+    struct rect clip = drawlist_push_clip(&core->list, field);
     const float right = field.x + field.w;
     float first = fmaxf(curves_x(curves, core, core->document->first_frame), field.x);
     float last = fminf(curves_x(curves, core, core->document->last_frame), right);
@@ -333,13 +386,7 @@ static void shade_outside(const struct curves *curves, struct core *core)
         drawlist_rect(&core->list, (struct rect){field.x, field.y, first - field.x, field.h}, theme()->outside);
     if (last < right)
         drawlist_rect(&core->list, (struct rect){last, field.y, right - last, field.h}, theme()->outside);
-}
 
-/// `unit`: frames per unit of the ruler.
-static void draw_lines(const struct curves *curves, struct core *core, struct grid_step times, double unit,
-                       struct grid_step values)
-{
-    const struct view *view = &curves->view;
     double minor = times.size / times.parts * unit;
     for (double i = ceil(view->frame0 / minor); i * minor <= view->frame1; i++) {
         if (fmod(i, times.parts) != 0) vertical(curves, core, i * minor, theme()->grid_minor);
@@ -355,110 +402,22 @@ static void draw_lines(const struct curves *curves, struct core *core, struct gr
     for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
         horizontal(curves, core, i * values.size, i == 0 ? theme()->zero : theme()->grid_major);
     }
-}
-
-static void number_values(const struct curves *curves, struct core *core, struct grid_step step)
-{
-    const struct rect *axis = &core->layout.value_axis;
-    float half = font_cap_height(FONT_NUMBER, THEME_TEXT_SMALL) / 2;
-    for (double i = ceil(curves->view.value0 / step.size); i * step.size <= curves->view.value1; i++) {
-        double value = i * step.size;
-        float y = curves_y(curves, core, value);
-        if (y < axis->y + 8 || y > axis->y + axis->h - 8) continue;
-        char text[32];
-        bool wide = fabs(value) >= 1e6 || step.size < 1e-6;
-        snprintf(text, sizeof text, wide ? "%.*g" : "%.*f", wide ? 3 : step.decimals, value + 0.0);
-        float x = axis->x + axis->w - 8 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        drawlist_text(&core->list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL,
-                      theme()->text_dim, text);
-    }
-}
-
-struct rect ruler_corner(const struct core *core)
-{
-    const struct layout *layout = &core->layout;
-    return (struct rect){layout->value_axis.x, layout->ruler.y, layout->value_axis.w, layout->ruler.h};
-}
-
-static void show_units(struct core *core)
-{
-    struct rect corner = ruler_corner(core);
-    const char *text = core->curves.seconds ? "s" : "frame";
-    float x = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
-    drawlist_text(&core->list, x, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
-                  core->hover.thing == &thing_units ? theme()->text : theme()->text_dim, text);
-}
-
-/// Frames per unit of the ruler.
-static double ruler_unit(const struct core *core) { return core->curves.seconds ? core->document->fps : 1; }
-
-/// Centred over the grid lines. The number under the playhead's tag is left out.
-static void number_frames(const struct curves *curves, struct core *core, struct grid_step step)
-{
-    const struct rect *ruler = &core->layout.ruler;
-    const struct rect tag = playhead_tag(curves, core);
-    double unit = ruler_unit(core);
-    for (double i = ceil(curves->view.frame0 / unit / step.size); i * step.size <= curves->view.frame1 / unit; i++) {
-        char text[32];
-        snprintf(text, sizeof text, "%.*f", step.decimals, i * step.size + 0.0);
-        float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        float x = curves_x(curves, core, i * step.size * unit) - width / 2;
-        if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
-        if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
-        drawlist_text(&core->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
-    }
-}
-
-/// A press that did not move plays the whole scene again; `keep` false restores the former range.
-static void end_range(void *room, struct core *core, bool keep)
-{
-    const double *before = ((const struct curves *)room)->range_before;
-    if (!keep) {
-        playback_choose(core, before[0], before[1]);
-    } else if (!core->drag.moved) {
-        playback_choose(core, -INFINITY, INFINITY);
-        playback_say_range(core);
-    }
-}
-
-/// Marks the played range on the ruler and tints it in the plot, unless it is the whole scene.
-static void show_range(const struct curves *curves, struct core *core)
-{
-    const struct rect *plot = &core->layout.plot, *ruler = &core->layout.ruler;
-    double range[2];
-    float x[2];
-    if (!playback_is_part(core)) return;
-    playback_range(core, range);
-    for (int end = 0; end < 2; end++)
-        x[end] = fminf(fmaxf(curves_x(curves, core, range[end]), plot->x), plot->x + plot->w);
-    const float width = x[1] - x[0];
-    drawlist_rect(&core->list, (struct rect){x[0], plot->y, width, plot->h}, theme_fade(theme()->accent, 0.05f));
-    drawlist_rect(&core->list, (struct rect){x[0], ruler->y, width, ruler->h}, theme_fade(theme()->accent, 0.14f));
-    drawlist_rect(&core->list, (struct rect){x[0], ruler->y, 2, ruler->h}, theme()->accent);
-    drawlist_rect(&core->list, (struct rect){x[1] - 2, ruler->y, 2, ruler->h}, theme()->accent);
-}
-
-void grid_show(const struct curves *curves, struct core *core)
-{
-    const struct layout *layout = &core->layout;
-    double unit = ruler_unit(core);
-    struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
-    struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
-    drawlist_rect(&core->list, layout->curves, theme()->panel);
-    struct rect clip = drawlist_push_clip(&core->list, field_of(core));
-    shade_outside(curves, core);
-    draw_lines(curves, core, times, unit, values);
     drawlist_set_clip(&core->list, clip);
-    drawlist_rect(&core->list, (struct rect){layout->ruler.x, layout->sheet.y - 1, layout->ruler.w, 1},
-                  theme()->border);
-    show_range(curves, core);
-    clip = drawlist_push_clip(&core->list, layout->ruler);
-    number_frames(curves, core, times);
-    drawlist_set_clip(&core->list, clip);
-    show_units(core);
-    clip = drawlist_push_clip(&core->list, layout->value_axis);
-    number_values(curves, core, values);
-    drawlist_set_clip(&core->list, clip);
+    drawlist_rect(&core->list, (struct rect){ruler->x, layout->sheet.y - 1, ruler->w, 1}, theme()->border);
+    if (playback_is_part(core)) { // the played range: marked on the ruler, tinted in the plot
+        const uint32_t color = theme()->accent;
+        double range[2];
+        float x[2];
+        playback_range(core, range);
+        for (int end = 0; end < 2; end++)
+            x[end] = fminf(fmaxf(curves_x(curves, core, range[end]), plot->x), plot->x + plot->w);
+        const float width = x[1] - x[0];
+        drawlist_rect(&core->list, (struct rect){x[0], plot->y, width, plot->h}, theme_fade(color, 0.05f));
+        drawlist_rect(&core->list, (struct rect){x[0], ruler->y, width, ruler->h}, theme_fade(color, 0.14f));
+        drawlist_rect(&core->list, (struct rect){x[0], ruler->y, 2, ruler->h}, color);
+        drawlist_rect(&core->list, (struct rect){x[1] - 2, ruler->y, 2, ruler->h}, color);
+    }
+    show_numbers(curves, core, times, unit, values);
 }
 
 static void choose_range(void *room, struct core *core)
@@ -573,7 +532,7 @@ static void press_pin(void *room, struct core *core, const struct hover *hover, 
     pins_visit(core, &rig->pins[at]);
 }
 
-void ruler_pins_show(const struct curves *curves, struct core *core)
+static void ruler_pins_show(const struct curves *curves, struct core *core)
 {
     const struct rect *ruler = &core->layout.ruler;
     struct pin_place at = PINS_START;
@@ -639,32 +598,6 @@ static void show_line(struct core *core, const float *xy, int count, bool band, 
     }
 }
 
-static void show_ghost(struct curves *curves, struct core *core)
-{
-    const struct ghost *ghost = &curves->ghost;
-    if (!ghost->is_shown || !core->drag.owner || ghost->count < 2) return;
-    float *xy = curves->scratch;
-    for (int c = 0; c < ghost->count; c++) {
-        xy[2 * c] = curves_x(curves, core, ghost->frame[c]);
-        xy[2 * c + 1] = curves_y(curves, core, ghost->value[c]);
-    }
-    show_line(core, xy, ghost->count, ghost->band, 1, theme_fade(theme()->playhead, 0.25f));
-}
-
-/// The shown curves as they were before, the active one last.
-static void show_take(struct curves *curves, struct core *core)
-{
-    if (!take_is_shown(core)) return;
-    for (int i = curves->cache.other_count - 1; i >= -1; i--) {
-        const int spline = i < 0 ? core->active : curves->cache.other_spline[i];
-        const uint32_t color = i < 0 ? theme()->playhead : spline_list_color(core->document, spline);
-        if (!spline_list_shows(core, spline)) continue;
-        const int count = take_line(curves, core, spline, curves->scratch);
-        if (count > 1)
-            drawlist_line(&core->list, curves->scratch, count, 1.25f, theme_fade(color, i < 0 ? 0.8f : 0.4f));
-    }
-}
-
 static bool shows_imaginary(const struct core *core, const struct spline *spline)
 {
     return core->curves.phase && spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
@@ -699,28 +632,45 @@ static void show_wind_up(const struct curves *curves, struct core *core)
     }
 }
 
-/// In painter's order, the active line last.
+/// In painter's order, the active line and the take last.
 static void show_lines(struct curves *curves, struct core *core)
 {
     const struct curve_cache *cache = &curves->cache;
     const struct spline *spline = spline_list_seen(core);
+    const struct ghost *ghost = &curves->ghost;
     uint32_t color = spline_list_color(core->document, core->active);
-    if (cache->count < 2) return;
-    for (int i = 0; i < cache->other_count; i++) {
+    float *xy = curves->scratch;
+    for (int i = 0; i < cache->other_count && cache->count > 1; i++) {
         const bool hot = core->hover.thing == &thing_curve && core->hover.spline == cache->other_spline[i];
         show_line(core, &cache->others[i][0][0], cache->count, cache->other_band[i], 1.25f,
                   theme_fade(spline_list_color(core->document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
     }
-    if (!spline) return;
-    show_ghost(curves, core);
-    for (int i = cache->fan_count - 1; i >= 0; i--) {
-        drawlist_line(&core->list, &cache->fan[i][0][0], cache->count, 1,
-                      theme_fade(color, FAN_NEAR - FAN_STEP * (float)i));
+    if (spline && cache->count > 1) {
+        if (ghost->is_shown && core->drag.owner && ghost->count > 1) {
+            for (int c = 0; c < ghost->count; c++) {
+                xy[2 * c] = curves_x(curves, core, ghost->frame[c]);
+                xy[2 * c + 1] = curves_y(curves, core, ghost->value[c]);
+            }
+            show_line(core, xy, ghost->count, ghost->band, 1, theme_fade(theme()->playhead, 0.25f));
+        }
+        for (int i = cache->fan_count - 1; i >= 0; i--) {
+            drawlist_line(&core->list, &cache->fan[i][0][0], cache->count, 1,
+                          theme_fade(color, FAN_NEAR - FAN_STEP * (float)i));
+        }
+        drawlist_dashed(&core->list, &cache->equilibrium[0][0], cache->count, 1.25f, 6, 4, theme()->equilibrium);
+        if (shows_imaginary(core, spline))
+            show_line(core, &cache->im[0][0], cache->count, cache->band, 1.25f, theme_fade(color, 0.45f));
+        show_line(core, &cache->re[0][0], cache->count, cache->band, 2.5f, color);
     }
-    drawlist_dashed(&core->list, &cache->equilibrium[0][0], cache->count, 1.25f, 6, 4, theme()->equilibrium);
-    if (shows_imaginary(core, spline))
-        show_line(core, &cache->im[0][0], cache->count, cache->band, 1.25f, theme_fade(color, 0.45f));
-    show_line(core, &cache->re[0][0], cache->count, cache->band, 2.5f, color);
+
+    // The shown curves as they were before, the active one last.
+    for (int i = take_is_shown(core) ? cache->other_count - 1 : -2; i >= -1; i--) {
+        const int shown = i < 0 ? core->active : cache->other_spline[i];
+        if (!spline_list_shows(core, shown)) continue;
+        color = i < 0 ? theme()->playhead : spline_list_color(core->document, shown);
+        const int count = take_line(curves, core, shown, xy);
+        if (count > 1) drawlist_line(&core->list, xy, count, 1.25f, theme_fade(color, i < 0 ? 0.8f : 0.4f));
+    }
 }
 
 double handle_length(double stiffness)
@@ -750,19 +700,6 @@ static void hover_ring(struct drawlist *list, float x, float y)
     drawlist_circle(list, (const float[2]){x, y}, HOVER_RADIUS, 1.25f, theme()->playhead);
 }
 
-static void show_handle(const struct curves *curves, struct core *core, const struct knot *knot, uint32_t color)
-{
-    float ends[2][2];
-    curves_handle(curves, core, knot, 0, ends[0]);
-    curves_handle(curves, core, knot, 1, ends[1]);
-    drawlist_line(&core->list, &ends[0][0], 2, 1, theme_fade(color, 0.8f));
-    for (int end = 0; end < 2; end++) {
-        drawlist_disc(&core->list, ends[end], HANDLE_RADIUS, color);
-        if (core->hover.thing == &thing_slope && core->hover.knot == knot->id && core->hover.handle == end)
-            hover_ring(&core->list, ends[end][0], ends[end][1]);
-    }
-}
-
 /// A diamond for a value, a circle for a pose, a square for a still pose; filled, or with an outline. Where the motion settles a level line goes
 /// through it.
 static void knot_mark(struct drawlist *list, const struct knot *knot, float x, float y, float r, uint32_t color,
@@ -783,19 +720,6 @@ static void knot_mark(struct drawlist *list, const struct knot *knot, float x, f
         drawlist_line(list, (const float[]){x - 1.5f * r, y, x + 1.5f * r, y}, 2, 1.5f, outline ? outline : color);
 }
 
-/// A short stroke in place of a slope handle.
-static void show_tick(const struct curves *curves, struct core *core, const struct knot *knot, uint32_t color)
-{
-    float ends[2][2], x = curves_knot_x(curves, core, knot);
-    float y = curves_y(curves, core, knot->value);
-    for (int end = 0; end < 2; end++) {
-        curves_handle(curves, core, knot, end, ends[end]);
-        ends[end][0] = x + 0.3f * (ends[end][0] - x);
-        ends[end][1] = y + 0.3f * (ends[end][1] - y);
-    }
-    drawlist_line(&core->list, &ends[0][0], 2, 1.5f, theme_fade(color, 0.7f));
-}
-
 static bool is_hovered(const struct core *core, const struct knot *knot)
 {
     return core->hover.thing == &thing_knot && core->hover.knot == knot->id;
@@ -814,18 +738,6 @@ static int crowd_next(const struct curves *curves, const struct core *core, int 
     return of->knot_count;
 }
 
-/// Of the knots first … end − 1 in one pixel column, the one to draw: hovered, else selected.
-static int column_knot(const struct core *core, const struct knot *knots, int first, int end)
-{
-    int shown = first;
-    for (int k = first; k < end; k++) {
-        if (is_hovered(core, &knots[k])) return k;
-        if (!selection_has(&core->selection, knots[shown].id) && selection_has(&core->selection, knots[k].id))
-            shown = k;
-    }
-    return shown;
-}
-
 /// A knot's pixel column, counted from the scene's first frame so that panning does not regroup knots.
 static double column_of(const struct curves *curves, const struct core *core, const struct knot *knot)
 {
@@ -833,22 +745,24 @@ static double column_of(const struct curves *curves, const struct core *core, co
     return floor(document_sample(core->document, knot->frame) * pixels);
 }
 
-/// A vertical stroke over the values of all knots in one pixel column, for those without a mark.
-static void show_column(const struct curves *curves, struct core *core, int first, int end, float x, uint32_t color)
-{
-    double range[2];
-    spline_values(core->document->splines[core->active], first, end, range);
-    const float xy[] = {x, curves_y(curves, core, range[0]), x, curves_y(curves, core, range[1])};
-    if (range[1] > range[0]) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
-}
-
 static void show_knot(const struct curves *curves, struct core *core, const struct knot *knot, float x,
                       uint32_t color)
 {
-    bool selected = selection_has(&core->selection, knot->id);
-    float y = curves_knot_y(curves, core, core->active, knot);
-    if (knot->has_slope && selected) show_handle(curves, core, knot, color);
-    if (knot->has_slope && !selected) show_tick(curves, core, knot, color);
+    const bool selected = selection_has(&core->selection, knot->id);
+    const float y = curves_knot_y(curves, core, core->active, knot);
+    float ends[2][2]; // of its slope: handles, or a short stroke in their place
+    for (int end = 0; end < 2 && knot->has_slope; end++) {
+        curves_handle(curves, core, knot, end, ends[end]);
+        const float own[2] = {curves_knot_x(curves, core, knot), curves_y(curves, core, knot->value)};
+        for (int i = 0; i < 2 && !selected; i++) ends[end][i] = own[i] + 0.3f * (ends[end][i] - own[i]);
+    }
+    if (knot->has_slope)
+        drawlist_line(&core->list, &ends[0][0], 2, selected ? 1 : 1.5f, theme_fade(color, selected ? 0.8f : 0.7f));
+    for (int end = 0; end < 2 && knot->has_slope && selected; end++) {
+        drawlist_disc(&core->list, ends[end], HANDLE_RADIUS, color);
+        if (core->hover.thing == &thing_slope && core->hover.knot == knot->id && core->hover.handle == end)
+            hover_ring(&core->list, ends[end][0], ends[end][1]);
+    }
     knot_mark(&core->list, knot, x, y, KNOT_RADIUS, selected ? color : theme()->panel,
               selected ? theme()->playhead : color); // hollow unless selected
     if (is_hovered(core, knot)) hover_ring(&core->list, x, y);
@@ -865,6 +779,7 @@ static bool is_lost(const struct curves *curves, const struct core *core, int fi
     return !alone && fmod(column, MARK_STEP) != 0;
 }
 
+/// Draws one knot of each pixel column: the hovered, else a selected one.
 static void show_knots(const struct curves *curves, struct core *core)
 {
     const struct document *document = core->document;
@@ -872,17 +787,27 @@ static void show_knots(const struct curves *curves, struct core *core)
     const struct rect *plot = &core->layout.plot;
     uint32_t color = spline_list_color(document, core->active);
     if (!spline) return;
+    const struct knot *knots = spline->knots;
     int k = curves_knot_from(curves, core, spline, plot->x - HANDLE_REACH);
     for (int end; k < spline->knot_count; k = end) {
-        const float x = curves_knot_x(curves, core, &spline->knots[k]);
-        const double column = column_of(curves, core, &spline->knots[k]);
+        const float x = curves_knot_x(curves, core, &knots[k]);
+        const double column = column_of(curves, core, &knots[k]);
+        int shown = k;
         if (x > plot->x + plot->w + HANDLE_REACH) break;
-        end = k + 1;
-        while (end < spline->knot_count && column_of(curves, core, &spline->knots[end]) == column) end++;
-        const int shown = column_knot(core, spline->knots, k, end);
+        for (end = k + 1; end < spline->knot_count && column_of(curves, core, &knots[end]) == column;) end++;
+        for (int i = k; i < end && !is_hovered(core, &knots[shown]); i++) {
+            const bool better =
+                selection_has(&core->selection, knots[i].id) && !selection_has(&core->selection, knots[shown].id);
+            if (better || is_hovered(core, &knots[i])) shown = i;
+        }
         if (is_lost(curves, core, k, shown)) continue;
-        if (!curves->cache.band) show_column(curves, core, k, end, x, color);
-        show_knot(curves, core, &spline->knots[shown], x, color);
+        if (!curves->cache.band) { // a stroke over the values of all, for those without a mark
+            double range[2];
+            spline_values(spline, k, end, range);
+            const float xy[] = {x, curves_y(curves, core, range[0]), x, curves_y(curves, core, range[1])};
+            if (range[1] > range[0]) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
+        }
+        show_knot(curves, core, &knots[shown], x, color);
     }
 }
 
@@ -917,76 +842,44 @@ static void insert_label(struct label *labels, int *count, struct label label)
     labels[i] = label;
 }
 
-/// Moves labels apart: downwards, then back up from the panel's bottom.
-static void spread_labels(struct label *labels, int count, float top, float bottom)
-{
-    for (int i = 0; i < count; i++) labels[i].y = fmaxf(labels[i].y, i ? labels[i - 1].y + LABEL_STEP : top);
-    float limit = bottom;
-    for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
-}
-
 /// A spline's colour with enough contrast for text.
 static uint32_t label_color(const struct core *core, int spline)
 {
     return theme_readable(spline_list_color(core->document, spline), theme()->panel, 4.5f);
 }
 
-/// Labels of at most `most` drawn curves, the active one always among them, sorted by height. Returns how many.
-static int place_labels(const struct curves *curves, const struct core *core, struct label *labels, int most)
+/// The names of the drawn curves, as many as there is room for, the active one always among them.
+static void show_labels(const struct curves *curves, struct core *core)
 {
+    const struct rect *plot = &core->layout.plot;
     const struct curve_cache *cache = &curves->cache;
     const struct spline *active = spline_list_seen(core);
-    uint32_t color = label_color(core, core->active);
+    const uint32_t color = label_color(core, core->active);
+    struct label labels[MAX_LABELS];
     int count = 0, end = cache->count - 1;
-    if (active) {
-        insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
-    }
-    if (active && shows_imaginary(core, active)) {
+    if (cache->count < 2) return;
+    const float top = plot->y + 8, bottom = plot->y + plot->h - 8;
+    const int most = (int)fmaxf(2, (bottom - top) / LABEL_STEP + 1);
+    if (active) insert_label(labels, &count, (struct label){cache->re[end][1], FONT_LABEL_BOLD, color, active->name});
+    if (active && shows_imaginary(core, active))
         insert_label(labels, &count, (struct label){cache->im[end][1], FONT_LABEL, color, "phase"});
-    }
     for (int i = 0; i < cache->other_count && count < most; i++) {
         int spline = cache->other_spline[i];
         insert_label(labels, &count,
                      (struct label){cache->others[i][end][1], FONT_LABEL, label_color(core, spline),
                                     core->document->splines[spline]->name});
     }
-    return count;
-}
 
-static void show_labels(const struct curves *curves, struct core *core)
-{
-    const struct rect *plot = &core->layout.plot;
-    struct label labels[MAX_LABELS];
-    if (curves->cache.count < 2) return;
-    const float top = plot->y + 8, bottom = plot->y + plot->h - 8;
-    int most = (int)fmaxf(2, (bottom - top) / LABEL_STEP + 1);
-    int count = place_labels(curves, core, labels, most);
-    spread_labels(labels, count, top, bottom);
+    // Apart: downwards, then back up from the panel's bottom.
+    for (int i = 0; i < count; i++) labels[i].y = fmaxf(labels[i].y, i ? labels[i - 1].y + LABEL_STEP : top);
+    float limit = bottom;
+    for (int i = count - 1; i >= 0; i--, limit -= LABEL_STEP) labels[i].y = fminf(labels[i].y, limit);
     float x = plot->x + plot->w + 6;
     float width = core->layout.curves.x + core->layout.curves.w - 6 - x;
     for (int i = 0; i < count; i++) {
         drawlist_text_fit(&core->list, x, roundf(labels[i].y + 4), width, labels[i].font, THEME_TEXT_SMALL,
                           labels[i].color, labels[i].text);
     }
-}
-
-static void tag_text(const struct core *core, char text[32])
-{
-    double frame = round(core_frame(core)) + 0.0; /* the one that I would insert at */
-    snprintf(text, 32, core->curves.seconds ? "%.2f" : "%.0f",
-             core->curves.seconds ? frame / core->document->fps : frame);
-}
-
-struct rect playhead_tag(const struct curves *curves, const struct core *core)
-{
-    const struct rect *ruler = &core->layout.ruler;
-    float x = curves_x(curves, core, core_frame(core));
-    if (x < ruler->x || x > ruler->x + ruler->w) return (struct rect){0};
-    char text[32];
-    tag_text(core, text);
-    float width = roundf(font_width(FONT_NUMBER, THEME_TEXT_SMALL, text)) + 10;
-    float left = fminf(fmaxf(roundf(x - width / 2), ruler->x), ruler->x + ruler->w - width);
-    return (struct rect){left, ruler->y + 3, width, 16};
 }
 
 /// Drawn separately, so that playing redraws nothing else.
@@ -1046,7 +939,6 @@ void curves_show(struct curves *curves, struct core *core)
     limits_show(curves, core);
     show_wind_up(curves, core);
     show_lines(curves, core);
-    show_take(curves, core);
     for (int i = 0; i < curves->cache.other_count; i++) {
         knots_show(curves, core, curves->cache.other_spline[i], NAN);
     }

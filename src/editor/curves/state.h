@@ -168,10 +168,6 @@ float curves_knot_y(const struct curves *curves, const struct core *core, int sp
 /// Measures the normalised curves. During a drag it does not, so that the other curves hold still.
 void normal_update(struct curves *curves, const struct core *core);
 
-/// Rebuilds the vertices if document, view or layout changed. Allocates nothing.
-void curves_update(struct curves *curves, struct core *core);
-/// Writes the points of a spline as the take has it; returns how many. Allocates nothing.
-int take_line(const struct curves *curves, const struct core *core, int spline, float *xy);
 /// The spline of another curve's vertices, or -1 if an edit has moved it in the list since.
 int curves_other(const struct curves *curves, const struct document *document, int other);
 /// Copies the active curve before a drag's first edit, to show it behind.
@@ -203,7 +199,6 @@ float nearest_knot(const struct curves *curves, const struct core *core, int of,
 
 /// The pin mark at a point of the ruler.
 struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y);
-void ruler_pins_show(const struct curves *curves, struct core *core);
 
 /// The dope sheet's rows with their names.
 struct rect sheet_area(const struct core *core);
@@ -224,12 +219,9 @@ void box_begin(struct curves *curves, struct core *core, const struct event *eve
 /// Length in pixels: 12 more for ten times the stiffness.
 double handle_length(double stiffness);
 double handle_stiffness(double length);
-/// The rectangle of the playhead's frame number on the ruler; empty if the playhead is not visible.
-struct rect playhead_tag(const struct curves *curves, const struct core *core);
 
 /// The corner left of the ruler, with its unit.
 struct rect ruler_corner(const struct core *core);
-void grid_show(const struct curves *curves, struct core *core);
 
 /// Finds the warnings if document or view changed. Allocates nothing.
 void warnings_update(struct curves *curves, const struct core *core);
