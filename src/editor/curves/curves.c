@@ -139,41 +139,20 @@ static void show_values(struct view *view, const struct view *part)
     view->value1 = known ? part->value1 + margin : 1;
 }
 
-/// Includes the phase curve and the equilibrium of the active spline.
-static void include_rest(struct curves *curves, const struct core *core)
-{
-    enum { COLUMNS = 200 };
-    const double margin = 0.06, last = document_samples(core->document) - 1;
-    struct view *view = &curves->view;
-    struct view part = *view;
-    for (int column = 0; column <= COLUMNS && core->active >= 0; column++) {
-        const wiggly_value v = evaluation_at(core->evaluation, core->active, last * column / COLUMNS);
-        include_value(&part, v.y);
-        include_value(&part, v.y + v.im);
-    }
-    const double span = part.value1 - part.value0;
-    if (part.value0 < view->value0) view->value0 = part.value0 - margin * span;
-    if (part.value1 > view->value1) view->value1 = part.value1 + margin * span;
-}
-
-static void follow_stop(struct curves *curves, struct core *core)
-{
-    curves->following = (struct following){0};
-    core->edited = (struct edited){0};
-}
-
 /// Sets the view within limits, and stops following edits.
 static void view_set(struct curves *curves, struct core *core, struct view view)
 {
-    follow_stop(curves, core);
+    curves->following = (struct following){0};
+    core->edited = (struct edited){0};
     curves->view = view;
     keep_sane(curves, core);
 }
 
 void curves_frame_all(struct curves *curves, struct core *core)
 {
+    enum { COLUMNS = 200 };
     const struct document *document = core->document;
-    struct view part = NOTHING;
+    struct view part = NOTHING, *view = &curves->view;
     for (int s = 0; s < document->spline_count; s++) {
         const struct spline *spline = document->splines[s];
         if (core->curves.normalise && s != core->active) continue;
@@ -181,12 +160,22 @@ void curves_frame_all(struct curves *curves, struct core *core)
             include_value(&part, core_knot_value(core, s, &spline->knots[k]));
         include_curve(curves, core, s, 0, INFINITY, &part);
     }
-    show_values(&curves->view, &part);
-    include_rest(curves, core);
+    show_values(view, &part);
+
+    // The phase curve and the equilibrium of the active spline.
+    const double last = document_samples(document) - 1;
+    part = *view;
+    for (int column = 0; column <= COLUMNS && core->active >= 0; column++) {
+        const wiggly_value v = evaluation_at(core->evaluation, core->active, last * column / COLUMNS);
+        include_value(&part, v.y);
+        include_value(&part, v.y + v.im);
+    }
+    const double more = 0.06 * (part.value1 - part.value0);
     const double margin = fmax(0.02 * (document->last_frame - document->first_frame), 0.5);
     view_set(curves, core,
-             (struct view){document->first_frame - margin, document->last_frame + margin, curves->view.value0,
-                           curves->view.value1});
+             (struct view){document->first_frame - margin, document->last_frame + margin,
+                           part.value0 < view->value0 ? part.value0 - more : view->value0,
+                           part.value1 > view->value1 ? part.value1 + more : view->value1});
 }
 
 void curves_frame_selection(struct curves *curves, struct core *core)
@@ -298,30 +287,6 @@ static const double CLOSE = 0.25;  ///< pixels: close enough to stop
 static const double MARGIN = 0.06; ///< of the view, around the edit
 static const double WIDEST = 1.7;  ///< of the visible frames; further edits pan instead
 
-/// Widens a view to a knot and to the curve between its neighbours.
-static void include_around(const struct curves *curves, const struct core *core, struct knot_place at,
-                           struct view *part)
-{
-    const struct document *document = core->document;
-    const struct knot *knot = knot_at(document, at);
-    const bool has_next = at.knot + 1 < document->splines[at.spline]->knot_count;
-    include_knot(curves, core, at, part);
-    const double first = at.knot > 0 ? document_sample(document, knot[-1].frame) : 0;
-    const double last = has_next ? (double)document_sample(document, knot[1].frame) : INFINITY;
-    include_seen(curves, core, at.spline, first, last, part);
-}
-
-/// Frames and values of everything edited since the last frame; for splines only the visible values.
-static struct view edited_part(const struct curves *curves, const struct core *core)
-{
-    const struct edited *edited = &core->edited;
-    struct view part = NOTHING;
-    for (struct knot_place at = SELECTED_START; edited->selection && selected_next(core, &at);)
-        include_around(curves, core, at, &part);
-    for (int i = 0; i < edited->count; i++) include_seen(curves, core, edited->spline[i], 0, INFINITY, &part);
-    return part;
-}
-
 /// Widens the view to the edit, or pans if that would be too wide.
 static void widen(double *low, double *high, const double part[2], double widest)
 {
@@ -341,13 +306,26 @@ static void widen(double *low, double *high, const double part[2], double widest
 void follow_edits(struct curves *curves, struct core *core)
 {
     struct following *following = &curves->following;
-    if (!core->edited.selection && core->edited.count == 0) return;
-    const struct view edited = edited_part(curves, core);
+    const struct edited *edited = &core->edited;
+    const struct document *document = core->document;
+    if (!edited->selection && edited->count == 0) return;
+
+    // Frames and values of everything edited since the last frame: selected knots with the curve between their neighbours; of splines only
+    // the visible values.
+    struct view part = NOTHING;
+    for (struct knot_place at = SELECTED_START; edited->selection && selected_next(core, &at);) {
+        const struct knot *knot = knot_at(document, at);
+        const bool has_next = at.knot + 1 < document->splines[at.spline]->knot_count;
+        include_knot(curves, core, at, &part);
+        const double first = at.knot > 0 ? document_sample(document, knot[-1].frame) : 0;
+        const double last = has_next ? (double)document_sample(document, knot[1].frame) : INFINITY;
+        include_seen(curves, core, at.spline, first, last, &part);
+    }
+    for (int i = 0; i < edited->count; i++) include_seen(curves, core, edited->spline[i], 0, INFINITY, &part);
     struct view goal = following->moves ? following->goal : curves->view;
-    if (edited.frame0 <= edited.frame1)
-        widen(&goal.frame0, &goal.frame1, (double[2]){edited.frame0, edited.frame1}, WIDEST);
-    if (edited.value0 <= edited.value1)
-        widen(&goal.value0, &goal.value1, (double[2]){edited.value0, edited.value1}, INFINITY);
+    if (part.frame0 <= part.frame1) widen(&goal.frame0, &goal.frame1, (double[2]){part.frame0, part.frame1}, WIDEST);
+    if (part.value0 <= part.value1)
+        widen(&goal.value0, &goal.value1, (double[2]){part.value0, part.value1}, INFINITY);
     const bool moves = goal.frame0 != curves->view.frame0 || goal.frame1 != curves->view.frame1 ||
                        goal.value0 != curves->view.value0 || goal.value1 != curves->view.value1;
     *following = (struct following){.moves = moves, .goal = goal};
@@ -724,66 +702,11 @@ void warnings_update(struct curves *curves, const struct core *core)
         warnings_add_far(document, evaluation, curves_other(curves, document, i), warnings);
 }
 
-// The remedies. Each edits any document and describes itself in a text that fits after "Click to" and "Done:".
-
 static bool set(struct document *document, const struct warning *warning, enum parameter parameter, double value,
                 struct error *error)
 {
     const struct param param = param_number(value);
     return edit_parameter(document, warning->spline, parameter, &param, error);
-}
-
-static bool raise_calm(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                       struct error *error)
-{
-    snprintf(text, FIX_TEXT, "raise calm to 1");
-    return set(document, warning, PARAMETER_CALM, 1, error);
-}
-
-static bool set_limits(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                       struct error *error)
-{
-    snprintf(text, FIX_TEXT, "set limits from %.6g to %.6g", warning->low, warning->high);
-    return set(document, warning, PARAMETER_LOW, warning->low, error) &&
-           set(document, warning, PARAMETER_HIGH, warning->high, error);
-}
-
-/// Adds a pose, or outside complex mode a plain knot.
-static bool add_knot(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                     struct error *error)
-{
-    const bool is_pose = spline_mode(document->splines[warning->spline]) == WIGGLY_COMPLEX;
-    const struct knot knot = {.frame = warning->frame,
-                              .value = warning->remedy,
-                              .has_phase = is_pose,
-                              .phase = is_pose ? warning->phase : 0,
-                              .stiffness = KNOT_DEFAULT_STIFFNESS};
-    snprintf(text, FIX_TEXT, "add a %s at frame %.6g", is_pose ? "pose" : "knot", warning->frame);
-    return edit_knot_insert(document, warning->spline, &knot, error);
-}
-
-/// Keeps the motion.
-static bool add_substeps(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                         struct error *error)
-{
-    snprintf(text, FIX_TEXT, "use %.0f substeps per frame", warning->remedy);
-    return warning->remedy <= SCENE_MAX_SUBSTEPS && edit_substeps(document, (int)warning->remedy, error);
-}
-
-static bool lower_frequency(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                            struct error *error)
-{
-    const double now = document->splines[warning->spline]->parameter[PARAMETER_FREQUENCY].value;
-    const double lower = core_round(0.99 * now * warning->limit / warning->amount, 0.01);
-    snprintf(text, FIX_TEXT, "lower the frequency to %.3g Hz", lower);
-    return set(document, warning, PARAMETER_FREQUENCY, lower, error);
-}
-
-static bool narrow_bandwidth(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                             struct error *error)
-{
-    snprintf(text, FIX_TEXT, "narrow the bandwidth to %.3g", warning->remedy);
-    return set(document, warning, PARAMETER_BANDWIDTH, warning->remedy, error);
 }
 
 /// Frees the slope or the phase of the knot at a frame.
@@ -799,128 +722,122 @@ static bool free_knot(struct document *document, const struct warning *warning, 
     return edit_knot_set(document, warning->spline, &knot, error);
 }
 
-static bool free_later(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                       struct error *error)
-{
-    snprintf(text, FIX_TEXT, "free the phase at frame %.6g", warning->to);
-    return free_knot(document, warning, warning->to, false, error);
-}
-
-static bool free_earlier(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                         struct error *error)
-{
-    snprintf(text, FIX_TEXT, "free the phase at frame %.6g", warning->from);
-    return free_knot(document, warning, warning->from, false, error);
-}
-
-static bool free_both(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                      struct error *error)
-{
-    const bool good = free_later(document, warning, text, error) && free_earlier(document, warning, text, error);
-    snprintf(text, FIX_TEXT, "free the phases at frames %.6g and %.6g", warning->from, warning->to);
-    return good;
-}
-
-static bool free_all(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                     struct error *error)
+/// Applies a remedy to any document, and describes it in a text that fits after "Click to" and "Done:".
+static bool remedy_apply(enum remedy remedy, struct document *document, const struct warning *warning,
+                         char text[FIX_TEXT], struct error *error)
 {
     bool good = true;
-    for (int k = 0; k < document->splines[warning->spline]->knot_count && good; k++)
-        good = free_knot(document, warning, document->splines[warning->spline]->knots[k].frame, false, error);
-    snprintf(text, FIX_TEXT, "turn the spline's poses into plain knots");
-    return good;
-}
-
-static bool drop_slope(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                       struct error *error)
-{
-    snprintf(text, FIX_TEXT, "switch off the slope at frame %.6g", warning->frame);
-    return free_knot(document, warning, warning->frame, true, error);
-}
-
-static bool drop_wind_up(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                         struct error *error)
-{
-    snprintf(text, FIX_TEXT, "set the wind-up to 0");
-    return set(document, warning, PARAMETER_WIND_UP, 0, error);
-}
-
-static bool lengthen_wind_up(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                             struct error *error)
-{
-    snprintf(text, FIX_TEXT, "lengthen the wind-up to %.3g periods", warning->remedy);
-    return set(document, warning, PARAMETER_WIND_UP, warning->remedy, error);
-}
-
-static bool unsettle_all(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                         struct error *error)
-{
-    snprintf(text, FIX_TEXT, "let its knots be plain ones");
-    return edit_spline_settles(document, warning->spline, false, error);
+    switch (remedy) {
+    case REMEDY_NONE:
+        break;
+    case REMEDY_RAISE_CALM:
+        snprintf(text, FIX_TEXT, "raise calm to 1");
+        return set(document, warning, PARAMETER_CALM, 1, error);
+    case REMEDY_SET_LIMITS:
+        snprintf(text, FIX_TEXT, "set limits from %.6g to %.6g", warning->low, warning->high);
+        return set(document, warning, PARAMETER_LOW, warning->low, error) &&
+               set(document, warning, PARAMETER_HIGH, warning->high, error);
+    case REMEDY_ADD_KNOT: { // a pose, or outside complex mode a plain knot
+        const bool is_pose = spline_mode(document->splines[warning->spline]) == WIGGLY_COMPLEX;
+        const struct knot knot = {.frame = warning->frame,
+                                  .value = warning->remedy,
+                                  .has_phase = is_pose,
+                                  .phase = is_pose ? warning->phase : 0,
+                                  .stiffness = KNOT_DEFAULT_STIFFNESS};
+        snprintf(text, FIX_TEXT, "add a %s at frame %.6g", is_pose ? "pose" : "knot", warning->frame);
+        return edit_knot_insert(document, warning->spline, &knot, error);
+    }
+    case REMEDY_ADD_SUBSTEPS: // keeps the motion
+        snprintf(text, FIX_TEXT, "use %.0f substeps per frame", warning->remedy);
+        return warning->remedy <= SCENE_MAX_SUBSTEPS && edit_substeps(document, (int)warning->remedy, error);
+    case REMEDY_LOWER_FREQUENCY: {
+        const double now = document->splines[warning->spline]->parameter[PARAMETER_FREQUENCY].value;
+        const double lower = core_round(0.99 * now * warning->limit / warning->amount, 0.01);
+        snprintf(text, FIX_TEXT, "lower the frequency to %.3g Hz", lower);
+        return set(document, warning, PARAMETER_FREQUENCY, lower, error);
+    }
+    case REMEDY_NARROW_BANDWIDTH:
+        snprintf(text, FIX_TEXT, "narrow the bandwidth to %.3g", warning->remedy);
+        return set(document, warning, PARAMETER_BANDWIDTH, warning->remedy, error);
+    case REMEDY_FREE_LATER:
+        snprintf(text, FIX_TEXT, "free the phase at frame %.6g", warning->to);
+        return free_knot(document, warning, warning->to, false, error);
+    case REMEDY_FREE_EARLIER:
+        snprintf(text, FIX_TEXT, "free the phase at frame %.6g", warning->from);
+        return free_knot(document, warning, warning->from, false, error);
+    case REMEDY_FREE_BOTH:
+        snprintf(text, FIX_TEXT, "free the phases at frames %.6g and %.6g", warning->from, warning->to);
+        return free_knot(document, warning, warning->to, false, error) &&
+               free_knot(document, warning, warning->from, false, error);
+    case REMEDY_FREE_ALL:
+        for (int k = 0; k < document->splines[warning->spline]->knot_count && good; k++)
+            good = free_knot(document, warning, document->splines[warning->spline]->knots[k].frame, false, error);
+        snprintf(text, FIX_TEXT, "turn the spline's poses into plain knots");
+        return good;
+    case REMEDY_DROP_SLOPE:
+        snprintf(text, FIX_TEXT, "switch off the slope at frame %.6g", warning->frame);
+        return free_knot(document, warning, warning->frame, true, error);
+    case REMEDY_DROP_WIND_UP:
+        snprintf(text, FIX_TEXT, "set the wind-up to 0");
+        return set(document, warning, PARAMETER_WIND_UP, 0, error);
+    case REMEDY_LENGTHEN_WIND_UP:
+        snprintf(text, FIX_TEXT, "lengthen the wind-up to %.3g periods", warning->remedy);
+        return set(document, warning, PARAMETER_WIND_UP, warning->remedy, error);
+    case REMEDY_UNSETTLE_ALL:
+        snprintf(text, FIX_TEXT, "let its knots be plain ones");
+        return edit_spline_settles(document, warning->spline, false, error);
+    }
+    return false;
 }
 
 /// Remedies for each kind of warning, the gentlest first. A later one must beat those before it, and doing nothing, by a factor.
 static const struct cure {
     const char *label; ///< of the undo step
-    remedy *remedies[4];
+    enum remedy remedies[4];
     double worth;
 } cures[] = {
-    [WARNING_FAR] = {"Tame swing", {raise_calm, set_limits, add_knot}, 1},
-    [WARNING_RATE] = {"Add substeps", {add_substeps, lower_frequency}, 1},
-    [WARNING_DRIFT] = {"Narrow bandwidth", {narrow_bandwidth}, 1},
-    [WARNING_FORCED] = {"Free the phase", {free_later, free_earlier, free_both}, 1.25},
-    [WARNING_SLOPE] = {"Slope off", {drop_slope}, 1},
-    [WARNING_PHASE] = {"Free the phase", {free_all}, 1},
-    [WARNING_WIND_UP] = {"Wind-up off", {drop_wind_up}, 1},
-    [WARNING_SUDDEN] = {"Lengthen wind-up", {lengthen_wind_up}, 1},
-    [WARNING_SETTLES] = {"Settle off", {unsettle_all}, 1},
+    [WARNING_FAR] = {"Tame swing", {REMEDY_RAISE_CALM, REMEDY_SET_LIMITS, REMEDY_ADD_KNOT}, 1},
+    [WARNING_RATE] = {"Add substeps", {REMEDY_ADD_SUBSTEPS, REMEDY_LOWER_FREQUENCY}, 1},
+    [WARNING_DRIFT] = {"Narrow bandwidth", {REMEDY_NARROW_BANDWIDTH}, 1},
+    [WARNING_FORCED] = {"Free the phase", {REMEDY_FREE_LATER, REMEDY_FREE_EARLIER, REMEDY_FREE_BOTH}, 1.25},
+    [WARNING_SLOPE] = {"Slope off", {REMEDY_DROP_SLOPE}, 1},
+    [WARNING_PHASE] = {"Free the phase", {REMEDY_FREE_ALL}, 1},
+    [WARNING_WIND_UP] = {"Wind-up off", {REMEDY_DROP_WIND_UP}, 1},
+    [WARNING_SUDDEN] = {"Lengthen wind-up", {REMEDY_LENGTHEN_WIND_UP}, 1},
+    [WARNING_SETTLES] = {"Settle off", {REMEDY_UNSETTLE_ALL}, 1},
 };
 
-static bool has_choice(const struct warning *warning) { return cures[warning->kind].remedies[1] != NULL; }
-
-/// What is left of a problem after a remedy, tried in a copy; infinity if it cannot apply. A kind's only remedy counts as enough.
-/// `trial` keeps earlier results, so only what differs is solved.
-static double left_with(const struct core *core, const struct warning *warning, struct fix *fix,
-                        struct evaluation *trial)
+/// The chosen fix, cached: the first remedy if it suffices, else the best. They are tried in copies of the document; `trial` keeps earlier
+/// results, so only what differs is solved. A kind's only remedy counts as enough.
+static const struct fix *fix_of(struct curves *curves, const struct core *core, int index)
 {
-    struct error error;
-    struct document *document = document_copy(core->document);
-    double left = INFINITY;
-    if (fix->apply(document, warning, fix->text, &error)) {
-        left = 0;
-        if (has_choice(warning)) {
-            evaluation_update(trial, document, false);
-            left = warning_left(warning, document, trial);
-        }
-    }
-    document_destroy(document);
-    return left;
-}
-
-/// The first remedy if it suffices, else the best.
-static struct fix choose(const struct core *core, const struct warning *warning)
-{
+    struct fix *best = &curves->fixes[index];
+    const struct warning *warning = &curves->warnings.list[index];
     const struct cure *cure = &cures[warning->kind];
+    const bool has_choice = cure->remedies[1] != REMEDY_NONE;
+    if (best->is_chosen) return best;
     struct evaluation trial = {.solver = core->evaluation->solver, .models = core->evaluation->models};
-    struct fix best = {.is_chosen = true};
-    double least = has_choice(warning) ? warning_left(warning, core->document, core->evaluation) : INFINITY;
+    double least = has_choice ? warning_left(warning, core->document, core->evaluation) : INFINITY;
+    *best = (struct fix){.is_chosen = true};
     for (int i = 0; cure->remedies[i] && (i != 1 || least > 1); i++) {
         struct fix fix = {true, cure->remedies[i], ""};
-        const double left = left_with(core, warning, &fix, &trial);
+        struct error error;
+        struct document *document = document_copy(core->document);
+        double left = INFINITY;
+        if (remedy_apply(fix.remedy, document, warning, fix.text, &error)) {
+            left = 0;
+            if (has_choice) {
+                evaluation_update(&trial, document, false);
+                left = warning_left(warning, document, &trial);
+            }
+        }
+        document_destroy(document);
         if (left * cure->worth >= least) continue;
-        best = fix;
+        *best = fix;
         least = left;
     }
     evaluation_free(&trial);
     return best;
-}
-
-/// The chosen fix, cached.
-static const struct fix *fix_of(struct curves *curves, const struct core *core, int index)
-{
-    struct fix *fix = &curves->fixes[index];
-    if (!fix->is_chosen) *fix = choose(core, &curves->warnings.list[index]);
-    return fix;
 }
 
 static const char NO_REMEDY[] = "No fix helps here. Move the knots, or change the frequency.";
@@ -935,10 +852,10 @@ static void press_warning(void *room, struct core *core, const struct hover *hov
     char text[FIX_TEXT + 8];
     core_activate(core, warning.spline);
     if (!core_active_spline(core) || !core_begin(core, cures[warning.kind].label, 0)) return;
-    const bool good = fix.apply && fix.apply(core->document, &warning, fix.text, &core->error);
+    const bool good = fix.remedy && remedy_apply(fix.remedy, core->document, &warning, fix.text, &core->error);
     snprintf(text, sizeof text, "Done: %s.", fix.text);
     core_end(core, good);
-    if (good || !fix.apply) core_message(core, false, "%s", good ? text : NO_REMEDY);
+    if (good || !fix.remedy) core_message(core, false, "%s", good ? text : NO_REMEDY);
 }
 
 void curves_remedy_first(struct curves *curves, struct core *core, int unused)
@@ -990,21 +907,17 @@ static int hovered_warning(const struct curves *curves, const struct core *core)
     return core->hover.thing == &thing_warning && index < curves->warnings.count ? index : -1;
 }
 
-static void show_marker(struct drawlist *list, const float xy[2], bool hovered)
-{
-    const float x = xy[0], y = xy[1], r = hovered ? SIZE + 1.5f : SIZE;
-    const float corners[] = {x, y - r, x + r, y + 0.8f * r, x - r, y + 0.8f * r};
-    drawlist_convex(list, corners, 3, theme()->warning);
-    drawlist_rect(list, (struct rect){x - 0.75f, y - 0.4f * r, 1.5f, 0.6f * r}, theme()->panel);
-    drawlist_rect(list, (struct rect){x - 0.75f, y + 0.38f * r, 1.5f, 1.5f}, theme()->panel);
-}
-
 void warnings_show(const struct curves *curves, struct core *core)
 {
     const int hovered = hovered_warning(curves, core);
     for (int i = 0; i < curves->warnings.count; i++) {
         float xy[2];
-        if (warning_place(curves, core, &curves->warnings.list[i], xy)) show_marker(&core->list, xy, i == hovered);
+        if (!warning_place(curves, core, &curves->warnings.list[i], xy)) continue;
+        const float x = xy[0], y = xy[1], r = i == hovered ? SIZE + 1.5f : SIZE;
+        const float corners[] = {x, y - r, x + r, y + 0.8f * r, x - r, y + 0.8f * r};
+        drawlist_convex(&core->list, corners, 3, theme()->warning);
+        drawlist_rect(&core->list, (struct rect){x - 0.75f, y - 0.4f * r, 1.5f, 0.6f * r}, theme()->panel);
+        drawlist_rect(&core->list, (struct rect){x - 0.75f, y + 0.38f * r, 1.5f, 1.5f}, theme()->panel);
     }
 }
 
@@ -1018,7 +931,7 @@ void warnings_show_words(struct curves *curves, struct core *core)
     warning_say(&curves->warnings.list[index], what);
     if (!core->drag.owner) {
         const struct fix *fix = fix_of(curves, core, index);
-        snprintf(click, sizeof click, fix->apply ? "Click to %s." : NO_REMEDY, fix->text);
+        snprintf(click, sizeof click, fix->remedy ? "Click to %s." : NO_REMEDY, fix->text);
     }
     const struct rect panel = core->layout.curves;
     float width =

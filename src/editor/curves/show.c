@@ -725,19 +725,6 @@ static bool is_hovered(const struct core *core, const struct knot *knot)
     return core->hover.thing == &thing_knot && core->hover.knot == knot->id;
 }
 
-/// The next knot to draw where knots are crowded: a selected or hovered one, or the first at least `gap` pixels away.
-static int crowd_next(const struct curves *curves, const struct core *core, int spline, int knot, float gap)
-{
-    const struct spline *of = core->document->splines[spline];
-    const float end = curves_knot_x(curves, core, &of->knots[knot]) + gap;
-    for (int next = knot + 1; next < of->knot_count; next++) {
-        const struct knot *other = &of->knots[next];
-        if (curves_knot_x(curves, core, other) >= end) return next;
-        if (is_hovered(core, other) || selection_has(&core->selection, other->id)) return next;
-    }
-    return of->knot_count;
-}
-
 /// A knot's pixel column, counted from the scene's first frame so that panning does not regroup knots.
 static double column_of(const struct curves *curves, const struct core *core, const struct knot *knot)
 {
@@ -768,17 +755,6 @@ static void show_knot(const struct curves *curves, struct core *core, const stru
     if (is_hovered(core, knot)) hover_ring(&core->list, x, y);
 }
 
-/// Whether a column of knots in a band gets no mark, because marks so close would cover each other.
-static bool is_lost(const struct curves *curves, const struct core *core, int first, int shown)
-{
-    const struct knot *knots = core->document->splines[core->active]->knots;
-    const double column = column_of(curves, core, &knots[first]);
-    if (!curves->cache.band || is_hovered(core, &knots[shown]) || selection_has(&core->selection, knots[shown].id))
-        return false;
-    const bool alone = first == 0 || column - column_of(curves, core, &knots[first - 1]) > MARK_STEP;
-    return !alone && fmod(column, MARK_STEP) != 0;
-}
-
 /// Draws one knot of each pixel column: the hovered, else a selected one.
 static void show_knots(const struct curves *curves, struct core *core)
 {
@@ -800,7 +776,11 @@ static void show_knots(const struct curves *curves, struct core *core)
                 selection_has(&core->selection, knots[i].id) && !selection_has(&core->selection, knots[shown].id);
             if (better || is_hovered(core, &knots[i])) shown = i;
         }
-        if (is_lost(curves, core, k, shown)) continue;
+        // In a band most columns get no mark: marks so close would cover each other.
+        if (curves->cache.band && !is_hovered(core, &knots[shown]) &&
+            !selection_has(&core->selection, knots[shown].id) && fmod(column, MARK_STEP) != 0 && k > 0 &&
+            column - column_of(curves, core, &knots[k - 1]) <= MARK_STEP)
+            continue;
         if (!curves->cache.band) { // a stroke over the values of all, for those without a mark
             double range[2];
             spline_values(spline, k, end, range);
@@ -818,12 +798,14 @@ void knots_show(const struct curves *curves, struct core *core, int s, float row
     const uint32_t full = spline_list_color(core->document, s);
     const bool on_sheet = !isnan(row);
     const float margin = on_sheet ? MARK_RADIUS + 1 : 0;
-    int k = curves_knot_from(curves, core, spline, plot->x - margin);
-    for (; k < spline->knot_count; k = crowd_next(curves, core, s, k, CROWDED)) {
+    float end = -INFINITY; // of the last mark
+    for (int k = curves_knot_from(curves, core, spline, plot->x - margin); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         const bool selected = selection_has(&core->selection, knot->id);
         const float x = curves_knot_x(curves, core, knot);
+        if (x < end && !selected && !is_hovered(core, knot)) continue; // where knots are crowded these show
         const float y = on_sheet ? row : curves_knot_y(curves, core, s, knot);
+        end = x + CROWDED;
         if (x < plot->x - margin) continue;
         if (x > plot->x + plot->w + margin) break;
         knot_mark(&core->list, knot, x, y,
@@ -882,20 +864,6 @@ static void show_labels(const struct curves *curves, struct core *core)
     }
 }
 
-/// Drawn separately, so that playing redraws nothing else.
-static void show_playhead(const struct curves *curves, struct core *core)
-{
-    const struct rect *plot = &core->layout.plot, *sheet = &core->layout.sheet;
-    float x = curves_x(curves, core, core_frame(core));
-    const struct rect tag = playhead_tag(curves, core);
-    if (tag.w <= 0) return;
-    char text[32];
-    tag_text(core, text);
-    drawlist_rect(&core->list, (struct rect){x - 0.5f, sheet->y, 1, sheet->h + plot->h}, theme()->playhead);
-    drawlist_rounded(&core->list, tag, 3, theme()->playhead);
-    drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, text);
-}
-
 /// The hint of an empty panel, unless a swinging equilibrium would be under the text.
 static void show_empty(struct core *core)
 {
@@ -914,28 +882,14 @@ static void show_empty(struct core *core)
     drawlist_text(&core->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
 }
 
-/// Notes above the curves' names: before (K), phase curve (V), normalised (N), no snapping (G).
-static void show_state(struct core *core)
-{
-    static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
-    const struct rect *ruler = &core->layout.ruler;
-    const char *normal = core->curves.normalise ? "fit" : "", *snap = core->no_snap ? "free" : "";
-    const char *const words[] = {take_is_shown(core) ? "Before" : "", looks[core->look], normal, snap};
-    char text[40] = "";
-    for (int i = 0; i < 4; i++) {
-        if (*text && *words[i]) strcat(text, ", ");
-        strcat(text, words[i]);
-    }
-    drawlist_text(&core->list, ruler->x + ruler->w + 6, ruler->y + 15, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
-                  theme()->text, text);
-}
-
 void curves_show(struct curves *curves, struct core *core)
 {
+    static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
+    const struct rect *plot = &core->layout.plot, *sheet = &core->layout.sheet, *ruler = &core->layout.ruler;
     struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
     curves_update(curves, core);
     grid_show(curves, core);
-    struct rect panel = drawlist_push_clip(&core->list, core->layout.plot);
+    struct rect panel = drawlist_push_clip(&core->list, *plot);
     limits_show(curves, core);
     show_wind_up(curves, core);
     show_lines(curves, core);
@@ -949,9 +903,28 @@ void curves_show(struct curves *curves, struct core *core)
     show_empty(core);
     drawlist_set_clip(&core->list, panel);
     sheet_show(curves, core);
-    show_state(core);
+
+    // Notes above the curves' names: before (K), phase curve (V), normalised (N), no snapping (G).
+    const char *normal = core->curves.normalise ? "fit" : "", *snap = core->no_snap ? "free" : "";
+    const char *const words[] = {take_is_shown(core) ? "Before" : "", looks[core->look], normal, snap};
+    char text[40] = "", frame[32];
+    for (int i = 0; i < 4; i++) {
+        if (*text && *words[i]) strcat(text, ", ");
+        strcat(text, words[i]);
+    }
+    drawlist_text(&core->list, ruler->x + ruler->w + 6, ruler->y + 15, FONT_LABEL_BOLD, THEME_TEXT_SMALL,
+                  theme()->text, text);
     show_labels(curves, core);
-    show_playhead(curves, core);
+
+    // The playhead comes last, so that playing redraws nothing before it.
+    const struct rect tag = playhead_tag(curves, core);
+    if (tag.w > 0) {
+        const float x = curves_x(curves, core, core_frame(core));
+        tag_text(core, frame);
+        drawlist_rect(&core->list, (struct rect){x - 0.5f, sheet->y, 1, sheet->h + plot->h}, theme()->playhead);
+        drawlist_rounded(&core->list, tag, 3, theme()->playhead);
+        drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, frame);
+    }
     ruler_pins_show(curves, core);
     drag_show(curves, core);
     warnings_show_words(curves, core);

@@ -91,13 +91,28 @@ struct scaling {
 
 enum { FIX_TEXT = 96 };
 
-/// Edits a document to fix a warning, and describes the edit.
-typedef bool remedy(struct document *document, const struct warning *warning, char text[FIX_TEXT],
-                    struct error *error);
+/// Edits that fix a warning.
+enum remedy {
+    REMEDY_NONE, ///< nothing helps
+    REMEDY_RAISE_CALM,
+    REMEDY_SET_LIMITS,
+    REMEDY_ADD_KNOT,
+    REMEDY_ADD_SUBSTEPS,
+    REMEDY_LOWER_FREQUENCY,
+    REMEDY_NARROW_BANDWIDTH,
+    REMEDY_FREE_LATER,
+    REMEDY_FREE_EARLIER,
+    REMEDY_FREE_BOTH,
+    REMEDY_FREE_ALL,
+    REMEDY_DROP_SLOPE,
+    REMEDY_DROP_WIND_UP,
+    REMEDY_LENGTHEN_WIND_UP,
+    REMEDY_UNSETTLE_ALL,
+};
 
 struct fix {
     bool is_chosen; ///< chosen when the pointer first reaches the warning
-    remedy *apply;  ///< NULL: nothing helps
+    enum remedy remedy;
     char text[FIX_TEXT];
 };
 
