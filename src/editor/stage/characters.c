@@ -297,60 +297,6 @@ static const float MARK = 4, END = 2; ///< radii, pixels
 static const float FAR_SIDE = 0.35f,
                    FAR_PART = 0.4f; ///< edges behind the character: opacity, and visible share
 
-static void show_floor(const struct stage *stage, struct core *core, const struct stage_character *shown,
-                       const struct shown_floor *floor, double height, bool is_hot)
-{
-    float lowest = INFINITY, low[3];
-    int found = 0;
-    for (int v = 0; v < shown->figure->character.vertex_count; v++) {
-        float at[3];
-        morph_vertex(shown->figure, &shown->morph, v, at, NULL);
-        if (at[1] < lowest) lowest = at[1], found = v;
-    }
-    stage_vertex(shown->figure, &shown->morph, shown->position, found, low);
-    const float near_enough = TOUCH * (shown->figure->hi[1] - shown->figure->lo[1]);
-    const float below = (float)height - low[1];
-    const bool is_missed = below > near_enough, is_touched = below > -near_enough;
-    const uint32_t color = is_missed    ? theme()->warning
-                           : is_hot     ? theme()->playhead
-                           : is_touched ? theme()->accent
-                                        : theme()->text_dim;
-
-    // The edges at the nearest corner and the start of the others, so that no line crosses the character.
-    for (int side = 1; side < 4; side += 2) {
-        const float *corner = floor->xy[(floor->first + side) % 4], *far = floor->xy[(floor->first + 2) % 4];
-        const float *near = floor->xy[floor->first];
-        const float line[3][2] = {
-            {near[0], near[1]},
-            {corner[0], corner[1]},
-            {corner[0] + FAR_PART * (far[0] - corner[0]), corner[1] + FAR_PART * (far[1] - corner[1])}};
-        drawlist_line(&core->list, line[0], 2, is_hot ? 2.25f : 1.5f, color);
-        drawlist_line(&core->list, line[1], 2, is_hot ? 2.25f : 1.5f, theme_fade(color, FAR_SIDE));
-    }
-
-    // The point on the floor at the lowest vertex, with a line if the vertex is below.
-    const float on[3] = {low[0], (float)height, low[2]};
-    const struct rect r = core->layout.stage;
-    float line[2][2];
-    if (is_touched && stage_project_point(stage, r, on, line[0]) && stage_project_point(stage, r, low, line[1])) {
-        if (low[1] < (float)height) drawlist_line(&core->list, line[0], 2, 1.25f, color);
-        drawlist_disc(&core->list, line[0], MARK, color);
-        drawlist_disc(&core->list, line[1], END, color);
-    }
-
-    // The height, at the rightmost corner.
-    char text[80];
-    int right = 0;
-    for (int i = 1; i < 4; i++) {
-        if (floor->xy[i][0] > floor->xy[right][0]) right = i;
-    }
-    const int length = snprintf(text, sizeof text, "floor %.3g m", height + 0.0);
-    if (is_missed) snprintf(text + length, sizeof text - (size_t)length, ", %.2g m below", (double)below);
-    const float width = font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
-    const float x = fmaxf(fminf(floor->xy[right][0] + 8, r.x + r.w - width - 8), r.x + 8);
-    stage_note(core, x, floor->xy[right][1] + 4, FONT_LABEL, is_missed ? color : theme()->text_dim, text);
-}
-
 void floors_show(const struct stage *stage, struct core *core)
 {
     const struct document *document = core->document;
@@ -361,7 +307,56 @@ void floors_show(const struct stage *stage, struct core *core)
         if (!rig) continue;
         const int index = document_find_rig(document, RIG_CHARACTER, shown->rig);
         const bool is_hot = core->hover.thing == &thing_floor && core->hover.rig == index;
-        show_floor(stage, core, shown, &floor, rig->floor, is_hot);
+
+        float lowest = INFINITY, low[3];
+        int found = 0;
+        for (int v = 0; v < shown->figure->character.vertex_count; v++) {
+            float at[3];
+            morph_vertex(shown->figure, &shown->morph, v, at, NULL);
+            if (at[1] < lowest) lowest = at[1], found = v;
+        }
+        stage_vertex(shown->figure, &shown->morph, shown->position, found, low);
+        const float near_enough = TOUCH * (shown->figure->hi[1] - shown->figure->lo[1]);
+        const float below = (float)rig->floor - low[1];
+        const bool is_missed = below > near_enough, is_touched = below > -near_enough;
+        const uint32_t color = is_missed    ? theme()->warning
+                               : is_hot     ? theme()->playhead
+                               : is_touched ? theme()->accent
+                                            : theme()->text_dim;
+
+        // The edges at the nearest corner and the start of the others, so that no line crosses the character.
+        for (int side = 1; side < 4; side += 2) {
+            const float *corner = floor.xy[(floor.first + side) % 4], *far = floor.xy[(floor.first + 2) % 4];
+            const float *near = floor.xy[floor.first];
+            const float line[3][2] = {
+                {near[0], near[1]},
+                {corner[0], corner[1]},
+                {corner[0] + FAR_PART * (far[0] - corner[0]), corner[1] + FAR_PART * (far[1] - corner[1])}};
+            drawlist_line(&core->list, line[0], 2, is_hot ? 2.25f : 1.5f, color);
+            drawlist_line(&core->list, line[1], 2, is_hot ? 2.25f : 1.5f, theme_fade(color, FAR_SIDE));
+        }
+
+        // The point on the floor at the lowest vertex, with a line if the vertex is below.
+        const float on[3] = {low[0], (float)rig->floor, low[2]};
+        const struct rect r = core->layout.stage;
+        float line[2][2];
+        if (is_touched && stage_project_point(stage, r, on, line[0]) && stage_project_point(stage, r, low, line[1])) {
+            if (low[1] < (float)rig->floor) drawlist_line(&core->list, line[0], 2, 1.25f, color);
+            drawlist_disc(&core->list, line[0], MARK, color);
+            drawlist_disc(&core->list, line[1], END, color);
+        }
+
+        // The height, at the rightmost corner.
+        char text[80];
+        int right = 0;
+        for (int i = 1; i < 4; i++) {
+            if (floor.xy[i][0] > floor.xy[right][0]) right = i;
+        }
+        const int length = snprintf(text, sizeof text, "floor %.3g m", rig->floor + 0.0);
+        if (is_missed) snprintf(text + length, sizeof text - (size_t)length, ", %.2g m below", (double)below);
+        const float width = font_width(FONT_LABEL, THEME_TEXT_SMALL, text);
+        const float x = fmaxf(fminf(floor.xy[right][0] + 8, r.x + r.w - width - 8), r.x + 8);
+        stage_note(core, x, floor.xy[right][1] + 4, FONT_LABEL, is_missed ? color : theme()->text_dim, text);
     }
 }
 

@@ -170,21 +170,11 @@ static bool crosses(const struct silhouette *silhouette, int row, int column, en
     return true;
 }
 
-/// The side where the outline leaves. If all four are crossed, it turns left around the corner.
-static enum side leave(const struct silhouette *silhouette, int row, int column, enum side in)
-{
-    static const enum side order[] = {1, 3, 2};
-    for (int i = 0; i < 3; i++) {
-        const enum side out = (in + order[i]) % 4;
-        if (crosses(silhouette, row, column, out, NULL)) return out;
-    }
-    return in;
-}
-
-/// Follows the outline that crosses a cell's upper side downwards, until it closes.
+/// Follows the outline that crosses a cell's upper side downwards, until it closes. Where all four sides of a cell are crossed, it turns
+/// left around the corner.
 static int follow_from(struct silhouette *silhouette, int row, int column)
 {
-    static const int down[4] = {-1, 0, 1, 0}, right[4] = {0, 1, 0, -1};
+    static const int down[4] = {-1, 0, 1, 0}, right[4] = {0, 1, 0, -1}, order[3] = {1, 3, 2};
     const int first_row = row, first_column = column;
     enum side in = SIDE_TOP;
     int count = 0;
@@ -192,7 +182,11 @@ static int follow_from(struct silhouette *silhouette, int row, int column)
         if (in == SIDE_TOP) silhouette->followed[row][column] = true;
         if (in == SIDE_BOTTOM) silhouette->followed[row + 1][column] = true;
         if (count < SILHOUETTE_POINTS - 1) crosses(silhouette, row, column, in, silhouette->points[count++]);
-        const enum side out = leave(silhouette, row, column, in);
+        enum side out = in;
+        for (int i = 0; i < 3 && out == in; i++) {
+            const enum side next = (in + (unsigned)order[i]) % 4;
+            if (crosses(silhouette, row, column, next, NULL)) out = next;
+        }
         if (out == in) break;
         row += down[out];
         column += right[out];
@@ -422,26 +416,6 @@ enum {
 static const double REACH = 2;                            ///< seconds to each side
 static const float OPACITY = 0.85f, MARK = 2.5f, NOW = 5; ///< mark radii in pixels; NOW: at the playhead
 
-/// Searches all vertices once per figure and version.
-static int liveliest_vertex(struct liveliest *known, const struct figure *figure)
-{
-    const struct character *character = &figure->character;
-    if (known->figure == figure->id && known->version == figure->version) return known->vertex;
-    float most = -1;
-    int found = 0;
-    for (int i = 0; i < character->vertex_count; i++) {
-        float way = 0;
-        for (int k = 0; k < character->coordinate_count; k++) {
-            const struct coordinate *c = &character->coordinates[k];
-            way += glms_vec3_norm2(vec3_from(c->re[i])) + glms_vec3_norm2(vec3_from(c->im[i]));
-        }
-        if (way > most) found = i;
-        most = fmaxf(most, way);
-    }
-    *known = (struct liveliest){figure->id, figure->version, found};
-    return found;
-}
-
 struct rig_point overlay_point(struct stage *stage, const struct core *core)
 {
     const int rig = overlay_rig(stage, core);
@@ -449,8 +423,22 @@ struct rig_point overlay_point(struct stage *stage, const struct core *core)
     const int n = core->characters.character;
     const struct figure *figure = models_figure(core->models, n);
     if (!figure) return (struct rig_point){-1, -1};
-    return (struct rig_point){document_find_rig(core->document, RIG_CHARACTER, n),
-                              liveliest_vertex(&stage->liveliest, figure)};
+    struct liveliest *known = &stage->liveliest;
+    if (known->figure != figure->id || known->version != figure->version) { // search all vertices once
+        const struct character *character = &figure->character;
+        float most = -1;
+        *known = (struct liveliest){figure->id, figure->version, 0};
+        for (int i = 0; i < character->vertex_count; i++) {
+            float way = 0;
+            for (int k = 0; k < character->coordinate_count; k++) {
+                const struct coordinate *c = &character->coordinates[k];
+                way += glms_vec3_norm2(vec3_from(c->re[i])) + glms_vec3_norm2(vec3_from(c->im[i]));
+            }
+            if (way > most) known->vertex = i;
+            most = fmaxf(most, way);
+        }
+    }
+    return (struct rig_point){document_find_rig(core->document, RIG_CHARACTER, n), known->vertex};
 }
 
 static bool loops(const struct document *document, int spline)
@@ -571,21 +559,6 @@ void trail_show(struct stage *stage, struct core *core)
 static const float MARKER_REACH = 9;    ///< pixels
 static const float LEAST_SHARE = 0.05f; ///< of the largest movement; vertices that move less are not offered
 
-/// A vertex's movement per unit of the coordinates, squared, relative to the largest movement along each axis.
-static float share_of(const struct stage_character *shown, int vertex)
-{
-    float own = 0, most = 0;
-    for (int k = 0; k < shown->morph.count; k++) {
-        const int c = shown->morph.coordinate[k];
-        const struct coordinate *coordinate = &shown->figure->character.coordinates[c];
-        const float *largest = shown->figure->largest[c];
-        own +=
-            glms_vec3_norm2(vec3_from(coordinate->re[vertex])) + glms_vec3_norm2(vec3_from(coordinate->im[vertex]));
-        most += glms_vec3_norm2(vec3_from(largest));
-    }
-    return most > 0 ? own / most : 0;
-}
-
 /// The surface vertex under a point; of several characters the one nearest to the eye.
 static struct hover find_vertex(struct stage *stage, const struct core *core, float x, float y)
 {
@@ -594,9 +567,10 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
     float nearest = INFINITY;
     for (int c = 0; c < view->character_count; c++) {
         const struct stage_character *shown = &view->characters[c];
+        const struct figure *figure = shown->figure;
         struct surface_spot spot;
         float xy[2];
-        if (!skin_pose(stage, shown->rig) || !skin_spot(stage, shown->figure, x, y, &spot)) continue;
+        if (!skin_pose(stage, shown->rig) || !skin_spot(stage, figure, x, y, &spot)) continue;
         int corner = 0;
         for (int k = 1; k < 3; k++) {
             if (spot.weight[k] > spot.weight[corner]) corner = k;
@@ -609,7 +583,16 @@ static struct hover find_vertex(struct stage *stage, const struct core *core, fl
         if (depth >= nearest) continue;
         nearest = depth;
         hover.thing = NULL;
-        if (share_of(shown, vertex) < LEAST_SHARE * LEAST_SHARE) continue;
+
+        // The vertex's movement per unit of the coordinates, squared, relative to the largest movement along each axis.
+        float own = 0, most = 0;
+        for (int k = 0; k < shown->morph.count; k++) {
+            const int n = shown->morph.coordinate[k];
+            const struct coordinate *moves = &figure->character.coordinates[n];
+            own += glms_vec3_norm2(vec3_from(moves->re[vertex])) + glms_vec3_norm2(vec3_from(moves->im[vertex]));
+            most += glms_vec3_norm2(vec3_from(figure->largest[n]));
+        }
+        if ((most > 0 ? own / most : 0) < LEAST_SHARE * LEAST_SHARE) continue;
         if (!stage_project_point(stage, view->viewport, place, xy)) continue;
         hover = (struct hover){.thing = &thing_point, .rig = rig, .joint = vertex, .x = xy[0], .y = xy[1]};
     }
@@ -815,44 +798,41 @@ void stage_hold_point(struct stage *stage, struct core *core)
     }
 }
 
-/// The target, and a line to the point at the pin's frame if known.
-static void show_marker(const struct stage *stage, struct core *core, struct pin_place place, const struct pin *pin)
-{
-    struct drawlist *list = &core->list;
-    const struct document *document = core->document;
-    const struct pin_left *left = evaluation_pin(core->evaluation, document, place.rig, place.at);
-    const bool here = document_sample(document, pin->frame) == document_sample(document, core_frame(core));
-    const bool selected = core->pin.any && core->pin.id == pin->id;
-    const bool hot = core->hover.thing == &thing_pin && core->hover.pin == pin->id;
-    const float radius = here || selected || hot ? HERE : ELSEWHERE;
-    const uint32_t color = theme_fade(pins_color(document, place.rig), here || selected || hot ? 1 : FAINT);
-    float line[2][2];
-    if (!project(stage, core, pin->to, line[0])) return;
-    const bool has_end = left && left->is_found && project(stage, core, left->at, line[1]);
-    if (has_end && maths_hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
-        drawlist_line(list, line[0], 2, 1.25f, color);
-        drawlist_disc(list, line[1], END, color);
-    }
-    drawlist_disc(list, line[0], radius + 1.5f, theme_fade(theme()->panel, here || selected ? 0.8f : 0.4f));
-    drawlist_disc(list, line[0], radius, color);
-    if (!selected && !hot) return;
-    char text[32];
-    snprintf(text, sizeof text, "%.6g", pin->frame);
-    drawlist_circle(list, line[0], RING, 1.5f, theme()->playhead);
-    stage_note(core, line[0][0] + RING + 8, line[0][1] + 4, FONT_NUMBER, theme()->text, text);
-}
-
 void pins_show(struct stage *stage, struct core *core)
 {
+    const struct document *document = core->document;
+    struct drawlist *list = &core->list;
     int rig;
     struct pin_place place = PINS_START;
-    const struct pin *selected = pins_selected(core, &rig);
-    if (selected && point_exists(core, (struct rig_point){rig, selected->point}))
-        path_show(stage, core, TRAIL_OF_PIN, (struct rig_point){rig, selected->point});
-    for (const struct pin *pin; (pin = next_marker(core, &place));) show_marker(stage, core, place, pin);
+    const struct pin *chosen = pins_selected(core, &rig);
+    if (chosen && point_exists(core, (struct rig_point){rig, chosen->point}))
+        path_show(stage, core, TRAIL_OF_PIN, (struct rig_point){rig, chosen->point});
+    for (const struct pin *pin; (pin = next_marker(core, &place));) {
+        // The target, and a line to the point at the pin's frame if known.
+        const struct pin_left *left = evaluation_pin(core->evaluation, document, place.rig, place.at);
+        const bool here = document_sample(document, pin->frame) == document_sample(document, core_frame(core));
+        const bool selected = core->pin.any && core->pin.id == pin->id;
+        const bool hot = core->hover.thing == &thing_pin && core->hover.pin == pin->id;
+        const float radius = here || selected || hot ? HERE : ELSEWHERE;
+        const uint32_t color = theme_fade(pins_color(document, place.rig), here || selected || hot ? 1 : FAINT);
+        float line[2][2];
+        if (!project(stage, core, pin->to, line[0])) continue;
+        const bool has_end = left && left->is_found && project(stage, core, left->at, line[1]);
+        if (has_end && maths_hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
+            drawlist_line(list, line[0], 2, 1.25f, color);
+            drawlist_disc(list, line[1], END, color);
+        }
+        drawlist_disc(list, line[0], radius + 1.5f, theme_fade(theme()->panel, here || selected ? 0.8f : 0.4f));
+        drawlist_disc(list, line[0], radius, color);
+        if (!selected && !hot) continue;
+        char text[32];
+        snprintf(text, sizeof text, "%.6g", pin->frame);
+        drawlist_circle(list, line[0], RING, 1.5f, theme()->playhead);
+        stage_note(core, line[0][0] + RING + 8, line[0][1] + 4, FONT_NUMBER, theme()->text, text);
+    }
     if (core->hover.thing != &thing_point || core->drag.owner) return;
     const float xy[2] = {core->hover.x, core->hover.y}; // the target of a press
-    drawlist_circle(&core->list, xy, LIT + 1.5f, 1.5f, theme_fade(theme()->panel, 0.6f));
-    drawlist_circle(&core->list, xy, LIT, 1.5f, theme()->playhead);
-    drawlist_disc(&core->list, xy, END, theme()->playhead);
+    drawlist_circle(list, xy, LIT + 1.5f, 1.5f, theme_fade(theme()->panel, 0.6f));
+    drawlist_circle(list, xy, LIT, 1.5f, theme()->playhead);
+    drawlist_disc(list, xy, END, theme()->playhead);
 }
