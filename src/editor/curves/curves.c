@@ -197,7 +197,7 @@ void curves_frame_selection(struct curves *curves, struct core *core)
     view_set(curves, core, curves->view);
 }
 
-static void shift(struct curves *curves, struct core *core, double frames, double values)
+static void shift_view(struct curves *curves, struct core *core, double frames, double values)
 {
     const struct view *v = &curves->view;
     view_set(curves, core,
@@ -208,13 +208,13 @@ void curves_reveal(struct curves *curves, struct core *core, double frame, doubl
 {
     const struct view *view = &curves->view;
     const double frames = 0.05 * (view->frame1 - view->frame0), values = 0.05 * (view->value1 - view->value0);
-    shift(curves, core, fmin(frame - frames - view->frame0, 0) + fmax(frame + frames - view->frame1, 0),
-          fmin(value - values - view->value0, 0) + fmax(value + values - view->value1, 0));
+    shift_view(curves, core, fmin(frame - frames - view->frame0, 0) + fmax(frame + frames - view->frame1, 0),
+               fmin(value - values - view->value0, 0) + fmax(value + values - view->value1, 0));
 }
 
 void curves_pan(struct curves *curves, struct core *core, double dx, double dy)
 {
-    shift(curves, core, -dx / curves_pixels_per_frame(curves, core), dy / curves_pixels_per_value(curves, core));
+    shift_view(curves, core, -dx / curves_pixels_per_frame(curves, core), dy / curves_pixels_per_value(curves, core));
 }
 
 void curves_zoom(struct curves *curves, struct core *core, float x, float y, double time_factor, double value_factor)
@@ -702,8 +702,8 @@ void warnings_update(struct curves *curves, const struct core *core)
         warnings_add_far(document, evaluation, curves_other(curves, document, i), warnings);
 }
 
-static bool set(struct document *document, const struct warning *warning, enum parameter parameter, double value,
-                struct error *error)
+static bool set_warned(struct document *document, const struct warning *warning, enum parameter parameter,
+                       double value, struct error *error)
 {
     const struct param param = param_number(value);
     return edit_parameter(document, warning->spline, parameter, &param, error);
@@ -732,11 +732,11 @@ static bool remedy_apply(enum remedy remedy, struct document *document, const st
         break;
     case REMEDY_RAISE_CALM:
         snprintf(text, FIX_TEXT, "raise calm to 1");
-        return set(document, warning, PARAMETER_CALM, 1, error);
+        return set_warned(document, warning, PARAMETER_CALM, 1, error);
     case REMEDY_SET_LIMITS:
         snprintf(text, FIX_TEXT, "set limits from %.6g to %.6g", warning->low, warning->high);
-        return set(document, warning, PARAMETER_LOW, warning->low, error) &&
-               set(document, warning, PARAMETER_HIGH, warning->high, error);
+        return set_warned(document, warning, PARAMETER_LOW, warning->low, error) &&
+               set_warned(document, warning, PARAMETER_HIGH, warning->high, error);
     case REMEDY_ADD_KNOT: { // a pose, or outside complex mode a plain knot
         const bool is_pose = spline_mode(document->splines[warning->spline]) == WIGGLY_COMPLEX;
         const struct knot knot = {.frame = warning->frame,
@@ -754,11 +754,11 @@ static bool remedy_apply(enum remedy remedy, struct document *document, const st
         const double now = document->splines[warning->spline]->parameter[PARAMETER_FREQUENCY].value;
         const double lower = core_round(0.99 * now * warning->limit / warning->amount, 0.01);
         snprintf(text, FIX_TEXT, "lower the frequency to %.3g Hz", lower);
-        return set(document, warning, PARAMETER_FREQUENCY, lower, error);
+        return set_warned(document, warning, PARAMETER_FREQUENCY, lower, error);
     }
     case REMEDY_NARROW_BANDWIDTH:
         snprintf(text, FIX_TEXT, "narrow the bandwidth to %.3g", warning->remedy);
-        return set(document, warning, PARAMETER_BANDWIDTH, warning->remedy, error);
+        return set_warned(document, warning, PARAMETER_BANDWIDTH, warning->remedy, error);
     case REMEDY_FREE_LATER:
         snprintf(text, FIX_TEXT, "free the phase at frame %.6g", warning->to);
         return free_knot(document, warning, warning->to, false, error);
@@ -779,10 +779,10 @@ static bool remedy_apply(enum remedy remedy, struct document *document, const st
         return free_knot(document, warning, warning->frame, true, error);
     case REMEDY_DROP_WIND_UP:
         snprintf(text, FIX_TEXT, "set the wind-up to 0");
-        return set(document, warning, PARAMETER_WIND_UP, 0, error);
+        return set_warned(document, warning, PARAMETER_WIND_UP, 0, error);
     case REMEDY_LENGTHEN_WIND_UP:
         snprintf(text, FIX_TEXT, "lengthen the wind-up to %.3g periods", warning->remedy);
-        return set(document, warning, PARAMETER_WIND_UP, warning->remedy, error);
+        return set_warned(document, warning, PARAMETER_WIND_UP, warning->remedy, error);
     case REMEDY_UNSETTLE_ALL:
         snprintf(text, FIX_TEXT, "let its knots be plain ones");
         return edit_spline_settles(document, warning->spline, false, error);

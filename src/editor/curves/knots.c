@@ -18,7 +18,7 @@
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 static const double LENGTH_SLACK = 8;        ///< pixels; a longer pull also changes the stiffness
 
-static void collect(const struct curves *curves, struct core *core)
+static void collect_knots(const struct curves *curves, struct core *core)
 {
     core_collect(core, curves->knot_drag.ripple);
     core->drag.label = core->originals.count == 1 ? "Move knot" : "Move knots";
@@ -65,7 +65,7 @@ struct moving {
     double frames, up, resolution;
 };
 
-static struct knot moved(const void *how, const struct original *original)
+static struct knot moved_knot(const void *how, const struct original *original)
 {
     const struct moving *moving = how;
     const double scale = normal_map(moving->curves, moving->core, original->spline).scale;
@@ -84,9 +84,9 @@ static void apply_knots(void *of, struct core *core)
     if (core->originals.count == 0) return;
     struct moving moving = {curves, core, wanted_frames(curves, core, why),
                             core->drag.lock_x ? 0 : -core->drag.moved_y / pixels, 0.01 / pixels};
-    if (originals_room(core, moved, &moving, why) != ROOM_FREE) moving.frames = curves->knot_drag.free_frames;
+    if (originals_room(core, moved_knot, &moving, why) != ROOM_FREE) moving.frames = curves->knot_drag.free_frames;
     curves->knot_drag.free_frames = moving.frames;
-    if (!originals_put(core, moved, &moving, why)) drag_restart(core);
+    if (!originals_put(core, moved_knot, &moving, why)) drag_restart(core);
     drag_say_stopped(core, why);
 }
 
@@ -123,7 +123,7 @@ static enum drag_answer knots_event(void *room, struct core *core, const struct 
     drag->ripple = !drag->ripple; // the later knots keep their distances to the dragged ones
     drag->free_frames = 0;
     core->drag.stale = true;
-    collect(room, core);
+    collect_knots(room, core);
     core_message(core, false,
                  drag->ripple ? "Ripple on: later knots move too (R turns it off)."
                               : "Ripple off: later knots stay.");
@@ -171,7 +171,7 @@ static void press_knot(void *room, struct core *core, const struct hover *hover,
     drag_begin(core, &owner, curves, NULL, event);
     core->drag.knot = id;
     curves->knot_drag = (struct knot_drag){.collapse = selected && !(event->mods & MOD_SHIFT)};
-    collect(curves, core);
+    collect_knots(curves, core);
     core->drag.lock_x = rect_contains(core->layout.sheet, event->x, event->y); // the dope sheet has only time
 }
 
@@ -244,14 +244,14 @@ void curves_nudge(const struct curves *curves, struct core *core, double frames,
     if (history_is_open(core->history)) return;
     core_collect(core, false);
     // jump over knots in the way
-    while (frames != 0 && (room = originals_room(core, moved, &moving, why)) == ROOM_OCCUPIED)
+    while (frames != 0 && (room = originals_room(core, moved_knot, &moving, why)) == ROOM_OCCUPIED)
         moving.frames += frames;
     if (room == ROOM_OUTSIDE) moving.frames = 0;
     if (room == ROOM_OUTSIDE) core_stopped(core, why);
     if (core->originals.count == 0 || (moving.frames == 0 && up == 0)) return;
     if (room == ROOM_FREE) why[0] = 0;
     core_begin(core, "Nudge knots", core_merge_key(core, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE));
-    originals_put(core, moved, &moving, why);
+    originals_put(core, moved_knot, &moving, why);
     core_end(core, true);
     if (*why) core_stopped(core, why);
     core->nudged_seconds = GHOST_SECONDS;
@@ -396,7 +396,7 @@ struct scale {
     const struct core *core;
 };
 
-static struct knot scaled(const void *how, const struct original *original)
+static struct knot scaled_knot(const void *how, const struct original *original)
 {
     const struct curves *curves = ((const struct scale *)how)->curves;
     const struct core *core = ((const struct scale *)how)->core;
@@ -426,15 +426,16 @@ static void scale_knots(void *room, struct core *core)
     const struct scale scale = {curves, core};
     scaling->by = wanted_factors(curves, core);
     scaling->stopped[0][0] = scaling->stopped[1][0] = 0;
-    if (originals_room(core, scaled, &scale, scaling->stopped[0]) != ROOM_FREE) scaling->by.time = scaling->free_time;
+    if (originals_room(core, scaled_knot, &scale, scaling->stopped[0]) != ROOM_FREE)
+        scaling->by.time = scaling->free_time;
     scaling->free_time = scaling->by.time;
     bool changes = scaling->by.value == 1 || scaling->by.time != 1;
     for (int i = 0; i < originals->count && !changes; i++)
-        changes =
-            !originals->list[i].knot.still && scaled(&scale, &originals->list[i]).value != originals->list[i].value;
+        changes = !originals->list[i].knot.still &&
+                  scaled_knot(&scale, &originals->list[i]).value != originals->list[i].value;
     if (!changes)
         snprintf(scaling->stopped[1], STOPPED_SIZE, "all are on the %s", pivot_name(scaling, scaling->pivot));
-    if (!originals_put(core, scaled, &scale, scaling->stopped[1])) drag_restart(core);
+    if (!originals_put(core, scaled_knot, &scale, scaling->stopped[1])) drag_restart(core);
     say_scale(curves, core);
 }
 

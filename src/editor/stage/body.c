@@ -534,7 +534,7 @@ struct report {
     size_t length;
 };
 
-static void say(struct report *report, const char *text)
+static void say_part(struct report *report, const char *text)
 {
     report->length +=
         (size_t)snprintf(report->text + report->length, sizeof report->text - report->length, "%s", text);
@@ -646,7 +646,7 @@ static void place_body(struct stage *stage, struct core *core, const double offs
     bool any = false;
     int swings = -1;
     if (keys) base_begin(stage, core);
-    say(&report, keys ? "Keyed " : "Moved for the whole shot: ");
+    say_part(&report, keys ? "Keyed " : "Moved for the whole shot: ");
     for (int k = 0; k < 3; k++) {
         char part[32];
         const char *name = part;
@@ -662,16 +662,16 @@ static void place_body(struct stage *stage, struct core *core, const double offs
             if (by == 0) continue;
             snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
         }
-        if (any) say(&report, ", ");
-        say(&report, name);
+        if (any) say_part(&report, ", ");
+        say_part(&report, name);
         any = true;
     }
     if (keys) {
         char frame[64];
         snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core)));
-        say(&report, frame);
+        say_part(&report, frame);
     } else if (any) {
-        say(&report, is_tail && !report.why[0] ? ". Auto-key (Shift+A) sets knots instead." : ".");
+        say_part(&report, is_tail && !report.why[0] ? ". Auto-key (Shift+A) sets knots instead." : ".");
     } else if (report.why[0]) {
         core_stopped(core, report.why);
     } else {

@@ -75,12 +75,12 @@ static void pose_soft(struct stage *stage, const struct core *core, int rig, int
     }
 }
 
-static float aside(const struct core *core, int n)
+static float character_aside(const struct core *core, int n)
 {
     return core->characters.compare ? pair_offset(models_figure(core->models, n)) : 0.0f;
 }
 
-static uint64_t hash(uint64_t sum, const struct stage_view *view)
+static uint64_t hash_characters(uint64_t sum, const struct stage_view *view)
 {
     for (int c = 0; c < view->character_count; c++) {
         const struct stage_character *shown = &view->characters[c];
@@ -96,7 +96,7 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
 }
 
 const struct stage_kind character_stage = {
-    .pose = pose_soft, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
+    .pose = pose_soft, .bound_steps = BOUND_STEPS, .aside = character_aside, .hash = hash_characters};
 
 /// The vertex seen at a share of the width and height from the front, at rest.
 bool find_character(void *room, const struct core *core, const struct target *target, float xy[2])
@@ -445,7 +445,7 @@ static const double MOST_BLEND = 0.5;         ///< per pass; more would overshoo
 static const float MOST_LEAD = 12.5663706f, LEAST_SWELL = -4.60517f, MOST_SWELL = 1.3862944f; ///< ±720°; 0.01 … 4
 static const float STILL = 1e-4f; ///< of the largest amplitude; phases below this mean nothing
 
-static void multiply(const float a[2], const float b[2], float out[2])
+static void multiply_complex(const float a[2], const float b[2], float out[2])
 {
     const float re = a[0] * b[0] - a[1] * b[1], im = a[0] * b[1] + a[1] * b[0];
     out[0] = re;
@@ -456,7 +456,7 @@ static void multiply(const float a[2], const float b[2], float out[2])
 static void motion_of(const struct brush_work *work, const struct coordinate *c, uint32_t vertex, float out[3][2])
 {
     for (int k = 0; k < 3; k++)
-        multiply(work->turned[vertex], (const float[2]){c->re[vertex][k], c->im[vertex][k]}, out[k]);
+        multiply_complex(work->turned[vertex], (const float[2]){c->re[vertex][k], c->im[vertex][k]}, out[k]);
 }
 
 /// Difference between a vertex and its neighbours: log of amplitude, and the angle φ for which e^{jφ} Ñ' is closest to their mean m, which
@@ -507,7 +507,7 @@ static void smooth_once(struct painting *painting, const struct figure *figure, 
         const float swell = glm_clamp(value[0] + work->steps[i][0], LEAST_SWELL, MOST_SWELL) - value[0];
         const float lead = glm_clamp(value[1] + work->steps[i][1], -MOST_LEAD, MOST_LEAD) - value[1];
         const float size = maths_expf(swell);
-        multiply(turned, (const float[2]){size * maths_cosf(lead), size * maths_sinf(lead)}, turned);
+        multiply_complex(turned, (const float[2]){size * maths_cosf(lead), size * maths_sinf(lead)}, turned);
         value[0] += swell;
         value[1] += lead;
     }

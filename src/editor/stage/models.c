@@ -75,7 +75,7 @@ struct stage_model *models_show(struct stage *stage, const struct core *core, in
 }
 
 /// The distance between a character and its clip alone.
-static float aside(const struct core *core, int n)
+static float model_aside(const struct core *core, int n)
 {
     const int rig = document_find_rig(core->document, RIG_MODEL, n);
     const struct imported *imported = models_imported(core->models, core->document, rig);
@@ -98,7 +98,7 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
     const struct posing posing = {.document = core->document, .models = core->models, .memory = POSE_BESIDE};
     if (!core->overlays.original || view->model_count == STAGE_MAX_MODELS) return;
     if (!rig_pose_body(&posing, rig, core->playback.position, NULL, &posed)) return;
-    const float by = aside(core, n);
+    const float by = model_aside(core, n);
     shown = &view->models[view->model_count++];
     *shown = shown[-1];
     shown->pose = posed.model.pose;
@@ -108,7 +108,7 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
     add_shadows(view, shown, &posed.model.imported->skeleton);
 }
 
-static uint64_t hash(uint64_t sum, const struct stage_view *view)
+static uint64_t hash_models(uint64_t sum, const struct stage_view *view)
 {
     for (int m = 0; m < view->model_count; m++) {
         const struct stage_model *shown = &view->models[m];
@@ -122,7 +122,7 @@ static uint64_t hash(uint64_t sum, const struct stage_view *view)
 }
 
 const struct stage_kind model_stage = {
-    .pose = pose_imported, .bound_steps = BOUND_STEPS, .aside = aside, .hash = hash};
+    .pose = pose_imported, .bound_steps = BOUND_STEPS, .aside = model_aside, .hash = hash_models};
 
 void skin_free(struct skin *skin)
 {

@@ -609,7 +609,7 @@ static const struct pin *next_marker(const struct core *core, struct pin_place *
     return pin;
 }
 
-static bool project(const struct stage *stage, const struct core *core, const double place[3], float xy[2])
+static bool project_place(const struct stage *stage, const struct core *core, const double place[3], float xy[2])
 {
     const float at[3] = {(float)place[0], (float)place[1], (float)place[2]};
     return stage_project_point(stage, core->layout.stage, at, xy);
@@ -626,7 +626,7 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
     struct pin_place place = PINS_START;
     for (const struct pin *pin; (pin = next_marker(core, &place));) {
         float xy[2];
-        if (!project(stage, core, pin->to, xy)) continue;
+        if (!project_place(stage, core, pin->to, xy)) continue;
         float distance = maths_hypotf(xy[0] - x, xy[1] - y);
         if (distance < reach && core->pin.any && core->pin.id == pin->id) distance = 0;
         if (distance >= best) continue;
@@ -727,7 +727,7 @@ static void press_pin(void *room, struct core *core, const struct hover *hover, 
 
 static bool find_pin(void *room, const struct core *core, const struct target *target, float xy[2])
 {
-    return project(room, core, target->pin->to, xy);
+    return project_place(room, core, target->pin->to, xy);
 }
 
 /// pin(tail,0): a pin's marker, counted by frame.
@@ -770,7 +770,7 @@ void stage_nudge_pin(struct stage *stage, struct core *core, double right, doubl
 }
 
 /// Pins a point at the playhead where it is.
-static void hold(struct core *core, struct rig_point point)
+static void pin_here(struct core *core, struct rig_point point)
 {
     float place[3];
     if (!point_exists(core, point)) {
@@ -789,12 +789,12 @@ void stage_hold_point(struct stage *stage, struct core *core)
     if (is_strand(&hover)) hover = strand_end(stage, core, &hover);
     const struct pin *selected = pins_selected(core, &rig);
     if (hover.thing == &thing_point) {
-        hold(core, (struct rig_point){hover.rig, hover.joint});
+        pin_here(core, (struct rig_point){hover.rig, hover.joint});
     } else if (selected) {
         const struct pin pin = *selected;
         pins_put_here(core, rig, pin.point, pin.to);
     } else {
-        hold(core, overlay_point(stage, core));
+        pin_here(core, overlay_point(stage, core));
     }
 }
 
@@ -816,8 +816,8 @@ void pins_show(struct stage *stage, struct core *core)
         const float radius = here || selected || hot ? HERE : ELSEWHERE;
         const uint32_t color = theme_fade(pins_color(document, place.rig), here || selected || hot ? 1 : FAINT);
         float line[2][2];
-        if (!project(stage, core, pin->to, line[0])) continue;
-        const bool has_end = left && left->is_found && project(stage, core, left->at, line[1]);
+        if (!project_place(stage, core, pin->to, line[0])) continue;
+        const bool has_end = left && left->is_found && project_place(stage, core, left->at, line[1]);
         if (has_end && maths_hypotf(line[1][0] - line[0][0], line[1][1] - line[0][1]) > LEAST_LINE) {
             drawlist_line(list, line[0], 2, 1.25f, color);
             drawlist_disc(list, line[1], END, color);

@@ -171,20 +171,20 @@ void stage_click(void *room, struct core *core, bool keep)
 
 static const float ORBIT_SPEED = 0.008f; ///< radians per pixel
 
-static void orbit(void *room, struct core *core)
+static void orbit_stage(void *room, struct core *core)
 {
     struct stage *stage = room;
     camera_orbit(&stage->camera, -(float)core->drag.moved_x * ORBIT_SPEED, (float)core->drag.moved_y * ORBIT_SPEED);
 }
 
-static void pan(void *room, struct core *core)
+static void pan_stage(void *room, struct core *core)
 {
     struct stage *stage = room;
     camera_pan(&stage->camera, (float)core->drag.moved_x, (float)core->drag.moved_y, core->layout.stage.h);
 }
 
-static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan, .end = stage_click};
-static const struct drag_owner orbiting = {.cursor = CURSOR_ARROW, .move = orbit, .end = stage_click};
+static const struct drag_owner panning = {.cursor = CURSOR_MOVE, .move = pan_stage, .end = stage_click};
+static const struct drag_owner orbiting = {.cursor = CURSOR_ARROW, .move = orbit_stage, .end = stage_click};
 
 static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; per STEP a tail moves less than its grab distance
 

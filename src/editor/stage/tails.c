@@ -315,7 +315,7 @@ static void set_pose(struct stage *stage, struct core *core, const struct tail_d
 }
 
 /// Activates a spline that bends the strand, unless one is active.
-static void activate(const struct tail_drag *grab, struct core *core)
+static void activate_bending(const struct tail_drag *grab, struct core *core)
 {
     bool steered = false;
     for (int a = 0; a < 2; a++) steered |= grab->axis[a].active && grab->axis[a].spline == core->active;
@@ -376,7 +376,7 @@ static void pull_strand(void *room, struct core *core)
     grab->applied = true;
 
     // Selects the pulled knot.
-    activate(grab, core);
+    activate_bending(grab, core);
     const struct spline *spline = core_active_spline(core);
     const int pulled = spline ? spline_find_knot(core->document, spline, grab->sample) : -1;
     if (pulled < 0) return;
@@ -394,7 +394,7 @@ static void end_pull(void *room, struct core *core, bool keep)
 {
     const struct tail_drag *grab = &((const struct stage *)room)->tail_drag;
     const bool steers = grab->axis[AXIS_SIDE].active || grab->axis[AXIS_UP].active;
-    if (keep && steers && !core->drag.moved) activate(grab, core);
+    if (keep && steers && !core->drag.moved) activate_bending(grab, core);
     stage_click(room, core, keep);
 }
 
