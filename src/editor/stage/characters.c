@@ -202,6 +202,12 @@ static const float AROUND = 0.42f;    ///< from the middle to the edge, as a sha
 static const float EDGE_REACH = 5;    ///< pixels
 static const double LEAST_RISE = 0.3; ///< cosine of the camera's elevation; below it height follows the pointer less
 
+/// A floor's corners in order, on the screen.
+struct shown_floor {
+    float xy[4][2];
+    int first; ///< corner nearest to the eye
+};
+
 /// A shown character's floor and its place on the screen, or NULL.
 static const struct character_rig *floors_find(const struct stage *stage, const struct core *core,
                                                const struct stage_character *shown, struct shown_floor *floor)

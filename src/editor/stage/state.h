@@ -237,6 +237,8 @@ static inline bool is_strand(const struct hover *hover)
 
 /// Inputs of posing, in the editor's look.
 struct posing stage_posing(const struct core *core);
+/// The same, with the held body and its follow-through.
+struct posing stage_posing_by_hand(const struct stage *stage);
 /// Projects a point to the stage's rectangle `r`; false if it is behind the eye.
 bool stage_project_point(const struct stage *stage, struct rect r, const float point[3], float xy[2]);
 /// The rectangle around the corners of a box that are in front of the eye; false if some are not.
@@ -252,8 +254,6 @@ void stage_ring(struct core *core, const float xy[2]);
 /// End of a drag that never moved: a click on a bone, or on nothing.
 void stage_click(void *room, struct core *core, bool keep);
 
-/// The same, with the held body and its follow-through.
-struct posing stage_posing_by_hand(const struct stage *stage);
 /// Pixels per metre facing the eye, at a place.
 double stage_pixels_per_metre(const struct stage *stage, const struct core *core, const float place[3]);
 /// How far the pointer's movement goes along an axis whose unit is (across, up) on the screen.
@@ -297,12 +297,6 @@ void bone_click(const struct stage *stage, struct core *core);
 void bones_show(const struct stage *stage, struct core *core);
 /// Widens the box to the selected bone and those to its tip; false if none is shown.
 bool bones_box(const struct stage *stage, const struct core *core, float lo[3], float hi[3]);
-
-/// A floor's corners in order, on the screen.
-struct shown_floor {
-    float xy[4][2];
-    int first; ///< corner nearest to the eye
-};
 
 /// The floor's edge at a point of the stage.
 struct hover floors_hover(const struct stage *stage, const struct core *core, float x, float y);

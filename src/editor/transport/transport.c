@@ -33,7 +33,7 @@ static const struct {
 static bool is_covered(const struct core *core) { return core->message.text[0] && core->layout.status.w < 640; }
 
 /// A press or the wheel on a control; true if used.
-static bool use(struct core *core, int control, const struct event *event)
+static bool use_control(struct core *core, int control, const struct event *event)
 {
     const bool turns = event->kind == EVENT_WHEEL, left = event->button == BUTTON_LEFT;
     if (turns ? event->dy == 0 : event->button == BUTTON_MIDDLE) return false;
@@ -49,7 +49,7 @@ static bool use(struct core *core, int control, const struct event *event)
     return true;
 }
 
-static void paint(const struct core *core, struct drawlist *list, int control, struct rect r, bool hot)
+static void paint_control(const struct core *core, struct drawlist *list, int control, struct rect r, bool hot)
 {
     const struct playback *playback = &core->playback;
     char speed[16], size[16];
@@ -81,7 +81,7 @@ static void paint(const struct core *core, struct drawlist *list, int control, s
 }
 
 /// Lays out the controls from left to right; returns their right end.
-static float build(struct ui *ui, struct core *core)
+static float lay_out_controls(struct ui *ui, struct core *core)
 {
     enum { MARGIN = 6, NARROW = 420 /* a window without the least of them */ };
     const struct rect bar = core->layout.status;
@@ -93,8 +93,8 @@ static float build(struct ui *ui, struct core *core)
         ui_register(ui, ui_id(ui, controls[c].name), r);
         ui_hint(ui, r, controls[c].hint);
         const bool hot = ui_hovered(ui, r);
-        if (ui->pass == UI_PASS_DRAW) paint(core, ui->list, c, r, hot);
-        if (ui->pass == UI_PASS_EVENT && hot && !ui->used) ui->used = use(core, c, ui->event);
+        if (ui->pass == UI_PASS_DRAW) paint_control(core, ui->list, c, r, hot);
+        if (ui->pass == UI_PASS_EVENT && hot && !ui->used) ui->used = use_control(core, c, ui->event);
     }
     return r.x + r.w;
 }
@@ -106,14 +106,14 @@ void transport_event(struct ui *ui, struct core *core, const struct event *event
         return;
     }
     ui_begin_event(ui, core->layout.status, event);
-    build(ui, core);
+    lay_out_controls(ui, core);
     ui_end(ui);
 }
 
 bool transport_target(struct ui *ui, struct core *core, const char *name, float *x, float *y)
 {
     ui_begin_find(ui, core->layout.status, name, NULL);
-    build(ui, core);
+    lay_out_controls(ui, core);
     const bool found = ui_end(ui);
     *x = ui->found_x;
     *y = ui->found_y;
@@ -175,7 +175,7 @@ void transport_show(struct ui *ui, struct core *core, const char *hint)
     drawlist_rect(&core->list, bar, theme()->panel);
     drawlist_rect(&core->list, (struct rect){bar.x, bar.y, bar.w, 1}, theme()->border);
     ui_begin_draw(ui, bar, &core->list);
-    float x = build(ui, core);
+    float x = lay_out_controls(ui, core);
     ui_end(ui);
     if (is_covered(core)) {
         x = bar.x + STATUS_MARGIN;
