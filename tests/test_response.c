@@ -1,7 +1,7 @@
 /// The frequency response beside the poles: the three rows of the paper's Figure 2, computed and ranked as it shows them.
 #include "near.h"
 
-#include "editor/inspector/response.h"
+#include "editor/inspector/poles.h"
 #include <wiggly/more.h>
 
 static const double step = 1.0 / 24;

@@ -2,7 +2,7 @@
 #include "near.h"
 
 #include "curve.h"
-#include "editor/inspector/response.h"
+#include "editor/inspector/poles.h"
 #include "spline_of.h"
 
 /// x″ + 2ζω x′ + ω² x = 0 from 1 at standstill, by a fourth-order Runge-Kutta method: last time at which |x| > 0.05.

@@ -1,7 +1,7 @@
 /// Writes the paper's figures as SVG and CSV, from assets/scenes and the present solver. Usage: paper_figures <folder>. Exit status 1 if a
 /// scene cannot be read or solved, 3 if a file cannot be written.
 #include "base/error.h"
-#include "editor/inspector/response.h"
+#include "editor/inspector/poles.h"
 #include "model/character.h"
 #include "rig/posing.h"
 #include "scene/load.h"

@@ -4,7 +4,7 @@
 #include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
-#include "editor/inspector/parts.h"
+#include "editor/inspector/state.h"
 #include "maths/maths.h"
 #include <math.h>
 #include <stdio.h>

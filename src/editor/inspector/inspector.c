@@ -1,10 +1,11 @@
-/// The inspector: the table of its sections, and what they share.
+/// The inspector: the table of its sections, what they share, and the sections on scene and history.
 #include "editor/inspector/inspector.h"
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
-#include "editor/inspector/parts.h"
+#include "editor/inspector/state.h"
+#include "ui/theme.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -511,4 +512,164 @@ void inspector_more(struct inspector *in, int count, int most, const char *what)
     char text[96];
     snprintf(text, sizeof text, "%d of %d%s", most, count, what);
     if (count > most) ui_paragraph(&in->ui, text, theme()->text_dim);
+}
+
+enum { ROW_RATE, ROW_FIRST, ROW_LAST, ROW_SUBSTEPS, SCENE_ROWS };
+
+static const void *document_of(const struct inspector *in) { return in->core->document; }
+
+/// Rate and range ask before they move knots.
+static bool set_scene(struct inspector *in, int which, double number, struct error *error)
+{
+    const struct document *document = in->core->document;
+    const int whole = (int)lround(number);
+    (void)error;
+    if (which == ROW_RATE) spline_list_fps(in->core, number);
+    if (which == ROW_FIRST) spline_list_range(in->core, whole, document->last_frame);
+    if (which == ROW_LAST) spline_list_range(in->core, document->first_frame, whole);
+    if (which == ROW_SUBSTEPS && core_begin(in->core, "Set substeps", 0))
+        core_end(in->core, edit_substeps(in->core->document, whole, &in->core->error));
+    return true;
+}
+
+static const struct number_row scene_rows[SCENE_ROWS] = {
+    [ROW_RATE] = {"scene.fps", "rate", "fps", "Frames per second; asks whether to keep frames or seconds", NULL,
+                  NUMBER_AT(struct document, fps), 0, 0, 0.001, SCENE_MAX_FPS, 24, 1, 0},
+    [ROW_FIRST] = {"scene.first", "first", NULL, "First frame of the scene", NULL,
+                   WHOLE_AT(struct document, first_frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
+    [ROW_LAST] = {"scene.last", "last", NULL, "Last frame of the scene; in a loop it repeats the first", NULL,
+                  WHOLE_AT(struct document, last_frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
+    [ROW_SUBSTEPS] = {"scene.substeps", "substeps", NULL, "Samples per frame, for motion blur", NULL,
+                      WHOLE_AT(struct document, substeps), 0, 0, 1, SCENE_MAX_SUBSTEPS, 1, 1, 0},
+};
+
+static void build_solver(struct inspector *in)
+{
+    const struct rect r = inspector_labelled(in, "solver");
+    ui_hint(&in->ui, r,
+            "Band: all samples at once, as in the paper. Chain: from knot to knot, beyond 4096 samples or 300 "
+            "without a knot");
+    if (in->core->evaluation) ui_label(&in->ui, r, evaluation_solver(in->core->evaluation), theme()->text);
+}
+
+void inspector_scene(struct inspector *in)
+{
+    static const struct number_home home = {.of = document_of, .set = set_scene, .settles = true};
+    for (int i = 0; i < SCENE_ROWS; i++) {
+        struct number_row row = scene_rows[i];
+        const double longest = document_longest(in->core->document);
+        if (i == ROW_RATE && in->core->document->fps != floor(in->core->document->fps)) row.decimals = 3;
+        if (i == ROW_FIRST) row.lowest = fmax(row.lowest, in->core->document->last_frame - longest);
+        if (i == ROW_LAST) row.highest = fmin(row.highest, in->core->document->first_frame + longest);
+        inspector_number(in, &row, &home, i, ui_row(&in->ui, UI_ROW));
+    }
+    build_solver(in);
+}
+
+enum { HISTORY_ROWS = 9 };
+
+/// Row 0 is the state before the oldest step, row n the state after step n.
+static void text_of(const struct history *history, size_t row, char *text, size_t size)
+{
+    size_t dropped = history_dropped(history);
+    if (row > 0) {
+        snprintf(text, size, "%s", history_label(history, row - 1));
+    } else if (dropped == 0) {
+        snprintf(text, size, "Opened");
+    } else {
+        snprintf(text, size, "%zu older step%s dropped", dropped, dropped == 1 ? " was" : "s were");
+    }
+}
+
+static void name_of(size_t row, char name[32]) { snprintf(name, 32, "history.%zu", row); }
+
+/// Scrolls to the present step when it changes.
+static void keep_in_sight(struct history_view *view, size_t count, size_t done)
+{
+    size_t last_top = count + 1 > HISTORY_ROWS ? count + 1 - HISTORY_ROWS : 0;
+    if (view->count != count || view->done != done) {
+        if (done < view->top) view->top = done;
+        if (done >= view->top + HISTORY_ROWS) view->top = done - HISTORY_ROWS + 1;
+    }
+    view->count = count;
+    view->done = done;
+    if (view->top > last_top) view->top = last_top;
+}
+
+static void go_to(struct inspector *in, size_t row)
+{
+    char name[32];
+    name_of(row, name);
+    if (in->ui.focus) in->ui.focus = ui_id(&in->ui, name);
+    core_jump(in->core, row);
+}
+
+static void scroll_history(struct inspector *in, struct rect list)
+{
+    struct ui *ui = &in->ui;
+    struct history_view *view = &in->history;
+    bool wheel = ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_WHEEL && !ui->used && ui_hovered(ui, list);
+    if (!wheel || view->count < HISTORY_ROWS) return;
+    bool up = ui->event->dy > 0;
+    size_t room = up ? view->top : view->count + 1 - HISTORY_ROWS - view->top;
+    size_t by = room < 3 ? room : 3;
+    view->top = up ? view->top - by : view->top + by;
+    ui->used = by > 0;
+}
+
+/// ↑ and ↓ on the focused row: undo, redo.
+static void step_by_key(struct inspector *in, size_t first, size_t end)
+{
+    struct ui *ui = &in->ui;
+    bool key = ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_KEY && ui->event->action != ACTION_RELEASE;
+    if (!key || ui->used || (ui->event->key != KEY_UP && ui->event->key != KEY_DOWN)) return;
+    const struct history_view *view = &in->history;
+    for (size_t row = first; row < end; row++) {
+        char name[32];
+        name_of(row, name);
+        if (ui->focus != ui_id(ui, name)) continue;
+        ui->used = true;
+        bool up = ui->event->key == KEY_UP;
+        if (up ? view->done > 0 : view->done < view->count) go_to(in, up ? view->done - 1 : view->done + 1);
+        return;
+    }
+}
+
+static bool build_step(struct inspector *in, size_t row)
+{
+    const struct history *history = in->core->history;
+    const struct history_view *view = &in->history;
+    struct ui *ui = &in->ui;
+    struct rect r = ui_row(ui, UI_ROW);
+    char name[32], text[96];
+    name_of(row, name);
+    text_of(history, row, text, sizeof text);
+    bool pressed = ui_list_row(ui, r, name, "", 0, row == view->done);
+    uint32_t color = row > view->done ? theme()->text_dim : theme()->text;
+    ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 60, r.h}, text, color);
+    if (history_step_is_saved(history, row)) ui_label_right(ui, r, "saved", color);
+    ui_hint(ui, r, row > view->done ? "Redo to here" : "Undo to here");
+    return pressed;
+}
+
+void inspector_history(struct inspector *in)
+{
+    const struct history *history = in->core->history;
+    struct history_view *view = &in->history;
+    size_t count = history_count(history);
+    keep_in_sight(view, count, history_done(history));
+    size_t first = view->top, end = first + HISTORY_ROWS < count + 1 ? first + HISTORY_ROWS : count + 1,
+           pressed = end;
+    struct rect list = {in->ui.area.x, in->ui.y, in->ui.area.w, (float)(end - first) * UI_ROW};
+    for (size_t row = first; row < end; row++) {
+        if (build_step(in, row)) pressed = row;
+    }
+    if (count + 1 > HISTORY_ROWS) {
+        char text[96];
+        snprintf(text, sizeof text, "Steps %zu to %zu of %zu", first > 0 ? first : 1, end - 1, count);
+        ui_paragraph(&in->ui, text, theme()->text_dim);
+    }
+    scroll_history(in, list);
+    step_by_key(in, first, end);
+    if (pressed < end) go_to(in, pressed);
 }

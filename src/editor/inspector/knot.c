@@ -1,16 +1,20 @@
-/// The inspector's section on the selected knots. A typed number sets all of them; a drag or an arrow moves all by the same amount. Frames
-/// keep their distances either way.
+/// The sections on the selected knots and on pins. A number typed for several knots sets all of them; a drag or an arrow moves all by the
+/// same amount. Frames keep their distances either way.
+#include "base/names.h"
+#include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
+#include "editor/core/pins.h"
 #include "editor/core/selection.h"
-#include "editor/inspector/parts.h"
+#include "editor/inspector/state.h"
+#include "scene/pins.h"
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 
 enum { FIELD_FRAME, FIELD_VALUE, FIELD_PHASE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
 
-static const struct number_row rows[FIELDS] = {
+static const struct number_row knot_rows[FIELDS] = {
     [FIELD_FRAME] = {"frame", "frame", NULL, "Frame of the first selected knot; the others move with it",
                      "Move knots", NUMBER_AT(struct knot, frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
     [FIELD_VALUE] = {"value", "value", NULL, "Type to set all selected knots; drag to shift each by the same amount",
@@ -42,14 +46,14 @@ static struct knot_numbers survey(const struct inspector *in, int field)
 {
     struct knot_numbers numbers = {.first = NAN};
     for (struct knot_place at = SELECTED_START; selected_next(in->core, &at); numbers.count++) {
-        const double number = number_at(&rows[field], knot_at(in->core->document, at));
+        const double number = number_at(&knot_rows[field], knot_at(in->core->document, at));
         if (isnan(numbers.first)) numbers.first = number;
         numbers.mixed |= number != numbers.first;
     }
     return numbers;
 }
 
-static double get(const struct inspector *in, int field)
+static double get_knots(const struct inspector *in, int field)
 {
     (void)field;
     return in->knots.first;
@@ -57,17 +61,17 @@ static double get(const struct inspector *in, int field)
 
 /// Sets the number of all selected knots, or moves them along with the first, in an order in which they do not collide. false with an error
 /// if one cannot go there.
-static bool set(struct inspector *in, int field, double value, struct error *error)
+static bool set_knots(struct inspector *in, int field, double value, struct error *error)
 {
     const struct originals *originals = &in->core->originals;
     core_collect(in->core, false);
-    const double by = value - number_at(&rows[field], &originals->list[0].knot);
+    const double by = value - number_at(&knot_rows[field], &originals->list[0].knot);
     const bool together = in->change != UI_SET || field == FIELD_FRAME;
     for (int i = 0; i < originals->count; i++) {
         const struct original *original = &originals->list[by > 0 ? originals->count - 1 - i : i];
         struct knot knot = original->knot;
-        const double number = together ? number_at(&rows[field], &knot) + by : value;
-        number_put(&rows[field], &knot, fmax(rows[field].lowest, number));
+        const double number = together ? number_at(&knot_rows[field], &knot) + by : value;
+        number_put(&knot_rows[field], &knot, fmax(knot_rows[field].lowest, number));
         if (!edit_knot_set(in->core->document, original->spline, &knot, error)) return false;
     }
     return true;
@@ -96,10 +100,10 @@ static void fit_to_one(const struct inspector *in, int field, double value, stru
     if (field == FIELD_STIFFNESS && value < 10) row->decimals = 3;
 }
 
-static void build_field(struct inspector *in, int field, struct rect r)
+static void build_knots(struct inspector *in, int field, struct rect r)
 {
-    static const struct number_home home = {.get = get, .set = set, .shown = show_several};
-    struct number_row row = rows[field];
+    static const struct number_home home = {.get = get_knots, .set = set_knots, .shown = show_several};
+    struct number_row row = knot_rows[field];
     in->knots = survey(in, field); // after the edit of the previous field
     if (in->knots.count == 0) return;
     if (in->knots.count == 1) fit_to_one(in, field, in->knots.first, &row);
@@ -173,9 +177,9 @@ static void build_holds(struct inspector *in)
 static void build_or_idle(struct inspector *in, int field, bool there)
 {
     if (there) {
-        build_field(in, field, ui_row(&in->ui, UI_ROW));
+        build_knots(in, field, ui_row(&in->ui, UI_ROW));
     } else {
-        inspector_idle(in, rows[field].label, "–");
+        inspector_idle(in, knot_rows[field].label, "–");
     }
 }
 
@@ -193,15 +197,15 @@ static void build_several(struct inspector *in)
     for (int i = 0; i < FIELDS; i++) {
         if (i == FIELD_PHASE) build_holds(in);
         if (i >= FIELD_SLOPE && !sloped) {
-            inspector_idle(in, rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
+            inspector_idle(in, knot_rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
         } else if (i == FIELD_PHASE && holds != HOLDS_POSE) {
-            inspector_idle(in, rows[i].label, "not all hold one");
+            inspector_idle(in, knot_rows[i].label, "not all hold one");
         } else if (i == FIELD_VALUE && holds == HOLDS_STILL) {
             build_at_rest(in);
         } else if (i == FIELD_VALUE && any_still) {
-            inspector_idle(in, rows[i].label, "not all have one");
+            inspector_idle(in, knot_rows[i].label, "not all have one");
         } else {
-            build_field(in, i, ui_row(&in->ui, UI_ROW));
+            build_knots(in, i, ui_row(&in->ui, UI_ROW));
         }
     }
 }
@@ -224,7 +228,7 @@ static void build_slope(struct inspector *in, unsigned id)
     }
     r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
     if (sloped) {
-        build_field(in, FIELD_SLOPE, r);
+        build_knots(in, FIELD_SLOPE, r);
     } else {
         ui_label(ui, r, "free", theme()->text_dim);
     }
@@ -296,12 +300,12 @@ void inspector_knot(struct inspector *in)
         // Rows may edit the document and reorder knots; ids stay valid.
         const unsigned id = spline->knots[only.knot].id;
         bool still;
-        build_field(in, FIELD_FRAME, ui_row(ui, UI_ROW));
+        build_knots(in, FIELD_FRAME, ui_row(ui, UI_ROW));
         const bool posed = all_hold(in, &still) == HOLDS_POSE;
         if (still) {
             build_at_rest(in);
         } else {
-            build_field(in, FIELD_VALUE, ui_row(ui, UI_ROW));
+            build_knots(in, FIELD_VALUE, ui_row(ui, UI_ROW));
         }
         build_holds(in);
         build_or_idle(in, FIELD_PHASE, posed);
@@ -314,4 +318,132 @@ void inspector_knot(struct inspector *in)
         build_slopes(in, has_slope(in, id));
     }
     ui->y = end;
+}
+
+enum { MAX_ROWS = 8 }; ///< listed at once
+
+/// The selected pin's row, or 0.
+static int selected_row(const struct core *core)
+{
+    struct pin_place place = PINS_START;
+    int row = 0;
+    for (const struct pin *pin; core->pin.any && (pin = pins_next(core->document, &place)); row++) {
+        if (pin->id == core->pin.id) return row;
+    }
+    return 0;
+}
+
+/// Remaining offset in millimetres; NAN if unknown.
+static double left_of(const struct inspector *in, int rig, int at)
+{
+    const struct pin_left *left = evaluation_pin(in->core->evaluation, in->core->document, rig, at);
+    if (!left || !left->is_found) return NAN;
+    return 1e3 * sqrt(left->way[0] * left->way[0] + left->way[1] * left->way[1] + left->way[2] * left->way[2]);
+}
+
+static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHARACTER ? "vertex" : "joint"; }
+
+/// true if the pin was removed.
+static bool build_row(struct inspector *in, int row, struct pin_place place)
+{
+    struct ui *ui = &in->ui;
+    const struct rig *rig = in->core->document->rigs[place.rig];
+    const struct pin *pin = &rig->pins[place.at];
+    struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
+    char name[32], remove[32], text[160], left[32] = "";
+    snprintf(name, sizeof name, "pin.%d", row);
+    snprintf(remove, sizeof remove, "pin.%d.remove", row);
+    snprintf(text, sizeof text, "%.6g: %.*s, %s %d", pin->frame, name_fit(rig_title(rig), 60), rig_title(rig),
+             word_of(rig), pin->point);
+    const double millimetres = left_of(in, place.rig, place.at);
+    if (isfinite(millimetres)) snprintf(left, sizeof left, "%.1f mm", millimetres);
+    r.w -= r.h + 4;
+    const struct rect label = {r.x, r.y, r.w - 60, r.h};
+    const bool selected = in->core->pin.any && in->core->pin.id == pin->id;
+    const bool pressed = ui_list_row(ui, r, name, "", 0, selected);
+    ui_label(ui, (struct rect){label.x + 6, label.y, label.w - 6, label.h}, text, theme()->text);
+    ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
+    ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
+    if (pressed) pins_visit(in->core, pin);
+    if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin")) return false;
+    return core_begin(in->core, "Delete pin", 0) &&
+           core_end(in->core, edit_pin_remove(in->core->document, place.rig, pin->id, &in->core->error));
+}
+
+static void build_list(struct inspector *in, int count)
+{
+    const int first = inspector_first_row(count, selected_row(in->core), MAX_ROWS);
+    struct pin_place place = PINS_START;
+    for (int row = 0; row < first + MAX_ROWS && pins_next(in->core->document, &place); row++) {
+        if (row >= first && build_row(in, row, place)) return;
+    }
+    inspector_more(in, count, MAX_ROWS, " pins; , and . show more");
+}
+
+static int points_of(const struct inspector *in, int rig)
+{
+    const struct rig *pinned = in->core->document->rigs[rig];
+    if (pinned->kind != RIG_CHARACTER) return bones_joints(in->core, rig);
+    const struct figure *figure = models_figure(in->core->models, document_rig_number(in->core->document, rig));
+    return figure ? figure->character.vertex_count : 1;
+}
+
+enum { ROW_FRAME, ROW_POINT, PIN_ROWS = ROW_POINT + 4 };
+
+static const struct number_row pin_rows[PIN_ROWS] = {
+    {"pin.frame", "frame", NULL, "Frame of the pin (Alt+PgUp, Alt+PgDn)", "Move pin in time",
+     NUMBER_AT(struct pin, frame), 0, 0, 0, 0, NAN, 1, 0},
+    {"pin.point", NULL, NULL, "The pinned point", "Pin another point", WHOLE_AT(struct pin, point), 0, 0, 0, 0, NAN,
+     1, 0},
+    {"pin.x", "x", "m", "Target of the point: across; 0 is the middle", "Move pin", NUMBER_AT(struct pin, to[0]), 0,
+     0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+    {"pin.y", "y", "m", "Target of the point: height", "Move pin", NUMBER_AT(struct pin, to[1]), 0, 0,
+     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+    {"pin.z", "z", "m", "Target of the point: depth", "Move pin", NUMBER_AT(struct pin, to[2]), 0, 0,
+     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+};
+
+static const void *pin_of(const struct inspector *in)
+{
+    int rig;
+    return pins_selected(in->core, &rig);
+}
+
+static bool set_pin(struct inspector *in, int which, double number, struct error *error)
+{
+    int rig;
+    struct pin pin = *pins_selected(in->core, &rig);
+    number_put(&pin_rows[which], &pin, number);
+    return pins_set(in->core->document, rig, &pin, error);
+}
+
+static void build_pin(struct inspector *in, int field)
+{
+    int rig;
+    struct number_row row = pin_rows[field];
+    if (!pins_selected(in->core, &rig)) return;
+    const struct rig *pinned = in->core->document->rigs[rig];
+    if (field == ROW_FRAME) {
+        row.lowest = in->core->document->first_frame;
+        row.highest = document_frame(in->core->document, pins_last_sample(in->core->document, pinned));
+    } else if (field == ROW_POINT) {
+        row.label = word_of(pinned);
+        row.highest = points_of(in, rig) - 1;
+    }
+    static const struct number_home home = {.of = pin_of, .set = set_pin};
+    const enum ui_change change = inspector_number(in, &row, &home, field, ui_row(&in->ui, UI_ROW));
+    if (inspector_changed(change)) pins_tell(in->core, rig);
+}
+
+void inspector_pins(struct inspector *in)
+{
+    int rig;
+    const int count = pins_count(in->core->document);
+    if (count == 0)
+        ui_paragraph(&in->ui, "Drag a character's surface on the stage to pin it; on tails and chains, hold Ctrl.",
+                     theme()->text_dim);
+    build_list(in, count);
+    if (!pins_selected(in->core, &rig)) return;
+    ui_space(&in->ui, 4);
+    for (int field = 0; field < PIN_ROWS; field++) build_pin(in, field);
 }

@@ -1,13 +1,19 @@
-/// The inspector's list of rigs, and the menu of additions.
+/// The sections on rigs: their list and the menu of additions, tails and chains, soft and imported characters.
 #include "editor/core/rigs.h"
 #include "base/file.h"
 #include "base/names.h"
+#include "base/need.h"
 #include "editor/core/bones.h"
+#include "editor/core/characters.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/inspector/inspector.h"
-#include "editor/inspector/parts.h"
+#include "editor/inspector/state.h"
+#include "rig/models.h"
+#include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 enum { MAX_ROWS = 12 }; ///< listed at once
 
@@ -127,11 +133,11 @@ static void build_row(struct inspector *in, int rig)
     if (ui_list_row(&in->ui, r, name, text, color, rig == in->selected)) inspector_show_rig(in, rig);
 }
 
-enum { MAX_COPIES = 4, MAX_ITEMS = 5 + MAX_COPIES, LABEL = 96, WIDTH = 244 };
+enum { MAX_COPIES = 4, MAX_ADDED = 5 + MAX_COPIES, ADDED_LABEL = 96, ADDED_WIDTH = 244 };
 
 static void open_add(struct inspector *in, struct rect at)
 {
-    at.w = WIDTH;
+    at.w = ADDED_WIDTH;
     ui_popup_open(&in->ui, inspector_add_list.name, 0, at);
 }
 
@@ -172,9 +178,9 @@ struct choice {
 };
 
 struct menu {
-    struct choice choices[MAX_ITEMS];
-    struct ui_item items[MAX_ITEMS];
-    char names[MAX_COPIES][24], labels[MAX_COPIES][LABEL];
+    struct choice choices[MAX_ADDED];
+    struct ui_item items[MAX_ADDED];
+    char names[MAX_COPIES][24], labels[MAX_COPIES][ADDED_LABEL];
     int count;
 };
 
@@ -191,7 +197,7 @@ static void add_copies(const struct inspector *in, struct menu *menu)
         const struct rig *rig = in->core->document->rigs[r];
         if (rig->kind != RIG_CHARACTER && rig->kind != RIG_MODEL) continue;
         snprintf(menu->names[copies], sizeof menu->names[0], "copy.%d", r);
-        snprintf(menu->labels[copies], LABEL, "One more %.*s", name_fit(path_name(rig_title(rig)), 80),
+        snprintf(menu->labels[copies], ADDED_LABEL, "One more %.*s", name_fit(path_name(rig_title(rig)), 80),
                  path_name(rig_title(rig)));
         add_item(menu, (struct choice){ADD_COPY, r}, menu->names[copies], menu->labels[copies]);
         copies++;
@@ -256,4 +262,783 @@ void inspector_add_menu(struct inspector *in, int unused)
     ui_push(&in->ui, 0);
     in->ui.focus = ui_id(&in->ui, "item.tail"); // the first row
     ui_pop(&in->ui);
+}
+
+/// A tail's and its body's channels, in list order.
+static const struct {
+    enum axis axis;
+    struct ui_item item;
+} tail_axes[] = {
+    {AXIS_SIDE, {"side", "bend", 0}},
+    {AXIS_UP, {"up", "lift", 0}},
+    {AXIS_LOOK, {"look", "turn of the head", 0}},
+    {AXIS_NOD, {"nod", "nod of the head", 0}},
+    {AXIS_EARS, {"ears", "ears", 0}},
+    {AXIS_BREATH, {"breath", "chest", 0}},
+    {AXIS_STRETCH, {"stretch", "stretch", 0}},
+    {AXIS_BLINK, {"blink", "eyelids", 0}},
+};
+
+static const char rename_line[] = "tail.rename";
+
+static void build_name(struct inspector *in)
+{
+    const struct rig *rig = inspector_shown(in);
+    struct rect r = inspector_labelled(in, "name");
+    if (!ui_line_is_open(&in->ui, rename_line)) {
+        struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
+        ui_hint(&in->ui, field, "Click to rename");
+        if (ui_button(&in->ui, field, "tail.name", rig_title(rig), false))
+            ui_line_begin(&in->ui, rename_line, rig_title(rig));
+    } else if (ui_line(&in->ui, r, rename_line) == UI_LINE_DONE) {
+        if (!core_begin(in->core, rig->kind == RIG_TAIL ? "Rename tail" : "Rename chain", 0)) return;
+        const char *name = in->ui.text.bytes;
+        core_end(in->core, edit_rig_name(in->core->document, in->rig, name, &in->core->error));
+    }
+}
+
+enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN };
+
+static const struct number_row tail_rows[] = {
+    [ROW_X] = {"position.x", "x", "m", "Position of the body along x", "Move body",
+               NUMBER_AT(struct rig, tail.position[0].value), 0, 0, -1e6, 1e6, 0, 0.01, 3},
+    {"position.y", "y", "m", "Position of the body along y", "Move body",
+     NUMBER_AT(struct rig, tail.position[1].value), 0, 0, -1e6, 1e6, 0.26, 0.01, 3},
+    {"position.z", "z", "m", "Position of the body along z", "Move body",
+     NUMBER_AT(struct rig, tail.position[2].value), 0, 0, -1e6, 1e6, 0, 0.01, 3},
+    [ROW_JOINTS] = {"joints", "joints", NULL, "More joints bend more smoothly; shape and swing stay the same",
+                    "Set joints", WHOLE_AT(struct rig, tail.joints), 1, 64, 1, TAIL_MAX_JOINTS, TAIL_DEFAULT_JOINTS,
+                    1, 0},
+    [ROW_LENGTH] = {"length", "length", "m", "Length of the tail; the body scales with it", "Set length",
+                    NUMBER_AT(struct rig, tail.length), 0.2, 4, 1e-3, 1e6, TAIL_DEFAULT_LENGTH, 0.05, 2},
+    [ROW_TURN] = {"chain.turn", "turn", "°", "Turns the axes of side and up about the chain's own direction",
+                  "Turn chain's axes", NUMBER_AT(struct rig, chain.turn), -180, 180, -36000, 36000, 0, 1, 0},
+};
+
+static int shown_rig(const struct inspector *in) { return in->rig; }
+
+static const struct number_home of_shown = {.rig = shown_rig};
+
+/// Lets the body follow a spline, or stop, in its own undo step.
+static void follow(struct inspector *in, int k, struct param param)
+{
+    struct rig changed = *inspector_shown(in);
+    changed.tail.position[k] = param;
+    if (core_begin(in->core, param.track < 0 ? "Stop following" : "Follow spline", 0))
+        core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
+}
+
+static void choose_place(struct inspector *in, const struct dropdown *list)
+{
+    const int k = in->ui.popup.which;
+    const int picked = inspector_spline_list(in, list, inspector_shown(in)->tail.position[k].track);
+    if (picked >= 0) follow(in, k, param_track(picked));
+}
+
+static const struct dropdown place_list = {"place", "The spline it follows, sample by sample", choose_place};
+
+/// A coordinate: a number or the followed spline, and the button between the two.
+static void build_coordinate(struct inspector *in, const struct tail *tail, int k)
+{
+    const int track = tail->position[k].track;
+    const bool follows = track >= 0;
+    const char *hint = follows ? "Stop following; stay at the current position" : "Follow a spline (in metres)";
+    struct rect r = ui_row(&in->ui, UI_ROW), icon = {r.x + r.w - INSPECTOR_ICON, r.y, INSPECTOR_ICON, r.h};
+    char button[32];
+    r.w -= INSPECTOR_ICON + 4;
+    snprintf(button, sizeof button, "position.%s.follow", coordinate_name(k));
+    const struct rect field = {r.x + UI_LABEL + UI_GAP, r.y, r.w - UI_LABEL - UI_GAP, r.h};
+    if (follows) {
+        inspector_spline_field(in, &place_list, inspector_label(in, r, coordinate_name(k)), k, track);
+    } else {
+        inspector_number(in, &tail_rows[ROW_X + k], &of_shown, k, r);
+        if (in->core->document->spline_count == 0) return;
+    }
+    if (ui_icon_button(&in->ui, icon, button, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW, false, hint)) {
+        const wiggly_value now = evaluation_at(in->core->evaluation, track, in->core->playback.position);
+        if (follows) follow(in, k, param_number(core_round(now.y + now.re, 1e-3)));
+        if (!follows) ui_popup_open(&in->ui, place_list.name, k, field);
+    }
+    inspector_offer(in, &place_list);
+}
+
+static struct channel_place place_of(const struct inspector *in)
+{
+    return (struct channel_place){in->rig, in->channel};
+}
+
+/// The shown channel, or NULL.
+static const struct channel *chosen_channel(const struct inspector *in)
+{
+    int count = 0;
+    const struct rig *rig = inspector_shown(in);
+    const struct channel *channels = rig ? rig_channels(rig, &count) : NULL;
+    return in->channel < count ? &channels[in->channel] : NULL;
+}
+
+/// Selects a channel and its spline.
+static void choose_channel(struct inspector *in, int channel)
+{
+    in->channel = channel;
+    core_choose(in->core, chosen_channel(in)->spline);
+    in->channel = channel; // two channels may share a spline
+}
+
+/// In its own undo step.
+static bool put_channel(struct inspector *in, const char *label, const struct channel *channel)
+{
+    return core_begin(in->core, label, 0) &&
+           core_end(in->core, edit_channel(in->core->document, place_of(in), channel, &in->core->error));
+}
+
+/// A gain still at its default becomes the new axis's default.
+static void set_axis(struct inspector *in, enum axis axis)
+{
+    struct channel changed = *chosen_channel(in);
+    const bool untouched = changed.gain.form == ANGLES_ONE && changed.gain.value[0] == axis_gain(changed.axis);
+    changed.axis = axis;
+    if (untouched) changed.gain.value[0] = axis_gain(axis);
+    put_channel(in, "Set axis", &changed);
+}
+
+static void choose_axis(struct inspector *in, const struct dropdown *list)
+{
+    enum { COUNT = sizeof tail_axes / sizeof *tail_axes };
+    struct ui_item items[COUNT];
+    int row = -1;
+    for (int a = 0; a < COUNT; a++) {
+        items[a] = tail_axes[a].item;
+        if (tail_axes[a].axis == chosen_channel(in)->axis) row = a;
+    }
+    const int picked = ui_popup_list(&in->ui, list->name, items, COUNT, row);
+    if (picked >= 0) set_axis(in, tail_axes[picked].axis);
+}
+
+static const struct dropdown axis_list = {"axis", "What this channel moves", choose_axis};
+
+static void choose_feed(struct inspector *in, const struct dropdown *list)
+{
+    struct channel changed = *chosen_channel(in);
+    changed.spline = inspector_spline_list(in, list, changed.spline);
+    if (changed.spline >= 0 && put_channel(in, "Set channel's spline", &changed)) choose_channel(in, in->channel);
+}
+
+static const struct dropdown feed_list = {"feed", "The spline that drives this channel", choose_feed};
+
+/// One end of a chain.
+struct end {
+    struct dropdown list; ///< first member, so that a list pointer leads back here
+    const char *label, *pick;
+    enum bone_use use;
+};
+
+static void choose_end(struct inspector *in, const struct dropdown *list)
+{
+    const bool first = ((const struct end *)list)->use == BONE_FIRST;
+    const struct chain *chain = &inspector_shown(in)->chain;
+    const int model = rig_body(in->core->document, in->rig);
+    const struct imported *character = model >= 0 ? bones_character(in->core, model) : NULL;
+    if (!character) return;
+    const int top = first ? -1 : gltf_find_node(&character->gltf, chain->from);
+    const int node = inspector_bone_list(in, list, model, top, first ? chain->from : chain->to);
+    if (node >= 0) bones_set_end(in->core, in->rig, first, node);
+}
+
+static const struct end ends[2] = {
+    {{"chain.from", "First bone of the chain", choose_end}, "from", "chain.from.pick", BONE_FIRST},
+    {{"chain.to", "Last bone of the chain", choose_end}, "to", "chain.to.pick", BONE_LAST},
+};
+
+static bool set_joints(struct inspector *in, int which, double number, struct error *error)
+{
+    (void)which;
+    return edit_joints(in->core->document, in->rig, (int)lround(number), error);
+}
+
+void inspector_overlays(struct inspector *in)
+{
+    struct core *core = in->core;
+    const struct {
+        const char *name, *label, *hint;
+        bool *on;
+    } toggles[] = {
+        {"onion", "onion skin", "Show the pose at the knots around the playhead (O)", &core->overlays.onion},
+        {"trail", "motion arc", "Show the path of the tip or liveliest point, one mark per frame (Shift+O)",
+         &core->overlays.trail},
+        {"ghost", "ghost pose", "Show the pose at the knot that is dragged or nudged (F4)", &core->overlays.ghost},
+    };
+    for (size_t i = 0; i < sizeof toggles / sizeof toggles[0]; i++) {
+        struct rect r = inspector_labelled(in, toggles[i].label);
+        ui_hint(&in->ui, r, toggles[i].hint);
+        ui_toggle(&in->ui, r, toggles[i].name, toggles[i].on);
+    }
+}
+
+/// Whether the next drag of a body is recorded. Only a body can be.
+static void build_record(struct inspector *in)
+{
+    if (!document_tail(in->core->document, 0)) return;
+    const struct rect r = inspector_labelled(in, "record");
+    ui_hint(&in->ui, r, "Record the next drag of the body as knots (or press R while dragging)");
+    ui_toggle(&in->ui, r, "record", &in->core->record_armed);
+}
+
+static const char *axis_label(enum axis axis)
+{
+    size_t a = 0;
+    while (a < sizeof tail_axes / sizeof *tail_axes && tail_axes[a].axis != axis) a++;
+    return a < sizeof tail_axes / sizeof *tail_axes ? tail_axes[a].item.label : "twist";
+}
+
+static void build_channels_list(struct inspector *in)
+{
+    struct ui *ui = &in->ui;
+    int count;
+    const struct channel *channels = rig_channels(inspector_shown(in), &count);
+    for (int c = 0; c < count; c++) {
+        const struct channel *channel = &channels[c];
+        char name[32], text[192];
+        snprintf(name, sizeof name, "channel.%d", c);
+        snprintf(text, sizeof text, "%s, %s", in->core->document->splines[channel->spline]->name,
+                 axis_label(channel->axis));
+        struct rect r = ui_row(ui, UI_ROW);
+        ui_hint(ui, r, "A channel of this rig, and the spline that drives it");
+        uint32_t color = spline_list_color(in->core->document, channel->spline);
+        if (ui_list_row(ui, r, name, text, color, c == in->channel)) {
+            choose_channel(in, c);
+            return;
+        }
+    }
+}
+
+static void build_channels(struct inspector *in)
+{
+    build_channels_list(in);
+    ui_space(&in->ui, 4);
+}
+
+static void build_channel_buttons(struct inspector *in)
+{
+    static const struct icon_button buttons[] = {
+        {"channel.add", "Add a channel that the active spline drives", UI_ICON_ADD},
+        {"channel.delete", "Delete this channel", UI_ICON_DELETE},
+    };
+    struct error *error = &in->core->error;
+    const int rig = in->rig, spline = in->core->active;
+    const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
+    if (pressed < 0 || !core_begin(in->core, pressed == 0 ? "Add channel" : "Delete channel", 0)) return;
+    const bool done = pressed == 0 ? edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error)
+                                   : edit_channel_remove(in->core->document, place_of(in), error);
+    if (core_end(in->core, done) && pressed == 0) in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
+}
+
+static void build_choices(struct inspector *in, const struct channel *channel)
+{
+    static const struct ui_choice chain[] = {
+        [AXIS_SIDE] = {"side", "Bend"}, [AXIS_UP] = {"up", "Lift"}, [AXIS_TWIST] = {"twist", "Twist"}};
+    static const struct ui_choice parts[] = {
+        [PART_TOTAL] = {"total", "Curve"}, [PART_DISPLACEMENT] = {"displacement", "Swing"}};
+    int axis = (int)channel->axis, part = (int)channel->of;
+    if (inspector_shown(in)->kind == RIG_TAIL) {
+        inspector_dropdown(in, &axis_list, inspector_labelled(in, "moves"), in->channel, axis_label(channel->axis),
+                           0);
+    } else if (inspector_choice(in, "moves", axis_list.hint, "axis", chain, 3, &axis)) {
+        set_axis(in, (enum axis)axis);
+    }
+    if (inspector_choice(in, "driven by",
+                         "The whole curve, or its swing about the equilibrium only: for a tail on a moving base",
+                         "part", parts, 2, &part)) {
+        struct channel changed = *channel;
+        changed.of = (enum channel_part)part;
+        put_channel(in, "Set what bends", &changed);
+    }
+}
+
+static void build_channel(struct inspector *in)
+{
+    build_channel_buttons(in);
+    const struct channel *channel = chosen_channel(in);
+    if (!channel) return;
+    inspector_spline_field(in, &feed_list, inspector_labelled(in, "spline"), in->channel, channel->spline);
+    build_choices(in, channel);
+}
+
+/// A list of bones for one end, and a button to pick one on the stage.
+static void build_end(struct inspector *in, const struct end *end, const char *bone)
+{
+    struct rect field = inspector_labelled(in, end->label),
+                icon = {field.x + field.w - INSPECTOR_ICON, field.y, INSPECTOR_ICON, field.h};
+    field.w -= INSPECTOR_ICON + 4;
+    const int rig = in->rig;
+    inspector_dropdown(in, &end->list, field, rig, bone, 0);
+    const bool picking = in->core->pick.use == end->use && in->core->pick.which == rig;
+    if (ui_icon_button(&in->ui, icon, end->pick, UI_ICON_PICK, picking, "Pick it on the stage"))
+        bones_pick(in->core, picking ? BONE_SELECTED : end->use, rig);
+}
+
+static void build_mirror(struct inspector *in)
+{
+    struct rig changed = *inspector_shown(in);
+    struct rect r = inspector_labelled(in, "mirror");
+    ui_hint(&in->ui, r, "Bend to the other side, as a left ear does to a right one");
+    if (ui_toggle(&in->ui, r, "chain.mirror", &changed.chain.mirror) && core_begin(in->core, "Mirror chain", 0))
+        core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
+}
+
+void inspector_mirror(struct inspector *in, int unused)
+{
+    (void)unused;
+    bones_make_twin(in->core, bones_mirrorable(in->core, in->rig));
+    in->rig = in->core->document->rig_count - 1;
+}
+
+static void build_twin(struct inspector *in)
+{
+    if (bones_mirrorable(in->core, in->rig) != in->rig) return;
+    const struct rect row = ui_row(&in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
+    ui_hint(&in->ui, button,
+            "Add the mirrored chain, bent by the same splines; you can choose others for its channels");
+    if (ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
+}
+
+static void build_chain(struct inspector *in)
+{
+    const struct chain *chain = &inspector_shown(in)->chain;
+    build_end(in, &ends[0], chain->from);
+    build_end(in, &ends[1], chain->to);
+    inspector_numbers(in, &tail_rows[ROW_TURN], 1, &of_shown);
+    build_mirror(in);
+    build_twin(in);
+}
+
+/// These rows may change channels and rigs, so each looks up the shown rig again.
+static void build_shown(struct inspector *in)
+{
+    const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
+    static const struct number_home joints = {.rig = shown_rig, .set = set_joints};
+    if (in->channel >= rig_input_count(inspector_shown(in))) in->channel = 0;
+    build_channels(in);
+    if (is_tail) inspector_angles(in, ANGLE_REST);
+    build_channel(in);
+    ui_space(&in->ui, 4);
+    build_name(in);
+    if (!is_tail) {
+        build_chain(in);
+        return;
+    }
+    inspector_numbers(in, &tail_rows[ROW_JOINTS], 1, &joints);
+    inspector_numbers(in, &tail_rows[ROW_LENGTH], 1, &of_shown);
+    for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
+}
+
+void inspector_tail(struct inspector *in)
+{
+    inspector_find_rig(in); // a row may have removed one
+    build_shown(in);
+    build_record(in);
+    inspector_overlays(in);
+}
+
+const struct channel *inspector_felt_channel(const struct inspector *in)
+{
+    const struct channel *channel = chosen_channel(in);
+    return channel && channel->spline == in->core->active ? channel : NULL;
+}
+
+enum { MAX_COORDINATES = 32 }; ///< coordinates in the add list
+
+/// Selects a channel and the spline that drives it.
+static void choose_drive(struct inspector *in, int drive)
+{
+    const struct character_view *view = &in->core->characters;
+    const struct character_rig *rig = document_character(in->core->document, view->character);
+    core_choose(in->core, rig->drives[drive].spline);
+    in->core->characters.drive = drive; // two channels may share a spline
+}
+
+static void build_drives(struct inspector *in, const struct character_rig *rig)
+{
+    struct ui *ui = &in->ui;
+    for (int k = 0; k < rig->drive_count; k++) {
+        const struct drive *drive = &rig->drives[k];
+        char name[32], remove[32], text[160];
+        struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
+        snprintf(name, sizeof name, "drive.%d", k);
+        snprintf(remove, sizeof remove, "drive.%d.remove", k);
+        snprintf(text, sizeof text, "%.*s, driven by %.*s", name_fit(drive->name, 60), drive->name,
+                 name_fit(in->core->document->splines[drive->spline]->name, 60),
+                 in->core->document->splines[drive->spline]->name);
+        r.w -= r.h + 4;
+        ui_hint(ui, r, "A channel of this character, and the spline that drives it");
+        const uint32_t color = spline_list_color(in->core->document, drive->spline);
+        if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose_drive(in, k);
+        if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this channel")) continue;
+        const int owner = characters_rig(in->core);
+        if (core_begin(in->core, "Remove channel", 0))
+            core_end(in->core, edit_drive_remove(in->core->document, owner, k, &in->core->error));
+        return;
+    }
+}
+
+/// The coordinate the active spline drives, if that is the selected one.
+static const void *felt_drive(const struct inspector *in)
+{
+    const struct character_view *view = &in->core->characters;
+    const struct character_rig *rig = document_character(in->core->document, view->character);
+    if (!rig || view->drive >= rig->drive_count) return NULL;
+    return rig->drives[view->drive].spline == in->core->active ? &rig->drives[view->drive] : NULL;
+}
+
+static const struct number_row drive_rows[] = {
+    {"drive.lag", "lag", "°", "How far it lags behind the spline; 360 is a full swing", "Set lag",
+     NUMBER_AT(struct drive, lag), -180, 180, -36000, 36000, 0, 1, 1},
+    {"amplitude", "amplitude", NULL, "How far it swings when the spline is 1", "Set amplitude",
+     NUMBER_AT(struct drive, amplitude), -2, 2, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, DRIVE_DEFAULT_AMPLITUDE,
+     0.05, 2},
+};
+
+static double was_drive(const struct inspector *in, int which)
+{
+    const struct rig *kept = take_rig(in->core, characters_rig(in->core));
+    const int drive = in->core->characters.drive;
+    return kept && drive < kept->character.drive_count ? number_at(&drive_rows[which], &kept->character.drives[drive])
+                                                       : NAN;
+}
+
+/// Edits the selected coordinate's drive.
+static bool set_drive(struct inspector *in, const struct drive *drive, struct error *error)
+{
+    return edit_drive(in->core->document, characters_rig(in->core), in->core->characters.drive, drive, error);
+}
+
+/// The lags of a limb's other drives go with it.
+static bool set_drive_number(struct inspector *in, int which, double number, struct error *error)
+{
+    const int owner = characters_rig(in->core), chosen = in->core->characters.drive;
+    const struct drive *before = felt_drive(in);
+    const double lag = before->lag;
+    struct drive drive = *before;
+    number_put(&drive_rows[which], &drive, number);
+    const int all = drive.lag != lag && inspector_limb(in) == owner ? characters_selected(in->core)->drive_count : 0;
+    bool done = set_drive(in, &drive, error);
+    for (int k = 0; k < all && done; k++) {
+        struct drive other = characters_selected(in->core)->drives[k];
+        other.lag = core_in_step(other.lag, lag, drive.lag);
+        done = k == chosen || edit_drive(in->core->document, owner, k, &other, error);
+    }
+    return done;
+}
+
+bool inspector_felt_drive(struct inspector *in)
+{
+    static const struct number_home home = {.of = felt_drive, .set = set_drive_number, .was = was_drive};
+    if (!felt_drive(in)) return false;
+    inspector_numbers(in, drive_rows, sizeof drive_rows / sizeof drive_rows[0], &home);
+    return true;
+}
+
+static void choose_spline(struct inspector *in, const struct dropdown *list)
+{
+    struct drive next = characters_selected(in->core)->drives[in->core->characters.drive];
+    next.spline = inspector_spline_list(in, list, next.spline);
+    if (next.spline < 0 || !core_begin(in->core, "Set spline", 0)) return;
+    if (core_end(in->core, set_drive(in, &next, &in->core->error))) choose_drive(in, in->core->characters.drive);
+}
+
+static const struct dropdown spline_list = {"drive.splines", "The spline that drives this channel", choose_spline};
+
+static bool is_driven(const struct character_rig *rig, const char *name)
+{
+    for (int k = 0; k < rig->drive_count; k++) {
+        if (strcmp(rig->drives[k].name, name) == 0) return true;
+    }
+    return false;
+}
+
+/// Lists the figure's undriven coordinates; returns how many.
+static int free_coordinates(const struct inspector *in, const struct character_rig *rig,
+                            struct ui_item items[MAX_COORDINATES])
+{
+    const struct figure *figure = models_figure(in->core->models, in->core->characters.character);
+    int count = 0;
+    if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
+    for (int k = 0; k < figure->character.coordinate_count && count < MAX_COORDINATES; k++) {
+        const char *name = figure->character.coordinates[k].name;
+        if (!is_driven(rig, name)) items[count++] = (struct ui_item){name, name, 0};
+    }
+    return count;
+}
+
+static void add_coordinate(struct inspector *in, const struct dropdown *list)
+{
+    struct ui_item items[MAX_COORDINATES];
+    const int count = free_coordinates(in, characters_selected(in->core), items);
+    const int picked = ui_popup_list(&in->ui, list->name, items, count, -1), owner = characters_rig(in->core);
+    if (picked < 0) return;
+    char *name = need_text(items[picked].name);
+    const struct drive drive = {
+        .name = name, .spline = in->core->active >= 0 ? in->core->active : 0, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+    if (core_begin(in->core, "Add channel", 0))
+        core_end(in->core, edit_drive(in->core->document, owner, -1, &drive, &in->core->error));
+    free(name);
+}
+
+static const struct dropdown add_list = {"drive.add", "Add a channel that the active spline drives", add_coordinate};
+
+/// The phase map and the stiff twin.
+static void build_looks(struct inspector *in)
+{
+    static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
+    static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
+    struct character_view *view = &in->core->characters;
+    int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
+    if (inspector_choice(in, "phases", "Colour each point by its phase along x, y or z", "phases", maps, 4, &map)) {
+        view->mapped = map > 0;
+        if (map > 0) view->axis = map - 1;
+    }
+    if (inspector_choice(in, "stiff twin", "Show a second character without phases: all its points move in step",
+                         "twin", pairs, 2, &pair)) {
+        view->compare = pair;
+        in->core->refit_stage = true;
+    }
+}
+
+/// Analysis results of the selected channel.
+static void build_facts(struct inspector *in)
+{
+    const struct coordinate *c = characters_coordinate(in->core);
+    char text[200];
+    if (!c) {
+        ui_paragraph(&in->ui, "The model has no such channel.", theme()->text_dim);
+    } else if (c->frequency > 0) {
+        snprintf(text, sizeof text,
+                 "Found at %.2f Hz, damping %.3f. It explains %.0f %% of this motion; without phases (real PCA) one "
+                 "component explains %.0f %%, two %.0f %%.",
+                 c->frequency, c->damping, 100 * c->explained, 100 * c->pca1, 100 * c->pca2);
+        ui_paragraph(&in->ui, text, theme()->text_dim);
+    }
+}
+
+static int shown_character(const struct inspector *in) { return characters_rig(in->core); }
+
+static const struct number_row floor_rows[] = {
+    {"floor.height", "height", "m", "No point of the character goes lower", "Set floor",
+     NUMBER_AT(struct rig, character.floor), -1, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0, 0.01, 3},
+};
+
+/// The floor switch and its height.
+static void build_floor(struct inspector *in, const struct character_rig *rig)
+{
+    static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
+    static const struct number_home home = {.rig = shown_character};
+    const int owner = characters_rig(in->core);
+    int on = rig->has_floor;
+    if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", choices, 2, &on)) {
+        struct rig changed = *in->core->document->rigs[owner];
+        changed.character.has_floor = on;
+        if (on) changed.character.floor = rig->position[1];
+        if (core_begin(in->core, on ? "Set floor" : "Remove floor", 0))
+            core_end(in->core, edit_rig_set(in->core->document, owner, &changed, &in->core->error));
+        return;
+    }
+    if (!rig->has_floor) return;
+    inspector_numbers(in, floor_rows, 1, &home);
+    const struct floor_left *left = evaluation_floor(in->core->evaluation, owner);
+    if (!left || left->depth < 1e-4) return;
+    char text[120];
+    snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
+             left->depth, document_frame(in->core->document, left->sample));
+    ui_paragraph(&in->ui, text, theme()->text_dim);
+}
+
+/// Brush modes of one kind side by side. None is marked if the brush has another kind.
+static void build_modes(struct inspector *in, const char *name, const char *hint, enum brush_mode first,
+                        const struct ui_choice *choices, int count)
+{
+    struct brush *brush = &in->core->brush;
+    const struct rect r = ui_row(&in->ui, UI_ROW);
+    const int chosen = (int)brush->mode - (int)first;
+    int index = chosen >= 0 && chosen < count ? chosen : -1;
+    ui_hint(&in->ui, r, hint);
+    if (ui_segments(&in->ui, r, name, choices, count, &index)) brush->mode = (enum brush_mode)((int)first + index);
+}
+
+/// The brush's numbers are fractions, shown in percent.
+static double *share_of(const struct inspector *in, int which)
+{
+    struct brush *brush = &in->core->brush;
+    return which == 0 ? &brush->radius : &brush->strength;
+}
+
+static double get_share(const struct inspector *in, int which) { return 100 * *share_of(in, which); }
+
+static bool set_share(struct inspector *in, int which, double percent, struct error *error)
+{
+    (void)error;
+    *share_of(in, which) = percent / 100;
+    return true;
+}
+
+static const struct number_row brush_rows[] = {
+    {"radius", "radius", "%", "Radius, relative to the character's height (Ctrl+wheel on the stage)", NULL, 0, false,
+     1, 50, 1, 50, 12, 1, 0},
+    {"strength", "strength", "%", "How fast paint flows (Shift+wheel on the stage)", NULL, 0, false, 2, 100, 2, 100,
+     40, 1, 0},
+};
+
+static void build_brush(struct inspector *in)
+{
+    static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "Brush"}};
+    static const struct ui_choice phase[] = {{"advance", "Advance"}, {"delay", "Delay"}, {"smooth", "Smooth"}};
+    static const struct ui_choice amplitude[] = {
+        {"more", "Swing more"}, {"less", "Swing less"}, {"smooth", "Smooth"}};
+    static const struct ui_choice erase[] = {{"all", "Erase"}};
+    static const struct number_home home = {.get = get_share, .set = set_share};
+    struct brush *brush = &in->core->brush;
+    int on = brush->on;
+    if (inspector_choice(in, "paint", "Paint phase and amplitude onto the character (Shift+B)", "paint", switches, 2,
+                         &on))
+        characters_set_brush(in->core, on);
+    const struct character_rig *rig = characters_selected(in->core);
+    if (brush->on) {
+        build_modes(in, "phase", "Move earlier, later, or blend with the surroundings", BRUSH_ADVANCE, phase, 3);
+        build_modes(in, "swing", "Swing more, less, or blend with the surroundings", BRUSH_MORE, amplitude, 3);
+        build_modes(in, "erase", "Remove paint and restore the model", BRUSH_ERASE, erase, 1);
+        inspector_numbers(in, brush_rows, sizeof brush_rows / sizeof brush_rows[0], &home);
+    }
+    if (!rig || !rig->painted || paint_is_plain(rig->painted)) return;
+    const struct rect r = ui_row(&in->ui, UI_ROW);
+    ui_hint(&in->ui, r, "Restore the model everywhere");
+    if (ui_button(&in->ui, r, "paint.clean", "Remove all paint", false)) characters_clean_paint(in->core, 0);
+}
+
+void inspector_character(struct inspector *in)
+{
+    struct character_view *view = &in->core->characters;
+    if (!document_character(in->core->document, view->character)) view->character = 0;
+    const struct character_rig *rig = document_character(in->core->document, view->character);
+    struct ui_item items[MAX_COORDINATES];
+    if (view->drive >= rig->drive_count) view->drive = 0;
+    build_drives(in, rig);
+    if (free_coordinates(in, rig, items) > 0 && in->core->document->spline_count > 0)
+        inspector_dropdown(in, &add_list, ui_row(&in->ui, UI_ROW), 0, "Add a channel", 0);
+    ui_space(&in->ui, 4);
+    if (view->drive < rig->drive_count) {
+        inspector_spline_field(in, &spline_list, inspector_labelled(in, "spline"), 0,
+                               rig->drives[view->drive].spline);
+        build_facts(in);
+    }
+    build_floor(in, rig);
+    build_looks(in);
+    inspector_overlays(in);
+    build_brush(in);
+}
+
+enum { MAX_CLIPS = 256 }; ///< in the clip list
+
+/// The shown rig: the selected bone's, else the one chosen here.
+static int shown_model(const struct inspector *in)
+{
+    int model;
+    if (bones_selected(in->core, &model) >= 0) return model;
+    model = document_find_rig(in->core->document, RIG_MODEL, in->model);
+    return model < 0 ? document_find_rig(in->core->document, RIG_MODEL, 0) : model;
+}
+
+static void build_file(struct inspector *in, const struct model_rig *rig, const struct imported *shown)
+{
+    struct rect r = inspector_labelled(in, "file");
+    ui_hint(&in->ui, r, "The glTF file that shows this character");
+    ui_label(&in->ui, r, path_name(rig->model), theme()->text);
+    if (!shown) ui_paragraph(&in->ui, "wiggly could not read this file.", theme()->warning);
+    if (!shown || !shown->gltf.not_shown) return;
+    char text[512];
+    snprintf(text, sizeof text, "Not shown: %.*s.", name_fit(shown->gltf.not_shown, 400), shown->gltf.not_shown);
+    ui_paragraph(&in->ui, text, theme()->text_dim);
+}
+
+static void choose_clip(struct inspector *in, const struct dropdown *list)
+{
+    const int model = shown_model(in);
+    const struct gltf *gltf = &bones_character(in->core, model)->gltf;
+    const char *clip = in->core->document->rigs[model]->model.clip;
+    struct ui_item items[MAX_CLIPS + 1] = {{"none", "None", 0}};
+    int count = 1;
+    for (int c = 0; c < gltf->clip_count && c < MAX_CLIPS; c++)
+        items[count++] = (struct ui_item){gltf->clips[c].name, gltf->clips[c].name, 0};
+    const int picked = ui_popup_list(&in->ui, list->name, items, count, gltf_find_clip(gltf, clip) + 1);
+    if (picked >= 0)
+        bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL, REPEAT_BY_CLIP);
+}
+
+/// A tick: whether the clip begins again after its end.
+static void build_loops(struct inspector *in, int model, const struct gltf *gltf)
+{
+    const struct model_rig *rig = &in->core->document->rigs[model]->model;
+    const int clip = gltf_find_clip(gltf, rig->clip);
+    if (clip < 0) return;
+    bool loops = clip_play(rig, &gltf->clips[clip]).loops;
+    const struct rect r = inspector_labelled(in, "loops");
+    ui_hint(&in->ui, r, "The clip begins again after its end; else it plays once");
+    if (ui_toggle(&in->ui, r, "model.loops", &loops))
+        bones_choose_clip(in->core, model, rig->clip, loops ? REPEAT_LOOP : REPEAT_ONCE);
+}
+
+static const struct dropdown clip_list = {"model.clips", "The clip of the file that it repeats", choose_clip};
+
+static const struct number_row place[] = {
+    {"model.x", "x", "m", "Where it stands along x", "Place character", NUMBER_AT(struct rig, model.position[0]), 0,
+     0, -1e6, 1e6, 0, 0.01, 3},
+    {"model.y", "y", "m", "Height of the ground under it", "Place character",
+     NUMBER_AT(struct rig, model.position[1]), 0, 0, -1e6, 1e6, 0, 0.01, 3},
+    {"model.z", "z", "m", "Where it stands along z", "Place character", NUMBER_AT(struct rig, model.position[2]), 0,
+     0, -1e6, 1e6, 0, 0.01, 3},
+    {"model.scale", "scale", NULL, "Size, relative to the file's", "Place character",
+     NUMBER_AT(struct rig, model.scale), 0, 0, 1e-9, 1e9, 1, 0.01, 3},
+    {"model.turn", "turn", "°", "About the vertical", "Place character", NUMBER_AT(struct rig, model.turn), -180, 180,
+     -36000, 36000, 0, 1, 0},
+};
+
+static void build_bone(struct inspector *in)
+{
+    static const struct {
+        const char *name, *label, *hint;
+        bool follow;
+    } buttons[] = {
+        {"bone.chain", "Make chain", "Make a chain from this bone to its tip, bent by a new spline (J)", false},
+        {"bone.follow", "With follow-through", "Make a chain that follows through on the clip (Shift+J)", true},
+    };
+    int model;
+    const int node = bones_selected(in->core, &model);
+    struct rect r = inspector_labelled(in, "bone");
+    if (node < 0) {
+        ui_label(&in->ui, r, "click one on the stage", theme()->text_dim);
+        return;
+    }
+    ui_label(&in->ui, r, bones_character(in->core, model)->gltf.nodes[node].name, theme()->text);
+    struct rect row = ui_row(&in->ui, UI_ROW);
+    const float widths[2] = {row.w * 0.38f, row.w * 0.62f - 6};
+    row.w = 0;
+    for (size_t i = 0; i < 2; i++) {
+        struct rect button = {row.x, row.y + 2, widths[i], row.h - 4};
+        row.x += widths[i] + 6;
+        ui_hint(&in->ui, button, buttons[i].hint);
+        if (ui_button(&in->ui, button, buttons[i].name, buttons[i].label, false))
+            bones_make_chain(in->core, buttons[i].follow);
+    }
+}
+
+void inspector_model(struct inspector *in)
+{
+    const int model = shown_model(in);
+    const struct imported *shown = bones_character(in->core, model);
+    static const struct number_home home = {.rig = shown_model};
+    in->model = document_rig_number(in->core->document, model);
+    build_file(in, &in->core->document->rigs[model]->model, shown);
+    const char *clip = in->core->document->rigs[model]->model.clip;
+    if (shown && shown->gltf.clip_count > 0)
+        inspector_dropdown(in, &clip_list, inspector_labelled(in, "clip"), in->model, clip ? clip : "None", 0);
+    if (shown) build_loops(in, model, &shown->gltf);
+    inspector_numbers(in, place, sizeof place / sizeof place[0], &home);
+    if (shown && shown->skeleton.count > 0) build_bone(in);
 }

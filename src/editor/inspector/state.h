@@ -1,9 +1,10 @@
-/// State of the inspector. Private to this folder.
+/// State of the inspector, and what the files of its sections share. Private to this folder and tests.
 #ifndef EDITOR_INSPECTOR_STATE_H
 #define EDITOR_INSPECTOR_STATE_H
 
 #include "editor/core/state.h"
-#include "editor/inspector/response.h"
+#include "editor/inspector/poles.h"
+#include "ui/theme.h"
 #include "ui/widgets.h"
 
 enum { INSPECTOR_MAX_SECTIONS = 16 };
@@ -64,5 +65,155 @@ struct inspector {
     struct history_view history;
     const struct dropdown *list; ///< open in this pass, or NULL
 };
+
+/// Stands for "no limit".
+#define INSPECTOR_NO_LIMIT 1e300
+
+enum { INSPECTOR_MAX_SPLINES = 256 }; ///< in a list
+
+/// The sections. Each builds the rows below its header; inspector.c has the table.
+void inspector_scene(struct inspector *in);
+void inspector_splines(struct inspector *in);
+void inspector_feel(struct inspector *in);
+void inspector_rigs(struct inspector *in);
+void inspector_spline(struct inspector *in);
+void inspector_advanced(struct inspector *in);
+void inspector_limits(struct inspector *in);
+void inspector_variation(struct inspector *in);
+void inspector_poles(struct inspector *in);
+void inspector_knot(struct inspector *in);
+void inspector_tail(struct inspector *in);
+void inspector_character(struct inspector *in);
+void inspector_pins(struct inspector *in);
+void inspector_model(struct inspector *in);
+void inspector_history(struct inspector *in);
+/// The title says how many knots are selected.
+const char *inspector_knot_title(struct inspector *in);
+
+/// core_limb(), or -1 if Alt was held at the press.
+int inspector_limb(const struct inspector *in);
+/// The title says what Feel acts on.
+const char *inspector_feel_title(struct inspector *in);
+
+/// The active spline as it was before, or NULL; and as its numbers show it: as before while K is held.
+const struct spline *inspector_kept_spline(const struct inspector *in);
+const struct spline *inspector_seen_spline(const struct inspector *in);
+
+/// A row for a parameter of the active spline, if its mode uses it.
+void inspector_parameter(struct inspector *in, enum parameter parameter);
+
+/// The shown channel if the active spline bends it; below, the rows for the shown character's coordinate that it drives.
+const struct channel *inspector_felt_channel(const struct inspector *in);
+bool inspector_felt_drive(struct inspector *in);
+
+/// A list over the panel.
+struct dropdown {
+    const char *name, *hint; ///< hint of the field that opens it
+    /// Lays out the list after the rest of the panel, and carries out the choice.
+    void (*build)(struct inspector *in, const struct dropdown *list);
+};
+/// Call wherever something may have opened the list.
+void inspector_offer(struct inspector *in, const struct dropdown *list);
+/// The field that opens a list, with a text and unless `color` is 0 a swatch. `which` is passed on. The second shows a spline.
+void inspector_dropdown(struct inspector *in, const struct dropdown *list, struct rect r, int which, const char *text,
+                        uint32_t color);
+void inspector_spline_field(struct inspector *in, const struct dropdown *list, struct rect r, int which, int spline);
+/// The menu of A.
+extern const struct dropdown inspector_add_list;
+
+/// The open list of a model's bones below `top` (−1: all), by name; the picked node, or −1.
+int inspector_bone_list(struct inspector *in, const struct dropdown *list, int model, int top, const char *chosen);
+
+/// Whether a change is finished, not a step of a drag.
+bool inspector_changed(enum ui_change change);
+/// Starts an undo step for a change. A drag is one step, redone from the original at each movement; Esc reverts it. A run of nudges of
+/// `what` with the same selection is one step too. true if you should edit now and call inspector_end() after.
+bool inspector_begin(struct inspector *in, enum ui_change change, const char *label, const char *what);
+/// Not `done`: reverts the edits.
+void inspector_end(struct inspector *in, enum ui_change change, bool done);
+
+/// Where a table's numbers are stored: the struct of number `which`, and the edit that replaces it.
+struct number_home {
+    int (*rig)(const struct inspector *in); ///< the rig that holds them, or NULL; then set() may be NULL
+    const void *(*of)(const struct inspector *in);
+    double (*get)(const struct inspector *in, int which);
+    bool (*set)(struct inspector *in, int which, double number, struct error *error);
+    bool settles; ///< set only when a drag ends, because setting may ask a question
+    /// Text in place of a number: returns `text`, or NULL to show the number. May be NULL itself.
+    const char *(*shown)(const struct inspector *in, int which, char text[64]);
+    /// The number before (take_keep()): a mark on the bar, and shown in its place while K is held. NAN: none. May be NULL itself.
+    double (*was)(const struct inspector *in, int which);
+};
+
+struct number_row {
+    const char *name, *label, *unit, *hint; ///< as in struct ui_number
+    const char *undo;                       ///< label of its undo step; NULL: set() makes no edit
+    size_t at;                              ///< offset in the struct, for number_at()
+    bool is_whole;                          ///< stored as an int
+    double minimum, maximum;                ///< of the bar
+    double lowest, highest;                 ///< of typed numbers
+    double fallback, step;
+    int decimals;
+};
+
+/// Offset of a double, and of an int.
+#define NUMBER_AT(type, member) offsetof(type, member), false
+#define WHOLE_AT(type, member) offsetof(type, member), true
+
+/// Reads a row's number from its struct, and writes it.
+double number_at(const struct number_row *row, const void *of);
+void number_put(const struct number_row *row, void *of, double number);
+
+/// Shows a number's row and edits the number.
+enum ui_change inspector_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
+                                int which, struct rect r);
+/// All rows of a table, each with its index as `which`.
+void inspector_numbers(struct inspector *in, const struct number_row *rows, int count,
+                       const struct number_home *home);
+
+/// Lists the document's splines, except those in `left_out` (by index; may be NULL), at most INSPECTOR_MAX_SPLINES; returns how many.
+/// `row`: the chosen spline's, or -1.
+int inspector_spline_items(const struct inspector *in, const bool *left_out, int chosen, struct ui_item *items,
+                           int *splines, int *row);
+/// The open spline list; the picked spline, or -1.
+int inspector_spline_list(struct inspector *in, const struct dropdown *list, int chosen);
+
+/// A label in its own row or at the left of one; returns the rest of the row.
+struct rect inspector_label(struct inspector *in, struct rect r, const char *label);
+struct rect inspector_labelled(struct inspector *in, const char *label);
+
+/// A row with nothing to set, so that rows below stay in place.
+void inspector_idle(struct inspector *in, const char *label, const char *text);
+
+/// A labelled row of segments; true if `*chosen` changed.
+bool inspector_choice(struct inspector *in, const char *label, const char *hint, const char *name,
+                      const struct ui_choice *choices, int count, int *chosen);
+
+struct icon_button {
+    const char *name, *hint;
+    enum ui_icon icon;
+};
+enum { INSPECTOR_ICON = 24 };
+/// Icon buttons from left to right; the pressed one, or -1.
+int inspector_icons(struct inspector *in, struct rect r, const struct icon_button *buttons, int count);
+
+/// The first of `most` visible rows of a list, with the chosen one among them.
+int inspector_first_row(int count, int chosen, int most);
+/// Notes below a list that it has more rows.
+void inspector_more(struct inspector *in, int count, int most, const char *what);
+
+/// Switches for onion skin, motion arc and ghost.
+void inspector_overlays(struct inspector *in);
+
+void inspector_find_rig(struct inspector *in);
+/// The shown tail or chain, or NULL.
+const struct rig *inspector_shown(const struct inspector *in);
+
+/// Rows for the angles of the shown tail or channel.
+void inspector_angles(struct inspector *in, enum angle_kind kind);
+/// The height of the highest curve below such a row, among all channels.
+float inspector_highest_curve(const struct inspector *in, enum angle_kind kind);
+/// Replaces the angles in one edit.
+bool inspector_set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles);
 
 #endif

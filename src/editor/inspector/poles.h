@@ -1,7 +1,7 @@
 /// Effects of frequency and damping: the response of the filter from jet-engine force to motion (paper: section 4, eq. 19, Figure 2), and
 /// the settling time of a spline. The paper compares its two-pole complex filter with the two real ones.
-#ifndef EDITOR_INSPECTOR_RESPONSE_H
-#define EDITOR_INSPECTOR_RESPONSE_H
+#ifndef EDITOR_INSPECTOR_POLES_H
+#define EDITOR_INSPECTOR_POLES_H
 
 #include "scene/document.h"
 
