@@ -1,0 +1,1157 @@
+/// The dialogs: opening and saving, questions about unsaved, changed and recovered work, export, and the order in which overlays get events.
+#include "base/file.h"
+#include "base/names.h"
+#include "base/need.h"
+#include "editor/core/core.h"
+#include "editor/dialogs/state.h"
+#include "ui/filter.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+
+enum { ANSWER_WIDTH = 104 };
+
+int question_build(struct dialog *dialog)
+{
+    const struct question *question = &dialog->question;
+    struct ui *ui = &dialog->ui;
+    ui_label(ui, ui_row(ui, UI_ROW), question->title, theme()->text);
+    float top = ui->y;
+    bool failed = dialog->error[0] != '\0';
+    ui_paragraph(ui, failed ? dialog->error : question->note, failed ? theme()->error : theme()->text_dim);
+    ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
+    struct rect row = ui_row(ui, 28);
+    const float width = fminf(ANSWER_WIDTH, floorf((row.w + UI_GAP) / (float)question->count) - UI_GAP);
+    int pressed = QUESTION_OPEN;
+    for (int i = 0; i < question->count; i++) {
+        float x = row.x + row.w - (float)(question->count - i) * (width + UI_GAP) + UI_GAP;
+        struct rect r = {x, row.y, width, row.h};
+        const struct answer *answer = &question->answers[i];
+        if (ui_button(ui, r, answer->name, answer->label, i == dialog->choice)) pressed = i;
+    }
+    return pressed;
+}
+
+int question_key(struct dialog *dialog, int key)
+{
+    const struct question *question = &dialog->question;
+    int count = question->count;
+    switch (key) {
+    case KEY_ESCAPE:
+        return count - 1;
+    case KEY_SPACE:
+    case KEY_ENTER:
+        return dialog->choice;
+    case KEY_LEFT:
+    case KEY_UP:
+        dialog->choice = (dialog->choice + count - 1) % count;
+        return QUESTION_OPEN;
+    case KEY_TAB:
+    case KEY_RIGHT:
+    case KEY_DOWN:
+        dialog->choice = (dialog->choice + 1) % count;
+        return QUESTION_OPEN;
+    default:
+        break;
+    }
+    for (int i = 0; i < count; i++) {
+        if (question->answers[i].key == key) return i;
+    }
+    return QUESTION_UNUSED;
+}
+
+bool dialogs_ask(struct dialogs *dialogs, struct core *core)
+{
+    const bool adds = core->request.kind == REQUEST_ADD && !core->request.path[0];
+    if (adds) {
+        core->request.kind = REQUEST_NONE;
+        dialog_open(dialogs, DIALOG_ADD, "");
+    } else if (core->question.count > 0) {
+        dialogs->dialog.question = core->question;
+        core->question.count = 0;
+        dialog_open(dialogs, DIALOG_ASK, "");
+        return true;
+    }
+    return adds;
+}
+
+/// A question with these answers and still without a text.
+#define QUESTION(list, what)                                                                                         \
+    ((struct question){.answers = (list), .count = sizeof(list) / sizeof(list)[0], .answered = (what)})
+
+enum unsaved_answer { UNSAVED_SAVE, UNSAVED_DISCARD, UNSAVED_CANCEL };
+static const struct answer unsaved_answers[] = {
+    [UNSAVED_SAVE] = {"dialog.save", "Save", 'S'},
+    [UNSAVED_DISCARD] = {"dialog.discard", "Discard", 'D'},
+    [UNSAVED_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
+};
+
+static void answer_unsaved(void *of, struct core *core, int answer)
+{
+    struct dialogs *dialogs = of;
+    const struct request after = dialogs->dialog.after;
+    if (answer == UNSAVED_DISCARD) {
+        dialog_close(dialogs);
+        dialog_go_on(dialogs, core, &after);
+    } else if (core->path[0]) {
+        dialog_await(dialogs, core, REQUEST_SAVE, NULL);
+    } else {
+        dialogs_save_as(dialogs, core);
+    }
+}
+
+void dialogs_leave(struct dialogs *dialogs, struct core *core, const struct request *after)
+{
+    struct question *question = &dialogs->dialog.question;
+    if (history_is_saved(core->history)) {
+        dialog_go_on(dialogs, core, after);
+        return;
+    }
+    *question = QUESTION(unsaved_answers, answer_unsaved);
+    snprintf(question->title, sizeof question->title, "%s has unsaved changes", core->title);
+    snprintf(question->note, sizeof question->note,
+             "Save them, or they will be lost. S saves, D discards, Esc cancels.");
+    dialog_open(dialogs, DIALOG_UNSAVED, "");
+    dialogs->dialog.after = *after;
+}
+
+enum changed_answer { CHANGED_MINE, CHANGED_THEIRS, CHANGED_SAVE_AS, CHANGED_CANCEL };
+static const struct answer changed_answers[] = {
+    [CHANGED_MINE] = {"dialog.mine", "Keep mine", 'K'},
+    [CHANGED_THEIRS] = {"dialog.theirs", "Take theirs", 'T'},
+    [CHANGED_SAVE_AS] = {"dialog.other", "Save as", 'S'},
+    [CHANGED_CANCEL] = {"dialog.cancel", "Cancel", 'C'},
+};
+
+static void answer_changed(void *of, struct core *core, int answer)
+{
+    struct dialogs *dialogs = of;
+    if (answer == CHANGED_SAVE_AS) {
+        dialogs_save_as(dialogs, core);
+    } else {
+        const enum request_kind mine = dialogs->dialog.saving ? REQUEST_OVERWRITE : REQUEST_KEEP_MINE;
+        dialog_await(dialogs, core, answer == CHANGED_MINE ? mine : REQUEST_THEIRS, NULL);
+    }
+}
+
+bool dialogs_ask_changed(struct dialogs *dialogs, const struct core *core, const char *name, bool saving)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    struct question *question = &dialog->question;
+    if (!saving && (core->drag.owner || dialogs_cover(dialogs))) return false;
+    *question = QUESTION(changed_answers, answer_changed);
+    snprintf(question->title, sizeof question->title, "%.255s has changed on the disk", name);
+    snprintf(question->note, sizeof question->note,
+             "Keep mine replaces that file %s. Take theirs opens it; undo brings yours back. Save as keeps both.",
+             saving ? "now" : "at the next save");
+    dialog_open(dialogs, DIALOG_CHANGED, "");
+    dialog->saving = saving;
+    dialog->choice = CHANGED_SAVE_AS;
+    return true;
+}
+
+enum recover_answer { RECOVER_RECOVER, RECOVER_DISCARD, RECOVER_LATER };
+static const struct answer recover_answers[] = {
+    [RECOVER_RECOVER] = {"dialog.recover", "Recover", 'R'},
+    [RECOVER_DISCARD] = {"dialog.discard", "Discard", 'D'},
+    [RECOVER_LATER] = {"dialog.later", "Later", 'L'},
+};
+
+static void answer_recovery(void *of, struct core *core, int answer)
+{
+    dialog_await(of, core, answer == RECOVER_RECOVER ? REQUEST_RECOVER : REQUEST_FORGET, NULL);
+}
+
+void dialogs_offer_recovery(struct dialogs *dialogs, const struct recovery_offer *offer)
+{
+    struct question *question = &dialogs->dialog.question;
+    char others[64] = "";
+    if (offer->others > 0) {
+        snprintf(others, sizeof others, "  %d older one%s after this.", offer->others, offer->others > 1 ? "s" : "");
+    }
+    *question = QUESTION(recover_answers, answer_recovery);
+    snprintf(question->title, sizeof question->title, "Recover unsaved work on %s?", offer->name);
+    snprintf(question->note, sizeof question->note, "Last kept on %s. Later asks again at the next start.%s",
+             offer->when, others);
+    dialog_open(dialogs, DIALOG_RECOVER, "");
+}
+
+enum { STEM_MORE = 32 }; ///< bytes that an extension may add
+enum { LEAST_ROWS = 3, CHOICE_ROWS = 3, NUMBER_WIDTH = 72, ENDING_WIDTH = 56, NOTE_HEIGHT = 40, MAX_SIDE = 8192 };
+
+static const char path_field[] = "export.path", clip_field[] = "export.clip";
+
+/// Height of everything but lists and buttons.
+static const float FRAME_HEIGHT = 300;
+
+static bool is_running(const struct dialog *dialog) { return dialog->awaited == REQUEST_EXPORT; }
+
+/// The format of a path's extension, or -1.
+static int format_by_ending(const struct dialog_files *files, const char *path)
+{
+    const char *dot = strrchr(path, '.');
+    for (int f = 0; dot && f < files->format_count; f++) {
+        if (strcasecmp(dot, files->formats[f].ending) == 0) return f;
+    }
+    return -1;
+}
+
+static const struct dialog_format *format_of(const struct dialogs *dialogs)
+{
+    return &dialogs->dialog.files.formats[dialogs->exporting.format];
+}
+
+/// Replaces a path's extension by a format's; false if the path gets too long.
+static bool with_ending(const struct dialog_files *files, const char *path, int format, char full[PATH_LIMIT])
+{
+    const size_t length = strlen(path);
+    const int old = format_by_ending(files, path);
+    const size_t stem = old >= 0 ? length - strlen(files->formats[old].ending) : length;
+    return snprintf(full, PATH_LIMIT, "%.*s%s", (int)stem, path, files->formats[format].ending) < PATH_LIMIT;
+}
+
+static void choose_format(struct dialogs *dialogs, int format)
+{
+    struct exporting *exporting = &dialogs->exporting;
+    char full[PATH_LIMIT];
+    if (with_ending(&dialogs->dialog.files, exporting->memory.path, format, full))
+        memcpy(exporting->memory.path, full, sizeof full);
+    exporting->format = format;
+    exporting->typed = 0; // reload the text into the field
+    dialogs->dialog.error[0] = '\0';
+}
+
+/// An absolute path without its extension; false if it is too long.
+static bool stem_of(const char *folder, const char *path, char stem[PATH_LIMIT])
+{
+    if (!path_resolve(folder, path, stem) || strlen(stem) >= PATH_LIMIT - STEM_MORE) return false;
+    char *dot = strrchr(stem, '.'), *slash = strrchr(stem, '/');
+    if (dot && dot > slash + 1) *dot = '\0';
+    return true;
+}
+
+/// Names the file after the scene, or else after the character, but never like that character's own file.
+static void name_export(char path[PATH_LIMIT], const struct core *core)
+{
+    const struct document *document = core->document;
+    char scene[PATH_LIMIT], own[PATH_LIMIT];
+    const int model = document_find_rig(document, RIG_MODEL, 0);
+    const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model]->model.model, own);
+    const char *like = core->path[0] ? core->path : has_model ? own : "untitled";
+    snprintf(path, PATH_LIMIT, "%.*s", PATH_LIMIT - STEM_MORE, like);
+    if (path_has_end(path, ".json")) path[strlen(path) - strlen(".json")] = '\0';
+    if (has_model && (like == own || (stem_of(NULL, core->path, scene) && strcmp(scene, own) == 0)))
+        strcat(path, "-animated");
+}
+
+/// For another scene: keeps the last format.
+static void begin_memory(struct dialogs *dialogs, const struct core *core)
+{
+    struct export_memory *memory = &dialogs->exporting.memory;
+    snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
+    name_export(memory->path, core);
+    choose_format(dialogs, dialogs->exporting.format);
+    memory->wish.part = false;
+    memory->wish.clip[0] = '\0';
+    memory->wish.rig = 0;
+}
+
+void dialogs_export(struct dialogs *dialogs, const struct core *core)
+{
+    struct exporting *exporting = &dialogs->exporting;
+    struct export_memory *memory = &exporting->memory;
+    const struct dialog_files *files = &dialogs->dialog.files;
+    if (files->format_count == 0) return;
+    const int last = format_by_ending(files, memory->path);
+    if (last >= 0) exporting->format = last;
+    const bool same = core->path[0] ? strcmp(memory->scene, core->path) == 0 : exporting->serial == core->serial;
+    if (!same || !memory->path[0]) begin_memory(dialogs, core);
+    exporting->serial = core->serial;
+    exporting->typed = 0;
+    exporting->done = exporting->total = 0;
+    struct export_wish *wish = &memory->wish;
+    const struct document *document = core->document;
+    if (!wish->part || wish->first < document->first_frame || wish->last > document->last_frame) {
+        wish->part = false;
+        wish->first = document->first_frame;
+        wish->last = document->last_frame;
+    }
+    dialog_open(dialogs, DIALOG_EXPORT, "");
+    dialogs->dialog.ui.focus = ui_id(&dialogs->dialog.ui, path_field);
+}
+
+void dialogs_set_export(struct dialogs *dialogs, const struct export_memory *memory)
+{
+    dialogs->exporting.memory = *memory;
+}
+
+void dialogs_tell_export(struct dialogs *dialogs, long done, long total)
+{
+    dialogs->exporting.done = done;
+    dialogs->exporting.total = total;
+}
+
+static void confirm_export(struct dialogs *dialogs, struct core *core)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    const struct export_memory *memory = &dialogs->exporting.memory;
+    if (is_running(dialog)) return;
+    char full[PATH_LIMIT];
+    const char *name = path_name(memory->path);
+    if (!*name || *name == '.') {
+        snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
+        return;
+    }
+    if (!with_ending(&dialog->files, memory->path, dialogs->exporting.format, full)) {
+        snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
+        return;
+    }
+    dialogs->exporting.done = dialogs->exporting.total = 0;
+    dialog_await(dialogs, core, REQUEST_EXPORT, full);
+    core->request.wish = memory->wish;
+}
+
+static void stop(struct dialogs *dialogs, struct core *core)
+{
+    if (is_running(&dialogs->dialog)) {
+        core_request(core, REQUEST_EXPORT_STOP, NULL);
+    } else {
+        dialog_close(dialogs);
+    }
+}
+
+bool export_key(struct dialogs *dialogs, struct core *core, int key)
+{
+    const struct ui *ui = &dialogs->dialog.ui;
+    const bool in_text = ui->focus == ui_id(ui, path_field) || ui->focus == ui_id(ui, clip_field);
+    const int format = dialogs->exporting.format, last = dialogs->dialog.files.format_count - 1;
+    if (key == KEY_ESCAPE && !ui->typing && !ui->held) {
+        stop(dialogs, core);
+    } else if (is_running(&dialogs->dialog)) {
+        return key != KEY_ENTER && key != KEY_SPACE; // Enter and Space press the button
+    } else if (key == KEY_ENTER && in_text) {
+        confirm_export(dialogs, core);
+    } else if (key == KEY_UP && in_text) {
+        choose_format(dialogs, format > 0 ? format - 1 : 0);
+    } else if (key == KEY_DOWN && in_text) {
+        choose_format(dialogs, format < last ? format + 1 : last);
+    } else {
+        return false;
+    }
+    return true;
+}
+
+/// A text field that keeps its content while another one has the focus.
+static bool build_text(struct dialogs *dialogs, struct rect r, const char *name, char *text, size_t size)
+{
+    struct exporting *exporting = &dialogs->exporting;
+    struct ui *ui = &dialogs->dialog.ui;
+    const uint32_t id = ui_id(ui, name);
+    const struct ui_text others = ui->text;
+    if (exporting->typed == id && ui->focus != id) exporting->typed = 0;
+    if (exporting->typed != id) ui_text_set(&ui->text, text);
+    if (exporting->typed != id && ui->focus == id) ui->text.all = true; // focused by Tab or on opening
+    const bool changed = ui_text_field(ui, r, name);
+    if (changed) {
+        snprintf(text, size, "%.*s", name_fit(ui->text.bytes, size - 1), ui->text.bytes);
+        dialogs->dialog.error[0] = '\0';
+    }
+    if (ui->focus == id) {
+        exporting->typed = id;
+    } else {
+        ui->text = others;
+    }
+    return changed;
+}
+
+static void build_export_path(struct dialogs *dialogs)
+{
+    struct exporting *exporting = &dialogs->exporting;
+    char *path = exporting->memory.path;
+    if (!build_text(dialogs, ui_row(&dialogs->dialog.ui, 28), path_field, path, PATH_LIMIT)) return;
+    const int format = format_by_ending(&dialogs->dialog.files, path);
+    if (format >= 0) exporting->format = format;
+}
+
+/// A whole-number field.
+static bool build_number(struct dialogs *dialogs, struct rect r, struct ui_number number, double *value)
+{
+    number.step = 1;
+    number.fallback = NAN;
+    if (ui_value(&dialogs->dialog.ui, r, &number, value) == UI_NONE) return false;
+    *value = round(*value);
+    return true;
+}
+
+static struct rect labelled(struct ui *ui, struct rect *row, float width, const char *label)
+{
+    const struct rect r = {row->x, row->y, UI_LABEL, row->h},
+                      field = {row->x + UI_LABEL + UI_GAP, row->y, width, row->h};
+    ui_label(ui, r, label, theme()->text_dim);
+    row->x += UI_LABEL + width + 3 * UI_GAP;
+    row->w -= UI_LABEL + width + 3 * UI_GAP;
+    return field;
+}
+
+/// The second of two number fields, with a word between.
+static struct rect second(struct ui *ui, struct rect first, const char *word)
+{
+    const float x = first.x + first.w + UI_GAP;
+    ui_label(ui, (struct rect){x, first.y, 16, first.h}, word, theme()->text_dim);
+    return (struct rect){x + 16 + UI_GAP, first.y, first.w, first.h};
+}
+
+static const float PAIR_WIDTH = 2 * NUMBER_WIDTH + 16 + 2 * UI_GAP;
+
+static void build_frames(struct dialogs *dialogs, const struct document *document, struct rect *row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    const double first = document->first_frame, last = document->last_frame;
+    struct rect r = labelled(&dialogs->dialog.ui, row, PAIR_WIDTH, "frames");
+    r.w = NUMBER_WIDTH;
+    bool changed = build_number(
+        dialogs, r, (struct ui_number){.name = "export.first", .lowest = first, .highest = wish->last}, &wish->first);
+    changed |=
+        build_number(dialogs, second(&dialogs->dialog.ui, r, "to"),
+                     (struct ui_number){.name = "export.last", .lowest = wish->first, .highest = last}, &wish->last);
+    if (changed) wish->part = wish->first > first || wish->last < last;
+}
+
+static void build_size(struct dialogs *dialogs, const struct dialog_format *format, struct rect *row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    struct rect r = labelled(&dialogs->dialog.ui, row, PAIR_WIDTH, "size");
+    double width = wish->width > 0 ? wish->width : format->width;
+    double height = wish->height > 0 ? wish->height : format->height;
+    r.w = NUMBER_WIDTH;
+    bool changed = build_number(
+        dialogs, r, (struct ui_number){.name = "export.width", .lowest = 16, .highest = MAX_SIDE}, &width);
+    changed |= build_number(dialogs, second(&dialogs->dialog.ui, r, "×"),
+                            (struct ui_number){.name = "export.height", .lowest = 16, .highest = MAX_SIDE}, &height);
+    if (!changed) return;
+    wish->width = (int)width;
+    wish->height = (int)height;
+}
+
+static void build_keys(struct dialogs *dialogs, const struct document *document, struct rect *row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    double keys = wish->keys > 0 ? wish->keys : document->substeps;
+    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH, "keys a frame");
+    if (build_number(dialogs, r,
+                     (struct ui_number){.name = "export.keys", .lowest = 1, .highest = SCENE_MAX_SUBSTEPS}, &keys))
+        wish->keys = (int)keys;
+}
+
+static bool is_offered(const struct rig *rig, unsigned choices)
+{
+    if (choices & CHOICE_JOINTS) return rig->kind == RIG_TAIL || rig->kind == RIG_MODEL;
+    return rig->kind != RIG_CHAIN; // exported with its character
+}
+
+static const char *label_of(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
+
+/// The next rig to export; 0 for all after the last, where the format allows that.
+static void next_rig(struct export_wish *wish, const struct document *document, unsigned choices)
+{
+    int current = -1, first = -1, next = -1;
+    for (int i = 0; i < document->rig_count; i++) {
+        const struct rig *rig = document->rigs[i];
+        if (!is_offered(rig, choices)) continue;
+        if (first < 0) first = i;
+        if (current >= 0 && next < 0) next = i;
+        if (rig->id == wish->rig) current = i;
+    }
+    if (next < 0 && (current < 0 || (choices & CHOICE_ONE))) next = first;
+    wish->rig = next >= 0 ? document->rigs[next]->id : 0;
+}
+
+/// The label of the rig that is chosen, or NULL; and how many are offered.
+static const char *chosen_rig(const struct document *document, const struct export_wish *wish, unsigned choices,
+                              int *offered)
+{
+    const char *label = NULL;
+    *offered = 0;
+    for (int i = 0; i < document->rig_count; i++) {
+        if (!is_offered(document->rigs[i], choices)) continue;
+        if (document->rigs[i]->id == wish->rig) label = label_of(document->rigs[i]);
+        (*offered)++;
+    }
+    return label;
+}
+
+static void build_rig(struct dialogs *dialogs, const struct document *document, unsigned choices, struct rect *row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    int offered = 0;
+    const char *label = chosen_rig(document, wish, choices, &offered);
+    if (!label) wish->rig = 0; // the rig belonged to another format or is gone
+    if (offered < 2) return;
+    if ((choices & CHOICE_ONE) && !label) {
+        next_rig(wish, document, choices);
+        label = chosen_rig(document, wish, choices, &offered);
+    }
+    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH + 48, "rig");
+    if (ui_button(&dialogs->dialog.ui, r, "export.rig", label ? label : "all rigs", false))
+        next_rig(wish, document, choices);
+}
+
+static void build_toggle(struct ui *ui, struct rect *row, const char *name, const char *label, bool *on)
+{
+    enum { TOGGLE = 28, WORDS = 140 };
+    ui_toggle(ui, *row, name, on);
+    ui_label(ui, (struct rect){row->x + TOGGLE + UI_GAP, row->y, WORDS, row->h}, label, theme()->text_dim);
+    row->x += TOGGLE + WORDS + 2 * UI_GAP;
+}
+
+static void build_flags(struct dialogs *dialogs, const struct document *document, unsigned choices, struct rect row)
+{
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
+    struct ui *ui = &dialogs->dialog.ui;
+    const bool morphs = document_find_rig(document, RIG_CHARACTER, 0) >= 0;
+    if (choices & CHOICE_CUBIC) build_toggle(ui, &row, "export.cubic", "keys with tangents", &wish->is_cubic);
+    if ((choices & CHOICE_CUBIC) && document_find_rig(document, RIG_CHAIN, 0) >= 0)
+        build_toggle(ui, &row, "export.clips", "all clips", &wish->all_clips);
+    if ((choices & CHOICE_SIGNED) && morphs)
+        build_toggle(ui, &row, "export.signed", "signed morph targets", &wish->is_signed);
+    if (choices & CHOICE_ALPHA) build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
+}
+
+/// The default clip name: for an imported character, its current clip's.
+static const char *usual_clip(const struct document *document)
+{
+    const int rig = document_next_rig(document, RIG_MODEL, -1);
+    return rig >= 0 && document->rigs[rig]->model.clip ? document->rigs[rig]->model.clip : "as the scene";
+}
+
+/// Has the same number of rows for every format, so that nothing jumps.
+static void build_choices(struct dialogs *dialogs, const struct document *document)
+{
+    struct export_memory *memory = &dialogs->exporting.memory;
+    struct ui *ui = &dialogs->dialog.ui;
+    const struct dialog_format *format = format_of(dialogs);
+    const bool narrow = ui->area.w < 480; // one choice a row
+    struct rect rows[CHOICE_ROWS + 2];
+    for (int i = 0; i < CHOICE_ROWS + 2 * narrow; i++) rows[i] = ui_row(ui, UI_ROW);
+    build_frames(dialogs, document, &rows[0]);
+    if (format->choices & CHOICE_KEYS) build_keys(dialogs, document, &rows[narrow ? CHOICE_ROWS : 0]);
+    if (format->choices & CHOICE_SIZE) build_size(dialogs, format, &rows[1]);
+    if (format->choices & CHOICE_CLIP) {
+        const struct rect r = labelled(ui, &rows[1], PAIR_WIDTH, "clip");
+        build_text(dialogs, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, clip_field, memory->wish.clip,
+                   sizeof memory->wish.clip);
+        if (!memory->wish.clip[0] && ui->focus != ui_id(ui, clip_field))
+            ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual_clip(document), theme()->text_dim);
+    }
+    if (format->choices & CHOICE_RIG)
+        build_rig(dialogs, document, format->choices, &rows[narrow ? CHOICE_ROWS + 1 : 1]);
+    build_flags(dialogs, document, format->choices, rows[2]);
+}
+
+static void build_formats(struct dialogs *dialogs, float room)
+{
+    const struct dialog_files *files = &dialogs->dialog.files;
+    struct exporting *exporting = &dialogs->exporting;
+    struct ui *ui = &dialogs->dialog.ui;
+    const int chosen = exporting->format, fitting = (int)(room / UI_ROW);
+    const int rows = fitting < LEAST_ROWS            ? LEAST_ROWS
+                     : fitting > files->format_count ? files->format_count
+                                                     : fitting;
+    const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
+    // Scroll to the format being typed.
+    if (ui->focus == ui_id(ui, path_field))
+        exporting->scroll.offset =
+            fmaxf(fminf(exporting->scroll.offset, (float)chosen * UI_ROW), (float)(chosen + 1 - rows) * UI_ROW);
+    int taken = -1;
+    ui_scroll_begin(ui, &exporting->scroll, view);
+    for (int f = 0; f < files->format_count; f++) {
+        char name[32];
+        const struct rect r = ui_row(ui, UI_ROW);
+        snprintf(name, sizeof name, "export%s", files->formats[f].ending);
+        if (ui_list_row(ui, r, name, "", 0, f == chosen)) taken = f;
+        ui_label(ui, (struct rect){r.x + 6, r.y, ENDING_WIDTH, r.h}, files->formats[f].ending, theme()->text);
+        ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h},
+                 files->formats[f].holds, theme()->text_dim);
+    }
+    ui_scroll_end(ui);
+    if (taken >= 0) choose_format(dialogs, taken);
+}
+
+static void build_note(struct dialogs *dialogs, const struct document *document)
+{
+    const struct dialog *dialog = &dialogs->dialog;
+    const struct exporting *exporting = &dialogs->exporting;
+    const struct export_wish *wish = &exporting->memory.wish;
+    const struct dialog_format *format = format_of(dialogs);
+    struct ui *ui = &dialogs->dialog.ui;
+    const float top = ui->y;
+    char text[160];
+    if (is_running(dialog) && exporting->total > 0) {
+        snprintf(text, sizeof text, "%ld of %ld. Esc cancels and leaves nothing behind.", exporting->done,
+                 exporting->total);
+    } else if (is_running(dialog)) {
+        snprintf(text, sizeof text, "Getting ready. Esc cancels and leaves nothing behind.");
+    } else {
+        const int keys = wish->keys > 0 ? wish->keys : document->substeps;
+        double rate = document->fps * keys, count = (wish->last - wish->first) * keys + 1;
+        if (format->pictures) count = format->pictures(format->ending, document, wish->first, wish->last, &rate);
+        snprintf(text, sizeof text, "%.0f %s%s, %g a second. ↑ ↓ choose the format, Tab goes to the choices.", count,
+                 format->pictures ? "picture" : "key", count == 1 ? "" : "s", rate);
+    }
+    if (is_running(dialog)) {
+        const struct rect bar = ui_row(ui, 8);
+        const float part = exporting->total > 0 ? (float)exporting->done / (float)exporting->total : 0;
+        if (ui->pass == UI_PASS_DRAW) {
+            drawlist_rounded(ui->list, bar, 4, theme()->fill);
+            drawlist_rounded(ui->list, (struct rect){bar.x, bar.y, fmaxf(8, bar.w * part), bar.h}, 4,
+                             theme()->accent);
+        }
+        ui_space(ui, 4);
+    }
+    ui_paragraph(ui,
+                 dialog->error[0]   ? dialog->error
+                 : ui->complaint[0] ? ui->complaint
+                                    : text,
+                 dialog->error[0] || ui->complaint[0] ? theme()->error : theme()->text_dim);
+    ui_space(ui, fmaxf(8, NOTE_HEIGHT - (ui->y - top)));
+}
+
+static void build_buttons(struct dialogs *dialogs, struct core *core)
+{
+    enum { CANCEL_WIDTH = 104, WRITE_WIDTH = 240 };
+    const struct dialog *dialog = &dialogs->dialog;
+    struct ui *ui = &dialogs->dialog.ui;
+    char label[64], full[PATH_LIMIT] = "";
+    const struct rect row = ui_row(ui, 28);
+    const float width = fminf(WRITE_WIDTH, row.w - CANCEL_WIDTH - UI_GAP);
+    const struct rect right = {row.x + row.w - width, row.y, width, row.h};
+    const float end = is_running(dialog) ? row.x + row.w : right.x - UI_GAP;
+    const struct rect left = {end - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
+    with_ending(&dialog->files, dialogs->exporting.memory.path, dialogs->exporting.format, full);
+    snprintf(label, sizeof label, "Write %.48s", path_name(full));
+    const bool stopped = ui_button(ui, left, "dialog.cancel", "Cancel", false);
+    if (!is_running(dialog) && ui_button(ui, right, "dialog.confirm", label, true)) confirm_export(dialogs, core);
+    if (stopped) stop(dialogs, core);
+}
+
+void export_build(struct dialogs *dialogs, struct core *core)
+{
+    struct export_memory *memory = &dialogs->exporting.memory;
+    struct ui *ui = &dialogs->dialog.ui;
+    if (is_running(&dialogs->dialog)) {
+        char title[96];
+        snprintf(title, sizeof title, "Writing %.80s", path_name(memory->path));
+        ui_label(ui, ui_row(ui, UI_ROW), title, theme()->text);
+        ui_space(ui, 4);
+    } else {
+        ui_label(ui, ui_row(ui, UI_ROW), "Export the motion", theme()->text);
+        ui_space(ui, 4);
+        build_export_path(dialogs);
+        ui_space(ui, 8);
+        build_formats(dialogs, core->layout.window.h - FRAME_HEIGHT);
+        ui_space(ui, 8);
+        build_choices(dialogs, core->document);
+        ui_space(ui, 4);
+    }
+    build_note(dialogs, core->document);
+    build_buttons(dialogs, core);
+}
+
+enum { LIST_ROWS = 8, AROUND_LIST = 184, BUTTON_WIDTH = 104 };
+
+static bool is_question(const struct dialog *dialog)
+{
+    return dialog->kind >= DIALOG_UNSAVED && dialog->kind <= DIALOG_ASK;
+}
+
+static void list_folder(struct dialog *dialog, const char *folder)
+{
+    if (dialog->name_count >= 0 && strcmp(folder, dialog->listed) == 0) return;
+    snprintf(dialog->listed, sizeof dialog->listed, "%s", folder);
+    dialog->name_count = 0;
+    if (!dialog->files.list) return;
+    int count = dialog->files.list(dialog->files.user, *folder ? folder : ".", dialog->names, DIALOG_MAX_NAMES);
+    dialog->name_count = count > 0 ? count : 0;
+}
+
+static bool begins(const struct dialog *dialog, const char *name)
+{
+    const char *typed = path_name(dialog->ui.text.bytes);
+    return strncmp(name, typed, strlen(typed)) == 0;
+}
+
+/// Pass 0 takes names that begin with the text, pass 1 those that hold it elsewhere.
+static bool fits(const struct dialog *dialog, const struct ui_filter *filter, const char *name, int pass)
+{
+    const enum fit fit = ui_filter_fit(filter, name);
+    if (dialog->kind == DIALOG_ADD && path_has_end(name, ".json")) return false;
+    return fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0);
+}
+
+/// Lists a new folder and picks the names that match the text after it. Matching recent files come first unless a folder is typed.
+static void dialog_match(struct dialog *dialog)
+{
+    char folder[UI_TEXT_SIZE];
+    struct ui_filter filter = {{0}};
+    const char *name = path_name(dialog->ui.text.bytes);
+    snprintf(folder, sizeof folder, "%.*s", (int)(name - dialog->ui.text.bytes), dialog->ui.text.bytes);
+    list_folder(dialog, folder);
+    dialog->match_count = 0;
+    dialog->choice = -1;
+    // A fully selected name is about to be replaced, so everything matches.
+    if (!dialog->ui.text.all) snprintf(filter.typed, sizeof filter.typed, "%s", name);
+    const int recent = dialog->kind == DIALOG_OPEN && !folder[0] ? dialog->recent_count : 0;
+    for (int i = 0; i < recent; i++) {
+        if (ui_filter_fit(&filter, path_name(dialog->recent[i].path)) >= FIT_INSIDE)
+            dialog->match[dialog->match_count++] = DIALOG_MAX_NAMES + i;
+    }
+    for (int i = 0; i < 2 * dialog->name_count; i++) {
+        const int at = i % dialog->name_count;
+        if (fits(dialog, &filter, dialog->names[at], i / dialog->name_count))
+            dialog->match[dialog->match_count++] = at;
+    }
+}
+
+void dialog_open(struct dialogs *dialogs, enum dialog_kind kind, const char *path)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    dialog->kind = kind;
+    dialog->awaited = REQUEST_NONE;
+    dialog->error[0] = '\0';
+    dialog->name_count = -1;
+    dialog->choice = 0;
+    ui_release(&dialog->ui);
+    ui_text_set(&dialog->ui.text, path);
+    dialog->ui.text.all = path[0] != '\0';
+    if (is_question(dialog) || kind == DIALOG_EXPORT) return;
+    bool lists = kind == DIALOG_OPEN && dialog->files.recent;
+    dialog->recent_count = lists ? dialog->files.recent(dialog->files.user, dialog->recent, DIALOG_MAX_RECENT) : 0;
+    dialog_match(dialog);
+}
+
+void dialog_close(struct dialogs *dialogs)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    dialog->kind = DIALOG_NONE;
+    dialog->awaited = REQUEST_NONE;
+    dialog->after.kind = REQUEST_NONE;
+}
+
+void dialogs_save_as(struct dialogs *dialogs, const struct core *core)
+{
+    const char *name = path_has_end(core->title, ".json") ? core->title : "untitled.json";
+    dialog_open(dialogs, DIALOG_SAVE_AS, core->path[0] ? core->path : name);
+}
+
+void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct request *after)
+{
+    if (after->kind == REQUEST_OPEN && !after->path[0]) {
+        dialog_open(dialogs, DIALOG_OPEN, "");
+    } else if (after->kind != REQUEST_NONE) {
+        core->request = *after;
+    }
+}
+
+void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path)
+{
+    dialogs->dialog.error[0] = '\0';
+    dialogs->dialog.awaited = kind;
+    core_request(core, kind, path);
+}
+
+bool dialogs_answer(struct dialogs *dialogs, struct core *core, const struct request *request, bool ok,
+                    const char *text)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    if (dialog->awaited == REQUEST_NONE || dialog->awaited != request->kind) return false;
+    dialog->awaited = REQUEST_NONE;
+    if (ok) {
+        struct request after = dialog->after;
+        dialog_close(dialogs);
+        dialog_go_on(dialogs, core, &after);
+    } else {
+        snprintf(dialog->error, sizeof dialog->error, "%s", text);
+    }
+    return true;
+}
+
+static void confirm(struct dialogs *dialogs, struct core *core)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    char path[sizeof((struct request *)0)->path];
+    const char *typed = dialog->ui.text.bytes;
+    bool saving = dialog->kind == DIALOG_SAVE_AS;
+    if (is_question(dialog)) return;
+    if (!*path_name(typed)) {
+        snprintf(dialog->error, sizeof dialog->error, "Type a file name.");
+        return;
+    }
+    int length = snprintf(path, sizeof path, "%s%s", typed, saving && !path_has_end(typed, ".json") ? ".json" : "");
+    if (length >= (int)sizeof path) {
+        snprintf(dialog->error, sizeof dialog->error, "The path is too long.");
+        return;
+    }
+    dialog_await(dialogs, core,
+                 saving                       ? REQUEST_SAVE_AS
+                 : dialog->kind == DIALOG_ADD ? REQUEST_ADD
+                                              : REQUEST_OPEN,
+                 path);
+}
+
+static void answer(struct dialogs *dialogs, struct core *core, int given)
+{
+    const struct dialog *dialog = &dialogs->dialog;
+    void (*const answered)(void *, struct core *, int) = dialog->question.answered;
+    const bool changes = given + 1 < dialog->question.count;
+    if (given < 0) return;
+    if (!changes || dialog->kind == DIALOG_ASK) dialog_close(dialogs);
+    if (changes) answered(dialogs, core, given);
+}
+
+/// An answer's letter also arrives as text; skip_text keeps it out of a path.
+static bool question_event(struct dialogs *dialogs, struct core *core, int key)
+{
+    int given = question_key(&dialogs->dialog, key);
+    if (given == QUESTION_UNUSED) return false;
+    dialogs->dialog.skip_text = true;
+    answer(dialogs, core, given);
+    return true;
+}
+
+static void move_choice(struct dialog *dialog, int direction)
+{
+    if (dialog->match_count == 0) return;
+    int next = dialog->choice + direction;
+    dialog->choice = next < 0 ? 0 : next >= dialog->match_count ? dialog->match_count - 1 : next;
+}
+
+static void set_name(struct dialog *dialog, const char *name, size_t length)
+{
+    char path[UI_TEXT_SIZE];
+    int folder = (int)(path_name(dialog->ui.text.bytes) - dialog->ui.text.bytes);
+    snprintf(path, sizeof path, "%.*s%.*s", folder, dialog->ui.text.bytes, (int)length, name);
+    ui_text_set(&dialog->ui.text, path);
+    dialog_match(dialog);
+}
+
+/// The recent file of a match, or NULL.
+static const struct dialog_recent *dialog_recent_of(const struct dialog *dialog, int match)
+{
+    int recent = dialog->match[match] - DIALOG_MAX_NAMES;
+    return recent >= 0 ? &dialog->recent[recent] : NULL;
+}
+
+/// Tab: completes up to where the matching names differ.
+static void dialog_complete(struct dialog *dialog)
+{
+    const char *first = NULL;
+    size_t common = 0;
+    for (int m = 0; m < dialog->match_count; m++) {
+        const char *other = dialog_recent_of(dialog, m) ? "" : dialog->names[dialog->match[m]];
+        size_t same = 0;
+        if (!*other || (!dialog->ui.text.all && !begins(dialog, other))) continue;
+        if (!first) common = strlen(first = other);
+        while (same < common && other[same] == first[same]) same++;
+        common = same;
+    }
+    while (first && common > 0 && ((unsigned char)first[common] & 0xC0) == 0x80) common--; // never split a character
+    if (first && (common > 0 || dialog->ui.text.all)) set_name(dialog, first, common);
+}
+
+static bool take_recent(struct dialog *dialog, const struct dialog_recent *recent)
+{
+    if (recent->missing) {
+        snprintf(dialog->error, sizeof dialog->error, "%.300s no longer exists.", recent->path);
+        return false;
+    }
+    ui_text_set(&dialog->ui.text, recent->path);
+    dialog_match(dialog);
+    return true;
+}
+
+/// Puts a match into the path. true for a file; a folder is listed, a missing file reported.
+static bool dialog_take(struct dialog *dialog, int match)
+{
+    const struct dialog_recent *recent = dialog_recent_of(dialog, match);
+    if (recent) return take_recent(dialog, recent);
+    const char *name = dialog->names[dialog->match[match]];
+    size_t length = strlen(name);
+    bool folder = length > 0 && name[length - 1] == '/';
+    set_name(dialog, name, length);
+    return !folder;
+}
+
+/// The match that Enter takes without a choice: the only one, if it begins with the text; else −1.
+static int dialog_only(const struct dialog *dialog)
+{
+    const bool single = dialog->kind != DIALOG_SAVE_AS && dialog->match_count == 1 && !dialog_recent_of(dialog, 0);
+    return single && begins(dialog, dialog->names[dialog->match[0]]) ? 0 : -1;
+}
+
+static bool path_key(struct dialogs *dialogs, struct core *core, int key)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    switch (key) {
+    case KEY_ESCAPE:
+        dialog_close(dialogs);
+        return true;
+    case KEY_TAB:
+        dialog_complete(dialog);
+        return true;
+    case KEY_UP:
+        move_choice(dialog, -1);
+        return true;
+    case KEY_DOWN:
+        move_choice(dialog, 1);
+        return true;
+    case KEY_ENTER:
+        if (dialog->choice < 0) dialog->choice = dialog_only(dialog);
+        if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(dialogs, core);
+        return true;
+    default:
+        return false;
+    }
+}
+
+/// The second press of a double-click on a name.
+static bool is_confirmed(const struct dialog *dialog, struct rect list)
+{
+    const struct ui *ui = &dialog->ui;
+    const struct event *event = ui->event;
+    bool twice = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
+                 event->button == BUTTON_LEFT && event->clicks == 2;
+    return twice && rect_contains(list, event->x, event->y) && *path_name(ui->text.bytes);
+}
+
+/// A recent file's name, with its folder to the right.
+static void label_recent(struct ui *ui, struct rect r, const struct dialog_recent *recent)
+{
+    char folder[PATH_LIMIT];
+    const char *slash = strrchr(recent->path, '/');
+    int length = !slash ? 0 : slash > recent->path ? (int)(slash - recent->path) : 1;
+    snprintf(folder, sizeof folder, "%.*s", length, recent->path);
+    float half = floorf(r.w * 0.45f);
+    ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, path_name(recent->path),
+             recent->missing ? theme()->text_dim : theme()->text);
+    ui_label_right(ui, (struct rect){r.x + half + UI_GAP, r.y, r.w - half - UI_GAP - 6, r.h},
+                   recent->missing ? "no longer exists" : folder, theme()->text_dim);
+}
+
+/// Lays out a match; true if it was pressed.
+static bool dialog_row(struct dialog *dialog, struct rect r, int match)
+{
+    char name[32];
+    const struct dialog_recent *recent = dialog_recent_of(dialog, match);
+    const char *text = recent ? "" : dialog->names[dialog->match[match]];
+    snprintf(name, sizeof name, "dialog.match.%d", match);
+    bool pressed = ui_list_row(&dialog->ui, r, name, text, 0, match == dialog->choice);
+    if (recent) label_recent(&dialog->ui, r, recent);
+    return pressed;
+}
+
+static void build_list(struct dialogs *dialogs, struct core *core)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    struct ui *ui = &dialog->ui;
+    const int rows = (int)fminf(LIST_ROWS, fmaxf((core->layout.window.h - AROUND_LIST) / UI_ROW, 1));
+    struct rect list = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
+    bool confirmed = is_confirmed(dialog, list);
+    int first = dialog->choice >= rows ? dialog->choice - rows + 1 : 0, taken = -1;
+    for (int row = 0; row < rows; row++) {
+        struct rect r = ui_row(ui, UI_ROW);
+        if (first + row < dialog->match_count && dialog_row(dialog, r, first + row)) taken = first + row;
+        if (row == 0 && dialog->match_count == 0)
+            ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 12, r.h}, "Nothing matches.", theme()->text_dim);
+    }
+    if (taken >= 0) dialog->error[0] = '\0';
+    bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // one click opens a recent file
+    bool done = taken >= 0 && !confirmed && dialog_take(dialog, taken);
+    if (confirmed || (done && direct)) confirm(dialogs, core);
+}
+
+static bool dialog_exists(const struct dialog *dialog)
+{
+    const char *name = path_name(dialog->ui.text.bytes);
+    for (int m = 0; m < dialog->match_count; m++) {
+        if (!dialog_recent_of(dialog, m) && strcmp(dialog->names[dialog->match[m]], name) == 0) return true;
+    }
+    return false;
+}
+
+static void build_path(struct dialogs *dialogs, struct core *core)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    struct ui *ui = &dialog->ui;
+    bool saving = dialog->kind == DIALOG_SAVE_AS, adding = dialog->kind == DIALOG_ADD;
+    const char *title = saving   ? "Save the scene as"
+                        : adding ? "Add a character or model (.glb, .gltf)"
+                                 : "Open a scene or character";
+    ui_label(ui, ui_row(ui, UI_ROW), title, theme()->text);
+    ui_space(ui, 4);
+    if (ui_text_field(ui, ui_row(ui, 28), "dialog.path")) {
+        dialog->error[0] = '\0';
+        dialog_match(dialog);
+    }
+    ui_space(ui, 8);
+    if (dialog->files.list) build_list(dialogs, core);
+    const char *note = saving && dialog_exists(dialog) ? "This replaces an existing file." : "";
+    if (dialog->match_count > 0 && dialog_recent_of(dialog, 0))
+        note = "Recent files come first. Type a path or choose one; Tab completes.";
+    if (!note[0] && dialog->files.list) note = "Tab completes, arrow keys choose.";
+    ui_space(ui, 4);
+    float top = ui->y;
+    ui_paragraph(ui, dialog->error[0] ? dialog->error : note, dialog->error[0] ? theme()->error : theme()->text_dim);
+    ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
+    struct rect row = ui_row(ui, 28);
+    struct rect right = {row.x + row.w - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
+    struct rect left = {right.x - UI_GAP - BUTTON_WIDTH, row.y, BUTTON_WIDTH, row.h};
+    bool cancelled = ui_button(ui, left, "dialog.cancel", "Cancel", false);
+    if (ui_button(ui, right, "dialog.confirm", saving ? "Save" : adding ? "Add" : "Open", true))
+        confirm(dialogs, core);
+    if (cancelled) dialog_close(dialogs);
+}
+
+static void build(struct dialogs *dialogs, struct core *core)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    struct ui *ui = &dialog->ui;
+    ui_space(ui, 8);
+    if (is_question(dialog)) {
+        answer(dialogs, core, question_build(dialog));
+    } else if (dialog->kind == DIALOG_EXPORT) {
+        export_build(dialogs, core);
+    } else {
+        ui->focus = ui_id(ui, "dialog.path"); // the path is the only text field
+        build_path(dialogs, core);
+    }
+    ui_space(ui, 12);
+}
+
+/// Centred, as high as its content.
+static struct rect dialog_box(struct dialogs *dialogs, struct core *core)
+{
+    struct rect window = core->layout.window;
+    struct ui *ui = &dialogs->dialog.ui;
+    const bool narrow = is_question(&dialogs->dialog) && dialogs->dialog.question.count < 4;
+    float w = fminf(narrow ? 440 : 560, window.w - 16);
+    ui_begin_find(ui, (struct rect){0, 0, w, window.h}, "", NULL);
+    build(dialogs, core);
+    float h = fminf(ui->y, window.h - 16);
+    ui_end(ui);
+    return (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 3), w, h};
+}
+
+/// true for every event while a dialog is open, except EVENT_SIZE and EVENT_EXPOSE.
+static bool dialog_event(struct dialogs *dialogs, struct core *core, const struct event *event)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    if (dialog->kind == DIALOG_NONE || event->kind == EVENT_SIZE || event->kind == EVENT_EXPOSE) return false;
+    if (dialog->kind == DIALOG_RECOVER && event->kind == EVENT_CLOSE && dialog->awaited == REQUEST_NONE) {
+        dialog_close(dialogs);
+        return false;
+    }
+    bool key = event->kind == EVENT_KEY;
+    if (key && event->action == ACTION_RELEASE) return false; // the key was pressed before the dialog opened
+    bool typed_by_answer = dialog->skip_text && event->kind == EVENT_TEXT;
+    dialog->skip_text = false;
+    const bool exports = dialog->kind == DIALOG_EXPORT;
+    if ((dialog->awaited != REQUEST_NONE && !exports) || typed_by_answer) return true;
+    bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
+    if (key && !chord) {
+        bool done = is_question(dialog) ? question_event(dialogs, core, event->key)
+                    : exports           ? export_key(dialogs, core, event->key)
+                                        : path_key(dialogs, core, event->key);
+        if (done) return true;
+    }
+    if (event->kind == EVENT_WHEEL && !is_question(dialog) && !exports) move_choice(dialog, event->dy > 0 ? -3 : 3);
+    struct rect box = dialog_box(dialogs, core);
+    ui_begin_event(&dialog->ui, box, event);
+    build(dialogs, core);
+    ui_end(&dialog->ui);
+    return true;
+}
+
+static void dialog_show(struct dialogs *dialogs, struct core *core)
+{
+    struct dialog *dialog = &dialogs->dialog;
+    if (dialog->kind == DIALOG_NONE) return;
+    struct drawlist *list = &core->list;
+    struct rect box = dialog_box(dialogs, core);
+    drawlist_rect(list, core->layout.window, theme()->veil);
+    drawlist_rounded(list, box, 8, theme()->panel);
+    drawlist_rounded_line(list, box, 8, 1, theme()->zero);
+    ui_begin_draw(&dialog->ui, box, list);
+    build(dialogs, core);
+    ui_end(&dialog->ui);
+}
+
+struct dialogs *dialogs_create(const struct command *commands, int count)
+{
+    struct dialogs *dialogs = need_zeroed(1, sizeof *dialogs);
+    dialogs->commands = (struct command_list){commands, count};
+    return dialogs;
+}
+
+void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
+
+void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
+
+/// In F1's page and the palette a drag scrolls, and a click counts when it ends. false: the event does nothing else.
+static bool drag_list(struct dialogs *dialogs, struct event *event)
+{
+    static const float STEP = 16; // pixels
+    struct list_drag *drag = &dialogs->list_drag;
+    const bool button = event->kind == EVENT_BUTTON, open = dialogs->help.open || dialogs->palette.open;
+    if (button && event->action == ACTION_PRESS && open && !dialogs_are_asking(dialogs)) {
+        *drag = (struct list_drag){.held = true, .y = event->y};
+        return false;
+    }
+    if (!drag->held || !open || (!button && event->kind != EVENT_POINTER)) return true;
+    drag->held = !button;
+    event->action = ACTION_PRESS;
+    if (button) return !drag->moved;
+    const float steps = truncf((event->y - drag->y) / STEP);
+    drag->y += steps * STEP;
+    drag->moved |= steps != 0;
+    event->kind = EVENT_WHEEL;
+    event->dy = steps / 3;
+    return steps != 0;
+}
+
+bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event)
+{
+    struct event meant = *event;
+    if (!drag_list(dialogs, &meant)) return true;
+    const bool calm = meant.kind == EVENT_POINTER && dialogs->dialog.kind == DIALOG_NONE;
+    return !calm && (dialog_event(dialogs, core, &meant) || palette_event(dialogs, core, &meant) ||
+                     help_event(dialogs, core, &meant) || welcome_event(dialogs, &meant));
+}
+
+void dialogs_show(struct dialogs *dialogs, struct core *core)
+{
+    help_show(dialogs, core);
+    palette_show(dialogs, core);
+    dialog_show(dialogs, core);
+}
+
+bool dialogs_are_asking(const struct dialogs *dialogs) { return dialogs->dialog.kind != DIALOG_NONE; }
+
+bool dialogs_cover(const struct dialogs *dialogs)
+{
+    return dialogs_are_asking(dialogs) || dialogs->help.open || dialogs->palette.open;
+}
+
+bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over)
+{
+    *over = dialogs->dialog.kind != DIALOG_NONE ? dialogs->dialog.ui.over : UI_OVER_NOTHING;
+    return dialogs_cover(dialogs);
+}
+
+float dialogs_bottom(const struct dialogs *dialogs, const struct core *core)
+{
+    const struct rect *stage = &core->layout.stage;
+    return dialogs->welcome ? dialogs->card.y : stage->y + stage->h;
+}
