@@ -129,24 +129,10 @@ void inspector_unfold(struct inspector *in, const char *name)
     }
 }
 
-static void build_look(struct inspector *in, struct rect footer)
+static void build_panel(struct inspector *in, struct rect area)
 {
     static const struct ui_choice looks[] = {
         [LOOK_WIGGLY] = {"wiggly", "Off"}, [LOOK_STIFF] = {"stiff", "Stiff"}, [LOOK_CUBIC] = {"cubic", "Cubic"}};
-    struct ui *ui = &in->ui;
-    struct rect r = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
-    if (ui->pass == UI_PASS_DRAW) {
-        drawlist_rect(ui->list, footer, theme()->panel);
-        drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
-    }
-    ui_hint(ui, footer, "Show the same knots without lag (stiff), or as a cubic (V)");
-    r = inspector_label(in, r, "compare with");
-    int look = (int)in->core->look;
-    if (ui_segments(ui, r, "look", looks, 3, &look)) core_set_look(in->core, (enum look)look);
-}
-
-static void build(struct inspector *in, struct rect area)
-{
     struct ui *ui = &in->ui;
     struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
     in->list = NULL;
@@ -154,7 +140,17 @@ static void build(struct inspector *in, struct rect area)
     build_sections(in);
     ui_space(ui, 4);
     ui_scroll_end(ui);
-    build_look(in, (struct rect){area.x, area.y + view.h, area.w, FOOTER});
+
+    const struct rect footer = {area.x, area.y + view.h, area.w, FOOTER};
+    const struct rect row = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
+    if (ui->pass == UI_PASS_DRAW) {
+        drawlist_rect(ui->list, footer, theme()->panel);
+        drawlist_rect(ui->list, (struct rect){footer.x, footer.y, footer.w, 1}, theme()->border);
+    }
+    ui_hint(ui, footer, "Show the same knots without lag (stiff), or as a cubic (V)");
+    int look = (int)in->core->look;
+    if (ui_segments(ui, inspector_label(in, row, "compare with"), "look", looks, 3, &look))
+        core_set_look(in->core, (enum look)look);
     inspector_offer(in, &inspector_add_list); // A works anywhere
     if (in->list) in->list->build(in, in->list);
 }
@@ -225,7 +221,7 @@ bool inspector_event(struct inspector *in, const struct event *event)
     if (press && !ui->typing) in->alone = event->mods & MOD_ALT;
     bool was_dragging = ui->held && ui->moved;
     ui_begin_event(ui, area, event);
-    build(in, area);
+    build_panel(in, area);
     bool used = ui_end(ui);
     if (was_dragging && !ui->held && history_is_open(in->core->history)) history_end(in->core->history);
     if (ui->complaint[0]) {
@@ -247,11 +243,11 @@ void inspector_show(struct inspector *in, bool covered)
     in->seen_bone = *bone;
     if (!same && bone->any) inspector_unfold(in, "section.model");
     ui_begin_find(&in->ui, area, "", NULL); // measures, so that a shorter panel is not scrolled past its end
-    build(in, area);
+    build_panel(in, area);
     ui_end(&in->ui);
     drawlist_rect(&in->core->list, area, theme()->panel);
     ui_begin_draw(&in->ui, area, &in->core->list);
-    build(in, area);
+    build_panel(in, area);
     ui_end(&in->ui);
 }
 
@@ -276,7 +272,7 @@ bool inspector_target(struct inspector *in, const char *name, float *x, float *y
         *comma = '\0';
     }
     ui_begin_find(&in->ui, in->core->layout.inspector, widget, comma ? &value : NULL);
-    build(in, in->core->layout.inspector);
+    build_panel(in, in->core->layout.inspector);
     bool found = ui_end(&in->ui);
     *x = in->ui.found_x;
     *y = in->ui.found_y;
@@ -357,18 +353,6 @@ static bool set_number(struct inspector *in, const struct number_row *row, const
     return edit_rig_set(in->core->document, rig, &changed, error);
 }
 
-/// A drag stops at the last possible value.
-static void drag(struct inspector *in, const struct number_row *row, const struct number_home *home, int which,
-                 double value)
-{
-    if (set_number(in, row, home, which, value, NULL)) {
-        in->dragged = value;
-    } else {
-        history_restart(in->core->history);
-        set_number(in, row, home, which, in->dragged, NULL);
-    }
-}
-
 /// Sets a number in one undo step; a drag repeats that step in each frame.
 static void change_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
                           int which, enum ui_change change, double value)
@@ -377,8 +361,17 @@ static void change_number(struct inspector *in, const struct number_row *row, co
     in->change = change;
     if (!inspector_begin(in, change, row->undo, row->name)) return;
     if (is_first) in->dragged = get_number(in, row, home, which);
-    if (change == UI_DRAG) drag(in, row, home, which, value);
-    inspector_end(in, change, change == UI_DRAG || set_number(in, row, home, which, value, &in->core->error));
+    if (change != UI_DRAG) {
+        inspector_end(in, change, set_number(in, row, home, which, value, &in->core->error));
+        return;
+    }
+    if (set_number(in, row, home, which, value, NULL)) {
+        in->dragged = value;
+    } else { // stop at the last possible value
+        history_restart(in->core->history);
+        set_number(in, row, home, which, in->dragged, NULL);
+    }
+    inspector_end(in, change, true);
 }
 
 enum ui_change inspector_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
@@ -543,15 +536,6 @@ static const struct number_row scene_rows[SCENE_ROWS] = {
                       WHOLE_AT(struct document, substeps), 0, 0, 1, SCENE_MAX_SUBSTEPS, 1, 1, 0},
 };
 
-static void build_solver(struct inspector *in)
-{
-    const struct rect r = inspector_labelled(in, "solver");
-    ui_hint(&in->ui, r,
-            "Band: all samples at once, as in the paper. Chain: from knot to knot, beyond 4096 samples or 300 "
-            "without a knot");
-    if (in->core->evaluation) ui_label(&in->ui, r, evaluation_solver(in->core->evaluation), theme()->text);
-}
-
 void inspector_scene(struct inspector *in)
 {
     static const struct number_home home = {.of = document_of, .set = set_scene, .settles = true};
@@ -563,38 +547,16 @@ void inspector_scene(struct inspector *in)
         if (i == ROW_LAST) row.highest = fmin(row.highest, in->core->document->first_frame + longest);
         inspector_number(in, &row, &home, i, ui_row(&in->ui, UI_ROW));
     }
-    build_solver(in);
+    const struct rect r = inspector_labelled(in, "solver");
+    ui_hint(&in->ui, r,
+            "Band: all samples at once, as in the paper. Chain: from knot to knot, beyond 4096 samples or 300 "
+            "without a knot");
+    if (in->core->evaluation) ui_label(&in->ui, r, evaluation_solver(in->core->evaluation), theme()->text);
 }
 
 enum { HISTORY_ROWS = 9 };
 
-/// Row 0 is the state before the oldest step, row n the state after step n.
-static void text_of(const struct history *history, size_t row, char *text, size_t size)
-{
-    size_t dropped = history_dropped(history);
-    if (row > 0) {
-        snprintf(text, size, "%s", history_label(history, row - 1));
-    } else if (dropped == 0) {
-        snprintf(text, size, "Opened");
-    } else {
-        snprintf(text, size, "%zu older step%s dropped", dropped, dropped == 1 ? " was" : "s were");
-    }
-}
-
 static void name_of(size_t row, char name[32]) { snprintf(name, 32, "history.%zu", row); }
-
-/// Scrolls to the present step when it changes.
-static void keep_in_sight(struct history_view *view, size_t count, size_t done)
-{
-    size_t last_top = count + 1 > HISTORY_ROWS ? count + 1 - HISTORY_ROWS : 0;
-    if (view->count != count || view->done != done) {
-        if (done < view->top) view->top = done;
-        if (done >= view->top + HISTORY_ROWS) view->top = done - HISTORY_ROWS + 1;
-    }
-    view->count = count;
-    view->done = done;
-    if (view->top > last_top) view->top = last_top;
-}
 
 static void go_to(struct inspector *in, size_t row)
 {
@@ -635,6 +597,7 @@ static void step_by_key(struct inspector *in, size_t first, size_t end)
     }
 }
 
+/// Row 0 is the state before the oldest step, row n the state after step n.
 static bool build_step(struct inspector *in, size_t row)
 {
     const struct history *history = in->core->history;
@@ -643,7 +606,14 @@ static bool build_step(struct inspector *in, size_t row)
     struct rect r = ui_row(ui, UI_ROW);
     char name[32], text[96];
     name_of(row, name);
-    text_of(history, row, text, sizeof text);
+    const size_t dropped = history_dropped(history);
+    if (row > 0) {
+        snprintf(text, sizeof text, "%s", history_label(history, row - 1));
+    } else if (dropped == 0) {
+        snprintf(text, sizeof text, "Opened");
+    } else {
+        snprintf(text, sizeof text, "%zu older step%s dropped", dropped, dropped == 1 ? " was" : "s were");
+    }
     bool pressed = ui_list_row(ui, r, name, "", 0, row == view->done);
     uint32_t color = row > view->done ? theme()->text_dim : theme()->text;
     ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 60, r.h}, text, color);
@@ -657,7 +627,15 @@ void inspector_history(struct inspector *in)
     const struct history *history = in->core->history;
     struct history_view *view = &in->history;
     size_t count = history_count(history);
-    keep_in_sight(view, count, history_done(history));
+    const size_t done = history_done(history), last_top = count + 1 > HISTORY_ROWS ? count + 1 - HISTORY_ROWS : 0;
+    if (view->count != count || view->done != done) { // scroll to the present step
+        if (done < view->top) view->top = done;
+        if (done >= view->top + HISTORY_ROWS) view->top = done - HISTORY_ROWS + 1;
+    }
+    view->count = count;
+    view->done = done;
+    if (view->top > last_top) view->top = last_top;
+
     size_t first = view->top, end = first + HISTORY_ROWS < count + 1 ? first + HISTORY_ROWS : count + 1,
            pressed = end;
     struct rect list = {in->ui.area.x, in->ui.y, in->ui.area.w, (float)(end - first) * UI_ROW};

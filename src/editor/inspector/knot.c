@@ -42,17 +42,6 @@ static const struct {
     [FIELD_STIFFNESS] = {"Set stiffness", "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)"},
 };
 
-static struct knot_numbers survey(const struct inspector *in, int field)
-{
-    struct knot_numbers numbers = {.first = NAN};
-    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at); numbers.count++) {
-        const double number = number_at(&knot_rows[field], knot_at(in->core->document, at));
-        if (isnan(numbers.first)) numbers.first = number;
-        numbers.mixed |= number != numbers.first;
-    }
-    return numbers;
-}
-
 static double get_knots(const struct inspector *in, int field)
 {
     (void)field;
@@ -85,28 +74,31 @@ static const char *show_several(const struct inspector *in, int field, char text
     return text;
 }
 
-/// A single knot's field has its own hint, limits and decimals.
-static void fit_to_one(const struct inspector *in, int field, double value, struct number_row *row)
-{
-    row->hint = of_one[field].hint;
-    row->undo = of_one[field].undo;
-    if (field == FIELD_FRAME) {
-        const struct spline *spline = core_active_spline(in->core);
-        row->lowest = in->core->document->first_frame;
-        row->highest = document_frame(in->core->document, document_last_knot_sample(in->core->document, spline));
-        row->decimals = value == floor(value) ? 0 : 2;
-    }
-    if (field == FIELD_SLOPE) row->label = NULL; // its switch has the label
-    if (field == FIELD_STIFFNESS && value < 10) row->decimals = 3;
-}
-
 static void build_knots(struct inspector *in, int field, struct rect r)
 {
     static const struct number_home home = {.get = get_knots, .set = set_knots, .shown = show_several};
     struct number_row row = knot_rows[field];
-    in->knots = survey(in, field); // after the edit of the previous field
-    if (in->knots.count == 0) return;
-    if (in->knots.count == 1) fit_to_one(in, field, in->knots.first, &row);
+    struct knot_numbers *numbers = &in->knots;
+    *numbers = (struct knot_numbers){.first = NAN}; // after the edit of the previous field
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at); numbers->count++) {
+        const double number = number_at(&row, knot_at(in->core->document, at));
+        if (isnan(numbers->first)) numbers->first = number;
+        numbers->mixed |= number != numbers->first;
+    }
+    if (numbers->count == 0) return;
+    if (numbers->count == 1) { // its own hint, limits and decimals
+        const double value = numbers->first;
+        row.hint = of_one[field].hint;
+        row.undo = of_one[field].undo;
+        if (field == FIELD_FRAME) {
+            const struct spline *spline = core_active_spline(in->core);
+            row.lowest = in->core->document->first_frame;
+            row.highest = document_frame(in->core->document, document_last_knot_sample(in->core->document, spline));
+            row.decimals = value == floor(value) ? 0 : 2;
+        }
+        if (field == FIELD_SLOPE) row.label = NULL; // its switch has the label
+        if (field == FIELD_STIFFNESS && value < 10) row.decimals = 3;
+    }
     if (inspector_changed(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
 }
 
@@ -370,24 +362,6 @@ static bool build_row(struct inspector *in, int row, struct pin_place place)
            core_end(in->core, edit_pin_remove(in->core->document, place.rig, pin->id, &in->core->error));
 }
 
-static void build_list(struct inspector *in, int count)
-{
-    const int first = inspector_first_row(count, selected_row(in->core), MAX_ROWS);
-    struct pin_place place = PINS_START;
-    for (int row = 0; row < first + MAX_ROWS && pins_next(in->core->document, &place); row++) {
-        if (row >= first && build_row(in, row, place)) return;
-    }
-    inspector_more(in, count, MAX_ROWS, " pins; , and . show more");
-}
-
-static int points_of(const struct inspector *in, int rig)
-{
-    const struct rig *pinned = in->core->document->rigs[rig];
-    if (pinned->kind != RIG_CHARACTER) return bones_joints(in->core, rig);
-    const struct figure *figure = models_figure(in->core->models, document_rig_number(in->core->document, rig));
-    return figure ? figure->character.vertex_count : 1;
-}
-
 enum { ROW_FRAME, ROW_POINT, PIN_ROWS = ROW_POINT + 4 };
 
 static const struct number_row pin_rows[PIN_ROWS] = {
@@ -428,7 +402,10 @@ static void build_pin(struct inspector *in, int field)
         row.highest = document_frame(in->core->document, pins_last_sample(in->core->document, pinned));
     } else if (field == ROW_POINT) {
         row.label = word_of(pinned);
-        row.highest = points_of(in, rig) - 1;
+        const struct figure *figure = models_figure(in->core->models, document_rig_number(in->core->document, rig));
+        row.highest = pinned->kind != RIG_CHARACTER ? bones_joints(in->core, rig) - 1
+                      : figure                      ? figure->character.vertex_count - 1
+                                                    : 0;
     }
     static const struct number_home home = {.of = pin_of, .set = set_pin};
     const enum ui_change change = inspector_number(in, &row, &home, field, ui_row(&in->ui, UI_ROW));
@@ -442,7 +419,12 @@ void inspector_pins(struct inspector *in)
     if (count == 0)
         ui_paragraph(&in->ui, "Drag a character's surface on the stage to pin it; on tails and chains, hold Ctrl.",
                      theme()->text_dim);
-    build_list(in, count);
+    const int first = inspector_first_row(count, selected_row(in->core), MAX_ROWS);
+    struct pin_place place = PINS_START;
+    bool removed = false;
+    for (int row = 0; !removed && row < first + MAX_ROWS && pins_next(in->core->document, &place); row++)
+        removed = row >= first && build_row(in, row, place);
+    if (!removed) inspector_more(in, count, MAX_ROWS, " pins; , and . show more");
     if (!pins_selected(in->core, &rig)) return;
     ui_space(&in->ui, 4);
     for (int field = 0; field < PIN_ROWS; field++) build_pin(in, field);

@@ -15,7 +15,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_ROWS = 12 }; ///< listed at once
+enum { RIG_ROWS = 12 }; ///< listed at once
 
 static bool is_tail_or_chain(const struct document *document, int rig)
 {
@@ -119,42 +119,12 @@ void inspector_show_clicked(struct inspector *in)
     in->revealed = NULL;
 }
 
-static void build_row(struct inspector *in, int rig)
-{
-    const struct rig *shown = in->core->document->rigs[rig];
-    const struct rect r = ui_row(&in->ui, UI_ROW);
-    char name[32], text[160];
-    snprintf(name, sizeof name, "%s.%d", rig_word(shown->kind), document_rig_number(in->core->document, rig));
-    snprintf(text, sizeof text, "%.*s, %s", name_fit(path_name(rig_title(shown)), 100), path_name(rig_title(shown)),
-             rig_word(shown->kind));
-    const uint32_t color =
-        rig_input_count(shown) > 0 ? spline_list_color(in->core->document, rig_input(shown, 0)) : 0;
-    ui_hint(&in->ui, r, "Show this rig and the splines that drive it");
-    if (ui_list_row(&in->ui, r, name, text, color, rig == in->selected)) inspector_show_rig(in, rig);
-}
-
 enum { MAX_COPIES = 4, MAX_ADDED = 5 + MAX_COPIES, ADDED_LABEL = 96, ADDED_WIDTH = 244 };
 
 static void open_add(struct inspector *in, struct rect at)
 {
     at.w = ADDED_WIDTH;
     ui_popup_open(&in->ui, inspector_add_list.name, 0, at);
-}
-
-static void build_buttons(struct inspector *in)
-{
-    static const struct icon_button buttons[] = {
-        {"rig.add", "Add a tail, a character, a chain … (A)", UI_ICON_ADD},
-        {"rig.copy", "Copy this rig, beside it", UI_ICON_COPY},
-        {"rig.delete", "Remove this rig, with its splines or without (Shift+Del)", UI_ICON_DELETE},
-    };
-    const struct rect r = ui_row(&in->ui, UI_ROW);
-    const int before = in->core->document->rig_count, rig = in->selected;
-    const int pressed = inspector_icons(in, r, buttons, before > 0 ? 3 : 1);
-    if (pressed == 0) open_add(in, (struct rect){r.x - 2, r.y, INSPECTOR_ICON, r.h});
-    if (pressed == 1) rigs_copy(in->core, rig);
-    if (pressed == 2) rigs_ask_remove(in->core, rig);
-    if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
 void inspector_remove_rig(struct inspector *in, int unused)
@@ -165,11 +135,34 @@ void inspector_remove_rig(struct inspector *in, int unused)
 
 void inspector_rigs(struct inspector *in)
 {
-    const int count = in->core->document->rig_count, first = inspector_first_row(count, in->selected, MAX_ROWS);
+    static const struct icon_button buttons[] = {
+        {"rig.add", "Add a tail, a character, a chain … (A)", UI_ICON_ADD},
+        {"rig.copy", "Copy this rig, beside it", UI_ICON_COPY},
+        {"rig.delete", "Remove this rig, with its splines or without (Shift+Del)", UI_ICON_DELETE},
+    };
+    const int count = in->core->document->rig_count, first = inspector_first_row(count, in->selected, RIG_ROWS);
     if (count == 0) ui_paragraph(&in->ui, "Nothing is on the stage yet.", theme()->text_dim);
-    for (int r = first; r < count && r < first + MAX_ROWS; r++) build_row(in, r);
-    inspector_more(in, count, MAX_ROWS, "");
-    build_buttons(in);
+    for (int rig = first; rig < count && rig < first + RIG_ROWS; rig++) {
+        const struct rig *shown = in->core->document->rigs[rig];
+        const struct rect r = ui_row(&in->ui, UI_ROW);
+        const char *title = path_name(rig_title(shown));
+        char name[32], text[160];
+        snprintf(name, sizeof name, "%s.%d", rig_word(shown->kind), document_rig_number(in->core->document, rig));
+        snprintf(text, sizeof text, "%.*s, %s", name_fit(title, 100), title, rig_word(shown->kind));
+        const uint32_t color =
+            rig_input_count(shown) > 0 ? spline_list_color(in->core->document, rig_input(shown, 0)) : 0;
+        ui_hint(&in->ui, r, "Show this rig and the splines that drive it");
+        if (ui_list_row(&in->ui, r, name, text, color, rig == in->selected)) inspector_show_rig(in, rig);
+    }
+    inspector_more(in, count, RIG_ROWS, "");
+
+    const struct rect r = ui_row(&in->ui, UI_ROW);
+    const int before = in->core->document->rig_count, rig = in->selected;
+    const int pressed = inspector_icons(in, r, buttons, before > 0 ? 3 : 1);
+    if (pressed == 0) open_add(in, (struct rect){r.x - 2, r.y, INSPECTOR_ICON, r.h});
+    if (pressed == 1) rigs_copy(in->core, rig);
+    if (pressed == 2) rigs_ask_remove(in->core, rig);
+    if (in->core->document->rig_count > before) inspector_show_rig(in, before);
 }
 
 struct choice {
@@ -188,31 +181,6 @@ static void add_item(struct menu *menu, struct choice choice, const char *name, 
 {
     menu->choices[menu->count] = choice;
     menu->items[menu->count++] = (struct ui_item){name, label, 0};
-}
-
-static void add_copies(const struct inspector *in, struct menu *menu)
-{
-    int copies = 0;
-    for (int r = 0; r < in->core->document->rig_count && copies < MAX_COPIES; r++) {
-        const struct rig *rig = in->core->document->rigs[r];
-        if (rig->kind != RIG_CHARACTER && rig->kind != RIG_MODEL) continue;
-        snprintf(menu->names[copies], sizeof menu->names[0], "copy.%d", r);
-        snprintf(menu->labels[copies], ADDED_LABEL, "One more %.*s", name_fit(path_name(rig_title(rig)), 80),
-                 path_name(rig_title(rig)));
-        add_item(menu, (struct choice){ADD_COPY, r}, menu->names[copies], menu->labels[copies]);
-        copies++;
-    }
-}
-
-static void fill(const struct inspector *in, struct menu *menu)
-{
-    const struct document *document = in->core->document;
-    add_item(menu, (struct choice){ADD_TAIL, 0}, "tail", "Tail");
-    add_item(menu, (struct choice){ADD_FILE, 0}, "file", "Character or model from a file …");
-    add_copies(in, menu);
-    if (document_find_rig(document, RIG_MODEL, 0) >= 0)
-        add_item(menu, (struct choice){ADD_CHAIN, 0}, "chain", "Chain from the selected bone (J)");
-    add_item(menu, (struct choice){ADD_SPLINE, 0}, "spline", "Spline");
 }
 
 static void carry_out(struct inspector *in, struct choice choice)
@@ -242,8 +210,23 @@ void inspector_add(struct inspector *in, int what) { carry_out(in, (struct choic
 
 static void choose_added(struct inspector *in, const struct dropdown *list)
 {
+    const struct document *document = in->core->document;
     struct menu menu = {.count = 0};
-    fill(in, &menu);
+    int copies = 0;
+    add_item(&menu, (struct choice){ADD_TAIL, 0}, "tail", "Tail");
+    add_item(&menu, (struct choice){ADD_FILE, 0}, "file", "Character or model from a file …");
+    for (int r = 0; r < document->rig_count && copies < MAX_COPIES; r++) {
+        const struct rig *rig = document->rigs[r];
+        if (rig->kind != RIG_CHARACTER && rig->kind != RIG_MODEL) continue;
+        snprintf(menu.names[copies], sizeof menu.names[0], "copy.%d", r);
+        snprintf(menu.labels[copies], ADDED_LABEL, "One more %.*s", name_fit(path_name(rig_title(rig)), 80),
+                 path_name(rig_title(rig)));
+        add_item(&menu, (struct choice){ADD_COPY, r}, menu.names[copies], menu.labels[copies]);
+        copies++;
+    }
+    if (document_find_rig(document, RIG_MODEL, 0) >= 0)
+        add_item(&menu, (struct choice){ADD_CHAIN, 0}, "chain", "Chain from the selected bone (J)");
+    add_item(&menu, (struct choice){ADD_SPLINE, 0}, "spline", "Spline");
     const int picked = ui_popup_list(&in->ui, list->name, menu.items, menu.count, -1);
     if (picked >= 0) carry_out(in, menu.choices[picked]);
 }
@@ -474,15 +457,6 @@ void inspector_overlays(struct inspector *in)
     }
 }
 
-/// Whether the next drag of a body is recorded. Only a body can be.
-static void build_record(struct inspector *in)
-{
-    if (!document_tail(in->core->document, 0)) return;
-    const struct rect r = inspector_labelled(in, "record");
-    ui_hint(&in->ui, r, "Record the next drag of the body as knots (or press R while dragging)");
-    ui_toggle(&in->ui, r, "record", &in->core->record_armed);
-}
-
 static const char *axis_label(enum axis axis)
 {
     size_t a = 0;
@@ -490,54 +464,30 @@ static const char *axis_label(enum axis axis)
     return a < sizeof tail_axes / sizeof *tail_axes ? tail_axes[a].item.label : "twist";
 }
 
-static void build_channels_list(struct inspector *in)
-{
-    struct ui *ui = &in->ui;
-    int count;
-    const struct channel *channels = rig_channels(inspector_shown(in), &count);
-    for (int c = 0; c < count; c++) {
-        const struct channel *channel = &channels[c];
-        char name[32], text[192];
-        snprintf(name, sizeof name, "channel.%d", c);
-        snprintf(text, sizeof text, "%s, %s", in->core->document->splines[channel->spline]->name,
-                 axis_label(channel->axis));
-        struct rect r = ui_row(ui, UI_ROW);
-        ui_hint(ui, r, "A channel of this rig, and the spline that drives it");
-        uint32_t color = spline_list_color(in->core->document, channel->spline);
-        if (ui_list_row(ui, r, name, text, color, c == in->channel)) {
-            choose_channel(in, c);
-            return;
-        }
-    }
-}
-
-static void build_channels(struct inspector *in)
-{
-    build_channels_list(in);
-    ui_space(&in->ui, 4);
-}
-
-static void build_channel_buttons(struct inspector *in)
+static void build_channel(struct inspector *in)
 {
     static const struct icon_button buttons[] = {
         {"channel.add", "Add a channel that the active spline drives", UI_ICON_ADD},
         {"channel.delete", "Delete this channel", UI_ICON_DELETE},
     };
-    struct error *error = &in->core->error;
-    const int rig = in->rig, spline = in->core->active;
-    const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
-    if (pressed < 0 || !core_begin(in->core, pressed == 0 ? "Add channel" : "Delete channel", 0)) return;
-    const bool done = pressed == 0 ? edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error)
-                                   : edit_channel_remove(in->core->document, place_of(in), error);
-    if (core_end(in->core, done) && pressed == 0) in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
-}
-
-static void build_choices(struct inspector *in, const struct channel *channel)
-{
     static const struct ui_choice chain[] = {
         [AXIS_SIDE] = {"side", "Bend"}, [AXIS_UP] = {"up", "Lift"}, [AXIS_TWIST] = {"twist", "Twist"}};
     static const struct ui_choice parts[] = {
         [PART_TOTAL] = {"total", "Curve"}, [PART_DISPLACEMENT] = {"displacement", "Swing"}};
+    struct error *error = &in->core->error;
+    const int rig = in->rig, spline = in->core->active;
+    const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
+    if (pressed >= 0 && core_begin(in->core, pressed == 0 ? "Add channel" : "Delete channel", 0)) {
+        const bool done = pressed == 0
+                              ? edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error)
+                              : edit_channel_remove(in->core->document, place_of(in), error);
+        if (core_end(in->core, done) && pressed == 0)
+            in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
+    }
+
+    const struct channel *channel = chosen_channel(in);
+    if (!channel) return;
+    inspector_spline_field(in, &feed_list, inspector_labelled(in, "spline"), in->channel, channel->spline);
     int axis = (int)channel->axis, part = (int)channel->of;
     if (inspector_shown(in)->kind == RIG_TAIL) {
         inspector_dropdown(in, &axis_list, inspector_labelled(in, "moves"), in->channel, axis_label(channel->axis),
@@ -554,15 +504,6 @@ static void build_choices(struct inspector *in, const struct channel *channel)
     }
 }
 
-static void build_channel(struct inspector *in)
-{
-    build_channel_buttons(in);
-    const struct channel *channel = chosen_channel(in);
-    if (!channel) return;
-    inspector_spline_field(in, &feed_list, inspector_labelled(in, "spline"), in->channel, channel->spline);
-    build_choices(in, channel);
-}
-
 /// A list of bones for one end, and a button to pick one on the stage.
 static void build_end(struct inspector *in, const struct end *end, const char *bone)
 {
@@ -576,29 +517,11 @@ static void build_end(struct inspector *in, const struct end *end, const char *b
         bones_pick(in->core, picking ? BONE_SELECTED : end->use, rig);
 }
 
-static void build_mirror(struct inspector *in)
-{
-    struct rig changed = *inspector_shown(in);
-    struct rect r = inspector_labelled(in, "mirror");
-    ui_hint(&in->ui, r, "Bend to the other side, as a left ear does to a right one");
-    if (ui_toggle(&in->ui, r, "chain.mirror", &changed.chain.mirror) && core_begin(in->core, "Mirror chain", 0))
-        core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
-}
-
 void inspector_mirror(struct inspector *in, int unused)
 {
     (void)unused;
     bones_make_twin(in->core, bones_mirrorable(in->core, in->rig));
     in->rig = in->core->document->rig_count - 1;
-}
-
-static void build_twin(struct inspector *in)
-{
-    if (bones_mirrorable(in->core, in->rig) != in->rig) return;
-    const struct rect row = ui_row(&in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
-    ui_hint(&in->ui, button,
-            "Add the mirrored chain, bent by the same splines; you can choose others for its channels");
-    if (ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
 }
 
 static void build_chain(struct inspector *in)
@@ -607,35 +530,61 @@ static void build_chain(struct inspector *in)
     build_end(in, &ends[0], chain->from);
     build_end(in, &ends[1], chain->to);
     inspector_numbers(in, &tail_rows[ROW_TURN], 1, &of_shown);
-    build_mirror(in);
-    build_twin(in);
+
+    struct rig changed = *inspector_shown(in);
+    const struct rect r = inspector_labelled(in, "mirror");
+    ui_hint(&in->ui, r, "Bend to the other side, as a left ear does to a right one");
+    if (ui_toggle(&in->ui, r, "chain.mirror", &changed.chain.mirror) && core_begin(in->core, "Mirror chain", 0))
+        core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
+    if (bones_mirrorable(in->core, in->rig) != in->rig) return;
+    const struct rect row = ui_row(&in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
+    ui_hint(&in->ui, button,
+            "Add the mirrored chain, bent by the same splines; you can choose others for its channels");
+    if (ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
 }
 
 /// These rows may change channels and rigs, so each looks up the shown rig again.
-static void build_shown(struct inspector *in)
-{
-    const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
-    static const struct number_home joints = {.rig = shown_rig, .set = set_joints};
-    if (in->channel >= rig_input_count(inspector_shown(in))) in->channel = 0;
-    build_channels(in);
-    if (is_tail) inspector_angles(in, ANGLE_REST);
-    build_channel(in);
-    ui_space(&in->ui, 4);
-    build_name(in);
-    if (!is_tail) {
-        build_chain(in);
-        return;
-    }
-    inspector_numbers(in, &tail_rows[ROW_JOINTS], 1, &joints);
-    inspector_numbers(in, &tail_rows[ROW_LENGTH], 1, &of_shown);
-    for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
-}
-
 void inspector_tail(struct inspector *in)
 {
+    static const struct number_home joints = {.rig = shown_rig, .set = set_joints};
+    struct ui *ui = &in->ui;
     inspector_find_rig(in); // a row may have removed one
-    build_shown(in);
-    build_record(in);
+    const bool is_tail = inspector_shown(in)->kind == RIG_TAIL;
+    int count;
+    const struct channel *channels = rig_channels(inspector_shown(in), &count);
+    if (in->channel >= rig_input_count(inspector_shown(in))) in->channel = 0;
+    for (int c = 0; c < count; c++) {
+        const struct channel *channel = &channels[c];
+        char name[32], text[192];
+        snprintf(name, sizeof name, "channel.%d", c);
+        snprintf(text, sizeof text, "%s, %s", in->core->document->splines[channel->spline]->name,
+                 axis_label(channel->axis));
+        const struct rect r = ui_row(ui, UI_ROW);
+        ui_hint(ui, r, "A channel of this rig, and the spline that drives it");
+        const uint32_t color = spline_list_color(in->core->document, channel->spline);
+        if (!ui_list_row(ui, r, name, text, color, c == in->channel)) continue;
+        choose_channel(in, c);
+        break;
+    }
+    ui_space(ui, 4);
+    if (is_tail) inspector_angles(in, ANGLE_REST);
+    build_channel(in);
+    ui_space(ui, 4);
+    build_name(in);
+    if (is_tail) {
+        inspector_numbers(in, &tail_rows[ROW_JOINTS], 1, &joints);
+        inspector_numbers(in, &tail_rows[ROW_LENGTH], 1, &of_shown);
+        for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
+    } else {
+        build_chain(in);
+    }
+
+    // The next drag of a body may be recorded.
+    if (document_tail(in->core->document, 0)) {
+        const struct rect r = inspector_labelled(in, "record");
+        ui_hint(ui, r, "Record the next drag of the body as knots (or press R while dragging)");
+        ui_toggle(ui, r, "record", &in->core->record_armed);
+    }
     inspector_overlays(in);
 }
 
@@ -747,14 +696,6 @@ static void choose_spline(struct inspector *in, const struct dropdown *list)
 
 static const struct dropdown spline_list = {"drive.splines", "The spline that drives this channel", choose_spline};
 
-static bool is_driven(const struct character_rig *rig, const char *name)
-{
-    for (int k = 0; k < rig->drive_count; k++) {
-        if (strcmp(rig->drives[k].name, name) == 0) return true;
-    }
-    return false;
-}
-
 /// Lists the figure's undriven coordinates; returns how many.
 static int free_coordinates(const struct inspector *in, const struct character_rig *rig,
                             struct ui_item items[MAX_COORDINATES])
@@ -764,7 +705,9 @@ static int free_coordinates(const struct inspector *in, const struct character_r
     if (!figure || rig->drive_count == CHARACTER_MAX_DRIVES) return 0;
     for (int k = 0; k < figure->character.coordinate_count && count < MAX_COORDINATES; k++) {
         const char *name = figure->character.coordinates[k].name;
-        if (!is_driven(rig, name)) items[count++] = (struct ui_item){name, name, 0};
+        int drive = 0;
+        while (drive < rig->drive_count && strcmp(rig->drives[drive].name, name) != 0) drive++;
+        if (drive == rig->drive_count) items[count++] = (struct ui_item){name, name, 0};
     }
     return count;
 }
@@ -784,40 +727,6 @@ static void add_coordinate(struct inspector *in, const struct dropdown *list)
 }
 
 static const struct dropdown add_list = {"drive.add", "Add a channel that the active spline drives", add_coordinate};
-
-/// The phase map and the stiff twin.
-static void build_looks(struct inspector *in)
-{
-    static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
-    static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
-    struct character_view *view = &in->core->characters;
-    int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
-    if (inspector_choice(in, "phases", "Colour each point by its phase along x, y or z", "phases", maps, 4, &map)) {
-        view->mapped = map > 0;
-        if (map > 0) view->axis = map - 1;
-    }
-    if (inspector_choice(in, "stiff twin", "Show a second character without phases: all its points move in step",
-                         "twin", pairs, 2, &pair)) {
-        view->compare = pair;
-        in->core->refit_stage = true;
-    }
-}
-
-/// Analysis results of the selected channel.
-static void build_facts(struct inspector *in)
-{
-    const struct coordinate *c = characters_coordinate(in->core);
-    char text[200];
-    if (!c) {
-        ui_paragraph(&in->ui, "The model has no such channel.", theme()->text_dim);
-    } else if (c->frequency > 0) {
-        snprintf(text, sizeof text,
-                 "Found at %.2f Hz, damping %.3f. It explains %.0f %% of this motion; without phases (real PCA) one "
-                 "component explains %.0f %%, two %.0f %%.",
-                 c->frequency, c->damping, 100 * c->explained, 100 * c->pca1, 100 * c->pca2);
-        ui_paragraph(&in->ui, text, theme()->text_dim);
-    }
-}
 
 static int shown_character(const struct inspector *in) { return characters_rig(in->core); }
 
@@ -914,6 +823,8 @@ static void build_brush(struct inspector *in)
 
 void inspector_character(struct inspector *in)
 {
+    static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
+    static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
     struct character_view *view = &in->core->characters;
     if (!document_character(in->core->document, view->character)) view->character = 0;
     const struct character_rig *rig = document_character(in->core->document, view->character);
@@ -926,10 +837,29 @@ void inspector_character(struct inspector *in)
     if (view->drive < rig->drive_count) {
         inspector_spline_field(in, &spline_list, inspector_labelled(in, "spline"), 0,
                                rig->drives[view->drive].spline);
-        build_facts(in);
+        const struct coordinate *c = characters_coordinate(in->core); // as the analysis found it
+        char text[200];
+        if (!c) {
+            ui_paragraph(&in->ui, "The model has no such channel.", theme()->text_dim);
+        } else if (c->frequency > 0) {
+            snprintf(text, sizeof text,
+                     "Found at %.2f Hz, damping %.3f. It explains %.0f %% of this motion; without phases (real PCA) "
+                     "one component explains %.0f %%, two %.0f %%.",
+                     c->frequency, c->damping, 100 * c->explained, 100 * c->pca1, 100 * c->pca2);
+            ui_paragraph(&in->ui, text, theme()->text_dim);
+        }
     }
     build_floor(in, rig);
-    build_looks(in);
+    int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
+    if (inspector_choice(in, "phases", "Colour each point by its phase along x, y or z", "phases", maps, 4, &map)) {
+        view->mapped = map > 0;
+        if (map > 0) view->axis = map - 1;
+    }
+    if (inspector_choice(in, "stiff twin", "Show a second character without phases: all its points move in step",
+                         "twin", pairs, 2, &pair)) {
+        view->compare = pair;
+        in->core->refit_stage = true;
+    }
     inspector_overlays(in);
     build_brush(in);
 }
@@ -945,18 +875,6 @@ static int shown_model(const struct inspector *in)
     return model < 0 ? document_find_rig(in->core->document, RIG_MODEL, 0) : model;
 }
 
-static void build_file(struct inspector *in, const struct model_rig *rig, const struct imported *shown)
-{
-    struct rect r = inspector_labelled(in, "file");
-    ui_hint(&in->ui, r, "The glTF file that shows this character");
-    ui_label(&in->ui, r, path_name(rig->model), theme()->text);
-    if (!shown) ui_paragraph(&in->ui, "wiggly could not read this file.", theme()->warning);
-    if (!shown || !shown->gltf.not_shown) return;
-    char text[512];
-    snprintf(text, sizeof text, "Not shown: %.*s.", name_fit(shown->gltf.not_shown, 400), shown->gltf.not_shown);
-    ui_paragraph(&in->ui, text, theme()->text_dim);
-}
-
 static void choose_clip(struct inspector *in, const struct dropdown *list)
 {
     const int model = shown_model(in);
@@ -969,19 +887,6 @@ static void choose_clip(struct inspector *in, const struct dropdown *list)
     const int picked = ui_popup_list(&in->ui, list->name, items, count, gltf_find_clip(gltf, clip) + 1);
     if (picked >= 0)
         bones_choose_clip(in->core, model, picked > 0 ? gltf->clips[picked - 1].name : NULL, REPEAT_BY_CLIP);
-}
-
-/// A tick: whether the clip begins again after its end.
-static void build_loops(struct inspector *in, int model, const struct gltf *gltf)
-{
-    const struct model_rig *rig = &in->core->document->rigs[model]->model;
-    const int clip = gltf_find_clip(gltf, rig->clip);
-    if (clip < 0) return;
-    bool loops = clip_play(rig, &gltf->clips[clip]).loops;
-    const struct rect r = inspector_labelled(in, "loops");
-    ui_hint(&in->ui, r, "The clip begins again after its end; else it plays once");
-    if (ui_toggle(&in->ui, r, "model.loops", &loops))
-        bones_choose_clip(in->core, model, rig->clip, loops ? REPEAT_LOOP : REPEAT_ONCE);
 }
 
 static const struct dropdown clip_list = {"model.clips", "The clip of the file that it repeats", choose_clip};
@@ -999,7 +904,7 @@ static const struct number_row place[] = {
      -36000, 36000, 0, 1, 0},
 };
 
-static void build_bone(struct inspector *in)
+void inspector_model(struct inspector *in)
 {
     static const struct {
         const char *name, *label, *hint;
@@ -1008,37 +913,51 @@ static void build_bone(struct inspector *in)
         {"bone.chain", "Make chain", "Make a chain from this bone to its tip, bent by a new spline (J)", false},
         {"bone.follow", "With follow-through", "Make a chain that follows through on the clip (Shift+J)", true},
     };
-    int model;
-    const int node = bones_selected(in->core, &model);
-    struct rect r = inspector_labelled(in, "bone");
-    if (node < 0) {
-        ui_label(&in->ui, r, "click one on the stage", theme()->text_dim);
-        return;
-    }
-    ui_label(&in->ui, r, bones_character(in->core, model)->gltf.nodes[node].name, theme()->text);
-    struct rect row = ui_row(&in->ui, UI_ROW);
-    const float widths[2] = {row.w * 0.38f, row.w * 0.62f - 6};
-    row.w = 0;
-    for (size_t i = 0; i < 2; i++) {
-        struct rect button = {row.x, row.y + 2, widths[i], row.h - 4};
-        row.x += widths[i] + 6;
-        ui_hint(&in->ui, button, buttons[i].hint);
-        if (ui_button(&in->ui, button, buttons[i].name, buttons[i].label, false))
-            bones_make_chain(in->core, buttons[i].follow);
-    }
-}
-
-void inspector_model(struct inspector *in)
-{
+    static const struct number_home home = {.rig = shown_model};
+    struct ui *ui = &in->ui;
     const int model = shown_model(in);
     const struct imported *shown = bones_character(in->core, model);
-    static const struct number_home home = {.rig = shown_model};
+    const struct model_rig *rig = &in->core->document->rigs[model]->model;
     in->model = document_rig_number(in->core->document, model);
-    build_file(in, &in->core->document->rigs[model]->model, shown);
-    const char *clip = in->core->document->rigs[model]->model.clip;
+
+    struct rect r = inspector_labelled(in, "file");
+    ui_hint(ui, r, "The glTF file that shows this character");
+    ui_label(ui, r, path_name(rig->model), theme()->text);
+    if (!shown) ui_paragraph(ui, "wiggly could not read this file.", theme()->warning);
+    if (shown && shown->gltf.not_shown) {
+        char text[512];
+        snprintf(text, sizeof text, "Not shown: %.*s.", name_fit(shown->gltf.not_shown, 400), shown->gltf.not_shown);
+        ui_paragraph(ui, text, theme()->text_dim);
+    }
+
     if (shown && shown->gltf.clip_count > 0)
-        inspector_dropdown(in, &clip_list, inspector_labelled(in, "clip"), in->model, clip ? clip : "None", 0);
-    if (shown) build_loops(in, model, &shown->gltf);
+        inspector_dropdown(in, &clip_list, inspector_labelled(in, "clip"), in->model, rig->clip ? rig->clip : "None",
+                           0);
+    const int clip = shown ? gltf_find_clip(&shown->gltf, rig->clip) : -1;
+    if (clip >= 0) {
+        bool loops = clip_play(rig, &shown->gltf.clips[clip]).loops;
+        r = inspector_labelled(in, "loops");
+        ui_hint(ui, r, "The clip begins again after its end; else it plays once");
+        if (ui_toggle(ui, r, "model.loops", &loops))
+            bones_choose_clip(in->core, model, rig->clip, loops ? REPEAT_LOOP : REPEAT_ONCE);
+    }
     inspector_numbers(in, place, sizeof place / sizeof place[0], &home);
-    if (shown && shown->skeleton.count > 0) build_bone(in);
+    if (!shown || shown->skeleton.count == 0) return;
+
+    int owner;
+    const int node = bones_selected(in->core, &owner);
+    r = inspector_labelled(in, "bone");
+    if (node < 0) {
+        ui_label(ui, r, "click one on the stage", theme()->text_dim);
+        return;
+    }
+    ui_label(ui, r, bones_character(in->core, owner)->gltf.nodes[node].name, theme()->text);
+    const struct rect row = ui_row(ui, UI_ROW);
+    const float widths[2] = {row.w * 0.38f, row.w * 0.62f - 6};
+    for (size_t i = 0; i < 2; i++) {
+        const struct rect button = {i > 0 ? row.x + (widths[0] + 6) : row.x, row.y + 2, widths[i], row.h - 4};
+        ui_hint(ui, button, buttons[i].hint);
+        if (ui_button(ui, button, buttons[i].name, buttons[i].label, false))
+            bones_make_chain(in->core, buttons[i].follow);
+    }
 }

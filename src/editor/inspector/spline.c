@@ -130,7 +130,7 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     return dropped;
 }
 
-static void build_buttons(struct inspector *in)
+void inspector_splines(struct inspector *in)
 {
     static const struct icon_button buttons[] = {
         {"splines.add", "Add a spline with a knot at the playhead", UI_ICON_ADD},
@@ -139,17 +139,6 @@ static void build_buttons(struct inspector *in)
         {"splines.up", "Move this spline up", UI_ICON_UP},
         {"splines.down", "Move this spline down", UI_ICON_DOWN},
     };
-    struct core *core = in->core;
-    const int count = core->more ? sizeof buttons / sizeof buttons[0] : 1;
-    const int pressed = inspector_icons(in, ui_row(&in->ui, UI_ROW), buttons, count);
-    if (pressed == 0) spline_list_add(core);
-    if (pressed == 1) spline_list_copy(core);
-    if (pressed == 2) spline_list_remove(core);
-    if (pressed >= 3) spline_list_move(core, core->active, core->active + (pressed == 3 ? -1 : 1));
-}
-
-void inspector_splines(struct inspector *in)
-{
     struct ui *ui = &in->ui;
     const int count = in->core->document->spline_count,
               first = inspector_first_row(count, in->core->active, MAX_ROWS);
@@ -175,7 +164,14 @@ void inspector_splines(struct inspector *in)
     }
     if (dropped >= 0) spline_list_move(in->core, dropped, to);
     inspector_more(in, count, MAX_ROWS, " splines; PgUp and PgDn show more");
-    build_buttons(in);
+
+    struct core *core = in->core;
+    const int offered = core->more ? sizeof buttons / sizeof buttons[0] : 1;
+    const int pressed = inspector_icons(in, ui_row(ui, UI_ROW), buttons, offered);
+    if (pressed == 0) spline_list_add(core);
+    if (pressed == 1) spline_list_copy(core);
+    if (pressed == 2) spline_list_remove(core);
+    if (pressed >= 3) spline_list_move(core, core->active, core->active + (pressed == 3 ? -1 : 1));
 }
 
 static const struct preset {
@@ -267,16 +263,6 @@ static void build_preset_row(struct inspector *in, struct rect row, int first, i
         if (ui_button(&in->ui, r, presets[i].name, presets[i].label, false)) apply_preset(in, &presets[i]);
         x = right + PRESET_GAP;
     }
-}
-
-/// Uses two rows if one would cut words.
-static void build_presets(struct inspector *in)
-{
-    const struct rect row = ui_row(&in->ui, UI_ROW);
-    const bool fit = presets_width(0, PRESETS) + PRESETS * PRESET_MARGINS <= row.w;
-    const int in_first = fit ? PRESETS : (PRESETS + 1) / 2;
-    build_preset_row(in, row, 0, in_first);
-    if (!fit) build_preset_row(in, ui_row(&in->ui, UI_ROW), in_first, PRESETS);
 }
 
 static bool is_never(enum settle_kind kind) { return kind == SETTLE_NEVER || kind == SETTLE_LATE; }
@@ -515,31 +501,18 @@ static bool build_warnings(struct inspector *in)
     return in->ui.y > top;
 }
 
-static void build_find(struct inspector *in)
-{
-    const struct rect row = ui_row(&in->ui, UI_ROW), r = {row.x, row.y + 1, row.w, row.h - 2};
-    ui_hint(&in->ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
-    if (ui_button(&in->ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
-}
-
-/// Lag and gain of the channel or coordinate the spline drives; below each is room for the highest curve of any spline.
-static void build_reach(struct inspector *in)
-{
-    static const char *const labels[] = {[ANGLE_LAG] = "lag", [ANGLE_GAIN] = "gain"};
-    const bool bends = inspector_felt_channel(in) != NULL, drives = !bends && inspector_felt_drive(in);
-    for (int kind = ANGLE_LAG; kind <= ANGLE_GAIN; kind++) {
-        const float top = in->ui.y;
-        if (bends) inspector_angles(in, (enum angle_kind)kind);
-        if (!bends && !drives) inspector_idle(in, labels[kind], "–");
-        in->ui.y = top + (drives ? 0 : UI_ROW) + inspector_highest_curve(in, (enum angle_kind)kind);
-    }
-}
-
 /// Rows keep their places for every kind of spline.
 void inspector_feel(struct inspector *in)
 {
     static const enum parameter pace[] = {PARAMETER_FREQUENCY, PARAMETER_DAMPING};
-    build_presets(in);
+    static const char *const labels[] = {[ANGLE_LAG] = "lag", [ANGLE_GAIN] = "gain"};
+    struct ui *ui = &in->ui;
+    const struct rect row = ui_row(ui, UI_ROW);
+    const bool fit = presets_width(0, PRESETS) + PRESETS * PRESET_MARGINS <= row.w; // else two rows: no word is cut
+    const int in_first = fit ? PRESETS : (PRESETS + 1) / 2;
+    build_preset_row(in, row, 0, in_first);
+    if (!fit) build_preset_row(in, ui_row(ui, UI_ROW), in_first, PRESETS);
+
     for (size_t i = 0; i < sizeof pace / sizeof pace[0]; i++) {
         if (spline_uses(core_active_spline(in->core), pace[i], false)) {
             inspector_parameter(in, pace[i]);
@@ -549,11 +522,22 @@ void inspector_feel(struct inspector *in)
     }
     if (in->core->more) build_settle(in);
     build_wind_up(in);
-    build_reach(in);
-    const float end = in->ui.y + TEXT;
+
+    // Lag and gain of the channel or coordinate it drives; below each is room for the highest curve of any spline.
+    const bool bends = inspector_felt_channel(in) != NULL, drives = !bends && inspector_felt_drive(in);
+    for (int kind = ANGLE_LAG; kind <= ANGLE_GAIN; kind++) {
+        const float top = ui->y;
+        if (bends) inspector_angles(in, (enum angle_kind)kind);
+        if (!bends && !drives) inspector_idle(in, labels[kind], "–");
+        ui->y = top + (drives ? 0 : UI_ROW) + inspector_highest_curve(in, (enum angle_kind)kind);
+    }
+    const float end = ui->y + TEXT;
     if (!build_warnings(in)) build_sentence(in);
-    in->ui.y = fmaxf(in->ui.y, end);
-    if (in->core->more) build_find(in);
+    ui->y = fmaxf(ui->y, end);
+    if (!in->core->more) return;
+    const struct rect line = ui_row(ui, UI_ROW), r = {line.x, line.y + 1, line.w, line.h - 2};
+    ui_hint(ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
+    if (ui_button(ui, r, "frequency.find", "Find the frequency", false)) core_find_frequency(in->core, 0);
 }
 
 static double get_parameter(const struct inspector *in, int parameter)
@@ -750,21 +734,6 @@ static bool follow_joint(struct inspector *in, const struct param *param, struct
     return edit_parameter(in->core->document, in->core->active, PARAMETER_EQUILIBRIUM, param, error);
 }
 
-static void build_of(struct inspector *in)
-{
-    static const struct ui_choice choices[] = {
-        [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
-    struct joint_motion motion = *followed(in)->motion;
-    int of = (int)motion.of;
-    if (!inspector_choice(in, "joint's", "Its turn in degrees, or its movement across or up in metres", "joint.of",
-                          choices, MOTION_KINDS, &of))
-        return;
-    struct param param = *followed(in);
-    motion.of = (enum motion_of)of;
-    param.motion = &motion;
-    if (core_begin(in->core, "Set joint's motion", 0)) core_end(in->core, follow_joint(in, &param, &in->core->error));
-}
-
 static const void *followed_gain(const struct inspector *in) { return followed(in)->motion; }
 
 static bool set_gain(struct inspector *in, int which, double gain, struct error *error)
@@ -781,13 +750,6 @@ static const struct number_row gain_rows[] = {
      NUMBER_AT(struct joint_motion, gain), 0, 0, -1e6, 1e6, 1, 0.01, 2},
 };
 
-static void build_joint(struct inspector *in)
-{
-    if (followed(in)->motion) build_of(in);
-    static const struct number_home home = {.of = followed_gain, .set = set_gain};
-    if (followed(in)->motion) inspector_numbers(in, gain_rows, 1, &home);
-}
-
 static void build_number(struct inspector *in, enum parameter parameter)
 {
     const struct spline *spline = core_active_spline(in->core);
@@ -802,29 +764,41 @@ static void build_number(struct inspector *in, enum parameter parameter)
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
     if (may_follow) build_track_button(in, parameter, button, r);
-    if (spline->parameter[parameter].motion) build_joint(in);
-}
+    if (!spline->parameter[parameter].motion) return;
 
-static void build_choice(struct inspector *in, enum parameter parameter)
-{
-    const struct spline *spline = core_active_spline(in->core);
-    const struct parameter_row *row = &parameter_rows[parameter];
-    struct ui_choice choices[PARAMETER_MAX_WORDS];
-    int chosen = (int)spline->parameter[parameter].value, count = 0;
-    for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
-    struct rect r = parameter == PARAMETER_MODE ? ui_row(&in->ui, UI_ROW) : inspector_labelled(in, row->name);
-    ui_hint(&in->ui, r, row->hint);
-    if (ui_segments(&in->ui, r, row->name, choices, count, &chosen)) set_parameter(in, parameter, chosen);
+    static const struct ui_choice choices[] = {
+        [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
+    static const struct number_home home = {.of = followed_gain, .set = set_gain};
+    if (followed(in)->motion) {
+        struct param param = *followed(in);
+        struct joint_motion motion = *param.motion;
+        int of = (int)motion.of;
+        param.motion = &motion;
+        if (inspector_choice(in, "joint's", "Its turn in degrees, or its movement across or up in metres", "joint.of",
+                             choices, MOTION_KINDS, &of)) {
+            motion.of = (enum motion_of)of;
+            if (core_begin(in->core, "Set joint's motion", 0))
+                core_end(in->core, follow_joint(in, &param, &in->core->error));
+        }
+    }
+    if (followed(in)->motion) inspector_numbers(in, gain_rows, 1, &home);
 }
 
 void inspector_parameter(struct inspector *in, enum parameter parameter)
 {
-    if (!spline_uses(core_active_spline(in->core), parameter, false)) return;
-    if (parameter_rows[parameter].kind == PARAMETER_CHOICE) {
-        build_choice(in, parameter);
-    } else {
+    const struct spline *spline = core_active_spline(in->core);
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (!spline_uses(spline, parameter, false)) return;
+    if (row->kind != PARAMETER_CHOICE) {
         build_number(in, parameter);
+        return;
     }
+    struct ui_choice choices[PARAMETER_MAX_WORDS];
+    int chosen = (int)spline->parameter[parameter].value, count = 0;
+    for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
+    const struct rect r = parameter == PARAMETER_MODE ? ui_row(&in->ui, UI_ROW) : inspector_labelled(in, row->name);
+    ui_hint(&in->ui, r, row->hint);
+    if (ui_segments(&in->ui, r, row->name, choices, count, &chosen)) set_parameter(in, parameter, chosen);
 }
 
 void inspector_spline(struct inspector *in)
