@@ -527,13 +527,15 @@ static bool set_scene(struct inspector *in, int which, double number, struct err
 
 static const struct number_row scene_rows[SCENE_ROWS] = {
     [ROW_RATE] = {"scene.fps", "rate", "fps", "Frames per second; asks whether to keep frames or seconds", NULL,
-                  NUMBER_AT(struct document, fps), 0, 0, 0.001, SCENE_MAX_FPS, 24, 1, 0},
+                  NUMBER_AT(struct document, fps), TYPED(0.001, SCENE_MAX_FPS), .fallback = 24, .step = 1},
     [ROW_FIRST] = {"scene.first", "first", NULL, "First frame of the scene", NULL,
-                   WHOLE_AT(struct document, first_frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
+                   WHOLE_AT(struct document, first_frame), TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN,
+                   .step = 1},
     [ROW_LAST] = {"scene.last", "last", NULL, "Last frame of the scene; in a loop it repeats the first", NULL,
-                  WHOLE_AT(struct document, last_frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
+                  WHOLE_AT(struct document, last_frame), TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN,
+                  .step = 1},
     [ROW_SUBSTEPS] = {"scene.substeps", "substeps", NULL, "Samples per frame, for motion blur", NULL,
-                      WHOLE_AT(struct document, substeps), 0, 0, 1, SCENE_MAX_SUBSTEPS, 1, 1, 0},
+                      WHOLE_AT(struct document, substeps), TYPED(1, SCENE_MAX_SUBSTEPS), .fallback = 1, .step = 1},
 };
 
 void inspector_scene(struct inspector *in)

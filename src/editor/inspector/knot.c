@@ -16,19 +16,20 @@ enum { FIELD_FRAME, FIELD_VALUE, FIELD_PHASE, FIELD_SLOPE, FIELD_STIFFNESS, FIEL
 
 static const struct number_row knot_rows[FIELDS] = {
     [FIELD_FRAME] = {"frame", "frame", NULL, "Frame of the first selected knot; the others move with it",
-                     "Move knots", NUMBER_AT(struct knot, frame), 0, 0, -SCENE_MAX_FRAME, SCENE_MAX_FRAME, NAN, 1, 0},
+                     "Move knots", NUMBER_AT(struct knot, frame), TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME),
+                     .fallback = NAN, .step = 1},
     [FIELD_VALUE] = {"value", "value", NULL, "Type to set all selected knots; drag to shift each by the same amount",
-                     "Set values", NUMBER_AT(struct knot, value), 0, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0,
-                     0.01, 3},
+                     "Set values", NUMBER_AT(struct knot, value), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT),
+                     .step = 0.01, .decimals = 3},
     [FIELD_PHASE] = {"phase", "phase", NULL, "Type to set all selected knots; drag to shift each by the same amount",
-                     "Set phases", NUMBER_AT(struct knot, phase), 0, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0,
-                     0.01, 3},
+                     "Set phases", NUMBER_AT(struct knot, phase), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT),
+                     .step = 0.01, .decimals = 3},
     [FIELD_SLOPE] = {"slope", "slope", "/s", "Type to set all selected knots; drag to shift each by the same amount",
-                     "Set slopes", NUMBER_AT(struct knot, slope), 0, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0,
-                     0.05, 2},
+                     "Set slopes", NUMBER_AT(struct knot, slope), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT),
+                     .step = 0.05, .decimals = 2},
     [FIELD_STIFFNESS] = {"stiffness", "stiffness", "1/s", "How firmly the slopes hold; 1000 is firm", "Set stiffness",
-                         NUMBER_AT(struct knot, stiffness), 0, 0, 0.001, INSPECTOR_NO_LIMIT, KNOT_DEFAULT_STIFFNESS,
-                         10, 1},
+                         NUMBER_AT(struct knot, stiffness), TYPED(0.001, INSPECTOR_NO_LIMIT),
+                         .fallback = KNOT_DEFAULT_STIFFNESS, .step = 10, .decimals = 1},
 };
 
 /// The fields for a single selected knot.
@@ -366,15 +367,15 @@ enum { ROW_FRAME, ROW_POINT, PIN_ROWS = ROW_POINT + 4 };
 
 static const struct number_row pin_rows[PIN_ROWS] = {
     {"pin.frame", "frame", NULL, "Frame of the pin (Alt+PgUp, Alt+PgDn)", "Move pin in time",
-     NUMBER_AT(struct pin, frame), 0, 0, 0, 0, NAN, 1, 0},
-    {"pin.point", NULL, NULL, "The pinned point", "Pin another point", WHOLE_AT(struct pin, point), 0, 0, 0, 0, NAN,
-     1, 0},
-    {"pin.x", "x", "m", "Target of the point: across; 0 is the middle", "Move pin", NUMBER_AT(struct pin, to[0]), 0,
-     0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
-    {"pin.y", "y", "m", "Target of the point: height", "Move pin", NUMBER_AT(struct pin, to[1]), 0, 0,
-     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
-    {"pin.z", "z", "m", "Target of the point: depth", "Move pin", NUMBER_AT(struct pin, to[2]), 0, 0,
-     -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, NAN, 0.005, 3},
+     NUMBER_AT(struct pin, frame), .fallback = NAN, .step = 1},
+    {"pin.point", NULL, NULL, "The pinned point", "Pin another point", WHOLE_AT(struct pin, point), .fallback = NAN,
+     .step = 1},
+    {"pin.x", "x", "m", "Target of the point: across; 0 is the middle", "Move pin", NUMBER_AT(struct pin, to[0]),
+     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3},
+    {"pin.y", "y", "m", "Target of the point: height", "Move pin", NUMBER_AT(struct pin, to[1]),
+     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3},
+    {"pin.z", "z", "m", "Target of the point: depth", "Move pin", NUMBER_AT(struct pin, to[2]),
+     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3},
 };
 
 static const void *pin_of(const struct inspector *in)

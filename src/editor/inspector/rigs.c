@@ -284,18 +284,20 @@ enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN };
 
 static const struct number_row tail_rows[] = {
     [ROW_X] = {"position.x", "x", "m", "Position of the body along x", "Move body",
-               NUMBER_AT(struct rig, tail.position[0].value), 0, 0, -1e6, 1e6, 0, 0.01, 3},
+               NUMBER_AT(struct rig, tail.position[0].value), TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
     {"position.y", "y", "m", "Position of the body along y", "Move body",
-     NUMBER_AT(struct rig, tail.position[1].value), 0, 0, -1e6, 1e6, 0.26, 0.01, 3},
+     NUMBER_AT(struct rig, tail.position[1].value), TYPED(-1e6, 1e6), .fallback = 0.26, .step = 0.01, .decimals = 3},
     {"position.z", "z", "m", "Position of the body along z", "Move body",
-     NUMBER_AT(struct rig, tail.position[2].value), 0, 0, -1e6, 1e6, 0, 0.01, 3},
+     NUMBER_AT(struct rig, tail.position[2].value), TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
     [ROW_JOINTS] = {"joints", "joints", NULL, "More joints bend more smoothly; shape and swing stay the same",
-                    "Set joints", WHOLE_AT(struct rig, tail.joints), 1, 64, 1, TAIL_MAX_JOINTS, TAIL_DEFAULT_JOINTS,
-                    1, 0},
+                    "Set joints", WHOLE_AT(struct rig, tail.joints), BAR(1, 64), TYPED(1, TAIL_MAX_JOINTS),
+                    .fallback = TAIL_DEFAULT_JOINTS, .step = 1},
     [ROW_LENGTH] = {"length", "length", "m", "Length of the tail; the body scales with it", "Set length",
-                    NUMBER_AT(struct rig, tail.length), 0.2, 4, 1e-3, 1e6, TAIL_DEFAULT_LENGTH, 0.05, 2},
+                    NUMBER_AT(struct rig, tail.length), BAR(0.2, 4), TYPED(1e-3, 1e6),
+                    .fallback = TAIL_DEFAULT_LENGTH, .step = 0.05, .decimals = 2},
     [ROW_TURN] = {"chain.turn", "turn", "°", "Turns the axes of side and up about the chain's own direction",
-                  "Turn chain's axes", NUMBER_AT(struct rig, chain.turn), -180, 180, -36000, 36000, 0, 1, 0},
+                  "Turn chain's axes", NUMBER_AT(struct rig, chain.turn), BAR(-180, 180), TYPED(-36000, 36000),
+                  .step = 1},
 };
 
 static int shown_rig(const struct inspector *in) { return in->rig; }
@@ -640,10 +642,10 @@ static const void *felt_drive(const struct inspector *in)
 
 static const struct number_row drive_rows[] = {
     {"drive.lag", "lag", "°", "How far it lags behind the spline; 360 is a full swing", "Set lag",
-     NUMBER_AT(struct drive, lag), -180, 180, -36000, 36000, 0, 1, 1},
+     NUMBER_AT(struct drive, lag), BAR(-180, 180), TYPED(-36000, 36000), .step = 1, .decimals = 1},
     {"amplitude", "amplitude", NULL, "How far it swings when the spline is 1", "Set amplitude",
-     NUMBER_AT(struct drive, amplitude), -2, 2, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, DRIVE_DEFAULT_AMPLITUDE,
-     0.05, 2},
+     NUMBER_AT(struct drive, amplitude), BAR(-2, 2), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT),
+     .fallback = DRIVE_DEFAULT_AMPLITUDE, .step = 0.05, .decimals = 2},
 };
 
 static double was_drive(const struct inspector *in, int which)
@@ -732,7 +734,8 @@ static int shown_character(const struct inspector *in) { return characters_rig(i
 
 static const struct number_row floor_rows[] = {
     {"floor.height", "height", "m", "No point of the character goes lower", "Set floor",
-     NUMBER_AT(struct rig, character.floor), -1, 0, -INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT, 0, 0.01, 3},
+     NUMBER_AT(struct rig, character.floor), BAR(-1, 0), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
+     .decimals = 3},
 };
 
 /// The floor switch and its height.
@@ -789,10 +792,10 @@ static bool set_share(struct inspector *in, int which, double percent, struct er
 }
 
 static const struct number_row brush_rows[] = {
-    {"radius", "radius", "%", "Radius, relative to the character's height (Ctrl+wheel on the stage)", NULL, 0, false,
-     1, 50, 1, 50, 12, 1, 0},
-    {"strength", "strength", "%", "How fast paint flows (Shift+wheel on the stage)", NULL, 0, false, 2, 100, 2, 100,
-     40, 1, 0},
+    {"radius", "radius", "%", "Radius, relative to the character's height (Ctrl+wheel on the stage)", NULL,
+     BAR(1, 50), TYPED(1, 50), .fallback = 12, .step = 1},
+    {"strength", "strength", "%", "How fast paint flows (Shift+wheel on the stage)", NULL, BAR(2, 100), TYPED(2, 100),
+     .fallback = 40, .step = 1},
 };
 
 static void build_brush(struct inspector *in)
@@ -892,16 +895,16 @@ static void choose_clip(struct inspector *in, const struct dropdown *list)
 static const struct dropdown clip_list = {"model.clips", "The clip of the file that it repeats", choose_clip};
 
 static const struct number_row place[] = {
-    {"model.x", "x", "m", "Where it stands along x", "Place character", NUMBER_AT(struct rig, model.position[0]), 0,
-     0, -1e6, 1e6, 0, 0.01, 3},
+    {"model.x", "x", "m", "Where it stands along x", "Place character", NUMBER_AT(struct rig, model.position[0]),
+     TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
     {"model.y", "y", "m", "Height of the ground under it", "Place character",
-     NUMBER_AT(struct rig, model.position[1]), 0, 0, -1e6, 1e6, 0, 0.01, 3},
-    {"model.z", "z", "m", "Where it stands along z", "Place character", NUMBER_AT(struct rig, model.position[2]), 0,
-     0, -1e6, 1e6, 0, 0.01, 3},
+     NUMBER_AT(struct rig, model.position[1]), TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
+    {"model.z", "z", "m", "Where it stands along z", "Place character", NUMBER_AT(struct rig, model.position[2]),
+     TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
     {"model.scale", "scale", NULL, "Size, relative to the file's", "Place character",
-     NUMBER_AT(struct rig, model.scale), 0, 0, 1e-9, 1e9, 1, 0.01, 3},
-    {"model.turn", "turn", "°", "About the vertical", "Place character", NUMBER_AT(struct rig, model.turn), -180, 180,
-     -36000, 36000, 0, 1, 0},
+     NUMBER_AT(struct rig, model.scale), TYPED(1e-9, 1e9), .fallback = 1, .step = 0.01, .decimals = 3},
+    {"model.turn", "turn", "°", "About the vertical", "Place character", NUMBER_AT(struct rig, model.turn),
+     BAR(-180, 180), TYPED(-36000, 36000), .step = 1},
 };
 
 void inspector_model(struct inspector *in)

@@ -747,7 +747,7 @@ static bool set_gain(struct inspector *in, int which, double gain, struct error 
 
 static const struct number_row gain_rows[] = {
     {"joint.gain", "strength", NULL, "How much of the joint's motion it follows", "Set joint's gain",
-     NUMBER_AT(struct joint_motion, gain), 0, 0, -1e6, 1e6, 1, 0.01, 2},
+     NUMBER_AT(struct joint_motion, gain), TYPED(-1e6, 1e6), .fallback = 1, .step = 0.01, .decimals = 2},
 };
 
 static void build_number(struct inspector *in, enum parameter parameter)

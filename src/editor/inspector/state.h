@@ -156,9 +156,12 @@ struct number_row {
     int decimals;
 };
 
-/// Offset of a double, and of an int.
-#define NUMBER_AT(type, member) offsetof(type, member), false
-#define WHOLE_AT(type, member) offsetof(type, member), true
+/// Where a row's double is, or its int.
+#define NUMBER_AT(type, member) .at = offsetof(type, member)
+#define WHOLE_AT(type, member) .at = offsetof(type, member), .is_whole = true
+/// The ends of a bar, and of typed numbers. A row leaves out zeros.
+#define BAR(from, to) .minimum = (from), .maximum = (to)
+#define TYPED(from, to) .lowest = (from), .highest = (to)
 
 /// Reads a row's number from its struct, and writes it.
 double number_at(const struct number_row *row, const void *of);
