@@ -14,7 +14,10 @@
 
 enum { ANSWER_WIDTH = 104 };
 
-int question_build(struct dialog *dialog)
+enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
+
+/// Lays out the question; returns the pressed answer, or QUESTION_OPEN.
+static int question_build(struct dialog *dialog)
 {
     const struct question *question = &dialog->question;
     struct ui *ui = &dialog->ui;
@@ -35,7 +38,8 @@ int question_build(struct dialog *dialog)
     return pressed;
 }
 
-int question_key(struct dialog *dialog, int key)
+/// A key's effect: an answer, QUESTION_OPEN if it moved the choice, or QUESTION_UNUSED.
+static int question_key(struct dialog *dialog, int key)
 {
     const struct question *question = &dialog->question;
     int count = question->count;
@@ -247,18 +251,6 @@ static void name_export(char path[PATH_LIMIT], const struct core *core)
         strcat(path, "-animated");
 }
 
-/// For another scene: keeps the last format.
-static void begin_memory(struct dialogs *dialogs, const struct core *core)
-{
-    struct export_memory *memory = &dialogs->exporting.memory;
-    snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
-    name_export(memory->path, core);
-    choose_format(dialogs, dialogs->exporting.format);
-    memory->wish.part = false;
-    memory->wish.clip[0] = '\0';
-    memory->wish.rig = 0;
-}
-
 void dialogs_export(struct dialogs *dialogs, const struct core *core)
 {
     struct exporting *exporting = &dialogs->exporting;
@@ -268,7 +260,14 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core)
     const int last = format_by_ending(files, memory->path);
     if (last >= 0) exporting->format = last;
     const bool same = core->path[0] ? strcmp(memory->scene, core->path) == 0 : exporting->serial == core->serial;
-    if (!same || !memory->path[0]) begin_memory(dialogs, core);
+    if (!same || !memory->path[0]) { // keeps the last format
+        snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
+        name_export(memory->path, core);
+        choose_format(dialogs, exporting->format);
+        memory->wish.part = false;
+        memory->wish.clip[0] = '\0';
+        memory->wish.rig = 0;
+    }
     exporting->serial = core->serial;
     exporting->typed = 0;
     exporting->done = exporting->total = 0;
@@ -323,7 +322,8 @@ static void stop(struct dialogs *dialogs, struct core *core)
     }
 }
 
-bool export_key(struct dialogs *dialogs, struct core *core, int key)
+/// The Export dialog's keys; true if used. They also arrive while the app is busy.
+static bool export_key(struct dialogs *dialogs, struct core *core, int key)
 {
     const struct ui *ui = &dialogs->dialog.ui;
     const bool in_text = ui->focus == ui_id(ui, path_field) || ui->focus == ui_id(ui, clip_field);
@@ -365,15 +365,6 @@ static bool build_text(struct dialogs *dialogs, struct rect r, const char *name,
         ui->text = others;
     }
     return changed;
-}
-
-static void build_export_path(struct dialogs *dialogs)
-{
-    struct exporting *exporting = &dialogs->exporting;
-    char *path = exporting->memory.path;
-    if (!build_text(dialogs, ui_row(&dialogs->dialog.ui, 28), path_field, path, PATH_LIMIT)) return;
-    const int format = format_by_ending(&dialogs->dialog.files, path);
-    if (format >= 0) exporting->format = format;
 }
 
 /// A whole-number field.
@@ -434,16 +425,6 @@ static void build_size(struct dialogs *dialogs, const struct dialog_format *form
     if (!changed) return;
     wish->width = (int)width;
     wish->height = (int)height;
-}
-
-static void build_keys(struct dialogs *dialogs, const struct document *document, struct rect *row)
-{
-    struct export_wish *wish = &dialogs->exporting.memory.wish;
-    double keys = wish->keys > 0 ? wish->keys : document->substeps;
-    const struct rect r = labelled(&dialogs->dialog.ui, row, NUMBER_WIDTH, "keys a frame");
-    if (build_number(dialogs, r,
-                     (struct ui_number){.name = "export.keys", .lowest = 1, .highest = SCENE_MAX_SUBSTEPS}, &keys))
-        wish->keys = (int)keys;
 }
 
 static bool is_offered(const struct rig *rig, unsigned choices)
@@ -507,26 +488,6 @@ static void build_toggle(struct ui *ui, struct rect *row, const char *name, cons
     row->x += TOGGLE + WORDS + 2 * UI_GAP;
 }
 
-static void build_flags(struct dialogs *dialogs, const struct document *document, unsigned choices, struct rect row)
-{
-    struct export_wish *wish = &dialogs->exporting.memory.wish;
-    struct ui *ui = &dialogs->dialog.ui;
-    const bool morphs = document_find_rig(document, RIG_CHARACTER, 0) >= 0;
-    if (choices & CHOICE_CUBIC) build_toggle(ui, &row, "export.cubic", "keys with tangents", &wish->is_cubic);
-    if ((choices & CHOICE_CUBIC) && document_find_rig(document, RIG_CHAIN, 0) >= 0)
-        build_toggle(ui, &row, "export.clips", "all clips", &wish->all_clips);
-    if ((choices & CHOICE_SIGNED) && morphs)
-        build_toggle(ui, &row, "export.signed", "signed morph targets", &wish->is_signed);
-    if (choices & CHOICE_ALPHA) build_toggle(ui, &row, "export.transparent", "transparent", &wish->transparent);
-}
-
-/// The default clip name: for an imported character, its current clip's.
-static const char *usual_clip(const struct document *document)
-{
-    const int rig = document_next_rig(document, RIG_MODEL, -1);
-    return rig >= 0 && document->rigs[rig]->model.clip ? document->rigs[rig]->model.clip : "as the scene";
-}
-
 /// Has the same number of rows for every format, so that nothing jumps.
 static void build_choices(struct dialogs *dialogs, const struct document *document)
 {
@@ -537,18 +498,36 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
     struct rect rows[CHOICE_ROWS + 2];
     for (int i = 0; i < CHOICE_ROWS + 2 * narrow; i++) rows[i] = ui_row(ui, UI_ROW);
     build_frames(dialogs, document, &rows[0]);
-    if (format->choices & CHOICE_KEYS) build_keys(dialogs, document, &rows[narrow ? CHOICE_ROWS : 0]);
+    if (format->choices & CHOICE_KEYS) {
+        double keys = memory->wish.keys > 0 ? memory->wish.keys : document->substeps;
+        const struct rect r = labelled(ui, &rows[narrow ? CHOICE_ROWS : 0], NUMBER_WIDTH, "keys a frame");
+        const struct ui_number number = {.name = "export.keys", .lowest = 1, .highest = SCENE_MAX_SUBSTEPS};
+        if (build_number(dialogs, r, number, &keys)) memory->wish.keys = (int)keys;
+    }
     if (format->choices & CHOICE_SIZE) build_size(dialogs, format, &rows[1]);
     if (format->choices & CHOICE_CLIP) {
         const struct rect r = labelled(ui, &rows[1], PAIR_WIDTH, "clip");
         build_text(dialogs, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, clip_field, memory->wish.clip,
                    sizeof memory->wish.clip);
+        const int rig = document_next_rig(document, RIG_MODEL, -1);
+        const char *usual = rig >= 0 ? document->rigs[rig]->model.clip : NULL; // of an imported character
         if (!memory->wish.clip[0] && ui->focus != ui_id(ui, clip_field))
-            ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual_clip(document), theme()->text_dim);
+            ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual ? usual : "as the scene",
+                     theme()->text_dim);
     }
     if (format->choices & CHOICE_RIG)
         build_rig(dialogs, document, format->choices, &rows[narrow ? CHOICE_ROWS + 1 : 1]);
-    build_flags(dialogs, document, format->choices, rows[2]);
+
+    struct rect *row = &rows[2];
+    const bool morphs = document_find_rig(document, RIG_CHARACTER, 0) >= 0;
+    if (format->choices & CHOICE_CUBIC)
+        build_toggle(ui, row, "export.cubic", "keys with tangents", &memory->wish.is_cubic);
+    if ((format->choices & CHOICE_CUBIC) && document_find_rig(document, RIG_CHAIN, 0) >= 0)
+        build_toggle(ui, row, "export.clips", "all clips", &memory->wish.all_clips);
+    if ((format->choices & CHOICE_SIGNED) && morphs)
+        build_toggle(ui, row, "export.signed", "signed morph targets", &memory->wish.is_signed);
+    if (format->choices & CHOICE_ALPHA)
+        build_toggle(ui, row, "export.transparent", "transparent", &memory->wish.transparent);
 }
 
 static void build_formats(struct dialogs *dialogs, float room)
@@ -619,26 +598,9 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
     ui_space(ui, fmaxf(8, NOTE_HEIGHT - (ui->y - top)));
 }
 
-static void build_buttons(struct dialogs *dialogs, struct core *core)
+static void export_build(struct dialogs *dialogs, struct core *core)
 {
     enum { CANCEL_WIDTH = 104, WRITE_WIDTH = 240 };
-    const struct dialog *dialog = &dialogs->dialog;
-    struct ui *ui = &dialogs->dialog.ui;
-    char label[64], full[PATH_LIMIT] = "";
-    const struct rect row = ui_row(ui, 28);
-    const float width = fminf(WRITE_WIDTH, row.w - CANCEL_WIDTH - UI_GAP);
-    const struct rect right = {row.x + row.w - width, row.y, width, row.h};
-    const float end = is_running(dialog) ? row.x + row.w : right.x - UI_GAP;
-    const struct rect left = {end - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
-    with_ending(&dialog->files, dialogs->exporting.memory.path, dialogs->exporting.format, full);
-    snprintf(label, sizeof label, "Write %.48s", path_name(full));
-    const bool stopped = ui_button(ui, left, "dialog.cancel", "Cancel", false);
-    if (!is_running(dialog) && ui_button(ui, right, "dialog.confirm", label, true)) confirm_export(dialogs, core);
-    if (stopped) stop(dialogs, core);
-}
-
-void export_build(struct dialogs *dialogs, struct core *core)
-{
     struct export_memory *memory = &dialogs->exporting.memory;
     struct ui *ui = &dialogs->dialog.ui;
     if (is_running(&dialogs->dialog)) {
@@ -649,7 +611,10 @@ void export_build(struct dialogs *dialogs, struct core *core)
     } else {
         ui_label(ui, ui_row(ui, UI_ROW), "Export the motion", theme()->text);
         ui_space(ui, 4);
-        build_export_path(dialogs);
+        if (build_text(dialogs, ui_row(ui, 28), path_field, memory->path, PATH_LIMIT)) {
+            const int format = format_by_ending(&dialogs->dialog.files, memory->path);
+            if (format >= 0) dialogs->exporting.format = format;
+        }
         ui_space(ui, 8);
         build_formats(dialogs, core->layout.window.h - FRAME_HEIGHT);
         ui_space(ui, 8);
@@ -657,7 +622,19 @@ void export_build(struct dialogs *dialogs, struct core *core)
         ui_space(ui, 4);
     }
     build_note(dialogs, core->document);
-    build_buttons(dialogs, core);
+
+    const bool running = is_running(&dialogs->dialog);
+    char label[64], full[PATH_LIMIT] = "";
+    const struct rect row = ui_row(ui, 28);
+    const float width = fminf(WRITE_WIDTH, row.w - CANCEL_WIDTH - UI_GAP);
+    const struct rect right = {row.x + row.w - width, row.y, width, row.h};
+    const float end = running ? row.x + row.w : right.x - UI_GAP;
+    const struct rect left = {end - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
+    with_ending(&dialogs->dialog.files, memory->path, dialogs->exporting.format, full);
+    snprintf(label, sizeof label, "Write %.48s", path_name(full));
+    const bool stopped = ui_button(ui, left, "dialog.cancel", "Cancel", false);
+    if (!running && ui_button(ui, right, "dialog.confirm", label, true)) confirm_export(dialogs, core);
+    if (stopped) stop(dialogs, core);
 }
 
 enum { LIST_ROWS = 8, AROUND_LIST = 184, BUTTON_WIDTH = 104 };
@@ -811,16 +788,6 @@ static void answer(struct dialogs *dialogs, struct core *core, int given)
     if (changes) answered(dialogs, core, given);
 }
 
-/// An answer's letter also arrives as text; skip_text keeps it out of a path.
-static bool question_event(struct dialogs *dialogs, struct core *core, int key)
-{
-    int given = question_key(&dialogs->dialog, key);
-    if (given == QUESTION_UNUSED) return false;
-    dialogs->dialog.skip_text = true;
-    answer(dialogs, core, given);
-    return true;
-}
-
 static void move_choice(struct dialog *dialog, int direction)
 {
     if (dialog->match_count == 0) return;
@@ -861,34 +828,24 @@ static void dialog_complete(struct dialog *dialog)
     if (first && (common > 0 || dialog->ui.text.all)) set_name(dialog, first, common);
 }
 
-static bool take_recent(struct dialog *dialog, const struct dialog_recent *recent)
-{
-    if (recent->missing) {
-        snprintf(dialog->error, sizeof dialog->error, "%.300s no longer exists.", recent->path);
-        return false;
-    }
-    ui_text_set(&dialog->ui.text, recent->path);
-    dialog_match(dialog);
-    return true;
-}
-
 /// Puts a match into the path. true for a file; a folder is listed, a missing file reported.
 static bool dialog_take(struct dialog *dialog, int match)
 {
     const struct dialog_recent *recent = dialog_recent_of(dialog, match);
-    if (recent) return take_recent(dialog, recent);
+    if (recent && recent->missing) {
+        snprintf(dialog->error, sizeof dialog->error, "%.300s no longer exists.", recent->path);
+        return false;
+    }
+    if (recent) {
+        ui_text_set(&dialog->ui.text, recent->path);
+        dialog_match(dialog);
+        return true;
+    }
     const char *name = dialog->names[dialog->match[match]];
     size_t length = strlen(name);
     bool folder = length > 0 && name[length - 1] == '/';
     set_name(dialog, name, length);
     return !folder;
-}
-
-/// The match that Enter takes without a choice: the only one, if it begins with the text; else −1.
-static int dialog_only(const struct dialog *dialog)
-{
-    const bool single = dialog->kind != DIALOG_SAVE_AS && dialog->match_count == 1 && !dialog_recent_of(dialog, 0);
-    return single && begins(dialog, dialog->names[dialog->match[0]]) ? 0 : -1;
 }
 
 static bool path_key(struct dialogs *dialogs, struct core *core, int key)
@@ -908,22 +865,14 @@ static bool path_key(struct dialogs *dialogs, struct core *core, int key)
         move_choice(dialog, 1);
         return true;
     case KEY_ENTER:
-        if (dialog->choice < 0) dialog->choice = dialog_only(dialog);
+        if (dialog->choice < 0 && dialog->kind != DIALOG_SAVE_AS && dialog->match_count == 1 &&
+            !dialog_recent_of(dialog, 0) && begins(dialog, dialog->names[dialog->match[0]]))
+            dialog->choice = 0; // the only match, if it begins with the text
         if (dialog->choice < 0 || dialog_take(dialog, dialog->choice)) confirm(dialogs, core);
         return true;
     default:
         return false;
     }
-}
-
-/// The second press of a double-click on a name.
-static bool is_confirmed(const struct dialog *dialog, struct rect list)
-{
-    const struct ui *ui = &dialog->ui;
-    const struct event *event = ui->event;
-    bool twice = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
-                 event->button == BUTTON_LEFT && event->clicks == 2;
-    return twice && rect_contains(list, event->x, event->y) && *path_name(ui->text.bytes);
 }
 
 /// A recent file's name, with its folder to the right.
@@ -940,29 +889,28 @@ static void label_recent(struct ui *ui, struct rect r, const struct dialog_recen
                    recent->missing ? "no longer exists" : folder, theme()->text_dim);
 }
 
-/// Lays out a match; true if it was pressed.
-static bool dialog_row(struct dialog *dialog, struct rect r, int match)
-{
-    char name[32];
-    const struct dialog_recent *recent = dialog_recent_of(dialog, match);
-    const char *text = recent ? "" : dialog->names[dialog->match[match]];
-    snprintf(name, sizeof name, "dialog.match.%d", match);
-    bool pressed = ui_list_row(&dialog->ui, r, name, text, 0, match == dialog->choice);
-    if (recent) label_recent(&dialog->ui, r, recent);
-    return pressed;
-}
-
 static void build_list(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;
     struct ui *ui = &dialog->ui;
     const int rows = (int)fminf(LIST_ROWS, fmaxf((core->layout.window.h - AROUND_LIST) / UI_ROW, 1));
     struct rect list = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
-    bool confirmed = is_confirmed(dialog, list);
+    const struct event *event = ui->event;
+    const bool twice = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
+                       event->button == BUTTON_LEFT && event->clicks == 2;
+    const bool confirmed = twice && rect_contains(list, event->x, event->y) && *path_name(ui->text.bytes);
     int first = dialog->choice >= rows ? dialog->choice - rows + 1 : 0, taken = -1;
     for (int row = 0; row < rows; row++) {
         struct rect r = ui_row(ui, UI_ROW);
-        if (first + row < dialog->match_count && dialog_row(dialog, r, first + row)) taken = first + row;
+        const int match = first + row;
+        if (match < dialog->match_count) {
+            char name[32];
+            const struct dialog_recent *recent = dialog_recent_of(dialog, match);
+            const char *text = recent ? "" : dialog->names[dialog->match[match]];
+            snprintf(name, sizeof name, "dialog.match.%d", match);
+            if (ui_list_row(ui, r, name, text, 0, match == dialog->choice)) taken = match;
+            if (recent) label_recent(ui, r, recent);
+        }
         if (row == 0 && dialog->match_count == 0)
             ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 12, r.h}, "Nothing matches.", theme()->text_dim);
     }
@@ -1061,10 +1009,14 @@ static bool dialog_event(struct dialogs *dialogs, struct core *core, const struc
     if ((dialog->awaited != REQUEST_NONE && !exports) || typed_by_answer) return true;
     bool chord = event->mods & (MOD_CTRL | MOD_ALT | MOD_SUPER);
     if (key && !chord) {
-        bool done = is_question(dialog) ? question_event(dialogs, core, event->key)
-                    : exports           ? export_key(dialogs, core, event->key)
-                                        : path_key(dialogs, core, event->key);
-        if (done) return true;
+        if (is_question(dialog)) {
+            const int given = question_key(dialog, event->key);
+            dialog->skip_text = given != QUESTION_UNUSED; // an answer's letter also arrives as text
+            answer(dialogs, core, given);
+            if (given != QUESTION_UNUSED) return true;
+        } else if (exports ? export_key(dialogs, core, event->key) : path_key(dialogs, core, event->key)) {
+            return true;
+        }
     }
     if (event->kind == EVENT_WHEEL && !is_question(dialog) && !exports) move_choice(dialog, event->dy > 0 ? -3 : 3);
     struct rect box = dialog_box(dialogs, core);
@@ -1072,20 +1024,6 @@ static bool dialog_event(struct dialogs *dialogs, struct core *core, const struc
     build(dialogs, core);
     ui_end(&dialog->ui);
     return true;
-}
-
-static void dialog_show(struct dialogs *dialogs, struct core *core)
-{
-    struct dialog *dialog = &dialogs->dialog;
-    if (dialog->kind == DIALOG_NONE) return;
-    struct drawlist *list = &core->list;
-    struct rect box = dialog_box(dialogs, core);
-    drawlist_rect(list, core->layout.window, theme()->veil);
-    drawlist_rounded(list, box, 8, theme()->panel);
-    drawlist_rounded_line(list, box, 8, 1, theme()->zero);
-    ui_begin_draw(&dialog->ui, box, list);
-    build(dialogs, core);
-    ui_end(&dialog->ui);
 }
 
 struct dialogs *dialogs_create(const struct command *commands, int count)
@@ -1134,7 +1072,15 @@ void dialogs_show(struct dialogs *dialogs, struct core *core)
 {
     help_show(dialogs, core);
     palette_show(dialogs, core);
-    dialog_show(dialogs, core);
+    if (dialogs->dialog.kind == DIALOG_NONE) return;
+    struct drawlist *list = &core->list;
+    const struct rect box = dialog_box(dialogs, core);
+    drawlist_rect(list, core->layout.window, theme()->veil);
+    drawlist_rounded(list, box, 8, theme()->panel);
+    drawlist_rounded_line(list, box, 8, 1, theme()->zero);
+    ui_begin_draw(&dialogs->dialog.ui, box, list);
+    build(dialogs, core);
+    ui_end(&dialogs->dialog.ui);
 }
 
 bool dialogs_are_asking(const struct dialogs *dialogs) { return dialogs->dialog.kind != DIALOG_NONE; }

@@ -29,11 +29,6 @@ static enum fit fit_of(const struct command *command, const struct ui_filter *fi
     return fit < FIT_INSIDE && ui_filter_fit(filter, keys) >= FIT_WORD ? FIT_INSIDE : fit;
 }
 
-static bool is_listed(const struct command *command, bool gestures)
-{
-    return command->name && (gestures ? command->about != ABOUT_NOTHING : command_runs(command));
-}
-
 /// Adds the commands of one fit, either those that can run or those that cannot.
 static void add_found(const struct command_list *commands, const enum fit *fits, enum fit fit,
                       const char *const *missing, bool lacking, struct commands_found *found)
@@ -47,15 +42,17 @@ static void add_found(const struct command_list *commands, const enum fit *fits,
     }
 }
 
-void commands_find(const struct command_list *commands, const struct core *core, const struct ui_filter *filter,
-                   struct commands_found *found)
+/// Finds matching commands, those that can run now first. Without `core`: all rows of F1 in table order.
+static void commands_find(const struct command_list *commands, const struct core *core,
+                          const struct ui_filter *filter, struct commands_found *found)
 {
     const char *missing[NEEDS_COUNT];
     enum fit fits[COMMANDS_MOST], best = FIT_NOT;
     for (enum need need = 0; need < NEEDS_COUNT; need++) missing[need] = core ? need_missing(core, need) : NULL;
     for (int i = 0; i < commands->count; i++) {
         const struct command *command = &commands->commands[i];
-        fits[i] = is_listed(command, core == NULL) ? fit_of(command, filter) : FIT_NOT;
+        const bool listed = command->name && (core ? command_runs(command) : command->about != ABOUT_NOTHING);
+        fits[i] = listed ? fit_of(command, filter) : FIT_NOT;
         if (fits[i] > best) best = fits[i];
     }
     found->count = 0;
@@ -65,7 +62,9 @@ void commands_find(const struct command_list *commands, const struct core *core,
     }
 }
 
-void commands_show_field(struct drawlist *list, struct rect r, const struct ui_filter *filter, const char *empty)
+/// Draws a text field with its text, or `empty` as a hint.
+static void commands_show_field(struct drawlist *list, struct rect r, const struct ui_filter *filter,
+                                const char *empty)
 {
     const bool typed = filter->typed[0] != '\0';
     const float y = ui_baseline(r, FONT_LABEL, THEME_TEXT_NORMAL);
@@ -152,16 +151,11 @@ static void palette_key(struct palette *palette, const struct commands_found *fo
     if (pressed == KEY_ENTER) take_row(palette, found);
 }
 
-static void press_palette(struct palette *palette, const struct commands_found *found, const struct event *event,
-                          const struct sheet *sheet)
+/// Whether an overlay with a text field uses the event: not pointer movements, nor releases of keys pressed before it opened.
+static bool typing_concerns(const struct event *event)
 {
-    const int row = palette->first + (int)floorf((event->y - sheet->list.y) / PALETTE_ROW);
-    if (!rect_contains(sheet->box, event->x, event->y)) {
-        palette->open = false;
-    } else if (rect_contains(sheet->list, event->x, event->y) && row < found->count) {
-        palette->choice = row;
-        take_row(palette, found);
-    }
+    const bool release = event->kind == EVENT_KEY && event->action == ACTION_RELEASE;
+    return !release && event->kind != EVENT_POINTER && event->kind <= EVENT_WHEEL;
 }
 
 bool palette_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
@@ -176,7 +170,13 @@ bool palette_event(struct dialogs *dialogs, const struct core *core, const struc
     } else if (event->kind == EVENT_KEY) {
         palette_key(palette, &found, event->key, sheet.rows);
     } else if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
-        press_palette(palette, &found, event, &sheet);
+        const int row = palette->first + (int)floorf((event->y - sheet.list.y) / PALETTE_ROW);
+        if (!rect_contains(sheet.box, event->x, event->y)) {
+            palette->open = false;
+        } else if (rect_contains(sheet.list, event->x, event->y) && row < found.count) {
+            palette->choice = row;
+            take_row(palette, &found);
+        }
     } else if (event->kind == EVENT_WHEEL) {
         scroll_palette(palette, (int)lroundf(-3 * event->dy), found.count, sheet.rows);
     }
@@ -511,22 +511,6 @@ static void show_columns(struct drawlist *list, const struct command_list *comma
     }
 }
 
-static void show_bar(struct drawlist *list, const struct page *page, float offset)
-{
-    float range = range_of(page);
-    if (range <= 0) return;
-    float length = page->body.h * page->body.h / (page->body.h + range);
-    float y = page->body.y + (page->body.h - length) * offset / range;
-    drawlist_rounded(list, (struct rect){page->box.x + page->box.w - 8, y, 4, length}, 2, theme()->control);
-}
-
-static void show_found(struct drawlist *list, const struct page *page, const struct commands_found *found, float y)
-{
-    const struct rect r = {page->box.x + HELP_MARGIN, y, page->box.w - 2 * HELP_MARGIN, ROW};
-    show_grid(list, page, y, found->list, found->count);
-    if (found->count == 0) paint_line(list, r, FONT_LABEL, theme()->text_dim, "Nothing matches.");
-}
-
 void help_show(const struct dialogs *dialogs, struct core *core)
 {
     if (!dialogs->help.open) return;
@@ -541,13 +525,19 @@ void help_show(const struct dialogs *dialogs, struct core *core)
     show_title(list, &page, &dialogs->help);
     struct rect clip = drawlist_push_clip(list, page.body);
     if (dialogs->help.filter.typed[0]) {
-        show_found(list, &page, &found, y);
+        const struct rect r = {page.box.x + HELP_MARGIN, y, page.box.w - 2 * HELP_MARGIN, ROW};
+        show_grid(list, &page, y, found.list, found.count);
+        if (found.count == 0) paint_line(list, r, FONT_LABEL, theme()->text_dim, "Nothing matches.");
     } else {
         show_here(list, dialogs, &page, y + GROUP_GAP / 2);
         show_columns(list, &dialogs->commands, &page, y + page.here);
     }
     drawlist_set_clip(list, clip);
-    show_bar(list, &page, offset);
+    const float range = range_of(&page), high = page.body.h;
+    if (range <= 0) return;
+    const float length = high * high / (high + range);
+    const struct rect bar = {page.box.x + page.box.w - 8, page.body.y + (high - length) * offset / range, 4, length};
+    drawlist_rounded(list, bar, 2, theme()->control);
 }
 
 enum { CARD_MARGIN = 16, CARD_PAD = 14, CARD_LINE = 20, CARD_GAP = 16, BAND_MARGIN = 6, CARD_TITLE = 40 };
@@ -653,14 +643,6 @@ static struct card band_card(const struct core *core, int count)
     return card;
 }
 
-/// Whether a card covers neither the rigs nor the description's title.
-static bool is_clear(const struct core *core, const struct card *card, struct rect figure)
-{
-    const struct rect *r = &card->rect;
-    const bool beside = r->x + r->w <= figure.x || r->x >= figure.x + figure.w || figure.w == 0;
-    return beside && r->y >= core->layout.stage.y + CARD_TITLE;
-}
-
 /// Tails swing across a wide stage, but high above its corners.
 static struct card place_card(const struct core *core, struct rect figure)
 {
@@ -673,7 +655,10 @@ static struct card place_card(const struct core *core, struct rect figure)
     for (size_t i = 0; i < sizeof places / sizeof *places; i++) {
         const struct card card = corner_card(core, places[i].form, places[i].right);
         if (legend && !places[i].right) continue;
-        if (roomy || is_clear(core, &card, figure)) return card;
+        const struct rect *r = &card.rect;
+        const bool beside = r->x + r->w <= figure.x || r->x >= figure.x + figure.w || figure.w == 0;
+        const bool below = r->y >= core->layout.stage.y + CARD_TITLE; // the description's title
+        if (roomy || (beside && below)) return card;
     }
     const struct card band = band_card(core, core->layout.stage.h < TALL || !core->document->about ? 1 : 2);
     return band.rect.w <= core->layout.stage.w ? band : band_card(core, 1);
@@ -699,19 +684,6 @@ static void show_right(struct core *core, const struct card *card, float y, enum
     show_text(core, card->rect.x + card->rect.w - CARD_PAD - width_of(font, text), y, font, color, text);
 }
 
-/// The note on how to close the card, below the hints or behind them in the band.
-static void show_closing(struct core *core, const struct card *card, float y)
-{
-    if (card->form != FORM_BAND) {
-        y += 4;
-        show_text(core, card->rect.x + CARD_PAD, y, FONT_LABEL, theme()->text_dim, more);
-    } else {
-        y -= CARD_LINE;
-        if (card->hints > 1) show_right(core, card, y - CARD_LINE, FONT_LABEL, theme()->text_dim, more);
-    }
-    show_right(core, card, y, FONT_LABEL_BOLD, theme()->accent, closing);
-}
-
 void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, struct rect figure)
 {
     if (!history_is_saved(core->history)) dialogs->welcome = false;
@@ -731,7 +703,16 @@ void dialogs_show_welcome(struct dialogs *dialogs, struct core *core, struct rec
         if (card.form == FORM_UPRIGHT) y += CARD_LINE;
         show_text(core, left + card.before, y, FONT_LABEL, theme()->text_dim, hint->why);
     }
-    show_closing(core, &card, y);
+
+    // How to close the card: below the hints, or behind them in the band.
+    if (card.form != FORM_BAND) {
+        y += 4;
+        show_text(core, left, y, FONT_LABEL, theme()->text_dim, more);
+    } else {
+        y -= CARD_LINE;
+        if (card.hints > 1) show_right(core, &card, y - CARD_LINE, FONT_LABEL, theme()->text_dim, more);
+    }
+    show_right(core, &card, y, FONT_LABEL_BOLD, theme()->accent, closing);
     drawlist_set_clip(list, clip);
     dialogs->card = card.rect;
 }
@@ -754,36 +735,30 @@ static void tell_pressed(struct pressed *pressed, unsigned mods, const char *wor
     memcpy(pressed->text, text, sizeof text);
 }
 
-static void note_button(struct pressed *pressed, const struct event *event)
+void dialogs_note(struct dialogs *dialogs, const struct event *event)
 {
     static const char *const clicks[] = {
         [BUTTON_LEFT] = "click", [BUTTON_RIGHT] = "right-click", [BUTTON_MIDDLE] = "middle click"};
-    pressed->is_down = event->action == ACTION_PRESS;
-    pressed->is_drag = false;
-    if (!pressed->is_down) return;
-    pressed->button = event->button;
-    pressed->x = event->x;
-    pressed->y = event->y;
-    tell_pressed(pressed, event->mods, event->clicks == 2 ? "double-click" : clicks[event->button], true);
-}
-
-static void note_pointer(struct pressed *pressed, const struct event *event)
-{
     static const char *const drags[] = {
         [BUTTON_LEFT] = "drag", [BUTTON_RIGHT] = "right drag", [BUTTON_MIDDLE] = "middle drag"};
-    if (!pressed->is_down || pressed->is_drag) return;
-    pressed->is_drag = maths_hypotf(event->x - pressed->x, event->y - pressed->y) > DRAG_FROM;
-    if (pressed->is_drag) tell_pressed(pressed, event->mods, drags[pressed->button], false);
-}
-
-void dialogs_note(struct dialogs *dialogs, const struct event *event)
-{
     struct pressed *pressed = &dialogs->pressed;
     if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE)
         tell_pressed(pressed, event->mods, command_key_name(event->key), true);
     if (event->kind == EVENT_WHEEL) tell_pressed(pressed, event->mods, "wheel", false);
-    if (event->kind == EVENT_BUTTON) note_button(pressed, event);
-    if (event->kind == EVENT_POINTER) note_pointer(pressed, event);
+    if (event->kind == EVENT_BUTTON) {
+        pressed->is_down = event->action == ACTION_PRESS;
+        pressed->is_drag = false;
+    }
+    if (event->kind == EVENT_BUTTON && pressed->is_down) {
+        pressed->button = event->button;
+        pressed->x = event->x;
+        pressed->y = event->y;
+        tell_pressed(pressed, event->mods, event->clicks == 2 ? "double-click" : clicks[event->button], true);
+    }
+    if (event->kind == EVENT_POINTER && pressed->is_down && !pressed->is_drag) {
+        pressed->is_drag = maths_hypotf(event->x - pressed->x, event->y - pressed->y) > DRAG_FROM;
+        if (pressed->is_drag) tell_pressed(pressed, event->mods, drags[pressed->button], false);
+    }
     if (event->kind == EVENT_CAPTION) {
         pressed->is_demo = true;
         snprintf(dialogs->caption, sizeof dialogs->caption, "%s", event->text);
@@ -823,16 +798,6 @@ static void show_pill(struct core *core, float bottom, const char *text, float a
                       theme_fade(color, alpha), text);
 }
 
-/// The demo's pointer, ringed while a button is down.
-static void show_pointer(const struct pressed *pressed, struct core *core)
-{
-    const float x = pressed->pointer[0], y = pressed->pointer[1];
-    const float arrow[8] = {x, y, x, y + 17, x + 12, y + 12, x, y};
-    if (pressed->is_down) drawlist_circle(&core->list, pressed->pointer, 12, 2, theme()->accent);
-    drawlist_convex(&core->list, arrow, 3, theme()->text);
-    drawlist_line(&core->list, arrow, 4, 1, theme()->panel);
-}
-
 void dialogs_show_input(const struct dialogs *dialogs, struct core *core)
 {
     const struct pressed *pressed = &dialogs->pressed;
@@ -851,5 +816,10 @@ void dialogs_show_input(const struct dialogs *dialogs, struct core *core)
     }
     if (message->text[0] && core->presenter.on && core->presenter.below == 0) // the status line is hidden
         show_pill(core, bottom, message->text, 1, message->is_error ? theme()->error : theme()->text);
-    if (pressed->is_demo) show_pointer(pressed, core);
+    if (!pressed->is_demo) return;
+    const float x = pressed->pointer[0], y = pressed->pointer[1]; // ringed while a button is down
+    const float arrow[8] = {x, y, x, y + 17, x + 12, y + 12, x, y};
+    if (pressed->is_down) drawlist_circle(&core->list, pressed->pointer, 12, 2, theme()->accent);
+    drawlist_convex(&core->list, arrow, 3, theme()->text);
+    drawlist_line(&core->list, arrow, 4, 1, theme()->panel);
 }

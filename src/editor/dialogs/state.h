@@ -120,23 +120,6 @@ void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct reque
 /// Sends a request to the app; the dialog ignores input until dialogs_answer().
 void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
 
-/// The Export dialog's keys; true if used. They also arrive while the app is busy.
-bool export_key(struct dialogs *dialogs, struct core *core, int key);
-void export_build(struct dialogs *dialogs, struct core *core);
-
-enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
-
-/// Lays out the question; returns the pressed answer, or QUESTION_OPEN.
-int question_build(struct dialog *dialog);
-/// A key's effect: an answer, QUESTION_OPEN if it moved the choice, or QUESTION_UNUSED.
-int question_key(struct dialog *dialog, int key);
-
-/// Finds matching commands, those that can run now first. Without `core`: all rows of F1 in table order.
-void commands_find(const struct command_list *commands, const struct core *core, const struct ui_filter *filter,
-                   struct commands_found *found);
-/// Draws a text field with its text, or `empty` as a hint.
-void commands_show_field(struct drawlist *list, struct rect r, const struct ui_filter *filter, const char *empty);
-
 /// Typing searches, wheel and arrows scroll, Esc, Enter or a click closes. true for keys, text, buttons and wheel while it is open.
 bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
 void help_show(const struct dialogs *dialogs, struct core *core);
@@ -147,12 +130,5 @@ void palette_show(const struct dialogs *dialogs, struct core *core);
 
 /// A press on the card, Esc, an edit or F1 closes it; true if the event is used.
 bool welcome_event(struct dialogs *dialogs, const struct event *event);
-
-/// Whether an overlay with a text field uses the event: not pointer movements, nor releases of keys pressed before it opened.
-static inline bool typing_concerns(const struct event *event)
-{
-    const bool release = event->kind == EVENT_KEY && event->action == ACTION_RELEASE;
-    return !release && event->kind != EVENT_POINTER && event->kind <= EVENT_WHEEL;
-}
 
 #endif
