@@ -27,16 +27,12 @@ static bool set_angles(struct inspector *in, enum angle_kind kind, const struct 
     return edit_angles(in->core->document, (struct channel_place){in->rig, channel}, kind, angles, error);
 }
 
-bool inspector_set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles)
-{
-    return set_angles(in, kind, angles, &in->core->error);
-}
-
 /// As an undo step.
 static void change_angles(struct inspector *in, enum angle_kind kind, enum ui_change change, const char *label,
                           const char *what, const struct angles *angles)
 {
-    if (inspector_begin(in, change, label, what)) inspector_end(in, change, inspector_set_angles(in, kind, angles));
+    if (inspector_begin(in, change, label, what))
+        inspector_end(in, change, set_angles(in, kind, angles, &in->core->error));
 }
 
 /// Factor that extends a slider's ends to include its angle; constant during a drag.
@@ -114,15 +110,6 @@ static void build_slider(struct inspector *in, enum angle_kind kind, struct rect
     number.maximum = lags ? 720 : reach * number.maximum;
     if (several) number.fallback = NAN;
     inspector_number(in, &number, &home, (int)kind, r);
-}
-
-/// Converts the angles to one per joint.
-static struct angles each_angle(const struct angles *angles, enum angle_kind kind, int joints)
-{
-    struct angles next = {.form = ANGLES_EACH, .count = joints};
-    for (int n = 0; n < joints; n++)
-        next.value[n] = kind == ANGLE_LAG ? angles_lag(angles, n, joints) : angles_at(angles, n, joints);
-    return next;
 }
 
 /// One angle for all that changes the pose least: the mean, or for lags the last one divided evenly.
@@ -263,14 +250,6 @@ static struct ramp_point point_at(const struct angle_view *view, float x, float 
     return (struct ramp_point){round(fmin(fmax(at, 0), 1) * PLACES) / PLACES, angle_at(view, y)};
 }
 
-/// Keeps a point between its neighbours.
-static void move_point(struct angles *angles, int i, struct ramp_point point)
-{
-    const double low = i > 0 ? angles->ramp[i - 1].at + APART : 0;
-    const double high = i + 1 < angles->count ? angles->ramp[i + 1].at - APART : 1;
-    angles->ramp[i] = (struct ramp_point){fmin(fmax(point.at, low), high), point.angle};
-}
-
 static void change_point(struct inspector *in, const struct angle_view *view, enum ui_change change, int which)
 {
     const struct ui_handle *handle = &view->handles[which];
@@ -281,33 +260,10 @@ static void change_point(struct inspector *in, const struct angle_view *view, en
         point.at += handle->step_x / PLACES;
         point.angle += handle->step_y * rows[view->kind].step;
     }
-    move_point(&next, which, point);
+    const double low = which > 0 ? next.ramp[which - 1].at + APART : 0; // between its neighbours
+    const double high = which + 1 < next.count ? next.ramp[which + 1].at - APART : 1;
+    next.ramp[which] = (struct ramp_point){fmin(fmax(point.at, low), high), point.angle};
     change_angles(in, view->kind, change, rows[view->kind].undo, handle->name, &next);
-}
-
-static void add_point(struct inspector *in, const struct angle_view *view, struct ramp_point point)
-{
-    struct angles next = *view->angles;
-    int i = 0;
-    while (i < next.count && next.ramp[i].at < point.at) i++;
-    const bool close =
-        (i > 0 && point.at - next.ramp[i - 1].at < APART) || (i < next.count && next.ramp[i].at - point.at < APART);
-    if (close || next.count == RAMP_MAX_POINTS) return;
-    for (int k = next.count++; k > i; k--) next.ramp[k] = next.ramp[k - 1];
-    next.ramp[i] = point;
-    change_angles(in, view->kind, UI_SET, "Add point", NULL, &next);
-}
-
-static void remove_point(struct inspector *in, const struct angle_view *view, int which)
-{
-    struct angles next = *view->angles;
-    if (next.count <= 2) {
-        core_message(in->core, false, "A ramp needs at least two points.");
-        return;
-    }
-    next.count--;
-    for (int k = which; k < next.count; k++) next.ramp[k] = next.ramp[k + 1];
-    change_angles(in, view->kind, UI_SET, "Remove point", NULL, &next);
 }
 
 /// The point to remove: under a right click, or focused when Del is pressed; −1: none.
@@ -338,35 +294,24 @@ static void take_event(struct inspector *in, const struct angle_view *view)
     const bool adds = press && event->clicks == 2 && ui_hovered(ui, view->box);
     if (removed < 0 && !adds) return;
     ui->used = true;
+    struct angles next = *view->angles;
     if (adds) {
-        add_point(in, view, point_at(view, event->x, event->y));
+        const struct ramp_point point = point_at(view, event->x, event->y);
+        int i = 0;
+        while (i < next.count && next.ramp[i].at < point.at) i++;
+        const bool close = (i > 0 && point.at - next.ramp[i - 1].at < APART) ||
+                           (i < next.count && next.ramp[i].at - point.at < APART);
+        if (close || next.count == RAMP_MAX_POINTS) return;
+        for (int k = next.count++; k > i; k--) next.ramp[k] = next.ramp[k - 1];
+        next.ramp[i] = point;
+    } else if (next.count > 2) {
+        next.count--;
+        for (int k = removed; k < next.count; k++) next.ramp[k] = next.ramp[k + 1];
     } else {
-        remove_point(in, view, removed);
+        core_message(in->core, false, "A ramp needs at least two points.");
+        return;
     }
-}
-
-static void build_ramp(struct inspector *in, struct angle_view *view)
-{
-    int which = 0;
-    ui_hint(&in->ui, view->box, "From the first joint to the tip; double-click adds a point");
-    const enum ui_change change = ui_handles(&in->ui, view->box, view->handles, view->handle_count, &which);
-    if (change != UI_NONE) {
-        change_point(in, view, change, which);
-    } else if (in->ui.pass == UI_PASS_EVENT) {
-        take_event(in, view);
-    }
-}
-
-/// A ramp from the first joint's angle to the last one's.
-static struct angles as_ramp(const struct angles *angles, enum angle_kind kind, int joints)
-{
-    struct angles ramp = {.form = ANGLES_RAMP, .count = 2};
-    for (int i = 0; i < 2; i++) {
-        const int joint = i * (joints - 1);
-        const double angle = kind == ANGLE_LAG ? angles_lag(angles, joint, joints) : angles_at(angles, joint, joints);
-        ramp.ramp[i] = (struct ramp_point){i, angle};
-    }
-    return ramp;
+    change_angles(in, view->kind, UI_SET, adds ? "Add point" : "Remove point", NULL, &next);
 }
 
 static int joint_at(const struct angle_view *view, float x)
@@ -374,18 +319,6 @@ static int joint_at(const struct angle_view *view, float x)
     const int last = view->angles->count - 1;
     const float joint = roundf((x - view->plot.x) / view->plot.w * (float)last);
     return (int)fminf(fmaxf(joint, 0), (float)last);
-}
-
-/// A press selects the joint below it and starts drawing there.
-static void take_press(struct inspector *in, struct angle_view *view)
-{
-    const struct event *event = in->ui.event;
-    const bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS && event->button == BUTTON_LEFT;
-    if (!press || in->ui.used || in->ui.held || !ui_hovered(&in->ui, view->box)) return;
-    in->joint[view->kind] = joint_at(view, event->x);
-    in->drawn = *view->angles;
-    in->drawn_x = view->handles->x = event->x;
-    in->drawn_y = view->handles->y = event->y;
 }
 
 /// Puts all joints between the last pointer position and this one on a line.
@@ -423,7 +356,15 @@ static void build_each(struct inspector *in, struct angle_view *view)
     struct ui *ui = &in->ui;
     int which;
     ui_hint(ui, view->box, view->handles->hint);
-    if (ui->pass == UI_PASS_EVENT) take_press(in, view);
+    const struct event *event = ui->event;
+    const bool press = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
+                       event->button == BUTTON_LEFT;
+    if (press && !ui->used && !ui->held && ui_hovered(ui, view->box)) { // selects the joint and starts drawing there
+        in->joint[view->kind] = joint_at(view, event->x);
+        in->drawn = *view->angles;
+        in->drawn_x = view->handles->x = event->x;
+        in->drawn_y = view->handles->y = event->y;
+    }
     const enum ui_change change = ui_handles(ui, view->box, view->handles, 1, &which);
     if (is_held(view, ui)) ui->focus = ui->held; // arrow keys then move the pressed point
     if (change == UI_NUDGE) {
@@ -443,22 +384,6 @@ static bool set_joint(struct inspector *in, int kind, double number, struct erro
     return set_angles(in, (enum angle_kind)kind, &next, error);
 }
 
-static void build_joint(struct inspector *in, enum angle_kind kind)
-{
-    static const struct number_home home = {.get = get_joint, .set = set_joint};
-    struct number_row number = rows[kind];
-    char name[NAME], label[NAME];
-    snprintf(name, NAME, "%s.joint", number.name);
-    snprintf(label, NAME, "joint %d", in->joint[kind] + 1);
-    number.name = name;
-    number.label = label;
-    number.unit = unit_of(in, (int)kind);
-    number.hint = "Angle of the joint selected in the curve above";
-    number.minimum = number.maximum = 0; // no bar
-    number.fallback = NAN;
-    inspector_number(in, &number, &home, (int)kind, ui_row(&in->ui, UI_ROW));
-}
-
 /// The curve of several angles, and for per-joint angles the selected joint's number.
 static void build_curve(struct inspector *in, enum angle_kind kind, const struct angles *angles)
 {
@@ -468,28 +393,42 @@ static void build_curve(struct inspector *in, enum angle_kind kind, const struct
     lay_out(in, &view);
     if (in->ui.pass == UI_PASS_DRAW) draw(in, &view);
     if (angles->form == ANGLES_RAMP) {
-        build_ramp(in, &view);
-    } else {
-        build_each(in, &view);
-        build_joint(in, kind);
+        int which = 0;
+        ui_hint(&in->ui, view.box, "From the first joint to the tip; double-click adds a point");
+        const enum ui_change change = ui_handles(&in->ui, view.box, view.handles, view.handle_count, &which);
+        if (change != UI_NONE) {
+            change_point(in, &view, change, which);
+        } else if (in->ui.pass == UI_PASS_EVENT) {
+            take_event(in, &view);
+        }
+        return;
     }
-}
 
-static float curve_height(const struct angles *angles)
-{
-    static const int heights[] = {[ANGLES_ONE] = 0, [ANGLES_RAMP] = HEIGHT, [ANGLES_EACH] = HEIGHT + UI_ROW};
-    return (float)heights[angles->form];
+    static const struct number_home home = {.get = get_joint, .set = set_joint};
+    build_each(in, &view);
+    struct number_row number = rows[kind];
+    char name[NAME], label[NAME];
+    snprintf(name, NAME, "%s.joint", number.name);
+    snprintf(label, NAME, "joint %d", *joint + 1);
+    number.name = name;
+    number.label = label;
+    number.unit = unit_of(in, (int)kind);
+    number.hint = "Angle of the joint selected in the curve above";
+    number.minimum = number.maximum = 0; // no bar
+    number.fallback = NAN;
+    inspector_number(in, &number, &home, (int)kind, ui_row(&in->ui, UI_ROW));
 }
 
 float inspector_highest_curve(const struct inspector *in, enum angle_kind kind)
 {
+    static const float heights[] = {[ANGLES_ONE] = 0, [ANGLES_RAMP] = HEIGHT, [ANGLES_EACH] = HEIGHT + UI_ROW};
     const struct document *document = in->core->document;
     float highest = 0;
     for (int r = 0; in->core->more && r < document->rig_count; r++) {
         int count;
         const struct channel *channels = rig_channels(document->rigs[r], &count);
         for (int c = 0; c < count; c++)
-            highest = fmaxf(highest, curve_height(kind == ANGLE_LAG ? &channels[c].lag : &channels[c].gain));
+            highest = fmaxf(highest, heights[kind == ANGLE_LAG ? channels[c].lag.form : channels[c].gain.form]);
     }
     return highest;
 }
@@ -502,7 +441,10 @@ void inspector_angles(struct inspector *in, enum angle_kind kind)
     build_slider(in, kind, in->core->more ? (struct rect){r.x, r.y, left.x - r.x - 2, r.h} : r);
     if (!in->core->more) return;
     const struct angles *angles = angles_of(in, (int)kind);
-    const struct angles ramp = as_ramp(angles, kind, joints), each = each_angle(angles, kind, joints);
+    struct angles ramp = {.form = ANGLES_RAMP, .count = 2}, each = {.form = ANGLES_EACH, .count = joints};
+    for (int n = 0; n < joints; n++)
+        each.value[n] = kind == ANGLE_LAG ? angles_lag(angles, n, joints) : angles_at(angles, n, joints);
+    for (int i = 0; i < 2; i++) ramp.ramp[i] = (struct ramp_point){i, each.value[i * (joints - 1)]};
     if (build_switch(in, kind, angles, &ramp, left) || build_switch(in, kind, angles, &each, right)) return;
     const struct angles now = *angles; // an edit may free them while they are shown
     if (now.form != ANGLES_ONE) build_curve(in, kind, &now);

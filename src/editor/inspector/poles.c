@@ -207,16 +207,13 @@ static const float margin_left = 26, margin_bottom = 15; // of a plot, for its n
 
 static const char *const filter_name[FILTER_KINDS] = {"two-pole real", "four-pole real", "two-pole complex"};
 
-static bool same_setting(const struct pole_setting *a, const struct pole_setting *b)
-{
-    return a->kind == b->kind && a->hz == b->hz && a->damping == b->damping && a->bandwidth == b->bandwidth &&
-           a->step == b->step;
-}
-
 /// Recomputes the responses for a setting with a frequency above 0.
 static void poles_update(struct poles_view *view, const struct pole_setting *setting)
 {
-    if (same_setting(&view->setting, setting)) return;
+    const struct pole_setting *old = &view->setting;
+    if (old->kind == setting->kind && old->hz == setting->hz && old->damping == setting->damping &&
+        old->bandwidth == setting->bandwidth && old->step == setting->step)
+        return;
     view->setting = *setting;
     view->span = fmin(0.5 / setting->step, 3 * setting->hz);
     for (int kind = 0; kind < FILTER_KINDS; kind++) {
@@ -228,18 +225,6 @@ static void poles_update(struct poles_view *view, const struct pole_setting *set
             view->decibels[kind][i] = (float)(filter_decibels(&filter, hz) - view->band[kind].peak);
         }
     }
-}
-
-/// Chooses the inset's scale.
-static void poles_fit(struct poles_view *view, const struct pole_setting *setting)
-{
-    static const double nice[] = {1, 1.5, 2, 3, 4, 6, 8, 10};
-    double wanted = fmax(0.05, 1.3 * setting->hz * (1 + setting->bandwidth)),
-           decade = maths_power_of_ten(maths_decade(wanted));
-    int i = 0;
-    while (i < 7 && nice[i] * decade < wanted) i++;
-    view->reach = nice[i] * decade;
-    view->top = setting->damping > 1 ? 3 : 1;
 }
 
 static float poles_x(const struct poles_view *view, struct rect inset, double hz)
@@ -416,16 +401,6 @@ static double value_now(const struct inspector *in, const struct spline *spline,
     return core_parameter_at(in->core, spline, parameter, document_sample(in->core->document, core_frame(in->core)));
 }
 
-static struct pole_setting setting_of(const struct inspector *in, const struct spline *spline)
-{
-    struct pole_setting setting = {.kind = spline_mode(spline) == WIGGLY_REAL ? FILTER_TWO_REAL : FILTER_TWO_COMPLEX,
-                                   .bandwidth = value_now(in, spline, PARAMETER_BANDWIDTH),
-                                   .step = document_step(in->core->document)};
-    setting.hz = value_now(in, spline, PARAMETER_FREQUENCY);
-    setting.damping = value_now(in, spline, PARAMETER_DAMPING);
-    return setting;
-}
-
 enum { HANDLE_CENTRE, HANDLE_LOWER, HANDLE_UPPER, HANDLES };
 
 static double rounded(double value, double steps) { return round(value * steps) / steps; }
@@ -436,14 +411,6 @@ static bool set_pole(struct inspector *in, enum parameter parameter, double numb
     const struct spline *spline = core_active_spline(in->core);
     return spline->parameter[parameter].track >= 0 ||
            core_set_parameter(in->core, in->core->active, parameter, number);
-}
-
-/// Applies a setting after a handle moved.
-static bool set_poles(struct inspector *in, const struct pole_setting *setting, int which)
-{
-    return (which != HANDLE_CENTRE || set_pole(in, PARAMETER_FREQUENCY, rounded(setting->hz, 100))) &&
-           set_pole(in, PARAMETER_DAMPING, rounded(setting->damping, 1000)) &&
-           (which == HANDLE_CENTRE || set_pole(in, PARAMETER_BANDWIDTH, rounded(setting->bandwidth, 1000)));
 }
 
 /// The setting after a handle moved.
@@ -492,13 +459,11 @@ static void build_inset(struct inspector *in, const struct pole_setting *setting
     enum ui_change change = ui_handles(&in->ui, row, handles, count, &which);
     if (change == UI_NONE || !inspector_begin(in, change, "Move poles", handles[which].name)) return;
     const struct pole_setting wanted = moved_to(in, *setting, inset, which, change, &handles[which]);
-    inspector_end(in, change, set_poles(in, &wanted, which));
-}
-
-static bool is_held(const struct ui *ui)
-{
-    return ui->held && (ui->held == ui_id(ui, "pole.centre") || ui->held == ui_id(ui, "pole.lower") ||
-                        ui->held == ui_id(ui, "pole.upper"));
+    const bool centre = which == HANDLE_CENTRE;
+    inspector_end(in, change,
+                  (!centre || set_pole(in, PARAMETER_FREQUENCY, rounded(wanted.hz, 100))) &&
+                      set_pole(in, PARAMETER_DAMPING, rounded(wanted.damping, 1000)) &&
+                      (centre || set_pole(in, PARAMETER_BANDWIDTH, rounded(wanted.bandwidth, 1000))));
 }
 
 void inspector_poles(struct inspector *in)
@@ -506,12 +471,26 @@ void inspector_poles(struct inspector *in)
     struct ui *ui = &in->ui;
     struct poles_view *view = &in->poles;
     struct spline *spline = core_active_spline(in->core);
-    struct pole_setting setting = setting_of(in, spline);
+    const struct pole_setting setting = {.kind = spline_mode(spline) == WIGGLY_REAL ? FILTER_TWO_REAL
+                                                                                    : FILTER_TWO_COMPLEX,
+                                         .hz = value_now(in, spline, PARAMETER_FREQUENCY),
+                                         .damping = value_now(in, spline, PARAMETER_DAMPING),
+                                         .bandwidth = value_now(in, spline, PARAMETER_BANDWIDTH),
+                                         .step = document_step(in->core->document)};
     if (spline_mode(spline) == WIGGLY_CUBIC || !(setting.hz > 0)) {
         ui_paragraph(ui, "Both poles are at 1 (frequency 0): a cubic does not swing.", theme()->text_dim);
         return;
     }
-    if (!is_held(ui)) poles_fit(view, &setting);
+    if (!ui->held || (ui->held != ui_id(ui, "pole.centre") && ui->held != ui_id(ui, "pole.lower") &&
+                      ui->held != ui_id(ui, "pole.upper"))) { // the inset's scale stays during a drag
+        static const double nice[] = {1, 1.5, 2, 3, 4, 6, 8, 10};
+        const double wanted = fmax(0.05, 1.3 * setting.hz * (1 + setting.bandwidth)),
+                     decade = maths_power_of_ten(maths_decade(wanted));
+        int i = 0;
+        while (i < 7 && nice[i] * decade < wanted) i++;
+        view->reach = nice[i] * decade;
+        view->top = setting.damping > 1 ? 3 : 1;
+    }
     poles_update(view, &setting);
     ui_space(ui, 4);
     struct rect top = ui_row(ui, CIRCLE);

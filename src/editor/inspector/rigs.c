@@ -440,7 +440,8 @@ static bool set_joints(struct inspector *in, int which, double number, struct er
     return edit_joints(in->core->document, in->rig, (int)lround(number), error);
 }
 
-void inspector_overlays(struct inspector *in)
+/// Switches for onion skin, motion arc and ghost.
+static void build_overlays(struct inspector *in)
 {
     struct core *core = in->core;
     const struct {
@@ -587,7 +588,7 @@ void inspector_tail(struct inspector *in)
         ui_hint(ui, r, "Record the next drag of the body as knots (or press R while dragging)");
         ui_toggle(ui, r, "record", &in->core->record_armed);
     }
-    inspector_overlays(in);
+    build_overlays(in);
 }
 
 const struct channel *inspector_felt_channel(const struct inspector *in)
@@ -863,7 +864,7 @@ void inspector_character(struct inspector *in)
         view->compare = pair;
         in->core->refit_stage = true;
     }
-    inspector_overlays(in);
+    build_overlays(in);
     build_brush(in);
 }
 

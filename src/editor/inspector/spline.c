@@ -291,15 +291,17 @@ static double damping_for(const struct spline *spline, double seconds, double st
     return high;
 }
 
-const struct spline *inspector_kept_spline(const struct inspector *in)
+/// The active spline as it was before, or NULL.
+static const struct spline *kept_spline(const struct inspector *in)
 {
     const int kept = take_spline(in->core, in->core->active);
     return kept >= 0 ? in->core->take.document->splines[kept] : NULL;
 }
 
-const struct spline *inspector_seen_spline(const struct inspector *in)
+/// The active spline as its numbers show it: as before while K is held.
+static const struct spline *seen_spline(const struct inspector *in)
 {
-    const struct spline *kept = take_is_shown(in->core) ? inspector_kept_spline(in) : NULL;
+    const struct spline *kept = take_is_shown(in->core) ? kept_spline(in) : NULL;
     return kept ? kept : core_active_spline(in->core);
 }
 
@@ -318,7 +320,7 @@ static double get_settle(const struct inspector *in, int which)
 
 static double was_settle(const struct inspector *in, int which)
 {
-    const struct spline *kept = inspector_kept_spline(in);
+    const struct spline *kept = kept_spline(in);
     (void)which;
     return kept ? seconds_of(in, kept) : NAN;
 }
@@ -334,7 +336,7 @@ static bool set_settle(struct inspector *in, int which, double seconds, struct e
 
 static const char *show_settle(const struct inspector *in, int which, char text[64])
 {
-    const struct spline *spline = inspector_seen_spline(in);
+    const struct spline *spline = seen_spline(in);
     (void)which, (void)text;
     return is_never(settle_alone(spline, document_step(in->core->document)).kind) ? "never" : NULL;
 }
@@ -389,7 +391,7 @@ static double get_wind_up(const struct inspector *in, int which)
 
 static double was_wind_up(const struct inspector *in, int which)
 {
-    const struct spline *kept = inspector_kept_spline(in);
+    const struct spline *kept = kept_spline(in);
     (void)which;
     if (!kept || !spline_uses(kept, PARAMETER_WIND_UP, false)) return NAN;
     const double periods = kept->parameter[PARAMETER_WIND_UP].value;
@@ -407,7 +409,7 @@ static bool set_wind_up(struct inspector *in, int which, double frames, struct e
 static const char *show_wind_up(const struct inspector *in, int which, char text[64])
 {
     (void)which, (void)text;
-    return inspector_seen_spline(in)->parameter[PARAMETER_WIND_UP].value > 0 ? NULL : "whole curve";
+    return seen_spline(in)->parameter[PARAMETER_WIND_UP].value > 0 ? NULL : "whole curve";
 }
 
 static void build_wind_up(struct inspector *in)
@@ -439,7 +441,7 @@ static void build_wind_up(struct inspector *in)
 /// The settling in one sentence.
 static void build_sentence(struct inspector *in)
 {
-    const struct spline *spline = inspector_seen_spline(in);
+    const struct spline *spline = seen_spline(in);
     const bool kept = spline != core_active_spline(in->core);
     const struct document *document = kept ? in->core->take.document : in->core->document;
     const struct evaluation *evaluation = kept ? &in->core->take.evaluation : in->core->evaluation;
@@ -547,7 +549,7 @@ static double get_parameter(const struct inspector *in, int parameter)
 
 static double was_parameter(const struct inspector *in, int parameter)
 {
-    const struct spline *kept = inspector_kept_spline(in);
+    const struct spline *kept = kept_spline(in);
     const bool has = kept && spline_uses(kept, (enum parameter)parameter, false);
     return has && !param_follows(&kept->parameter[parameter]) ? kept->parameter[parameter].value : NAN;
 }

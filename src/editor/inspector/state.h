@@ -95,10 +95,6 @@ int inspector_limb(const struct inspector *in);
 /// The title says what Feel acts on.
 const char *inspector_feel_title(struct inspector *in);
 
-/// The active spline as it was before, or NULL; and as its numbers show it: as before while K is held.
-const struct spline *inspector_kept_spline(const struct inspector *in);
-const struct spline *inspector_seen_spline(const struct inspector *in);
-
 /// A row for a parameter of the active spline, if its mode uses it.
 void inspector_parameter(struct inspector *in, enum parameter parameter);
 
@@ -205,9 +201,6 @@ int inspector_first_row(int count, int chosen, int most);
 /// Notes below a list that it has more rows.
 void inspector_more(struct inspector *in, int count, int most, const char *what);
 
-/// Switches for onion skin, motion arc and ghost.
-void inspector_overlays(struct inspector *in);
-
 void inspector_find_rig(struct inspector *in);
 /// The shown tail or chain, or NULL.
 const struct rig *inspector_shown(const struct inspector *in);
@@ -216,7 +209,5 @@ const struct rig *inspector_shown(const struct inspector *in);
 void inspector_angles(struct inspector *in, enum angle_kind kind);
 /// The height of the highest curve below such a row, among all channels.
 float inspector_highest_curve(const struct inspector *in, enum angle_kind kind);
-/// Replaces the angles in one edit.
-bool inspector_set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles);
 
 #endif
