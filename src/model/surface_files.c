@@ -13,7 +13,7 @@
 
 // --- OBJ, and the materials that it names
 
-enum { TEXT_LIMIT = 16 << 20, OBJ_SHOWN_MAX = 24, LIBRARY_NAME = 256 };
+enum { TEXT_LIMIT = 16 << 20, SHOWN_MAX = 24, LIBRARY_NAME = 256 };
 enum { TELLING = 1 << 16 }; ///< lines between two progress reports
 
 /// A text being read, line by line.
@@ -157,7 +157,7 @@ static bool obj_expected(const struct obj_reader *r, const char *what, const cha
     int shown = (int)strcspn(got, " \t\r");
     if (shown == 0)
         return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got nothing", r->path, r->lines.number, what);
-    if (shown > OBJ_SHOWN_MAX) shown = OBJ_SHOWN_MAX;
+    if (shown > SHOWN_MAX) shown = SHOWN_MAX;
     return fail(r->error, ERROR_INPUT, "%s:%d: expected %s, got '%.*s'", r->path, r->lines.number, what, shown, got);
 }
 
