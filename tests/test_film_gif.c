@@ -1,7 +1,7 @@
 /// A .gif is read back by ImageMagick: pictures of few colors exactly, whatever their size and whatever changes.
 #include "folder.h"
 
-#include "app/film_file.h"
+#include "app/film.h"
 #include "platform/platform.h"
 #include <stdint.h>
 #include <stdlib.h>

@@ -4,7 +4,7 @@
 #include "folder.h"
 #include "traced.h"
 
-#include "app/film_file.h"
+#include "app/film.h"
 #include "app/recovery.h"
 #include "base/file.h"
 #include "commands/commands.h"

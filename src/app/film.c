@@ -1,15 +1,736 @@
-/// Films a scene: chooses frames and size, and draws the pictures.
+/// Films a scene: chooses frames and size, draws the pictures and writes them as .gif, with ffmpeg or as numbered files.
 #include "app/film.h"
-#include "app/film_file.h"
 #include "base/file.h"
 #include "base/need.h"
+#include "base/png.h"
 #include "draw/draw.h"
 #include "editor/editor.h"
 #include "platform/platform.h"
+#include <ctype.h>
+#include <errno.h>
+#include <limits.h>
 #include <math.h>
+#include <poll.h>
+#include <signal.h>
+#include <spawn.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+// === .gif (version 89a): each picture with colors of its own and only where it differs from the last
+
+/// LZW as GIF has it: codes of 9 to 12 bits, low bits first, in blocks of up to 255 bytes.
+enum { CLEAR = 256, END, FIRST_CODE, CODES = 4096, PLACES = 16384 };
+
+struct lzw {
+    FILE *stream;
+    uint32_t keys[PLACES]; ///< a code and the index after it; 0: free
+    uint16_t codes[PLACES];
+    int next, width; ///< the next new code; bits a code
+    uint32_t bits;
+    int bit_count;
+    unsigned char block[256]; ///< its size first
+};
+
+// Few colors for a picture: the box of colors that spreads most is cut at its mean until there are enough boxes
+// (a kin of median cut). Three quarters of each error are diffused as by Floyd and Steinberg; more would build up and make specks.
+
+enum { PALETTE_COLORS = 255 };
+
+struct palette {
+    unsigned char colors[PALETTE_COLORS][3]; ///< by rising green
+    int count;
+};
+
+/// Colors are counted in cells of 4 × 4 × 4.
+enum { CELL_BITS = 6, CELLS = 1 << 3 * CELL_BITS, SHIFT = 8 - CELL_BITS };
+
+/// How much the eye sees of each channel.
+static const int WEIGHT[3] = {2, 4, 3};
+
+/// The pixels of a cell.
+struct cell {
+    uint32_t count, sum[3];
+};
+
+/// A color that occurs, and how often.
+struct color {
+    float count, value[3];
+};
+
+struct box {
+    int first, count; ///< of the colors
+    float mean[3], spread;
+    int widest; ///< the channel that spreads most
+};
+
+struct film_file {
+    const char *path;
+    struct film_shape shape;
+    struct file_output output; ///< of .gif and ffmpeg
+    long written;              ///< pictures, of .gif and .png
+
+    // .gif
+    unsigned char *last; ///< the pixels as they were when each was last written
+    bool *drawn;
+    unsigned char *indices;
+    struct cell *cells;
+    struct color *colors;
+    int *errors; ///< of this row of pixels and the next, with one more at both ends, in sixteenths
+    struct lzw lzw;
+
+    // ffmpeg
+    size_t size, taken; ///< bytes per picture; bytes of the current picture already sent
+    pid_t process;      ///< 0: ended and waited for
+    int feed;           ///< our end of its standard input; −1: closed
+    FILE *log;          ///< its standard error
+
+    // .png
+    int before, digits; ///< bytes of the path before the number; least number of digits; −1: no number
+    const char *after;  ///< the path after the number
+    char *folder;       ///< temporary
+    int lock;           ///< descriptor of the folder's lock
+};
+
+enum { TRANSPARENT = PALETTE_COLORS, LONGEST = 65535 };
+/// Steps of a channel that nobody sees. Without them a film of the fox has 120 % of the bytes.
+enum { NOT_SEEN = 1 };
+
+// --- compression
+
+static void put_block(struct lzw *lzw)
+{
+    fwrite(lzw->block, 1, lzw->block[0] + 1U, lzw->stream);
+    lzw->block[0] = 0;
+}
+
+/// Writes what is there of the bits, down to less than `least`.
+static void put_bits(struct lzw *lzw, int least)
+{
+    for (; lzw->bit_count >= least; lzw->bit_count -= 8) {
+        lzw->block[++lzw->block[0]] = (unsigned char)lzw->bits;
+        lzw->bits >>= 8;
+        if (lzw->block[0] == 255) put_block(lzw);
+    }
+}
+
+static void put_code(struct lzw *lzw, int code)
+{
+    lzw->bits |= (uint32_t)code << lzw->bit_count;
+    lzw->bit_count += lzw->width;
+    put_bits(lzw, 8);
+}
+
+/// A code of indices, after which the reader has one code more.
+static void put_string(struct lzw *lzw, int code)
+{
+    put_code(lzw, code);
+    if (lzw->next == 1 << lzw->width) lzw->width++;
+}
+
+static void clear_codes(struct lzw *lzw)
+{
+    put_code(lzw, CLEAR);
+    memset(lzw->keys, 0, sizeof lzw->keys);
+    lzw->next = FIRST_CODE;
+    lzw->width = 9;
+}
+
+/// The place of a key, or the free one where it belongs.
+static int find_place(const struct lzw *lzw, uint32_t key)
+{
+    uint32_t place = key * 2654435761U >> 18;
+    while (lzw->keys[place] && lzw->keys[place] != key) place = (place + 1) % PLACES;
+    return (int)place;
+}
+
+/// Adds an index after the indices that `code` stands for. Returns the code of what is not yet written.
+static int add_index(struct lzw *lzw, int code, unsigned char index)
+{
+    const uint32_t key = ((uint32_t)code << 8 | index) + 1;
+    const int place = find_place(lzw, key);
+    if (lzw->keys[place]) return lzw->codes[place];
+    put_string(lzw, code);
+    if (lzw->next == CODES - 1) {
+        clear_codes(lzw);
+    } else {
+        lzw->keys[place] = key;
+        lzw->codes[place] = (uint16_t)lzw->next++;
+    }
+    return index;
+}
+
+// --- the file, and what differs from the last picture
+
+static void put_short(FILE *stream, long value)
+{
+    putc((int)(value & 255), stream);
+    putc((int)(value >> 8 & 255), stream);
+}
+
+static void close_gif(struct film_file *file)
+{
+    file_output_discard(&file->output);
+    free(file->cells);
+    free(file->colors);
+    free(file->errors);
+    free(file->last);
+    free(file->drawn);
+    free(file->indices);
+    free(file);
+}
+
+static struct film_file *open_gif(const char *path, const struct film_shape *shape, struct error *error)
+{
+    struct film_file *file = need_zeroed(1, sizeof *file);
+    const size_t pixels = (size_t)shape->width * (size_t)shape->height;
+    file->shape = *shape;
+    file->last = need(pixels, 4);
+    file->drawn = need(pixels, sizeof *file->drawn);
+    file->indices = need(pixels, 1);
+    file->cells = need(CELLS, sizeof *file->cells);
+    file->colors = need(pixels < CELLS ? pixels : CELLS, sizeof *file->colors);
+    file->errors = need(2 * 3 * ((size_t)shape->width + 2), sizeof *file->errors);
+    if (!file_output_open(&file->output, path, error)) {
+        close_gif(file);
+        return NULL;
+    }
+    FILE *stream = file->lzw.stream = file->output.stream;
+    fputs("GIF89a", stream);
+    put_short(stream, shape->width);
+    put_short(stream, shape->height);
+    fwrite("\x70\0\0", 1, 3, stream);                               // no colors for all pictures
+    fwrite("\x21\xff\x0bNETSCAPE2.0\x03\x01\0\0\0", 1, 19, stream); // forever
+    return file;
+}
+
+struct rectangle {
+    int left, top, right, bottom; ///< the latter two are not within
+};
+
+static bool differs(const unsigned char *a, const unsigned char *b)
+{
+    return abs(a[0] - b[0]) > NOT_SEEN || abs(a[1] - b[1]) > NOT_SEEN || abs(a[2] - b[2]) > NOT_SEEN;
+}
+
+/// Notes in `drawn` the pixels that differ, and returns where they are.
+static struct rectangle find_changed(struct film_file *file, const unsigned char *pixels)
+{
+    const int width = file->shape.width, height = file->shape.height;
+    struct rectangle r = {width, height, 0, 0};
+    for (int y = 0; y < height; y++) {
+        for (int x = 0; x < width; x++) {
+            const size_t i = (size_t)y * (size_t)width + (size_t)x;
+            file->drawn[i] = file->written == 0 || differs(pixels + 4 * i, file->last + 4 * i);
+            if (!file->drawn[i]) continue;
+            memcpy(file->last + 4 * i, pixels + 4 * i, 4);
+            r.left = x < r.left ? x : r.left;
+            r.right = x >= r.right ? x + 1 : r.right;
+            r.top = y < r.top ? y : r.top;
+            r.bottom = y + 1;
+        }
+    }
+    return r.right > 0 ? r : (struct rectangle){0, 0, 1, 1};
+}
+
+// --- colors
+
+static int count_colors(struct film_file *file, const unsigned char *pixels)
+{
+    const size_t pixel_count = (size_t)file->shape.width * (size_t)file->shape.height;
+    int count = 0;
+    memset(file->cells, 0, CELLS * sizeof *file->cells);
+    for (size_t i = 0; i < pixel_count; i++) {
+        if (!file->drawn[i]) continue;
+        const unsigned char *p = pixels + 4 * i;
+        struct cell *cell =
+            &file->cells[(p[0] >> SHIFT) << 2 * CELL_BITS | (p[1] >> SHIFT) << CELL_BITS | p[2] >> SHIFT];
+        cell->count++;
+        for (int c = 0; c < 3; c++) cell->sum[c] += p[c];
+    }
+    for (int i = 0; i < CELLS; i++) {
+        const struct cell *cell = &file->cells[i];
+        if (!cell->count) continue;
+        struct color *color = &file->colors[count++];
+        color->count = (float)cell->count;
+        for (int c = 0; c < 3; c++) color->value[c] = (float)cell->sum[c] / color->count;
+    }
+    return count;
+}
+
+static struct box measure_box(const struct color *colors, int first, int count)
+{
+    struct box box = {first, count, {0}, 0, 0};
+    float pixels = 0, widest = 0;
+    for (int i = first; i < first + count; i++) {
+        pixels += colors[i].count;
+        for (int c = 0; c < 3; c++) box.mean[c] += colors[i].count * colors[i].value[c];
+    }
+    for (int c = 0; c < 3; c++) {
+        float spread = 0;
+        box.mean[c] /= pixels;
+        for (int i = first; i < first + count; i++) {
+            const float off = colors[i].value[c] - box.mean[c];
+            spread += colors[i].count * off * off;
+        }
+        spread *= (float)WEIGHT[c];
+        box.spread += spread;
+        if (spread <= widest) continue;
+        widest = spread;
+        box.widest = c;
+    }
+    return box;
+}
+
+/// Moves the colors below the mean to the front. Returns how many.
+static int cut_box(struct color *colors, const struct box *box)
+{
+    int below = 0;
+    for (int i = 0; i < box->count; i++) {
+        struct color *color = &colors[box->first + i], *place = &colors[box->first + below];
+        if (color->value[box->widest] >= box->mean[box->widest]) continue;
+        const struct color moved = *color;
+        *color = *place;
+        *place = moved;
+        below++;
+    }
+    return below;
+}
+
+static int by_green(const void *a, const void *b)
+{
+    const unsigned char *x = a, *y = b;
+    return x[1] != y[1] ? x[1] - y[1] : x[0] != y[0] ? x[0] - y[0] : x[2] - y[2];
+}
+
+/// The colors that suit the drawn pixels best.
+static void choose_colors(struct film_file *file, const unsigned char *pixels, struct palette *palette)
+{
+    const int colors = count_colors(file, pixels);
+    palette->count = 0;
+    if (colors == 0) return;
+    struct box boxes[PALETTE_COLORS] = {measure_box(file->colors, 0, colors)};
+    int count = 1;
+    while (count < PALETTE_COLORS) {
+        struct box *most = boxes;
+        for (int b = 1; b < count; b++) {
+            if (boxes[b].spread > most->spread) most = &boxes[b];
+        }
+        const int below = most->spread > 0 ? cut_box(file->colors, most) : 0;
+        if (below == 0) break;
+        boxes[count++] = measure_box(file->colors, most->first + below, most->count - below);
+        *most = measure_box(file->colors, most->first, below);
+    }
+    palette->count = count;
+    for (int b = 0; b < count; b++) {
+        for (int c = 0; c < 3; c++) palette->colors[b][c] = (unsigned char)(boxes[b].mean[c] + 0.5f);
+    }
+    qsort(palette->colors, (size_t)count, sizeof *palette->colors, by_green);
+}
+
+/// The nearest color. `from[green]` is the first color of at least this green.
+static int nearest(const struct palette *palette, const int from[256], const int wanted[3])
+{
+    int best = 0, least = INT_MAX;
+    for (int step = -1; step <= 1; step += 2) {
+        for (int i = from[wanted[1]] - (step < 0); i >= 0 && i < palette->count; i += step) {
+            const unsigned char *color = palette->colors[i];
+            const int red = color[0] - wanted[0], green = color[1] - wanted[1], blue = color[2] - wanted[2];
+            if (WEIGHT[1] * green * green >= least) break; // as are all beyond
+            const int off = WEIGHT[0] * red * red + WEIGHT[1] * green * green + WEIGHT[2] * blue * blue;
+            if (off >= least) continue;
+            least = off;
+            best = i;
+        }
+    }
+    return best;
+}
+
+/// Writes the index of a color for each drawn pixel. Neighbours make up for what a color is off by.
+static void choose_indices(struct film_file *file, const unsigned char *pixels, const struct palette *palette)
+{
+    int from[256];
+    for (int green = 0, i = 0; green < 256; green++) {
+        while (i < palette->count && palette->colors[i][1] < green) i++;
+        from[green] = i;
+    }
+    const size_t row = 3 * ((size_t)file->shape.width + 2);
+    int *here = file->errors, *below = here + row;
+    memset(here, 0, 2 * row * sizeof *here);
+    for (int y = 0; y < file->shape.height; y++) {
+        for (int x = 0; x < file->shape.width; x++) {
+            const size_t i = (size_t)y * (size_t)file->shape.width + (size_t)x;
+            int *error = here + 3 * (x + 1), *next = below + 3 * (x + 1), wanted[3];
+            if (!file->drawn[i]) continue;
+            for (int c = 0; c < 3; c++) {
+                wanted[c] = pixels[4 * i + (size_t)c] + (3 * error[c] + (error[c] >= 0 ? 32 : -32)) / 64;
+                wanted[c] = wanted[c] < 0 ? 0 : wanted[c] > 255 ? 255 : wanted[c];
+            }
+            file->indices[i] = (unsigned char)nearest(palette, from, wanted);
+            for (int c = 0; c < 3; c++) {
+                const int off = wanted[c] - palette->colors[file->indices[i]][c];
+                error[c + 3] += 7 * off;
+                next[c - 3] += 3 * off;
+                next[c] += 5 * off;
+                next[c + 3] += off;
+            }
+        }
+        int *swap = here;
+        here = below;
+        below = swap;
+        memset(below, 0, row * sizeof *below);
+    }
+}
+
+// --- pictures
+
+static void put_pixels(struct film_file *file, const struct rectangle *r)
+{
+    struct lzw *lzw = &file->lzw;
+    int code = -1;
+    putc(8, lzw->stream); // bits an index
+    lzw->bit_count = 0;
+    lzw->width = 9;
+    clear_codes(lzw);
+    for (int y = r->top; y < r->bottom; y++) {
+        const unsigned char *row = file->indices + (size_t)y * (size_t)file->shape.width;
+        for (int x = r->left; x < r->right; x++) code = code < 0 ? row[x] : add_index(lzw, code, row[x]);
+    }
+    put_string(lzw, code);
+    put_code(lzw, END);
+    put_bits(lzw, 1);
+    if (lzw->block[0]) put_block(lzw);
+    putc(0, lzw->stream);
+}
+
+/// When a picture begins, in hundredths of a second.
+static long begins(const struct film_file *file, long picture)
+{
+    return lround(100 * (double)picture / file->shape.rate);
+}
+
+static enum film_state put_gif(struct film_file *file, const unsigned char *pixels, bool wait, struct error *error)
+{
+    (void)wait;
+    FILE *stream = file->output.stream;
+    struct palette palette;
+    const struct rectangle r = find_changed(file, pixels);
+    memset(file->indices, TRANSPARENT, (size_t)file->shape.width * (size_t)file->shape.height);
+    choose_colors(file, pixels, &palette);
+    choose_indices(file, pixels, &palette);
+    fwrite("\x21\xf9\x04\x05", 1, 4, stream); // on top of the last; with transparency
+    const long time = begins(file, file->written + 1) - begins(file, file->written);
+    put_short(stream, time < LONGEST ? time : LONGEST);
+    putc(TRANSPARENT, stream);
+    putc(0, stream);
+    putc(',', stream);
+    put_short(stream, r.left);
+    put_short(stream, r.top);
+    put_short(stream, r.right - r.left);
+    put_short(stream, r.bottom - r.top);
+    putc(0x87, stream); // 256 colors of its own
+    fwrite(palette.colors, 3, (size_t)palette.count, stream);
+    for (int c = palette.count; c < 256; c++) fwrite("\0\0\0", 1, 3, stream);
+    put_pixels(file, &r);
+    file->written++;
+    return !ferror(stream) || file_output_commit(&file->output, error) ? FILM_DONE : FILM_FAILED;
+}
+
+static enum film_state finish_gif(struct film_file *file, bool wait, off_t *bytes, struct error *error)
+{
+    (void)wait;
+    putc(';', file->output.stream);
+    *bytes = ftello(file->output.stream);
+    return file_output_commit(&file->output, error) ? FILM_DONE : FILM_FAILED;
+}
+
+const struct film_file_kind film_gif = {open_gif, put_gif, finish_gif, close_gif};
+
+// === ffmpeg, which reads raw pictures from standard input and writes a temporary file
+
+enum { MAX_ARGUMENTS = 48 };
+/// Longest wait in milliseconds before a caller can check whether it should end.
+enum { PATIENCE = 100 };
+
+/// ffmpeg writes to its standard output, here a seekable file because .mp4 needs to seek back.
+static char output_name[] = "/dev/fd/1";
+
+/// Starts ffmpeg from PATH, without a shell and shielded from the terminal's Ctrl+C. Returns 0 or errno.
+static int spawn(struct film_file *file, char *const *arguments, int input)
+{
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    sigset_t none, usual;
+    sigemptyset(&none);
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGINT);
+    sigaddset(&usual, SIGPIPE);
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files, fileno(file->output.stream), STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, fileno(file->log), STDERR_FILENO);
+    posix_spawnattr_init(&attributes);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP | POSIX_SPAWN_SETSIGMASK | POSIX_SPAWN_SETSIGDEF);
+    posix_spawnattr_setsigmask(&attributes, &none);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    int cause = posix_spawnp(&file->process, arguments[0], &files, &attributes, arguments, environ);
+    posix_spawnattr_destroy(&attributes);
+    posix_spawn_file_actions_destroy(&files);
+    return cause;
+}
+
+static int start_encoder(struct film_file *file, const struct film_shape *shape)
+{
+    char size[32], rate[32];
+    snprintf(size, sizeof size, "%dx%d", shape->width, shape->height);
+    snprintf(rate, sizeof rate, "%.10g", shape->rate);
+    char *const input[] = {"ffmpeg",   "-nostdin", "-hide_banner", "-loglevel",   "error", "-f",
+                           "rawvideo", "-pix_fmt", "rgba",         "-video_size", size,    "-framerate",
+                           rate,       "-i",       "pipe:0",       "-y"};
+    char *arguments[MAX_ARGUMENTS] = {NULL};
+    int count = 0, ends[2];
+    for (size_t i = 0; i < sizeof input / sizeof *input; i++) arguments[count++] = input[i];
+    for (char *const *coding = shape->coding; *coding; coding++) arguments[count++] = *coding;
+    arguments[count] = output_name;
+    // A socket, because writing to one whose reader is gone need not raise SIGPIPE.
+    if (!(file->log = tmpfile()) || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return errno;
+    file->feed = ends[0];
+    const int cause = spawn(file, arguments, ends[1]);
+    close(ends[1]);
+    return cause;
+}
+
+static void hang_up(struct film_file *file)
+{
+    if (file->feed >= 0) close(file->feed);
+    file->feed = -1;
+}
+
+static void close_encoder(struct film_file *file)
+{
+    hang_up(file);
+    if (file->process > 0) {
+        kill(file->process, SIGKILL);
+        while (waitpid(file->process, NULL, 0) < 0 && errno == EINTR) continue;
+    }
+    if (file->log) fclose(file->log);
+    file_output_discard(&file->output);
+    free(file);
+}
+
+static struct film_file *open_encoder(const char *path, const struct film_shape *shape, struct error *error)
+{
+    struct film_file *file = need_zeroed(1, sizeof *file);
+    file->path = path;
+    file->size = 4 * (size_t)shape->width * (size_t)shape->height;
+    file->feed = -1;
+    if (file_output_open(&file->output, path, error)) {
+        const int cause = start_encoder(file, shape);
+        if (cause == 0) return file;
+        file->process = 0;
+        if (cause == ENOENT) {
+            fail(error, ERROR_ENVIRONMENT,
+                 "%s: ffmpeg, which makes it, is missing: install the package ffmpeg, or write .gif or .png, which "
+                 "need nothing",
+                 path);
+        } else {
+            fail(error, ERROR_ENVIRONMENT, "ffmpeg: cannot be run: %s", strerror(cause));
+        }
+    }
+    close_encoder(file);
+    return NULL;
+}
+
+/// Fails with the last line ffmpeg wrote.
+static enum film_state fail_encoder(struct film_file *file, struct error *error)
+{
+    char words[400] = "it was ended", next[512];
+    rewind(file->log);
+    while (fgets(next, sizeof next, file->log)) {
+        next[strcspn(next, "\r\n")] = '\0';
+        if (next[0]) snprintf(words, sizeof words, "%.399s", next);
+    }
+    fail(error, ERROR_ENVIRONMENT, "%s: ffmpeg cannot write it: %s", file->path, words);
+    return FILM_FAILED;
+}
+
+/// Closes ffmpeg's input and checks whether it has ended.
+static enum film_state end_encoder(struct film_file *file, bool wait)
+{
+    int status;
+    hang_up(file);
+    pid_t ended = waitpid(file->process, &status, WNOHANG);
+    for (int waited = 0; wait && ended == 0 && waited < PATIENCE; waited += 5) {
+        poll(NULL, 0, 5);
+        ended = waitpid(file->process, &status, WNOHANG);
+    }
+    if (ended == 0) return FILM_RUNS;
+    file->process = 0;
+    return ended > 0 && WIFEXITED(status) && WEXITSTATUS(status) == 0 ? FILM_DONE : FILM_FAILED;
+}
+
+static enum film_state put_encoder(struct film_file *file, const unsigned char *pixels, bool wait,
+                                   struct error *error)
+{
+    while (file->taken < file->size) {
+        ssize_t sent = send(file->feed, pixels + file->taken, file->size - file->taken, MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent >= 0) {
+            file->taken += (size_t)sent;
+        } else if (errno == EAGAIN || errno == EWOULDBLOCK) {
+            if (!wait || poll(&(struct pollfd){file->feed, POLLOUT, 0}, 1, PATIENCE) <= 0) return FILM_RUNS;
+        } else if (errno != EINTR) {
+            while (end_encoder(file, true) == FILM_RUNS) continue; // until its last line is there
+            return fail_encoder(file, error);
+        }
+    }
+    file->taken = 0;
+    return FILM_DONE;
+}
+
+static enum film_state finish_encoder(struct film_file *file, bool wait, off_t *bytes, struct error *error)
+{
+    struct stat about;
+    enum film_state state = end_encoder(file, wait);
+    if (state == FILM_FAILED) return fail_encoder(file, error);
+    if (state == FILM_RUNS) return FILM_RUNS;
+    *bytes = fstat(fileno(file->output.stream), &about) == 0 ? about.st_size : 0;
+    return file_output_commit(&file->output, error) ? FILM_DONE : FILM_FAILED;
+}
+
+const struct film_file_kind film_ffmpeg = {open_encoder, put_encoder, finish_encoder, close_encoder};
+
+/// sRGB, also noted in the file.
+#define SCREEN_COLORS(format)                                                                                        \
+    "-vf", "scale=out_color_matrix=bt709:out_range=tv,format=" format, "-colorspace", "bt709", "-color_primaries",   \
+        "bt709", "-color_trc", "bt709", "-color_range", "tv"
+/// aq-mode gives dark gradients more bits, against banding.
+#define MP4 "-c:v", "libx264", "-crf", "18", "-aq-mode", "3", "-movflags", "+faststart", "-f", "mp4", NULL
+#define WEBM                                                                                                         \
+    "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "good", "-cpu-used", "4", "-row-mt", "1", "-f",    \
+        "webm", NULL
+
+char *const film_mp4[] = {SCREEN_COLORS("yuv420p"), MP4};
+char *const film_webm[] = {SCREEN_COLORS("yuv420p"), WEBM};
+char *const film_webm_alpha[] = {SCREEN_COLORS("yuva420p"), WEBM};
+
+// === numbered pictures, written to a temporary folder and moved out when complete
+
+/// Splits the path at its "%04d", or before ".png" if there is more than one picture.
+static bool split_path(struct film_file *file, struct error *error)
+{
+    const char *path = file->path, *name = path_name(path);
+    const char *sign = strchr(name, '%');
+    file->digits = -1;
+    file->before = (int)(strlen(path) - strlen(".png"));
+    file->after = path + file->before;
+    if (!sign) {
+        if (file->shape.count > 1) file->digits = 4;
+        return true;
+    }
+    int digits = 1, length = 0;
+    if (isdigit((unsigned char)sign[1])) sscanf(sign + 1, "%9d%n", &digits, &length);
+    const char *end = sign + 1 + length;
+    if (*end != 'd' || digits > 9 || strchr(end, '%'))
+        return fail(error, ERROR_USAGE, "%s: expected one number in the name, as in walk-%%04d.png", path);
+    file->before = (int)(sign - path);
+    file->digits = digits;
+    file->after = end + 1;
+    return true;
+}
+
+static bool name_picture(const struct film_file *file, long number, char name[PATH_LIMIT])
+{
+    int length = file->digits < 0 ? snprintf(name, PATH_LIMIT, "%s", file->path)
+                                  : snprintf(name, PATH_LIMIT, "%.*s%s%0*ld%s", file->before, file->path,
+                                             strchr(file->path, '%') ? "" : "-", file->digits, number, file->after);
+    return length < PATH_LIMIT;
+}
+
+static bool name_temporary(const struct film_file *file, long number, char name[PATH_LIMIT])
+{
+    return snprintf(name, PATH_LIMIT, "%s/%ld.png", file->folder, number) < PATH_LIMIT;
+}
+
+/// Whether all places are free, before anything is drawn.
+static bool check_places(const struct film_file *file, struct error *error)
+{
+    for (long n = 1; n <= file->shape.count; n++) {
+        char name[PATH_LIMIT];
+        if (name_picture(file, n, name) && !file_check_place(name, error)) return false;
+    }
+    return true;
+}
+
+static struct film_file *open_pictures(const char *path, const struct film_shape *shape, struct error *error)
+{
+    struct film_file *file = need_zeroed(1, sizeof *file);
+    file->path = path;
+    file->shape = *shape;
+    if (split_path(file, error) && check_places(file, error)) {
+        file->lock = file_folder_beside(path, &file->folder);
+        if (file->lock >= 0) return file;
+        fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));
+    }
+    free(file);
+    return NULL;
+}
+
+static enum film_state put_picture(struct film_file *file, const unsigned char *pixels, bool wait,
+                                   struct error *error)
+{
+    char name[PATH_LIMIT];
+    (void)wait;
+    if (!name_temporary(file, file->written + 1, name)) {
+        fail(error, ERROR_INPUT, "%s: the path is too long", file->path);
+        return FILM_FAILED;
+    }
+    struct error inner;
+    if (!png_write(name, file->shape.width, file->shape.height, pixels, &inner)) {
+        // The user knows the path, not the temporary folder.
+        const bool named = strncmp(inner.text, name, strlen(name)) == 0;
+        fail(error, inner.kind, "%s%s", file->path, named ? inner.text + strlen(name) : ": cannot be written");
+        return FILM_FAILED;
+    }
+    file->written++;
+    return FILM_DONE;
+}
+
+static enum film_state finish_pictures(struct film_file *file, bool wait, off_t *bytes, struct error *error)
+{
+    (void)wait;
+    *bytes = 0;
+    for (long n = 1; n <= file->written; n++) {
+        char from[PATH_LIMIT], to[PATH_LIMIT];
+        struct stat about;
+        if (!name_temporary(file, n, from) || !name_picture(file, n, to)) {
+            fail(error, ERROR_INPUT, "%s: the path is too long", file->path);
+            return FILM_FAILED;
+        }
+        if (stat(from, &about) == 0) *bytes += about.st_size;
+        if (!file_move(from, to, error)) return FILM_FAILED;
+    }
+    return FILM_DONE;
+}
+
+static void close_pictures(struct film_file *file)
+{
+    char name[PATH_LIMIT];
+    for (long n = 1; n <= file->written; n++) {
+        if (name_temporary(file, n, name)) unlink(name);
+    }
+    rmdir(file->folder);
+    close(file->lock);
+    free(file->folder);
+    free(file);
+}
+
+const struct film_file_kind film_png = {open_pictures, put_picture, finish_pictures, close_pictures};
+
+// === the film
 
 enum { MAX_PICTURES = 10000000, MAX_SIDE = 8192 };
 
@@ -218,7 +939,7 @@ void film_close(struct film *film)
     free(film);
 }
 
-static bool run(struct film *film, const struct export_options *options, struct error *error)
+static bool run_film(struct film *film, const struct export_options *options, struct error *error)
 {
     for (;;) {
         enum film_state state = film_step(film, true, error);
@@ -234,7 +955,7 @@ bool film_write(const struct opened *opened, const char *path, const struct expo
     struct platform *platform = platform_offscreen(1, 1, 1, error);
     if (!platform) return false;
     struct film *film = film_open(opened, path, options, error);
-    bool done = film && run(film, options, error);
+    bool done = film && run_film(film, options, error);
     if (done) film_report(film, report);
     film_close(film);
     platform_destroy(platform);
