@@ -1,6 +1,9 @@
-/// The slots of recovery files, locked by running programs, and the thread that writes them.
+/// The slots of recovery files, locked by running programs, the thread that writes them, and the rescue when the program must end.
 #include "app/recovery.h"
+#include "app/state.h"
+#include "base/file.h"
 #include "base/need.h"
+#include "scene/load.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -115,7 +118,7 @@ static struct scene_origin origin_of(const struct autosave_work *work)
     return origin;
 }
 
-static int run(void *user)
+static int write_document(void *user)
 {
     struct autosave *autosave = user;
     autosave->error = (struct error){0};
@@ -132,7 +135,7 @@ struct autosave *autosave_open(const struct recovery_slot *slot)
     return autosave;
 }
 
-static void begin(struct autosave *autosave, const struct autosave_work *work, double now)
+static void begin_write(struct autosave *autosave, const struct autosave_work *work, double now)
 {
     autosave->document = document_copy(work->document);
     autosave->origin = origin_of(work);
@@ -140,21 +143,21 @@ static void begin(struct autosave *autosave, const struct autosave_work *work, d
     autosave->begun = now;
     autosave->writes = autosave->has_file = true;
     atomic_store(&autosave->ended, false);
-    autosave->threaded = thrd_create(&autosave->thread, run, autosave) == thrd_success;
-    if (!autosave->threaded) run(autosave); // a late frame is better than lost work
+    autosave->threaded = thrd_create(&autosave->thread, write_document, autosave) == thrd_success;
+    if (!autosave->threaded) write_document(autosave); // a late frame is better than lost work
 }
 
 static bool is_busy(struct autosave *autosave) { return autosave->writes && !atomic_load(&autosave->ended); }
 
 /// Waits for the thread, unless this is the thread.
-static void wait(struct autosave *autosave)
+static void wait_for_write(struct autosave *autosave)
 {
     while (is_busy(autosave) && !thrd_equal(thrd_current(), autosave->thread))
         thrd_sleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
 }
 
 /// Joins the last write's thread and frees its document.
-static void finish(struct autosave *autosave)
+static void finish_write(struct autosave *autosave)
 {
     if (autosave->threaded) thrd_join(autosave->thread, NULL);
     document_destroy(autosave->document);
@@ -163,11 +166,11 @@ static void finish(struct autosave *autosave)
 }
 
 /// Reports the last write's result, but only the first of several failures. The next interval tries again.
-static bool report(struct autosave *autosave, struct error *error)
+static bool report_write(struct autosave *autosave, struct error *error)
 {
     if (!autosave->writes) return true;
     const bool failed = autosave->error.kind != ERROR_NONE, is_news = failed && !autosave->complained;
-    finish(autosave);
+    finish_write(autosave);
     autosave->complained = failed;
     if (failed) autosave->revision = 0;
     return !is_news || fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
@@ -181,13 +184,13 @@ bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *w
 bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error)
 {
     if (is_busy(autosave)) return true;
-    const bool good = report(autosave, error);
+    const bool good = report_write(autosave, error);
     if (work->saved) {
         if (autosave->has_file) recovery_remove(&autosave->slot);
         autosave->has_file = false;
         autosave->revision = 0;
     } else if (autosave_is_behind(autosave, work) && now - autosave->begun >= INTERVAL) {
-        begin(autosave, work, now);
+        begin_write(autosave, work, now);
     }
     return good;
 }
@@ -197,14 +200,14 @@ bool autosave_fails(const struct autosave *autosave) { return autosave->complain
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error)
 {
     const struct scene_origin origin = origin_of(work);
-    wait(autosave);
+    wait_for_write(autosave);
     autosave->has_file = true;
     return scene_save_for(work->document, autosave->slot.path, &origin, error);
 }
 
 void autosave_move(struct autosave *autosave, const struct recovery_slot *slot)
 {
-    wait(autosave);
+    wait_for_write(autosave);
     recovery_remove(&autosave->slot);
     recovery_release(&autosave->slot);
     autosave->slot = *slot;
@@ -216,9 +219,85 @@ const char *autosave_path(const struct autosave *autosave) { return autosave->sl
 void autosave_close(struct autosave *autosave, bool keep)
 {
     if (!autosave) return;
-    wait(autosave);
-    finish(autosave);
+    wait_for_write(autosave);
+    finish_write(autosave);
     if (!keep) recovery_remove(&autosave->slot);
     recovery_release(&autosave->slot);
     free(autosave);
+}
+
+// --- the rescue: to the recovery file, or else to a new file beside the original
+
+enum { MAX_NAMES = 1000 };
+enum { RESERVE = 64 << 20, LONGEST_WAIT = 2 }; ///< bytes reserved for the rescue; seconds
+
+/// Writes the work into a folder ("": working folder) under an unused name made of `name`.
+static bool rescue_to(const struct app *app, const char *folder, const char *name, char *path, size_t size,
+                      struct error *error)
+{
+    const char *dot = strrchr(name, '.');
+    const int stem = (int)(dot && dot > name ? dot - name : (long)strlen(name));
+    for (int i = 1; i <= MAX_NAMES; i++) {
+        char number[16] = "";
+        if (i > 1) snprintf(number, sizeof number, "-%d", i);
+        int length =
+            snprintf(path, size, "%s%s%.*s.recovered%s.json", folder, folder[0] ? "/" : "", stem, name, number);
+        if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
+        struct stat about; // lstat: even a dangling link is someone's
+        if (lstat(path, &about) != 0) return scene_save(app->table.document, path, error);
+    }
+    return fail(error, ERROR_ENVIRONMENT, "%s: too many recovered scenes are there already", path);
+}
+
+/// Tries the scene's folder, the home folder, then a new folder of our own in the temporary directory, where nobody can have planted a
+/// link. A file system may refuse the scene's name, with its longer end, so a plain one is tried there, too. Reports the first failure.
+static bool write_somewhere(const struct app *app, char *path, size_t size, struct error *error)
+{
+    char beside[PATH_LIMIT], shared[] = "/tmp/wiggly-XXXXXX";
+    const char *home = getenv("HOME"), *plain = "untitled.json";
+    const char *own = app_path(app)[0] ? path_name(app_path(app)) : plain;
+    struct error other;
+    path_folder(app_path(app), beside);
+    if (rescue_to(app, beside, own, path, size, error)) return true;
+    if (rescue_to(app, home ? home : "", own, path, size, &other)) return true;
+    if (rescue_to(app, beside, plain, path, size, &other)) return true;
+    if (rescue_to(app, home ? home : "", plain, path, size, &other)) return true;
+    if (!mkdtemp(shared)) return false;
+    if (rescue_to(app, shared, plain, path, size, &other)) return true;
+    rmdir(shared);
+    return false;
+}
+
+void app_rescue(struct app *app, struct error *error)
+{
+    char path[4096];
+    struct error trouble = {0}, why = *error;
+    if (app->replay || !app->table.document || history_is_saved(app->table.history))
+        return; // a replay can be played again
+    const char *kept = personal_rescue(app);
+    if (kept) {
+        fail(error, why.kind, "%s; the unsaved scene is safe in %s, and the next start offers to recover it",
+             why.text, kept);
+    } else if (write_somewhere(app, path, sizeof path, &trouble)) {
+        fail(error, why.kind, "%s; the unsaved scene is in %s: open it to continue", why.text, path);
+    } else {
+        fail(error, why.kind, "%s; the unsaved scene is lost: %s", why.text, trouble.text);
+    }
+}
+
+/// Other threads wait for the end of the frame, when the document is consistent, but not long: the frame may wait for them.
+static void on_no_memory(void *user, struct error *error)
+{
+    struct app *app = user;
+    struct timespec until;
+    timespec_get(&until, TIME_UTC);
+    until.tv_sec += LONGEST_WAIT;
+    if (!thrd_equal(thrd_current(), app->main_thread)) mtx_timedlock(&app->working, &until);
+    app_rescue(app, error);
+}
+
+void app_rescue_without_memory(struct app *app)
+{
+    app->main_thread = thrd_current();
+    need_keep(RESERVE, on_no_memory, app);
 }
