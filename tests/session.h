@@ -5,7 +5,7 @@
 #include "documents.h"
 #include "inside.h"
 
-#include "app/table.h"
+#include "app/state.h"
 #include "base/file.h"
 #include "ui/font.h"
 #include <ctype.h>

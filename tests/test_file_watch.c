@@ -2,7 +2,6 @@
 #include "blind.h"
 #include "inside.h"
 
-#include "app/personal.h"
 #include "folder.h"
 #include "scene/load.h"
 #include "shown.h"

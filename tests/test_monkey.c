@@ -3,7 +3,6 @@
 ///
 ///     MONKEY_SEED=7 MONKEY_EVENTS=1000000 build/tests/test_monkey    runs one seed, as long as wanted
 ///     MONKEY_RECORD=/tmp/m.replay …                                  writes down what it does
-#include "app/personal.h"
 #include "app/recovery.h"
 #include "beast.h"
 #include "invariants.h"

@@ -3,7 +3,6 @@
 #include "folder.h"
 #include "inside.h"
 
-#include "app/personal.h"
 #include "app/settings.h"
 #include "ui/theme.h"
 #include <unistd.h>

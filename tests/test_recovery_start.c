@@ -3,7 +3,6 @@
 #include "documents.h"
 #include "inside.h"
 
-#include "app/personal.h"
 #include "app/recovery.h"
 #include "base/file.h"
 #include "folder.h"

@@ -1,7 +1,6 @@
 /// The settings file, and the list of recent files in it.
 #include "blind.h"
 
-#include "app/personal.h"
 #include "app/settings.h"
 #include "base/file.h"
 #include "folder.h"

@@ -1,16 +1,497 @@
-/// Starts the app, runs its frames and ends it.
-#include "app/app.h"
+/// Starts the app, runs its frames and ends it. A frame: input from window, replay or demo, the document's part, drawing, log.
 #include "app/state.h"
+#include "base/embedded.h"
 #include "base/need.h"
 #include "base/progress.h"
 #include "platform/process.h"
 #include "rig/import.h"
+#include "rig/posing.h"
 #include "scene/load.h"
 #include "ui/font.h"
 #include "ui/theme.h"
+#include <limits.h>
 #include <math.h>
 #include <stdio.h>
 #include <sys/stat.h>
+
+// --- the document's part of a frame: edit, solve, pose, show
+
+static double since(double start) { return 1e6 * (clock_now() - start); }
+
+static void solve_splines(struct table *table, struct frame_row *row)
+{
+    struct evaluation *evaluation = &table->evaluation;
+    row->edited = !evaluation_is_of(evaluation, table->document);
+    evaluation->models = models_source(table->models);
+    evaluation_update(evaluation, table->document, table->editor->core.look == LOOK_CUBIC);
+    row->solver = evaluation_solver(evaluation);
+    row->splines_solved = evaluation->solved_splines;
+    row->samples = evaluation->solved_samples;
+    row->knots = evaluation->solved_knots;
+}
+
+/// Reads the models of a document that is new, restored by undo, or has other models since the last edit.
+static void read_models(struct table *table)
+{
+    struct error error;
+    if (!table->models) return;
+    const bool is_new = table->models_serial != table->document->serial;
+    if (!is_new && models_suit(table->models, table->document)) return;
+    table->models_serial = table->document->serial;
+    if (is_new) {
+        if (!scene_read_paint(table->document, &error)) core_message(&table->editor->core, true, "%s", error.text);
+        if (!history_is_open(table->history)) history_amend(table->history);
+    }
+    if (!models_update(table->models, table->document, &error))
+        core_message(&table->editor->core, true, "%s", error.text);
+}
+
+void table_edit(struct table *table, double dt, struct frame_row *row)
+{
+    const double start = clock_now();
+    editor_advance(table->editor, dt);
+    row->edit_us = since(start);
+}
+
+void table_solve(struct table *table, struct frame_row *row)
+{
+    read_models(table);
+    if (table->models) models_follow(table->models, table->document);
+    const double start = clock_now();
+    solve_splines(table, row);
+    row->solve_us = since(start);
+}
+
+void table_pose(struct table *table, struct frame_row *row)
+{
+    const double start = clock_now();
+    editor_pose(table->editor);
+    row->pose_us = since(start);
+}
+
+void table_show(struct table *table, struct frame_row *row)
+{
+    const double start = clock_now();
+    editor_show(table->editor);
+    row->pose_us += since(start);
+}
+
+void table_free(struct table *table)
+{
+    evaluation_free(&table->evaluation);
+    history_destroy(table->history);
+    document_destroy(table->document);
+    models_destroy(table->models);
+    editor_destroy(table->editor);
+}
+
+// --- the size of the interface relative to the display's scale
+
+static const double scale_steps[] = {UI_SCALE_LEAST, 1, 1.25, 1.5, 1.75, 2, 2.5, UI_SCALE_MOST};
+/// Logical pixels of the layout; a smaller window shows a part of it.
+enum { UI_LEAST_WIDTH = 320, UI_LEAST_HEIGHT = 240 };
+
+enum { STEPS = sizeof scale_steps / sizeof *scale_steps };
+
+static const double PRESENTING = 1.5; ///< times the chosen scale
+static const double SHARPEST = 5;     ///< device pixels per logical pixel that the glyph atlas can hold
+
+/// Logical pixels that the panels need; in an upright window they lie below each other.
+static double least_width(const struct app *app) { return app->display.height > app->display.width ? 360 : 760; }
+static double least_height(const struct app *app) { return app->display.height > app->display.width ? 560 : 400; }
+
+static bool has_room(const struct app *app, double scale)
+{
+    return (double)app->display.width / scale >= least_width(app) &&
+           (double)app->display.height / scale >= least_height(app) && (double)app->display.scale * scale <= SHARPEST;
+}
+
+static double wanted_scale(const struct app *app, double chosen)
+{
+    return chosen * (app->table.editor->core.presenter.on ? PRESENTING : 1);
+}
+
+/// The chosen scale, or the largest step below it that fits. A window too small for any keeps its scale.
+static double fitting_scale(const struct app *app)
+{
+    const double most = wanted_scale(app, app->ui_scale);
+    if (most <= 1 || has_room(app, most)) return most;
+    int step = STEPS - 1;
+    while (scale_steps[step] > 1 && (scale_steps[step] > most || !has_room(app, scale_steps[step]))) step--;
+    return scale_steps[step];
+}
+
+void ui_scale_fit(struct app *app)
+{
+    app->ui_scale_shown = fitting_scale(app);
+    const float shown = (float)app->ui_scale_shown;
+    editor_resize(app->table.editor, fmaxf(app->display.width / shown, UI_LEAST_WIDTH),
+                  fmaxf(app->display.height / shown, UI_LEAST_HEIGHT), app->display.scale * shown);
+    app->table.editor->core.ui_scale = app->ui_scale;
+}
+
+void ui_scale_update(struct app *app)
+{
+    if (app->ui_scale_shown == fitting_scale(app)) return;
+    editor_let_go(app->table.editor); // a held control would jump
+    ui_scale_fit(app);
+}
+
+void ui_scale_to_ui(const struct app *app, struct event *event)
+{
+    const float shown = (float)app->ui_scale_shown;
+    event->x /= shown;
+    event->y /= shown;
+    event->scale *= shown;
+}
+
+bool ui_scale_step(struct app *app, int direction, struct error *error)
+{
+    double next = 1;
+    int step = 0;
+    while (step < STEPS - 1 && scale_steps[step] <= app->ui_scale) step++;
+    if (direction > 0) next = fmax(scale_steps[step], app->ui_scale);
+    while (step > 0 && scale_steps[step] >= app->ui_scale) step--;
+    if (direction < 0) next = fmin(scale_steps[step], app->ui_scale);
+    const double shown = wanted_scale(app, next);
+    if (next > app->ui_scale && shown > 1 && !has_room(app, shown)) {
+        return fail(error, ERROR_INPUT, "%.0f %% needs a window of %.0f × %.0f, not %.0f × %.0f", 100 * shown,
+                    least_width(app) * shown, least_height(app) * shown, (double)app->display.width,
+                    (double)app->display.height);
+    }
+    app->ui_scale = next;
+    ui_scale_update(app);
+    return true;
+}
+
+// --- one frame
+
+static const double replay_dt = 1.0 / 60;
+static const double idle_wait = 0.5;
+static const double longest_step = 1; ///< seconds; playback does not skip ahead after a longer stall
+
+static double microseconds(double from, double to) { return 1e6 * (to - from); }
+
+static bool locate(void *user, const char *target, float *x, float *y, struct error *error)
+{
+    struct app *app = user;
+    return editor_target(app->table.editor, target, x, y, error);
+}
+
+void app_resize(struct app *app, float width, float height, float scale)
+{
+    app->display.width = width;
+    app->display.height = height;
+    app->display.scale = scale;
+    ui_scale_fit(app);
+}
+
+static void handle_event(struct app *app, const struct event *event)
+{
+    if (app->recording) recording_event(app->recording, app->frame, event);
+    if (event->kind == EVENT_EXPOSE) app->lost = true;
+    if (event->kind == EVENT_FOCUS) {
+        file_watch_look(app);
+        return;
+    }
+    struct event seen = *event;
+    if (event->kind == EVENT_SIZE) {
+        app_resize(app, event->x, event->y, event->scale);
+        ui_scale_to_ui(app, &seen);
+    }
+    editor_event(app->table.editor, &seen);
+    app_requests(app);
+}
+
+static void play_events(struct app *app)
+{
+    const long frame = app->demo.on ? app->demo.frame : app->frame;
+    const bool forgives = app->demo.on && !app->fixed_clock; // a target may be hidden in a window of another size
+    struct event event;
+    do {
+        app->error.kind = ERROR_NONE;
+        while (replay_next(app->replay, frame, locate, app, &event, &app->error)) {
+            if (isnan(app->oldest_event)) app->oldest_event = app->frame_start;
+            handle_event(app, &event);
+        }
+    } while (forgives && app->error.kind != ERROR_NONE);
+    if (app->error.kind != ERROR_NONE) app->failed = true;
+}
+
+struct replay *demo_replay(struct error *error)
+{
+    const struct embedded *file = embedded_find("demo/demo.replay");
+    return replay_parse("demo.replay", (const char *)file->data, file->size, error);
+}
+
+/// Restarts the demo exactly as it began.
+static bool start_anew(struct app *app, struct error *error)
+{
+    theme_use(app->demo.theme);
+    app_open_editor(app);
+    return app_open(app, NULL, error);
+}
+
+bool demo_next(struct app *app, double dt, struct error *error)
+{
+    struct demo *demo = &app->demo;
+    demo->seconds += dt;
+    demo->frame = (long)(60 * demo->seconds + 0.5);
+    if (demo->frame < replay_get_header(app->replay)->frames) return true;
+    replay_destroy(app->replay);
+    app->replay = demo_replay(error);
+    demo->seconds = 0;
+    demo->frame = 0;
+    return app->replay && start_anew(app, error);
+}
+
+/// Whether an event means that someone wants control.
+static bool is_touch(const struct event *event)
+{
+    const bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
+    return (pressed && event->action == ACTION_PRESS) || event->kind == EVENT_WHEEL || event->kind == EVENT_DROP;
+}
+
+/// Ends the demo with the start scene and the user's settings.
+static bool stop_demo(struct app *app, struct error *error)
+{
+    replay_destroy(app->replay);
+    app->replay = NULL;
+    app->demo.on = false;
+    if (!start_anew(app, error)) return false;
+    if (platform_is_window(app->platform)) personal_start(app);
+    return true;
+}
+
+/// Plays the demo's next frame, or ends the demo.
+static void play_demo(struct app *app)
+{
+    const double dt = app->frame == 0 ? 0 : app->fixed_clock ? replay_dt : app->frame_start - app->last_time;
+    history_mark_saved(app->table.history); // no question about the demo's edits
+    if (!demo_next(app, fmin(fmax(dt, 0), longest_step), &app->error)) app->failed = true;
+}
+
+/// Whether a window event goes to the editor. The first touch ends a demo; closing the window during a demo loses nothing.
+static bool is_for_editor(struct app *app, const struct event *event)
+{
+    if (!app->replay || event->kind == EVENT_EXPOSE) return true;
+    if (!app->demo.on) return event->kind == EVENT_CLOSE;
+    app->quit |= event->kind == EVENT_CLOSE;
+    if (is_touch(event) && !stop_demo(app, &app->error)) app->failed = true;
+    return event->kind == EVENT_SIZE || event->kind == EVENT_DROP;
+}
+
+/// Delivers the clipboard text the editor asked for as an event, so that it is recorded.
+static void paste(struct app *app)
+{
+    if (!app->paste) return;
+    app->paste = false;
+    const char *text = app_clipboard_text(app);
+    if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
+}
+
+/// With a fixed clock, resolution changes depend on frames, so that pictures do not depend on the machine.
+static double resolution_now(const struct app *app)
+{
+    return app->fixed_clock ? (double)app->frame * replay_dt : app->frame_start;
+}
+
+/// How long the next frame may wait for input: until it is due, or longer if nothing moves. A live recording never skips frames, because
+/// its clock counts them.
+static double waiting_time(const struct app *app, bool wanted)
+{
+    double left = fmax(0, app->next_time - clock_now());
+    if (app->recording && !app->replay) process_sleep(left);
+    if (app->fixed_clock) return 0;
+    if (wanted) return left;
+    return fmin(personal_is_behind(app) ? replay_dt : idle_wait, resolution_wait(&app->resolution, clock_now()));
+}
+
+/// Waits, then handles events. false if nothing needs a frame.
+static bool take_input(struct app *app)
+{
+    double wait_start = clock_now();
+    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->table.editor) || app->paste ||
+                  app->export_job || app->demo.on || app->fetches;
+    app->was_idle = !wanted;
+    int count = 0;
+    const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
+    bool exact_due = !app->fixed_clock && resolution_wait(&app->resolution, clock_now()) == 0;
+    app->frame_start = clock_now();
+    bool rested = !wanted && (count == 0 || app->frame_start - wait_start > replay_dt);
+    if (rested) app->last_swap = NAN; // the frame after a rest is not late
+    if (!wanted && count == 0 && !exact_due) return false;
+    app->oldest_event = NAN;
+    app->row = (struct frame_row){.frame = app->frame, .wait_us = microseconds(wait_start, app->frame_start)};
+    app->row.allocations = allocation_count();
+    paste(app);
+    for (int i = 0; i < count; i++) {
+        if (!is_for_editor(app, &events[i])) continue;
+        if (isnan(app->oldest_event)) app->oldest_event = events[i].time;
+        struct event event = events[i];
+        if (event.kind != EVENT_SIZE) ui_scale_to_ui(app, &event); // recorded in the display's pixels
+        handle_event(app, &event);
+    }
+    if (app->demo.on && !app->failed) play_demo(app);
+    if (app->replay && !app->failed) play_events(app);
+    app->row.input_us = microseconds(app->frame_start, clock_now());
+    return true;
+}
+
+/// A recording's clock counts frames of equal length.
+static double next_time(const struct app *app)
+{
+    if (app->fixed_clock) return fmax(app->next_time + replay_dt, app->frame_start);
+    return pace_next(&app->pace, app->next_time, app->frame_start);
+}
+
+static double step_clock(struct app *app)
+{
+    double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
+    bool starts =
+        app->frame == 0 || (app->was_idle && !app->fixed_clock); // what starts now did not move during the pause
+    app->last_time = app->frame_start;
+    app->next_time = next_time(app);
+    return starts ? 0 : dt;
+}
+
+/// Chooses the stage's resolution and reports it to the status line.
+static void choose_resolution(struct app *app)
+{
+    struct editor *editor = app->table.editor;
+    const float scale = resolution_choose(&app->resolution, editor_stage(editor)->hash, resolution_now(app));
+    editor->core.status.stage_scale = scale;
+}
+
+static struct draw_input draw_input(const struct app *app, float stage_scale)
+{
+    struct draw_input input = {
+        .keeps = !app->lost && platform_keeps(app->platform),
+        .list = &app->table.editor->core.list,
+        .stage = editor_stage(app->table.editor),
+        .frame = app->frame,
+        .stage_scale = stage_scale,
+    };
+    platform_size(app->platform, &input.width, &input.height, &input.scale);
+    input.scale *= (float)app->ui_scale_shown;
+    return input;
+}
+
+static void measure_cost(struct app *app)
+{
+    const struct frame_row *row = &app->row;
+    struct resolution_cost cost = {
+        .draw = 1e-3 * (row->upload_us + row->draw_us), .swap = 1e-3 * row->swap_us, .gpu = 1e-3 * app->gpu_us};
+    cost.before = row->frame_ms - cost.draw - cost.swap;
+    // A browser draws after the frame, and calls for the next when it keeps up.
+    if (platform_in_page()) cost.swap = row->frame_interval_ms - cost.before - cost.draw;
+    resolution_measure(&app->resolution, &cost);
+}
+
+static void draw_frame_timed(struct app *app)
+{
+    struct draw_input input = draw_input(app, app->resolution.shown);
+    struct draw_cost cost = {0};
+    draw_frame(app->draw, &input, &cost);
+    app->lost = false;
+    double swap_start = clock_now();
+    platform_swap(app->platform);
+    double end = clock_now();
+    pace_swapped(&app->pace, end, !app->was_idle && cost.rectangles > 0);
+    app->row.upload_us = cost.upload_us;
+    app->row.draw_us = cost.draw_us;
+    if (cost.gpu_us >= 0) app->gpu_us = cost.gpu_us;
+    if (app->log && cost.gpu_us >= 0) framelog_gpu(app->log, cost.gpu_frame, cost.gpu_us);
+    app->row.uploaded_bytes = cost.uploaded_bytes;
+    app->row.swap_us = microseconds(swap_start, end);
+}
+
+static void end_row(struct app *app)
+{
+    double end = clock_now();
+    app->row.t_s = app->frame_start - app->process_start;
+    app->row.frame_ms = 1e3 * (end - app->frame_start);
+    app->row.frame_interval_ms = 1e3 * (end - app->last_swap);
+    app->last_swap = end;
+    app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
+    app->row.allocations = allocation_count() - app->row.allocations;
+}
+
+static void after_drawing(struct app *app)
+{
+    if (app->resolution.changed == resolution_now(app)) measure_cost(app);
+    platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->table.editor));
+}
+
+void app_draw_exactly(struct app *app)
+{
+    if (!app->draw || resolution_is_exact(&app->resolution)) return;
+    struct draw_input input = draw_input(app, 1);
+    struct draw_cost cost;
+    draw_frame(app->draw, &input, &cost);
+}
+
+static void log_frame(struct app *app)
+{
+    if (app->log) framelog_push(app->log, &app->row);
+    double now = clock_now();
+    if (now - app->stats_time >= 0.5) {
+        bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing runs in real time
+        double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
+        app->table.editor->core.status.told = (struct figures){fps, app->row.solve_us};
+        app->stats_time = now;
+        app->stats_frame = app->frame;
+        pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
+    }
+    if (!app->options->frames_dir) return;
+    char path[PATH_MAX + 32]; // longer than any path the system accepts
+    snprintf(path, sizeof path, "%s/frame_%05ld.png", app->options->frames_dir, app->frame);
+    if (!app_screenshot(app, path, &app->error)) app->failed = true;
+}
+
+/// Whether characters of a new document must be fetched first.
+static bool is_fetching(const struct table *table)
+{
+    const struct document *document = table->document;
+    bool any = false;
+    if (table->models_serial == document->serial) return false;
+    for (int r = 0; r < document->rig_count; r++) {
+        char path[PATH_LIMIT];
+        any |= document_model_path(document, r, path) && platform_fetches(path);
+    }
+    return any;
+}
+
+void app_frame(struct app *app)
+{
+    struct table *table = &app->table;
+    struct frame_row *row = &app->row;
+    if (!take_input(app)) {
+        personal_update(app);
+        return;
+    }
+    exporting_step(app);
+    const double passed = step_clock(app);
+    table_edit(table, exporting_draws(app) ? 0 : passed, row);
+    app_show_title(app);
+    ui_scale_update(app);
+    personal_update(app);
+    app->fetches = is_fetching(table);
+    if (app->failed || app->fetches) return;
+    table_solve(table, row);
+    table_pose(table, row);
+    choose_resolution(app);
+    table_show(table, row);
+    row->upload_us = row->draw_us = row->gpu_us = row->swap_us = NAN;
+    row->uploaded_bytes = -1;
+    if (app->draw) draw_frame_timed(app);
+    end_row(app);
+    if (app->draw) after_drawing(app);
+    log_frame(app);
+    app->frame++;
+}
+
+// --- start and end
 
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
 enum { LOG_ROWS = 200000 };
@@ -105,7 +586,7 @@ static bool is_live(const struct app *app)
 }
 
 /// For a run that ends before the user can decide about unsaved work.
-static bool rescue(struct app *app, bool good, struct error *error)
+static bool rescue_unsaved(struct app *app, bool good, struct error *error)
 {
     bool told = process_was_told_to_end(), unsaved = !history_is_saved(app->table.history);
     if (!is_live(app) || !unsaved || (good && !told)) return good;
@@ -128,7 +609,7 @@ static bool close_files(struct app *app, struct error *error)
 }
 
 /// Also writes the picture, which needs GL.
-static bool finish(struct app *app, struct error *error)
+static bool finish_outputs(struct app *app, struct error *error)
 {
     const char *screenshot = app->platform && app->frame > 0 ? app->options->screenshot : NULL;
     struct error other = {0};
@@ -202,7 +683,7 @@ static bool check_outputs(const struct app *app, struct error *error)
     return good;
 }
 
-static bool start(struct app *app, struct error *error)
+static bool start_app(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
     if (o->theme) theme_use((enum theme_kind)(o->theme - 1));
@@ -274,17 +755,17 @@ int app_run(const struct app_options *options, struct error *error)
     app.process_start = clock_now() - (isnan(age) ? 0 : age);
     if (options->gl_debug) platform_debug_gl();
     mtx_init(&app.working, mtx_timed);
-    bool good = start(&app, error);
+    bool good = start_app(&app, error);
     if (good) {
         long frames = options->frames                    ? options->frames
                       : app.demo.on && !app.fixed_clock  ? 0
                       : app.replay                       ? replay_get_header(app.replay)->frames
                       : platform_is_window(app.platform) ? 0
                                                          : HEADLESS_FRAMES;
-        good = rescue(&app, run_frames(&app, frames, frames > 0 || options->log, error), error);
+        good = rescue_unsaved(&app, run_frames(&app, frames, frames > 0 || options->log, error), error);
     }
     struct error late = {0};
-    if (!finish(&app, good ? error : &late)) good = false;
+    if (!finish_outputs(&app, good ? error : &late)) good = false;
     platform_on_lost(NULL, NULL); // a rescue would save the document, which is freed below
     personal_end(&app, !good);    // autosave's thread may still run out of memory
     need_keep(0, NULL, NULL);

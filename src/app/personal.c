@@ -1,5 +1,4 @@
 /// The user's settings, recent files and recovery, in interactive windows.
-#include "app/personal.h"
 #include "app/recovery.h"
 #include "app/settings.h"
 #include "app/state.h"

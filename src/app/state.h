@@ -3,21 +3,47 @@
 #define APP_STATE_H
 
 #include "app/app.h"
-#include "app/personal.h"
 #include "app/replay.h"
 #include "app/resolution.h"
-#include "app/table.h"
 #include "base/file.h"
 #include "draw/draw.h"
+#include "editor/editor.h"
 #include "platform/platform.h"
 #include "scene/edit.h"
+#include "scene/evaluate.h"
 #include "scene/history.h"
+#include "timing/framelog.h"
 #include "ui/theme.h"
 #include <stdint.h>
 #include <threads.h>
 
 #define UI_SCALE_LEAST 0.75
 #define UI_SCALE_MOST 3.0
+
+/// The open document and its part of a frame: no window, no files, no GL. Start from zero, with the parts that a frame needs.
+struct table {
+    struct editor *editor;
+    struct document *document;
+    struct history *history;
+    struct models *models; ///< NULL: characters without models
+    struct evaluation evaluation;
+    unsigned models_serial; ///< of the document whose models are loaded
+};
+
+static inline struct editor_world table_world(const struct table *table)
+{
+    return (struct editor_world){table->document, table->history, &table->evaluation, table->models};
+}
+
+/// The steps of a frame after its events, in this order. Each adds its time and counts to the row.
+/// `dt`: seconds of playback. Also applies running drags.
+void table_edit(struct table *table, double dt, struct frame_row *row);
+void table_solve(struct table *table, struct frame_row *row);
+void table_pose(struct table *table, struct frame_row *row);
+/// Builds the draw list.
+void table_show(struct table *table, struct frame_row *row);
+
+void table_free(struct table *table);
 
 /// The bundled recording that loops until the first touch.
 struct demo {
@@ -128,6 +154,37 @@ void ui_scale_to_ui(const struct app *app, struct event *event);
 /// The next step up (1) or down (-1), or the display's scale (0). Refuses one that leaves the panels no room.
 bool ui_scale_step(struct app *app, int direction, struct error *error);
 
+// What belongs to the user, not a document: settings, recent files, autosave. Headless runs, replays and recordings neither read nor write
+// any of it.
+
+/// Call at a window with an open document: applies settings, starts autosave, offers recovered work. Failures go to the status line.
+void personal_start(struct app *app);
+
+/// Call once per frame, and while idle.
+void personal_update(struct app *app);
+
+/// Whether unsaved work waits for personal_update().
+bool personal_is_behind(const struct app *app);
+
+/// The recent files; `user` is the app.
+dialog_list_recent personal_recent;
+
+/// Call when a document's file was opened or saved.
+void personal_note_file(struct app *app, const char *path);
+
+/// Stores the last export for the Export dialog.
+void personal_note_export(struct app *app, const struct request *request);
+
+/// Opens the offered recovery file, or deletes it and offers the next.
+bool personal_recover(struct app *app, struct error *error);
+void personal_forget(struct app *app);
+
+/// Writes unsaved work to the recovery file and waits for it. Returns the path, or NULL if it failed.
+const char *personal_rescue(struct app *app);
+
+/// `keep`: the user could not decide about unsaved work, so its recovery file stays.
+void personal_end(struct app *app, bool keep);
+
 /// The demo's recording. NULL with an error.
 struct replay *demo_replay(struct error *error);
 /// Advances the demo by `dt` seconds; after the end it starts again.
@@ -143,10 +200,6 @@ extern const struct dialog_format exporting_formats[];
 /// How many can be made here.
 int exporting_format_count(void);
 
-/// Starts an export; exporting_step() answers when it is done. false with an error.
-bool exporting_start(struct app *app, const struct request *request, struct error *error);
-/// Stops a running export without writing anything.
-void exporting_stop(struct app *app);
 /// Call once per frame: continues the export and tells the editor. With a fixed clock it finishes in the frame it began in.
 void exporting_step(struct app *app);
 /// Whether a film is being drawn. Playback stands still meanwhile, so that the stage is not drawn twice.
