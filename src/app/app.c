@@ -16,19 +16,7 @@
 
 // --- the document's part of a frame: edit, solve, pose, show
 
-static double since(double start) { return 1e6 * (clock_now() - start); }
-
-static void solve_splines(struct table *table, struct frame_row *row)
-{
-    struct evaluation *evaluation = &table->evaluation;
-    row->edited = !evaluation_is_of(evaluation, table->document);
-    evaluation->models = models_source(table->models);
-    evaluation_update(evaluation, table->document, table->editor->core.look == LOOK_CUBIC);
-    row->solver = evaluation_solver(evaluation);
-    row->splines_solved = evaluation->solved_splines;
-    row->samples = evaluation->solved_samples;
-    row->knots = evaluation->solved_knots;
-}
+static double microseconds(double from, double to) { return 1e6 * (to - from); }
 
 /// Reads the models of a document that is new, restored by undo, or has other models since the last edit.
 static void read_models(struct table *table)
@@ -50,7 +38,7 @@ void table_edit(struct table *table, double dt, struct frame_row *row)
 {
     const double start = clock_now();
     editor_advance(table->editor, dt);
-    row->edit_us = since(start);
+    row->edit_us = microseconds(start, clock_now());
 }
 
 void table_solve(struct table *table, struct frame_row *row)
@@ -58,22 +46,29 @@ void table_solve(struct table *table, struct frame_row *row)
     read_models(table);
     if (table->models) models_follow(table->models, table->document);
     const double start = clock_now();
-    solve_splines(table, row);
-    row->solve_us = since(start);
+    struct evaluation *evaluation = &table->evaluation;
+    row->edited = !evaluation_is_of(evaluation, table->document);
+    evaluation->models = models_source(table->models);
+    evaluation_update(evaluation, table->document, table->editor->core.look == LOOK_CUBIC);
+    row->solver = evaluation_solver(evaluation);
+    row->splines_solved = evaluation->solved_splines;
+    row->samples = evaluation->solved_samples;
+    row->knots = evaluation->solved_knots;
+    row->solve_us = microseconds(start, clock_now());
 }
 
 void table_pose(struct table *table, struct frame_row *row)
 {
     const double start = clock_now();
     editor_pose(table->editor);
-    row->pose_us = since(start);
+    row->pose_us = microseconds(start, clock_now());
 }
 
 void table_show(struct table *table, struct frame_row *row)
 {
     const double start = clock_now();
     editor_show(table->editor);
-    row->pose_us += since(start);
+    row->pose_us += microseconds(start, clock_now());
 }
 
 void table_free(struct table *table)
@@ -130,14 +125,16 @@ void ui_scale_fit(struct app *app)
     app->table.editor->core.ui_scale = app->ui_scale;
 }
 
-void ui_scale_update(struct app *app)
+/// Call when presenting has started or ended.
+static void ui_scale_update(struct app *app)
 {
     if (app->ui_scale_shown == fitting_scale(app)) return;
     editor_let_go(app->table.editor); // a held control would jump
     ui_scale_fit(app);
 }
 
-void ui_scale_to_ui(const struct app *app, struct event *event)
+/// Converts the display's coordinates to the editor's.
+static void ui_scale_to_ui(const struct app *app, struct event *event)
 {
     const float shown = (float)app->ui_scale_shown;
     event->x /= shown;
@@ -169,8 +166,6 @@ bool ui_scale_step(struct app *app, int direction, struct error *error)
 static const double replay_dt = 1.0 / 60;
 static const double idle_wait = 0.5;
 static const double longest_step = 1; ///< seconds; playback does not skip ahead after a longer stall
-
-static double microseconds(double from, double to) { return 1e6 * (to - from); }
 
 static bool locate(void *user, const char *target, float *x, float *y, struct error *error)
 {
@@ -245,66 +240,31 @@ bool demo_next(struct app *app, double dt, struct error *error)
     return app->replay && start_anew(app, error);
 }
 
-/// Whether an event means that someone wants control.
-static bool is_touch(const struct event *event)
-{
-    const bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
-    return (pressed && event->action == ACTION_PRESS) || event->kind == EVENT_WHEEL || event->kind == EVENT_DROP;
-}
-
-/// Ends the demo with the start scene and the user's settings.
-static bool stop_demo(struct app *app, struct error *error)
-{
-    replay_destroy(app->replay);
-    app->replay = NULL;
-    app->demo.on = false;
-    if (!start_anew(app, error)) return false;
-    if (platform_is_window(app->platform)) personal_start(app);
-    return true;
-}
-
-/// Plays the demo's next frame, or ends the demo.
-static void play_demo(struct app *app)
-{
-    const double dt = app->frame == 0 ? 0 : app->fixed_clock ? replay_dt : app->frame_start - app->last_time;
-    history_mark_saved(app->table.history); // no question about the demo's edits
-    if (!demo_next(app, fmin(fmax(dt, 0), longest_step), &app->error)) app->failed = true;
-}
-
-/// Whether a window event goes to the editor. The first touch ends a demo; closing the window during a demo loses nothing.
+/// Whether a window event goes to the editor. The first touch ends a demo with the start scene and the user's settings; closing the window
+/// during a demo loses nothing.
 static bool is_for_editor(struct app *app, const struct event *event)
 {
     if (!app->replay || event->kind == EVENT_EXPOSE) return true;
     if (!app->demo.on) return event->kind == EVENT_CLOSE;
     app->quit |= event->kind == EVENT_CLOSE;
-    if (is_touch(event) && !stop_demo(app, &app->error)) app->failed = true;
+    const bool pressed = event->kind == EVENT_KEY || event->kind == EVENT_BUTTON;
+    if ((pressed && event->action == ACTION_PRESS) || event->kind == EVENT_WHEEL || event->kind == EVENT_DROP) {
+        replay_destroy(app->replay);
+        app->replay = NULL;
+        app->demo.on = false;
+        if (!start_anew(app, &app->error)) {
+            app->failed = true;
+        } else if (platform_is_window(app->platform)) {
+            personal_start(app);
+        }
+    }
     return event->kind == EVENT_SIZE || event->kind == EVENT_DROP;
-}
-
-/// Delivers the clipboard text the editor asked for as an event, so that it is recorded.
-static void paste(struct app *app)
-{
-    if (!app->paste) return;
-    app->paste = false;
-    const char *text = app_clipboard_text(app);
-    if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
 }
 
 /// With a fixed clock, resolution changes depend on frames, so that pictures do not depend on the machine.
 static double resolution_now(const struct app *app)
 {
     return app->fixed_clock ? (double)app->frame * replay_dt : app->frame_start;
-}
-
-/// How long the next frame may wait for input: until it is due, or longer if nothing moves. A live recording never skips frames, because
-/// its clock counts them.
-static double waiting_time(const struct app *app, bool wanted)
-{
-    double left = fmax(0, app->next_time - clock_now());
-    if (app->recording && !app->replay) process_sleep(left);
-    if (app->fixed_clock) return 0;
-    if (wanted) return left;
-    return fmin(personal_is_behind(app) ? replay_dt : idle_wait, resolution_wait(&app->resolution, clock_now()));
 }
 
 /// Waits, then handles events. false if nothing needs a frame.
@@ -314,8 +274,18 @@ static bool take_input(struct app *app)
     bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->table.editor) || app->paste ||
                   app->export_job || app->demo.on || app->fetches;
     app->was_idle = !wanted;
+
+    // The next frame waits for input until it is due, or longer if nothing moves. A live recording never skips frames, because its clock
+    // counts them.
+    double wait = fmax(0, app->next_time - clock_now());
+    if (app->recording && !app->replay) process_sleep(wait);
+    if (app->fixed_clock) {
+        wait = 0;
+    } else if (!wanted) {
+        wait = fmin(personal_is_behind(app) ? replay_dt : idle_wait, resolution_wait(&app->resolution, clock_now()));
+    }
     int count = 0;
-    const struct event *events = platform_events(app->platform, waiting_time(app, wanted), &count);
+    const struct event *events = platform_events(app->platform, wait, &count);
     bool exact_due = !app->fixed_clock && resolution_wait(&app->resolution, clock_now()) == 0;
     app->frame_start = clock_now();
     bool rested = !wanted && (count == 0 || app->frame_start - wait_start > replay_dt);
@@ -324,7 +294,11 @@ static bool take_input(struct app *app)
     app->oldest_event = NAN;
     app->row = (struct frame_row){.frame = app->frame, .wait_us = microseconds(wait_start, app->frame_start)};
     app->row.allocations = allocation_count();
-    paste(app);
+
+    // Clipboard text that the editor asked for comes as an event, so that it is recorded.
+    const char *text = app->paste ? app_clipboard_text(app) : NULL;
+    app->paste = false;
+    if (text) handle_event(app, &(struct event){.kind = EVENT_PASTE, .text = text});
     for (int i = 0; i < count; i++) {
         if (!is_for_editor(app, &events[i])) continue;
         if (isnan(app->oldest_event)) app->oldest_event = events[i].time;
@@ -332,35 +306,26 @@ static bool take_input(struct app *app)
         if (event.kind != EVENT_SIZE) ui_scale_to_ui(app, &event); // recorded in the display's pixels
         handle_event(app, &event);
     }
-    if (app->demo.on && !app->failed) play_demo(app);
+    if (app->demo.on && !app->failed) {
+        const double dt = app->frame == 0 ? 0 : app->fixed_clock ? replay_dt : app->frame_start - app->last_time;
+        history_mark_saved(app->table.history); // no question about the demo's edits
+        if (!demo_next(app, fmin(fmax(dt, 0), longest_step), &app->error)) app->failed = true;
+    }
     if (app->replay && !app->failed) play_events(app);
     app->row.input_us = microseconds(app->frame_start, clock_now());
     return true;
 }
 
-/// A recording's clock counts frames of equal length.
-static double next_time(const struct app *app)
-{
-    if (app->fixed_clock) return fmax(app->next_time + replay_dt, app->frame_start);
-    return pace_next(&app->pace, app->next_time, app->frame_start);
-}
-
+/// Notes when the next frame is due; a recording's clock counts frames of equal length. Returns the seconds of playback.
 static double step_clock(struct app *app)
 {
     double dt = app->fixed_clock ? replay_dt : fmin(fmax(app->frame_start - app->last_time, 0), longest_step);
     bool starts =
         app->frame == 0 || (app->was_idle && !app->fixed_clock); // what starts now did not move during the pause
     app->last_time = app->frame_start;
-    app->next_time = next_time(app);
+    app->next_time = app->fixed_clock ? fmax(app->next_time + replay_dt, app->frame_start)
+                                      : pace_next(&app->pace, app->next_time, app->frame_start);
     return starts ? 0 : dt;
-}
-
-/// Chooses the stage's resolution and reports it to the status line.
-static void choose_resolution(struct app *app)
-{
-    struct editor *editor = app->table.editor;
-    const float scale = resolution_choose(&app->resolution, editor_stage(editor)->hash, resolution_now(app));
-    editor->core.status.stage_scale = scale;
 }
 
 static struct draw_input draw_input(const struct app *app, float stage_scale)
@@ -377,18 +342,7 @@ static struct draw_input draw_input(const struct app *app, float stage_scale)
     return input;
 }
 
-static void measure_cost(struct app *app)
-{
-    const struct frame_row *row = &app->row;
-    struct resolution_cost cost = {
-        .draw = 1e-3 * (row->upload_us + row->draw_us), .swap = 1e-3 * row->swap_us, .gpu = 1e-3 * app->gpu_us};
-    cost.before = row->frame_ms - cost.draw - cost.swap;
-    // A browser draws after the frame, and calls for the next when it keeps up.
-    if (platform_in_page()) cost.swap = row->frame_interval_ms - cost.before - cost.draw;
-    resolution_measure(&app->resolution, &cost);
-}
-
-static void draw_frame_timed(struct app *app)
+static void draw_timed(struct app *app)
 {
     struct draw_input input = draw_input(app, app->resolution.shown);
     struct draw_cost cost = {0};
@@ -406,23 +360,6 @@ static void draw_frame_timed(struct app *app)
     app->row.swap_us = microseconds(swap_start, end);
 }
 
-static void end_row(struct app *app)
-{
-    double end = clock_now();
-    app->row.t_s = app->frame_start - app->process_start;
-    app->row.frame_ms = 1e3 * (end - app->frame_start);
-    app->row.frame_interval_ms = 1e3 * (end - app->last_swap);
-    app->last_swap = end;
-    app->row.event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
-    app->row.allocations = allocation_count() - app->row.allocations;
-}
-
-static void after_drawing(struct app *app)
-{
-    if (app->resolution.changed == resolution_now(app)) measure_cost(app);
-    platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->table.editor));
-}
-
 void app_draw_exactly(struct app *app)
 {
     if (!app->draw || resolution_is_exact(&app->resolution)) return;
@@ -431,14 +368,34 @@ void app_draw_exactly(struct app *app)
     draw_frame(app->draw, &input, &cost);
 }
 
-static void log_frame(struct app *app)
+/// Completes and logs the frame's row; judges the resolution by it.
+static void end_frame(struct app *app)
 {
-    if (app->log) framelog_push(app->log, &app->row);
+    struct frame_row *row = &app->row;
+    const double end = clock_now();
+    row->t_s = app->frame_start - app->process_start;
+    row->frame_ms = 1e3 * (end - app->frame_start);
+    row->frame_interval_ms = 1e3 * (end - app->last_swap);
+    app->last_swap = end;
+    row->event_to_swap_us = isnan(app->oldest_event) ? NAN : microseconds(app->oldest_event, end);
+    row->allocations = allocation_count() - row->allocations;
+
+    if (app->draw && app->resolution.changed == resolution_now(app)) {
+        struct resolution_cost cost = {
+            .draw = 1e-3 * (row->upload_us + row->draw_us), .swap = 1e-3 * row->swap_us, .gpu = 1e-3 * app->gpu_us};
+        cost.before = row->frame_ms - cost.draw - cost.swap;
+        // A browser draws after the frame, and calls for the next when it keeps up.
+        if (platform_in_page()) cost.swap = row->frame_interval_ms - cost.before - cost.draw;
+        resolution_measure(&app->resolution, &cost);
+    }
+    if (app->draw) platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->table.editor));
+
+    if (app->log) framelog_push(app->log, row);
     double now = clock_now();
     if (now - app->stats_time >= 0.5) {
         bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing runs in real time
         double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
-        app->table.editor->core.status.told = (struct figures){fps, app->row.solve_us};
+        app->table.editor->core.status.told = (struct figures){fps, row->solve_us};
         app->stats_time = now;
         app->stats_frame = app->frame;
         pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
@@ -480,14 +437,13 @@ void app_frame(struct app *app)
     if (app->failed || app->fetches) return;
     table_solve(table, row);
     table_pose(table, row);
-    choose_resolution(app);
+    const float scale = resolution_choose(&app->resolution, editor_stage(table->editor)->hash, resolution_now(app));
+    table->editor->core.status.stage_scale = scale;
     table_show(table, row);
     row->upload_us = row->draw_us = row->gpu_us = row->swap_us = NAN;
     row->uploaded_bytes = -1;
-    if (app->draw) draw_frame_timed(app);
-    end_row(app);
-    if (app->draw) after_drawing(app);
-    log_frame(app);
+    if (app->draw) draw_timed(app);
+    end_frame(app);
     app->frame++;
 }
 
@@ -572,27 +528,10 @@ static bool run_frame(void *user)
     return !app->quit && !app->failed && !process_was_told_to_end() && (run->frames == 0 || app->frame < run->frames);
 }
 
-static bool run_frames(struct app *app, long frames, bool timed, struct error *error)
-{
-    platform_run(app->platform, run_frame, &(struct run){app, frames, timed});
-    if (app->failed) *error = app->error;
-    return !app->failed;
-}
-
 /// Whether a person, not a script, is working.
 static bool is_live(const struct app *app)
 {
     return app->platform && platform_is_window(app->platform) && !app->replay;
-}
-
-/// For a run that ends before the user can decide about unsaved work.
-static bool rescue_unsaved(struct app *app, bool good, struct error *error)
-{
-    bool told = process_was_told_to_end(), unsaved = !history_is_saved(app->table.history);
-    if (!is_live(app) || !unsaved || (good && !told)) return good;
-    if (good) fail(error, ERROR_ENVIRONMENT, "ended by a signal");
-    app_rescue(app, error);
-    return false;
 }
 
 /// Writes the command line's output files: document, log, recording. Continues after a failure and reports the first.
@@ -608,15 +547,6 @@ static bool close_files(struct app *app, struct error *error)
     return recording_close(app->recording, app->frame, good ? error : &other) && good;
 }
 
-/// Also writes the picture, which needs GL.
-static bool finish_outputs(struct app *app, struct error *error)
-{
-    const char *screenshot = app->platform && app->frame > 0 ? app->options->screenshot : NULL;
-    struct error other = {0};
-    bool good = !screenshot || app_screenshot(app, screenshot, error);
-    return close_files(app, good ? error : &other) && good;
-}
-
 /// The display and GL are gone: saves the document if possible. The process ends on return, but in a browser.
 static void on_lost(void *user)
 {
@@ -630,15 +560,6 @@ static void on_lost(void *user)
     fprintf(stderr, "wiggly live: %s\n", error.text);
 }
 
-static bool set_resolution(struct app *app, struct error *error)
-{
-    const struct app_options *o = app->options;
-    bool live = platform_is_window(app->platform) && !o->replay && !o->record;
-    const char *scale = o->stage_scale ? o->stage_scale : live ? "auto" : "1";
-    return resolution_parse(&app->resolution, scale) ||
-           fail(error, ERROR_USAGE, "--stage-scale: expected auto or a number from 0.25 to 1, got '%s'", scale);
-}
-
 void app_open_editor(struct app *app)
 {
     editor_destroy(app->table.editor);
@@ -648,25 +569,6 @@ void app_open_editor(struct app *app)
     app->table.evaluation.solver = app->options->solver;
     app_connect_files(app);
     ui_scale_fit(app);
-}
-
-/// Opens the replay of the command line, or the demo's.
-static bool open_replay(struct app *app, struct error *error)
-{
-    const struct app_options *o = app->options;
-    app->demo = (struct demo){.on = o->demo, .theme = theme_in_use()};
-    if (!o->demo && !o->replay) return true;
-    app->replay = o->demo ? demo_replay(error) : replay_load(o->replay, error);
-    return app->replay != NULL;
-}
-
-/// A replay only fits its scene; the demo opens its own.
-static bool check_scene(const struct app *app, uint64_t hash, struct error *error)
-{
-    if (!is_replay(app) || replay_get_header(app->replay)->scene_hash == hash) return true;
-    return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
-                app->options->replay, (unsigned long long)replay_get_header(app->replay)->scene_hash,
-                (unsigned long long)hash);
 }
 
 /// Refuses to write over the scene's models and the files that these name, before any of it is overwritten.
@@ -687,9 +589,18 @@ static bool start_app(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
     if (o->theme) theme_use((enum theme_kind)(o->theme - 1));
-    if (!open_replay(app, error)) return false;
+    app->demo = (struct demo){.on = o->demo, .theme = theme_in_use()};
+    if (o->demo || o->replay) {
+        app->replay = o->demo ? demo_replay(error) : replay_load(o->replay, error);
+        if (!app->replay) return false;
+    }
     font_init();
-    if (!open_platform(app, error) || !set_resolution(app, error)) return false;
+    if (!open_platform(app, error)) return false;
+    const bool window = platform_is_window(app->platform);
+    const char *stage_scale = o->stage_scale ? o->stage_scale : window && !o->replay && !o->record ? "auto" : "1";
+    if (!resolution_parse(&app->resolution, stage_scale))
+        return fail(error, ERROR_USAGE, "--stage-scale: expected auto or a number from 0.25 to 1, got '%s'",
+                    stage_scale);
     int width, height;
     float scale;
     platform_size(app->platform, &width, &height, &scale);
@@ -707,7 +618,12 @@ static bool start_app(struct app *app, struct error *error)
         if (!app_open(app, NULL, error)) return false;
     }
     uint64_t hash = scene_hash(app->table.document);
-    if (!check_scene(app, hash, error) || !check_outputs(app, error)) return false;
+    // A replay only fits its scene; the demo opens its own.
+    if (is_replay(app) && replay_get_header(app->replay)->scene_hash != hash)
+        return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
+                    o->replay, (unsigned long long)replay_get_header(app->replay)->scene_hash,
+                    (unsigned long long)hash);
+    if (!check_outputs(app, error)) return false;
     if (o->record) {
         struct replay_header header = {.width = (int)lroundf((float)width / scale),
                                        .height = (int)lroundf((float)height / scale),
@@ -718,7 +634,6 @@ static bool start_app(struct app *app, struct error *error)
     }
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
     if (o->saves) mkdir(o->saves, 0777);
-    bool window = platform_is_window(app->platform);
     app->fixed_clock = !window || is_replay(app) || app->recording;
     app->lost = true;
     if (window) {
@@ -762,10 +677,22 @@ int app_run(const struct app_options *options, struct error *error)
                       : app.replay                       ? replay_get_header(app.replay)->frames
                       : platform_is_window(app.platform) ? 0
                                                          : HEADLESS_FRAMES;
-        good = rescue_unsaved(&app, run_frames(&app, frames, frames > 0 || options->log, error), error);
+        platform_run(app.platform, run_frame, &(struct run){&app, frames, frames > 0 || options->log});
+        good = !app.failed;
+        if (!good) *error = app.error;
+
+        // The run may end before the user can decide about unsaved work.
+        const bool told = process_was_told_to_end();
+        if (is_live(&app) && !history_is_saved(app.table.history) && (!good || told)) {
+            if (good) fail(error, ERROR_ENVIRONMENT, "ended by a signal");
+            app_rescue(&app, error);
+            good = false;
+        }
     }
+    const char *screenshot = app.platform && app.frame > 0 ? options->screenshot : NULL; // needs GL
     struct error late = {0};
-    if (!finish_outputs(&app, good ? error : &late)) good = false;
+    if (screenshot && !app_screenshot(&app, screenshot, good ? error : &late)) good = false;
+    if (!close_files(&app, good ? error : &late)) good = false;
     platform_on_lost(NULL, NULL); // a rescue would save the document, which is freed below
     personal_end(&app, !good);    // autosave's thread may still run out of memory
     need_keep(0, NULL, NULL);

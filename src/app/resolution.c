@@ -45,13 +45,6 @@ double resolution_wait(const struct resolution *resolution, double now)
     return fmax(0, resolution->changed + still - now);
 }
 
-static int level_of(float scale)
-{
-    int level = 0;
-    while (level + 1 < LEVELS && levels[level] > scale) level++;
-    return level;
-}
-
 /// Counts up while something holds, down otherwise.
 static int count(int before, bool holds) { return holds ? before + 1 : before > 0 ? before - 1 : 0; }
 
@@ -69,7 +62,8 @@ void resolution_measure(struct resolution *resolution, const struct resolution_c
     if (!resolution->adapts) return;
     const double draw_ms = cost->gpu > 0 ? fmax(cost->draw, cost->gpu) : cost->draw + cost->swap;
     const double frame_ms = cost->before + draw_ms;
-    const int level = level_of(scale_of(resolution->moving));
+    int level = 0;
+    while (level + 1 < LEVELS && levels[level] > scale_of(resolution->moving)) level++;
     // Fewer pixels help only if drawing is the bottleneck.
     const bool slow = resolution->since >= LATE && frame_ms > too_long && draw_ms > frame_ms / 2;
     resolution->slow = count(resolution->slow, slow);

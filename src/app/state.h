@@ -147,10 +147,6 @@ void file_watch_look(struct app *app);
 
 /// Lays out the editor for the display's size, as large as chosen or as fits.
 void ui_scale_fit(struct app *app);
-/// Call when presenting has started or ended.
-void ui_scale_update(struct app *app);
-/// Converts the display's coordinates to the editor's.
-void ui_scale_to_ui(const struct app *app, struct event *event);
 /// The next step up (1) or down (-1), or the display's scale (0). Refuses one that leaves the panels no room.
 bool ui_scale_step(struct app *app, int direction, struct error *error);
 
