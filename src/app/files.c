@@ -100,25 +100,18 @@ static struct export_options options_of(struct export_job *job)
                                    .user = job};
 }
 
-static bool write_motion(struct export_job *job)
-{
-    const struct posing posing = opened_posing(&job->opened);
-    const struct export_options options = options_of(job);
-    return export_write(&posing, job->request.path, &options, &job->report, &job->error);
-}
-
-static bool prepare_job(struct export_job *job)
-{
-    struct opened *opened = &job->opened;
-    if (!models_update(opened->models, opened->document, &job->error)) return false;
-    opened_solve(opened, SOLVER_BY_LENGTH);
-    return true;
-}
-
 /// Solves, then writes.
 static void work_on_job(struct export_job *job)
 {
-    job->good = job->prepared ? write_motion(job) : prepare_job(job);
+    struct opened *opened = &job->opened;
+    if (job->prepared) {
+        const struct posing posing = opened_posing(opened);
+        const struct export_options options = options_of(job);
+        job->good = export_write(&posing, job->request.path, &options, &job->report, &job->error);
+    } else {
+        job->good = models_update(opened->models, opened->document, &job->error);
+        if (job->good) opened_solve(opened, SOLVER_BY_LENGTH);
+    }
     if (job->prepared || !job->good || film_knows(job->request.path)) atomic_store(&job->ended, true);
     job->prepared = true;
 }
@@ -132,41 +125,10 @@ static int run_job(void *user)
     return 0;
 }
 
-static void destroy_job(struct export_job *job)
-{
-    if (job->threaded) thrd_join(job->thread, NULL);
-    film_close(job->film);
-    opened_free(&job->opened);
-    free(job);
-}
-
-/// Starts an export; exporting_step() answers when it is done.
-static bool exporting_start(struct app *app, const struct request *request, struct error *error)
-{
-    if (app->export_job) return fail(error, ERROR_INPUT, "Another export is running.");
-    if (!app->draw && film_knows(request->path))
-        return fail(error, ERROR_ENVIRONMENT, "%s: pictures need OpenGL, which is missing", request->path);
-    struct export_job *job = need_zeroed(1, sizeof *job);
-    job->request = *request;
-    struct opened *opened = &job->opened;
-    opened->document = document_copy(app->table.document);
-    opened->models = models_create();
-    job->threaded = thrd_create(&job->thread, run_job, job) == thrd_success;
-    app->export_job = job;
-    return true;
-}
-
 /// Stops a running export without writing anything.
 static void exporting_stop(struct app *app)
 {
     if (app->export_job) atomic_store(&app->export_job->stop, true);
-}
-
-static enum film_state begin_job_film(struct export_job *job)
-{
-    const struct export_options options = options_of(job);
-    job->film = film_open(&job->opened, job->request.path, &options, &job->error);
-    return job->film ? FILM_RUNS : FILM_FAILED;
 }
 
 /// FILM_RUNS while any format has more to do.
@@ -184,7 +146,11 @@ static enum film_state continue_job(struct export_job *job, bool wait)
         fail(&job->error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
         return FILM_FAILED;
     }
-    if (!job->film) return begin_job_film(job);
+    if (!job->film) {
+        const struct export_options options = options_of(job);
+        job->film = film_open(&job->opened, job->request.path, &options, &job->error);
+        return job->film ? FILM_RUNS : FILM_FAILED;
+    }
     enum film_state state = film_step(job->film, wait, &job->error);
     long done, total;
     film_progress(job->film, &done, &total);
@@ -192,19 +158,6 @@ static enum film_state continue_job(struct export_job *job, bool wait)
     atomic_store(&job->done, done);
     if (state == FILM_DONE) film_report(job->film, &job->report);
     return state;
-}
-
-static void answer_job(struct app *app, bool done)
-{
-    struct export_job *job = app->export_job;
-    const struct request *request = &job->request;
-    const struct export_report *report = &job->report;
-    const bool stopped = !done && atomic_load(&job->stop);
-    editor_answer(app->table.editor, request, done, stopped ? "Cancelled. Nothing was written." : job->error.text);
-    if (!done) return;
-    core_message(&app->table.editor->core, false, "Wrote %s: %s.%s%s%s", request->path, report->text,
-                 *report->note ? " Note: " : "", report->note, *report->note ? "." : "");
-    personal_note_export(app, request);
 }
 
 void exporting_step(struct app *app)
@@ -215,7 +168,15 @@ void exporting_step(struct app *app)
     while (app->fixed_clock && state == FILM_RUNS) state = continue_job(job, true);
     dialogs_tell_export(app->table.editor->dialogs, atomic_load(&job->done), atomic_load(&job->total));
     if (state == FILM_RUNS) return;
-    answer_job(app, state == FILM_DONE);
+    const struct request *request = &job->request;
+    const struct export_report *report = &job->report;
+    const bool done = state == FILM_DONE, stopped = !done && atomic_load(&job->stop);
+    editor_answer(app->table.editor, request, done, stopped ? "Cancelled. Nothing was written." : job->error.text);
+    if (done) {
+        core_message(&app->table.editor->core, false, "Wrote %s: %s.%s%s%s", request->path, report->text,
+                     *report->note ? " Note: " : "", report->note, *report->note ? "." : "");
+        personal_note_export(app, request);
+    }
     app_stop_export(app);
 }
 
@@ -223,8 +184,13 @@ bool exporting_draws(const struct app *app) { return app->export_job && app->exp
 
 void app_stop_export(struct app *app)
 {
+    struct export_job *job = app->export_job;
+    if (!job) return;
     exporting_stop(app);
-    if (app->export_job) destroy_job(app->export_job);
+    if (job->threaded) thrd_join(job->thread, NULL);
+    film_close(job->film);
+    opened_free(&job->opened);
+    free(job);
     app->export_job = NULL;
 }
 
@@ -258,33 +224,24 @@ static bool assets_folder(char folder[PATH_LIMIT])
     return false;
 }
 
-/// Compares folders by identity, because one can be mounted twice.
-static bool is_same(const char *folder, const char *other)
-{
-    struct stat a, b;
-    return stat(folder, &a) == 0 && stat(other, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
-}
-
-/// Whether a file, after following links, is in the folder of bundled scenes.
+/// Whether a file, after following links, is in the folder of bundled scenes. A folder can be mounted twice, so its identity counts.
 static bool assets_has(const char *path)
 {
     char file[PATH_LIMIT], folder[PATH_LIMIT], own[PATH_LIMIT];
-    return realpath(path, file) && path_folder(file, folder) && assets_folder(own) && is_same(folder, own);
+    struct stat a, b;
+    return realpath(path, file) && path_folder(file, folder) && assets_folder(own) && stat(folder, &a) == 0 &&
+           stat(own, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
 const char *app_path(const struct app *app) { return app->table.document->path ? app->table.document->path : ""; }
 
-void file_watch_note(struct app *app, uint64_t content) { app->own_file.content = content; }
-
-static void file_watch_note_now(struct app *app) { file_watch_note(app, file_content(app_path(app))); }
-
-uint64_t file_watch_known(const struct app *app) { return app->own_file.content; }
+static void file_watch_note_now(struct app *app) { app->own_file.content = file_content(app_path(app)); }
 
 /// Content hash of the document's file if another program changed it; 0: unchanged, or gone.
 static uint64_t changed_content(const struct app *app)
 {
     const uint64_t now = app_path(app)[0] ? file_content(app_path(app)) : 0;
-    return now == file_watch_known(app) ? 0 : now;
+    return now == app->own_file.content ? 0 : now;
 }
 
 /// Asks about a changed file. `saves`: the user tried to save, so the question replaces saving.
@@ -320,9 +277,12 @@ static void append(char text[DESCRIPTION], const char *between, const char *more
 
 static const char *end_of_names(int count) { return count == 0 ? "nothing" : count > NAMED ? " and more" : ""; }
 
-/// In a page, for a screen reader: what is shown.
-static void describe(struct app *app)
+void app_show_title(struct app *app)
 {
+    if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
+    if (!platform_in_page()) return;
+
+    // For a screen reader: what is shown.
     const struct document *document = app->table.document;
     const int rigs = document->rig_count, splines = document->spline_count;
     char text[DESCRIPTION] = "On the stage: ";
@@ -333,12 +293,6 @@ static void describe(struct app *app)
     const uint64_t hash = hash_bytes(HASH_START, text, strlen(text));
     if (hash != app->described) platform_describe(app->platform, text);
     app->described = hash;
-}
-
-void app_show_title(struct app *app)
-{
-    if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
-    if (platform_in_page()) describe(app);
 }
 
 void app_adopt(struct app *app, struct document *document)
@@ -397,22 +351,8 @@ bool app_open(struct app *app, const char *path, struct error *error)
     if (is_users) document_set_path(document, path);
     app_adopt(app, document);
     if (path && !is_users) show_subject(app, path_name(path));
-    file_watch_note(app, content);
+    app->own_file.content = content;
     personal_note_file(app, app_path(app));
-    return true;
-}
-
-/// Opens a figure of the paper, the dog or the hands, untitled.
-static bool open_figure(struct app *app, int number, struct error *error)
-{
-    static const char *const names[] = {"figure1.json", "figure2.json", "figure3.json",
-                                        "figure4.json", "figure5.json", "figure6.json",
-                                        "figure7.json", "dog.json",     "hands.json"};
-    const char *name = names[number - 1];
-    struct document *document = parse_built_in(name, error);
-    if (!document) return false;
-    app_adopt(app, document);
-    show_subject(app, name);
     return true;
 }
 
@@ -432,20 +372,6 @@ static bool take_theirs(struct app *app, struct error *error)
     show_title(app);
     file_watch_note_now(app);
     return true;
-}
-
-/// Adds a file's character to the scene, in one undo step.
-static bool add_file(struct app *app, const char *path, struct error *error)
-{
-    struct table *table = &app->table;
-    struct core *core = &table->editor->core;
-    editor_let_go(table->editor);
-    core_begin(core, "Add character", 0);
-    const bool added = import_add(table->document, path, core->active, error);
-    core_end(core, added);
-    editor_refresh(table->editor);
-    if (added) editor_show_last(table->editor);
-    return added;
 }
 
 /// Where a file is written. A replay chooses no folder: what it writes goes to that of --saves, by its name alone, else nowhere (""). To the
@@ -516,23 +442,16 @@ static bool take_picture(struct app *app, struct error *error)
     return true;
 }
 
-/// Whether the document is read from a file: one of its models or, for an export, its own.
-static bool is_read(const struct app *app, const struct request *request)
-{
-    const struct document *document = app->table.document;
-    char model[PATH_LIMIT];
-    bool is_one = request->kind == REQUEST_EXPORT && file_same(request->path, app_path(app));
-    for (int r = 0; r < document->rig_count && !is_one; r++)
-        is_one = document_model_path(document, r, model) && file_same(request->path, model);
-    return is_one;
-}
-
-/// Refuses to write over what the document is read from, and once over another existing file, which it allows when repeated.
+/// Refuses to write over what the document is read from (its models or, for an export, its own file), and once over another existing file, which it allows when repeated.
 static bool may_replace(struct app *app, const struct request *request, struct error *error)
 {
     char path[PATH_LIMIT];
     const bool is_download = platform_in_page() && request->kind == REQUEST_EXPORT; // the browser replaces no file
-    if (is_read(app, request))
+    const struct document *document = app->table.document;
+    bool is_read = request->kind == REQUEST_EXPORT && file_same(request->path, app_path(app));
+    for (int r = 0; r < document->rig_count && !is_read; r++)
+        is_read = document_model_path(document, r, path) && file_same(request->path, path);
+    if (is_read)
         return fail(error, ERROR_INPUT, "%s: this scene is read from it: choose another name", request->path);
     if (!place_file(app, request->path, path, error) || !file_check_unread(path, error)) return false;
     if (access(path, F_OK) != 0 || strcmp(request->path, app_path(app)) == 0 || strcmp(path, app->replaceable) == 0 ||
@@ -542,26 +461,31 @@ static bool may_replace(struct app *app, const struct request *request, struct e
     return fail(error, ERROR_INPUT, "%s already exists: press Enter again to replace it", path);
 }
 
-static bool export_motion(struct app *app, const struct request *request, struct error *error)
+/// Starts an export; exporting_step() answers when it is done.
+static bool start_export(struct app *app, const struct request *request, struct error *error)
 {
     struct request placed = *request;
     if (!place_file(app, request->path, placed.path, error)) return false;
-    if (placed.path[0]) return exporting_start(app, &placed, error);
-    editor_answer(app->table.editor, request, true, "");
-    tell_placed(app, placed.path);
+    if (!placed.path[0]) {
+        editor_answer(app->table.editor, request, true, "");
+        tell_placed(app, placed.path);
+        return true;
+    }
+    if (app->export_job) return fail(error, ERROR_INPUT, "Another export is running.");
+    if (!app->draw && film_knows(placed.path))
+        return fail(error, ERROR_ENVIRONMENT, "%s: pictures need OpenGL, which is missing", placed.path);
+    struct export_job *job = need_zeroed(1, sizeof *job);
+    job->request = placed;
+    job->opened.document = document_copy(app->table.document);
+    job->opened.models = models_create();
+    job->threaded = thrd_create(&job->thread, run_job, job) == thrd_success;
+    app->export_job = job;
     return true;
-}
-
-static void share(struct app *app)
-{
-    size_t size;
-    char *scene = scene_print(app->table.document, &size);
-    platform_share(app->platform, scene);
-    free(scene);
 }
 
 static bool carry_out(struct app *app, const struct request *request, struct error *error)
 {
+    struct core *core = &app->table.editor->core;
     switch (request->kind) {
     case REQUEST_NONE:
         return true;
@@ -571,14 +495,30 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         app_adopt(app, document);
         return true;
     }
-    case REQUEST_FIGURE:
-        return open_figure(app, request->number, error);
+    case REQUEST_FIGURE: { // of the paper, the dog or the hands, untitled
+        static const char *const names[] = {"figure1.json", "figure2.json", "figure3.json",
+                                            "figure4.json", "figure5.json", "figure6.json",
+                                            "figure7.json", "dog.json",     "hands.json"};
+        const char *name = names[request->number - 1];
+        struct document *document = parse_built_in(name, error);
+        if (!document) return false;
+        app_adopt(app, document);
+        show_subject(app, name);
+        return true;
+    }
     case REQUEST_OPEN:
         if (strcmp(request->path, ELSEWHERE) != 0) return app_open(app, request->path, error);
         platform_choose_file(app->platform);
         return true;
-    case REQUEST_ADD:
-        return add_file(app, request->path, error);
+    case REQUEST_ADD: {
+        editor_let_go(app->table.editor);
+        core_begin(core, "Add character", 0);
+        const bool added = import_add(app->table.document, request->path, core->active, error);
+        core_end(core, added);
+        editor_refresh(app->table.editor);
+        if (added) editor_show_last(app->table.editor);
+        return added;
+    }
     case REQUEST_SAVE:
     case REQUEST_OVERWRITE:
         return save(app, app_path(app), error);
@@ -591,7 +531,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_THEIRS:
         return take_theirs(app, error);
     case REQUEST_EXPORT:
-        return may_replace(app, request, error) && export_motion(app, request, error);
+        return may_replace(app, request, error) && start_export(app, request, error);
     case REQUEST_EXPORT_STOP:
         exporting_stop(app);
         return true;
@@ -605,9 +545,13 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return true;
     case REQUEST_SCREENSHOT:
         return take_picture(app, error);
-    case REQUEST_SHARE:
-        share(app);
+    case REQUEST_SHARE: {
+        size_t size;
+        char *scene = scene_print(app->table.document, &size);
+        platform_share(app->platform, scene);
+        free(scene);
         return true;
+    }
     case REQUEST_FULLSCREEN:
         platform_toggle_fullscreen(app->platform);
         return true;
@@ -615,7 +559,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return ui_scale_step(app, request->number, error);
     case REQUEST_COPY:
         // a replay must leave the user's clipboard alone
-        if (!app->replay) platform_set_clipboard(app->platform, app->table.editor->core.clipboard);
+        if (!app->replay) platform_set_clipboard(app->platform, core->clipboard);
         return true;
     case REQUEST_PASTE:
         app->paste = !app->replay; /* a replay has the text that was pasted when it was recorded */
@@ -624,20 +568,14 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     return true;
 }
 
-/// Asks the user if a request would overwrite another program's changes; true if so.
-static bool is_asked_about(struct app *app, const struct request *request)
-{
-    const bool saves = request->kind == REQUEST_SAVE ||
-                       (request->kind == REQUEST_SAVE_AS && strcmp(request->path, app_path(app)) == 0);
-    return saves && changed_content(app) && ask_changed(app, true);
-}
-
 void app_requests(struct app *app)
 {
     for (;;) {
         const struct request request = editor_take_request(app->table.editor);
         if (request.kind == REQUEST_NONE) return;
-        if (is_asked_about(app, &request)) continue;
+        const bool saves = request.kind == REQUEST_SAVE ||
+                           (request.kind == REQUEST_SAVE_AS && strcmp(request.path, app_path(app)) == 0);
+        if (saves && changed_content(app) && ask_changed(app, true)) continue;
         struct error error = {0};
         const bool done = carry_out(app, &request, &error);
         const bool goes_on = done && request.kind == REQUEST_EXPORT;
@@ -659,11 +597,6 @@ const char *app_clipboard_text(struct app *app)
     return text && *text ? text : NULL;
 }
 
-static bool is_scene_name(const char *name)
-{
-    return path_has_end(name, ".json") || path_has_end(name, ".glb") || path_has_end(name, ".gltf");
-}
-
 static int compare_names(const void *a, const void *b) { return strcmp(a, b); }
 
 static int list_folder(void *user, const char *folder, char names[][256], int max)
@@ -679,9 +612,8 @@ static int list_folder(void *user, const char *folder, char names[][256], int ma
         snprintf(path, sizeof path, "%s/%s", folder[0] ? folder : ".", entry->d_name);
         if (entry->d_name[0] == '.' || strlen(entry->d_name) > 254 || stat(path, &status) != 0) continue;
         bool is_folder = S_ISDIR(status.st_mode);
-        if (is_folder || is_scene_name(entry->d_name)) {
+        if (is_folder || path_has_end(path, ".json") || path_has_end(path, ".glb") || path_has_end(path, ".gltf"))
             snprintf(names[count++], 256, "%.254s%s", entry->d_name, is_folder ? "/" : "");
-        }
     }
     closedir(directory);
     qsort(names, (size_t)count, sizeof names[0], compare_names);

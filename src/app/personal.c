@@ -110,9 +110,19 @@ static void note_choices(struct app *app, bool ends)
     store_settings(app, settings);
 }
 
-static void start_choices(struct app *app, const struct settings *settings)
+static void start_settings(struct app *app)
 {
+    struct personal *personal = app->personal;
     struct core *core = &app->table.editor->core;
+    struct error error = {0};
+    struct export_memory memory;
+    char folder[PATH_LIMIT];
+    if (!make_folder("XDG_CONFIG_HOME", ".config", folder, &error)) {
+        complain(app, &error);
+        return;
+    }
+    snprintf(personal->settings_path, sizeof personal->settings_path, "%s/settings", folder);
+    struct settings *settings = settings_load(personal->settings_path, &error);
     const char *name = settings_get(settings, "theme", 0);
     const int kind = name ? theme_find(name) : -1;
     if (kind >= 0 && !app->options->theme) theme_use((enum theme_kind)kind);
@@ -126,22 +136,7 @@ static void start_choices(struct app *app, const struct settings *settings)
     const char *keep = settings_get(settings, "keep", 0);
     core->keep = !keep || strcmp(keep, "no") != 0;
     if (!settings_get(settings, "welcomed", 0)) dialogs_welcome(app->table.editor->dialogs);
-    app->personal->choices = choices_of(app);
-}
-
-static void start_settings(struct app *app)
-{
-    struct personal *personal = app->personal;
-    struct error error = {0};
-    struct export_memory memory;
-    char folder[PATH_LIMIT];
-    if (!make_folder("XDG_CONFIG_HOME", ".config", folder, &error)) {
-        complain(app, &error);
-        return;
-    }
-    snprintf(personal->settings_path, sizeof personal->settings_path, "%s/settings", folder);
-    struct settings *settings = settings_load(personal->settings_path, &error);
-    start_choices(app, settings);
+    personal->choices = choices_of(app);
     export_memory_read(settings, app_path(app), &memory);
     dialogs_set_export(app->table.editor->dialogs, &memory);
     settings_free(settings);
@@ -180,17 +175,6 @@ static const char *name_of(const struct recovery_entry *entry)
     return entry->origin.path[0] ? path_name(entry->origin.path) : "an untitled scene";
 }
 
-/// Mentions how many recovery files there are, on a start without a scene.
-static void mention(struct app *app)
-{
-    struct recovery_entry entry;
-    if (!recovery_find(app->personal->state_folder, NULL, &entry, NULL)) return;
-    core_message(&app->table.editor->core, false,
-                 "Unsaved work on %.*s is kept: start wiggly without a scene to recover it.",
-                 name_fit(name_of(&entry), 255), name_of(&entry));
-    recovery_release(&entry.slot);
-}
-
 /// Offers the newest recovery file. A start with a scene offers that scene's only, but in a page, whose link may be older than the work.
 static void offer(struct app *app)
 {
@@ -201,7 +185,12 @@ static void offer(struct app *app)
     int count;
     personal->is_offered = recovery_find(personal->state_folder, named ? app_path(app) : NULL, entry, &count);
     if (!personal->is_offered) {
-        if (named) mention(app);
+        struct recovery_entry other;
+        if (!named || !recovery_find(personal->state_folder, NULL, &other, NULL)) return;
+        core_message(&app->table.editor->core, false,
+                     "Unsaved work on %.*s is kept: start wiggly without a scene to recover it.",
+                     name_fit(name_of(&other), 255), name_of(&other));
+        recovery_release(&other.slot);
         return;
     }
     printable(name_of(entry), shown.name, sizeof shown.name);
@@ -214,28 +203,20 @@ static void offer(struct app *app)
     dialogs_offer_recovery(app->table.editor->dialogs, &shown);
 }
 
-static void start_autosave(struct app *app)
-{
-    struct personal *personal = app->personal;
-    struct error error = {0};
-    struct recovery_slot slot;
-    if (!make_folder("XDG_STATE_HOME", ".local/state", personal->state_folder, &error) ||
-        !recovery_claim(personal->state_folder, &slot, &error)) {
-        complain(app, &error);
-        return;
-    }
-    personal->autosave = autosave_open(&slot);
-}
-
 void personal_start(struct app *app)
 {
     const struct app_options *o = app->options;
-    app->personal = need_zeroed(1, sizeof *app->personal);
-    start_autosave(app);
+    struct personal *personal = app->personal = need_zeroed(1, sizeof *personal);
+    struct error error = {0};
+    struct recovery_slot slot;
+    if (make_folder("XDG_STATE_HOME", ".local/state", personal->state_folder, &error) &&
+        recovery_claim(personal->state_folder, &slot, &error))
+        personal->autosave = autosave_open(&slot);
+    complain(app, &error);
     if (o->record || o->frames) return; // a script must not depend on the user
     start_settings(app);
     personal_note_file(app, app_path(app));
-    if (app->personal->autosave) offer(app);
+    if (personal->autosave) offer(app);
 }
 
 static struct autosave_work work_of(const struct app *app)
@@ -243,7 +224,7 @@ static struct autosave_work work_of(const struct app *app)
     return (struct autosave_work){.document = app->table.document,
                                   .path = app_path(app),
                                   .revision = history_revision(app->table.history),
-                                  .content = file_watch_known(app),
+                                  .content = app->own_file.content,
                                   .saved = history_is_saved(app->table.history)};
 }
 
@@ -273,7 +254,7 @@ bool personal_recover(struct app *app, struct error *error)
     if (!document) return false;
     document_set_path(document, personal->offered.origin.path);
     app_adopt(app, document);
-    file_watch_note(app, personal->offered.origin.content); // a later write counts as another program's
+    app->own_file.content = personal->offered.origin.content; // a later write counts as another program's
     history_mark_unsaved(app->table.history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;

@@ -136,12 +136,6 @@ void app_rescue_without_memory(struct app *app);
 /// Handles a new window size, in the display's logical pixels.
 void app_resize(struct app *app, float width, float height, float scale);
 
-/// Notes the content of the document's file: it matches the document, or the user has been asked about it.
-void file_watch_note(struct app *app, uint64_t content);
-
-/// The noted content; 0: unknown.
-uint64_t file_watch_known(const struct app *app);
-
 /// Call on focus: asks about a changed file, once per change.
 void file_watch_look(struct app *app);
 
