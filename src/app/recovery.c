@@ -135,18 +135,6 @@ struct autosave *autosave_open(const struct recovery_slot *slot)
     return autosave;
 }
 
-static void begin_write(struct autosave *autosave, const struct autosave_work *work, double now)
-{
-    autosave->document = document_copy(work->document);
-    autosave->origin = origin_of(work);
-    autosave->revision = work->revision;
-    autosave->begun = now;
-    autosave->writes = autosave->has_file = true;
-    atomic_store(&autosave->ended, false);
-    autosave->threaded = thrd_create(&autosave->thread, write_document, autosave) == thrd_success;
-    if (!autosave->threaded) write_document(autosave); // a late frame is better than lost work
-}
-
 static bool is_busy(struct autosave *autosave) { return autosave->writes && !atomic_load(&autosave->ended); }
 
 /// Waits for the thread, unless this is the thread.
@@ -165,17 +153,6 @@ static void finish_write(struct autosave *autosave)
     autosave->threaded = autosave->writes = false;
 }
 
-/// Reports the last write's result, but only the first of several failures. The next interval tries again.
-static bool report_write(struct autosave *autosave, struct error *error)
-{
-    if (!autosave->writes) return true;
-    const bool failed = autosave->error.kind != ERROR_NONE, is_news = failed && !autosave->complained;
-    finish_write(autosave);
-    autosave->complained = failed;
-    if (failed) autosave->revision = 0;
-    return !is_news || fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
-}
-
 bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *work)
 {
     return !work->saved && work->revision != autosave->revision;
@@ -184,15 +161,32 @@ bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *w
 bool autosave_update(struct autosave *autosave, const struct autosave_work *work, double now, struct error *error)
 {
     if (is_busy(autosave)) return true;
-    const bool good = report_write(autosave, error);
+
+    // Only the first of several failures is reported. The next interval tries again.
+    bool is_news = false;
+    if (autosave->writes) {
+        const bool failed = autosave->error.kind != ERROR_NONE;
+        is_news = failed && !autosave->complained;
+        finish_write(autosave);
+        autosave->complained = failed;
+        if (failed) autosave->revision = 0;
+        if (is_news) fail(error, ERROR_ENVIRONMENT, "Unsaved work has no recovery file: %s", autosave->error.text);
+    }
     if (work->saved) {
         if (autosave->has_file) recovery_remove(&autosave->slot);
         autosave->has_file = false;
         autosave->revision = 0;
     } else if (autosave_is_behind(autosave, work) && now - autosave->begun >= INTERVAL) {
-        begin_write(autosave, work, now);
+        autosave->document = document_copy(work->document);
+        autosave->origin = origin_of(work);
+        autosave->revision = work->revision;
+        autosave->begun = now;
+        autosave->writes = autosave->has_file = true;
+        atomic_store(&autosave->ended, false);
+        autosave->threaded = thrd_create(&autosave->thread, write_document, autosave) == thrd_success;
+        if (!autosave->threaded) write_document(autosave); // a late frame is better than lost work
     }
-    return good;
+    return !is_news;
 }
 
 bool autosave_fails(const struct autosave *autosave) { return autosave->complained; }

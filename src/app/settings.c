@@ -60,21 +60,6 @@ static char *trim(char *text)
     return text;
 }
 
-static void read_line(struct settings *settings, const char *path, int number, char *text, struct error *error)
-{
-    char *equals = strchr(text, '=');
-    if (text[0] == '\0' || text[0] == '#') {
-        insert(settings, settings->count, NULL, text);
-    } else if (!equals || equals == text) {
-        if (error->kind == ERROR_NONE)
-            fail(error, ERROR_INPUT, "%s:%d: expected key = value, got \"%.40s\": ignoring this line", path, number,
-                 text);
-    } else {
-        *equals = '\0';
-        insert(settings, settings->count, trim(text), trim(equals + 1));
-    }
-}
-
 struct settings *settings_load(const char *path, struct error *error)
 {
     struct settings *settings = need_zeroed(1, sizeof *settings);
@@ -85,8 +70,16 @@ struct settings *settings_load(const char *path, struct error *error)
     if (access(path, F_OK) != 0 || !file_read(path, LARGEST, &data, &size, error)) return settings;
     rest = data;
     for (int number = 1; rest && *rest && number <= MAX_LINES; number++) {
-        char *line = strsep(&rest, "\n");
-        read_line(settings, path, number, trim(line), error);
+        char *line = trim(strsep(&rest, "\n")), *equals = strchr(line, '=');
+        if (line[0] == '\0' || line[0] == '#') {
+            insert(settings, settings->count, NULL, line);
+        } else if (equals && equals > line) {
+            *equals = '\0';
+            insert(settings, settings->count, trim(line), trim(equals + 1));
+        } else if (error->kind == ERROR_NONE) {
+            fail(error, ERROR_INPUT, "%s:%d: expected key = value, got \"%.40s\": ignoring this line", path, number,
+                 line);
+        }
     }
     if (rest && *rest && error->kind == ERROR_NONE)
         fail(error, ERROR_INPUT, "%s:%d: expected at most %d lines, got more: ignoring the rest", path, MAX_LINES + 1,
@@ -95,21 +88,15 @@ struct settings *settings_load(const char *path, struct error *error)
     return settings;
 }
 
-/// Locks the folder, because each save replaces the file. Goes on without a lock if it cannot get one in time: a lost setting is better
-/// than a hanging window. Returns a descriptor or -1.
-static int lock_folder(const char *path)
-{
-    char folder[PATH_LIMIT];
-    if (!path_folder(path, folder)) return -1;
-    const int lock = open(folder[0] ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    for (int i = 0; lock >= 0 && i < PATIENCE && flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; i++)
-        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
-    return lock;
-}
-
 struct settings *settings_open(const char *path, struct error *error)
 {
-    const int lock = lock_folder(path);
+    // Locks the folder, because each save replaces the file. Goes on without a lock if it cannot get one in time: a lost setting is better
+    // than a hanging window.
+    char folder[PATH_LIMIT];
+    int lock = -1;
+    if (path_folder(path, folder)) lock = open(folder[0] ? folder : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    for (int i = 0; lock >= 0 && i < PATIENCE && flock(lock, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK; i++)
+        nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
     struct settings *settings = settings_load(path, error);
     settings->lock = lock;
     return settings;
@@ -124,7 +111,7 @@ void settings_free(struct settings *settings)
 }
 
 /// Index of the `n`th line with a key, or -1.
-static int find(const struct settings *settings, const char *key, int n)
+static int find_line(const struct settings *settings, const char *key, int n)
 {
     for (int i = 0; i < settings->count; i++) {
         const char *other = settings->lines[i].key;
@@ -135,7 +122,7 @@ static int find(const struct settings *settings, const char *key, int n)
 
 const char *settings_get(const struct settings *settings, const char *key, int n)
 {
-    int at = find(settings, key, n);
+    int at = find_line(settings, key, n);
     return at >= 0 ? settings->lines[at].value : NULL;
 }
 
@@ -145,11 +132,6 @@ double settings_number(const struct settings *settings, const char *key, double 
     char *end = NULL;
     double value = text ? strtod(text, &end) : NAN;
     return text && end != text && *end == '\0' && isfinite(value) ? value : fallback;
-}
-
-static void remove_all(struct settings *settings, const char *key)
-{
-    for (int at = find(settings, key, 0); at >= 0; at = find(settings, key, 0)) drop(settings, at);
 }
 
 /// Whether the value survives the file: no line break, no space at the ends.
@@ -162,9 +144,9 @@ static bool is_storable(const char *value)
 
 void settings_set(struct settings *settings, const char *key, const char *value)
 {
-    int at = find(settings, key, 0);
-    remove_all(settings, key);
-    if (is_storable(value)) insert(settings, at >= 0 ? at : settings->count, key, value);
+    const int first = find_line(settings, key, 0);
+    for (int at = first; at >= 0; at = find_line(settings, key, 0)) drop(settings, at);
+    if (is_storable(value)) insert(settings, first >= 0 ? first : settings->count, key, value);
 }
 
 void settings_set_number(struct settings *settings, const char *key, double value)
@@ -190,8 +172,8 @@ void recent_note(struct settings *settings, const char *path)
     static const char key[] = "recent";
     char full[PATH_MAX];
     if (!realpath(path, full) || !is_storable(full)) return;
-    int first = find(settings, key, 0);
-    for (int n = 0, at; (at = find(settings, key, n)) >= 0;) {
+    int first = find_line(settings, key, 0);
+    for (int n = 0, at; (at = find_line(settings, key, n)) >= 0;) {
         if (strcmp(settings->lines[at].value, full) == 0) {
             drop(settings, at);
         } else {
@@ -199,7 +181,7 @@ void recent_note(struct settings *settings, const char *path)
         }
     }
     insert(settings, first >= 0 ? first : settings->count, key, full);
-    for (int at; (at = find(settings, key, DIALOG_MAX_RECENT)) >= 0;) drop(settings, at);
+    for (int at; (at = find_line(settings, key, DIALOG_MAX_RECENT)) >= 0;) drop(settings, at);
 }
 
 int recent_list(const struct settings *settings, struct dialog_recent *files, int most)
