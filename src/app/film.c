@@ -140,19 +140,12 @@ static void clear_codes(struct lzw *lzw)
     lzw->width = 9;
 }
 
-/// The place of a key, or the free one where it belongs.
-static int find_place(const struct lzw *lzw, uint32_t key)
-{
-    uint32_t place = key * 2654435761U >> 18;
-    while (lzw->keys[place] && lzw->keys[place] != key) place = (place + 1) % PLACES;
-    return (int)place;
-}
-
 /// Adds an index after the indices that `code` stands for. Returns the code of what is not yet written.
 static int add_index(struct lzw *lzw, int code, unsigned char index)
 {
     const uint32_t key = ((uint32_t)code << 8 | index) + 1;
-    const int place = find_place(lzw, key);
+    uint32_t place = key * 2654435761U >> 18; // of the key, or the free one where it belongs
+    while (lzw->keys[place] && lzw->keys[place] != key) place = (place + 1) % PLACES;
     if (lzw->keys[place]) return lzw->codes[place];
     put_string(lzw, code);
     if (lzw->next == CODES - 1) {
@@ -212,11 +205,6 @@ struct rectangle {
     int left, top, right, bottom; ///< the latter two are not within
 };
 
-static bool differs(const unsigned char *a, const unsigned char *b)
-{
-    return abs(a[0] - b[0]) > NOT_SEEN || abs(a[1] - b[1]) > NOT_SEEN || abs(a[2] - b[2]) > NOT_SEEN;
-}
-
 /// Notes in `drawn` the pixels that differ, and returns where they are.
 static struct rectangle find_changed(struct film_file *file, const unsigned char *pixels)
 {
@@ -225,7 +213,9 @@ static struct rectangle find_changed(struct film_file *file, const unsigned char
     for (int y = 0; y < height; y++) {
         for (int x = 0; x < width; x++) {
             const size_t i = (size_t)y * (size_t)width + (size_t)x;
-            file->drawn[i] = file->written == 0 || differs(pixels + 4 * i, file->last + 4 * i);
+            const unsigned char *a = pixels + 4 * i, *b = file->last + 4 * i;
+            file->drawn[i] = file->written == 0 || abs(a[0] - b[0]) > NOT_SEEN || abs(a[1] - b[1]) > NOT_SEEN ||
+                             abs(a[2] - b[2]) > NOT_SEEN;
             if (!file->drawn[i]) continue;
             memcpy(file->last + 4 * i, pixels + 4 * i, 4);
             r.left = x < r.left ? x : r.left;
@@ -388,25 +378,6 @@ static void choose_indices(struct film_file *file, const unsigned char *pixels, 
 
 // --- pictures
 
-static void put_pixels(struct film_file *file, const struct rectangle *r)
-{
-    struct lzw *lzw = &file->lzw;
-    int code = -1;
-    putc(8, lzw->stream); // bits an index
-    lzw->bit_count = 0;
-    lzw->width = 9;
-    clear_codes(lzw);
-    for (int y = r->top; y < r->bottom; y++) {
-        const unsigned char *row = file->indices + (size_t)y * (size_t)file->shape.width;
-        for (int x = r->left; x < r->right; x++) code = code < 0 ? row[x] : add_index(lzw, code, row[x]);
-    }
-    put_string(lzw, code);
-    put_code(lzw, END);
-    put_bits(lzw, 1);
-    if (lzw->block[0]) put_block(lzw);
-    putc(0, lzw->stream);
-}
-
 /// When a picture begins, in hundredths of a second.
 static long begins(const struct film_file *file, long picture)
 {
@@ -435,7 +406,22 @@ static enum film_state put_gif(struct film_file *file, const unsigned char *pixe
     putc(0x87, stream); // 256 colors of its own
     fwrite(palette.colors, 3, (size_t)palette.count, stream);
     for (int c = palette.count; c < 256; c++) fwrite("\0\0\0", 1, 3, stream);
-    put_pixels(file, &r);
+
+    struct lzw *lzw = &file->lzw;
+    int code = -1;
+    putc(8, stream); // bits an index
+    lzw->bit_count = 0;
+    lzw->width = 9;
+    clear_codes(lzw);
+    for (int y = r.top; y < r.bottom; y++) {
+        const unsigned char *row = file->indices + (size_t)y * (size_t)file->shape.width;
+        for (int x = r.left; x < r.right; x++) code = code < 0 ? row[x] : add_index(lzw, code, row[x]);
+    }
+    put_string(lzw, code);
+    put_code(lzw, END);
+    put_bits(lzw, 1);
+    if (lzw->block[0]) put_block(lzw);
+    putc(0, stream);
     file->written++;
     return !ferror(stream) || file_output_commit(&file->output, error) ? FILM_DONE : FILM_FAILED;
 }
@@ -483,27 +469,6 @@ static int spawn(struct film_file *file, char *const *arguments, int input)
     return cause;
 }
 
-static int start_encoder(struct film_file *file, const struct film_shape *shape)
-{
-    char size[32], rate[32];
-    snprintf(size, sizeof size, "%dx%d", shape->width, shape->height);
-    snprintf(rate, sizeof rate, "%.10g", shape->rate);
-    char *const input[] = {"ffmpeg",   "-nostdin", "-hide_banner", "-loglevel",   "error", "-f",
-                           "rawvideo", "-pix_fmt", "rgba",         "-video_size", size,    "-framerate",
-                           rate,       "-i",       "pipe:0",       "-y"};
-    char *arguments[MAX_ARGUMENTS] = {NULL};
-    int count = 0, ends[2];
-    for (size_t i = 0; i < sizeof input / sizeof *input; i++) arguments[count++] = input[i];
-    for (char *const *coding = shape->coding; *coding; coding++) arguments[count++] = *coding;
-    arguments[count] = output_name;
-    // A socket, because writing to one whose reader is gone need not raise SIGPIPE.
-    if (!(file->log = tmpfile()) || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) return errno;
-    file->feed = ends[0];
-    const int cause = spawn(file, arguments, ends[1]);
-    close(ends[1]);
-    return cause;
-}
-
 static void hang_up(struct film_file *file)
 {
     if (file->feed >= 0) close(file->feed);
@@ -529,7 +494,25 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
     file->size = 4 * (size_t)shape->width * (size_t)shape->height;
     file->feed = -1;
     if (file_output_open(&file->output, path, error)) {
-        const int cause = start_encoder(file, shape);
+        char size[32], rate[32];
+        snprintf(size, sizeof size, "%dx%d", shape->width, shape->height);
+        snprintf(rate, sizeof rate, "%.10g", shape->rate);
+        char *const input[] = {"ffmpeg",   "-nostdin", "-hide_banner", "-loglevel",   "error", "-f",
+                               "rawvideo", "-pix_fmt", "rgba",         "-video_size", size,    "-framerate",
+                               rate,       "-i",       "pipe:0",       "-y"};
+        char *arguments[MAX_ARGUMENTS] = {NULL};
+        int count = 0, ends[2], cause;
+        for (size_t i = 0; i < sizeof input / sizeof *input; i++) arguments[count++] = input[i];
+        for (char *const *coding = shape->coding; *coding; coding++) arguments[count++] = *coding;
+        arguments[count] = output_name;
+        // A socket, because writing to one whose reader is gone need not raise SIGPIPE.
+        if (!(file->log = tmpfile()) || socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+            cause = errno;
+        } else {
+            file->feed = ends[0];
+            cause = spawn(file, arguments, ends[1]);
+            close(ends[1]);
+        }
         if (cause == 0) return file;
         file->process = 0;
         if (cause == ENOENT) {
@@ -655,22 +638,17 @@ static bool name_temporary(const struct film_file *file, long number, char name[
     return snprintf(name, PATH_LIMIT, "%s/%ld.png", file->folder, number) < PATH_LIMIT;
 }
 
-/// Whether all places are free, before anything is drawn.
-static bool check_places(const struct film_file *file, struct error *error)
-{
-    for (long n = 1; n <= file->shape.count; n++) {
-        char name[PATH_LIMIT];
-        if (name_picture(file, n, name) && !file_check_place(name, error)) return false;
-    }
-    return true;
-}
-
 static struct film_file *open_pictures(const char *path, const struct film_shape *shape, struct error *error)
 {
     struct film_file *file = need_zeroed(1, sizeof *file);
     file->path = path;
     file->shape = *shape;
-    if (split_path(file, error) && check_places(file, error)) {
+    bool good = split_path(file, error);
+    for (long n = 1; good && n <= shape->count; n++) { // all places must be free before anything is drawn
+        char name[PATH_LIMIT];
+        good = !name_picture(file, n, name) || file_check_place(name, error);
+    }
+    if (good) {
         file->lock = file_folder_beside(path, &file->folder);
         if (file->lock >= 0) return file;
         fail(error, ERROR_ENVIRONMENT, "%s: cannot be written: %s", path, strerror(errno));
@@ -910,24 +888,17 @@ void film_progress(const struct film *film, long *done, long *total)
     *total = film->shape.count;
 }
 
-/// The names of the files if they differ from the path.
-static const char *print_names(const struct film *film, char text[64])
-{
-    const char *name = path_name(film->path);
-    const bool numbered = film->kind == &film_png && film->shape.count > 1 && !strchr(name, '%');
-    text[0] = '\0';
-    if (numbered) snprintf(text, 64, ", as %.*s-0001.png and so on", (int)fmin(30, (double)strlen(name) - 4), name);
-    return text;
-}
-
 void film_report(const struct film *film, struct export_report *report)
 {
     const double megabytes = (double)film->bytes / 1e6;
-    char names[64];
+    char names[64] = ""; // of the files if they differ from the path
+    const char *name = path_name(film->path);
+    if (film->kind == &film_png && film->shape.count > 1 && !strchr(name, '%'))
+        snprintf(names, sizeof names, ", as %.*s-0001.png and so on", (int)fmin(30, (double)strlen(name) - 4), name);
     *report = (struct export_report){.note = ""};
     snprintf(report->text, sizeof report->text, "%ld picture%s of %d × %d, %g a second, %.*f MB%s", film->shape.count,
              film->shape.count == 1 ? "" : "s", film->shape.width, film->shape.height, film->shape.rate,
-             megabytes < 1 ? 2 : 1, megabytes, print_names(film, names));
+             megabytes < 1 ? 2 : 1, megabytes, names);
 }
 
 void film_close(struct film *film)
@@ -939,25 +910,23 @@ void film_close(struct film *film)
     free(film);
 }
 
-static bool run_film(struct film *film, const struct export_options *options, struct error *error)
-{
-    for (;;) {
-        enum film_state state = film_step(film, true, error);
-        if (state != FILM_RUNS) return state == FILM_DONE;
-        if (options->proceed && !options->proceed(options->user, film->done > 0 ? film->done : 1, film->shape.count))
-            return fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
-    }
-}
-
 bool film_write(const struct opened *opened, const char *path, const struct export_options *options,
                 struct export_report *report, struct error *error)
 {
     struct platform *platform = platform_offscreen(1, 1, 1, error);
     if (!platform) return false;
     struct film *film = film_open(opened, path, options, error);
-    bool done = film && run_film(film, options, error);
-    if (done) film_report(film, report);
+    enum film_state state = film ? FILM_RUNS : FILM_FAILED;
+    while (state == FILM_RUNS) {
+        state = film_step(film, true, error);
+        if (state == FILM_RUNS && options->proceed &&
+            !options->proceed(options->user, film->done > 0 ? film->done : 1, film->shape.count)) {
+            fail(error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
+            state = FILM_FAILED;
+        }
+    }
+    if (state == FILM_DONE) film_report(film, report);
     film_close(film);
     platform_destroy(platform);
-    return done;
+    return state == FILM_DONE;
 }
