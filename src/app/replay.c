@@ -81,50 +81,41 @@ static bool is_size(double width, double height)
     return fmin(width, height) >= MIN_PIXELS && fmax(width, height) <= MAX_PIXELS;
 }
 
-static bool read_header_line(struct replay *replay, const struct words *w, struct error *error)
-{
-    struct replay_header *h = &replay->header;
-    const char *name = w->word[0];
-    double a = 0, b = 0;
-    bool one = w->count > 1 && read_number(w->word[1], &a), two = one && w->count > 2 && read_number(w->word[2], &b);
-    if (strcmp(name, "version") == 0) return true;
-    if (strcmp(name, "size") == 0) {
-        if (!two || !is_size(a, b)) return bad_line(replay, error, size_limits, w->word[1]);
-        h->width = (int)a, h->height = (int)b;
-    } else if (strcmp(name, "scale") == 0) {
-        if (!one || a < 0.25 || a > 8) return bad_line(replay, error, "a scale from 0.25 to 8", w->word[1]);
-        h->scale = a;
-    } else if (strcmp(name, "ui-scale") == 0) {
-        if (!one || a < 0.25 || a > 8) return bad_line(replay, error, "a scale from 0.25 to 8", w->word[1]);
-        h->ui_scale = a;
-    } else if (strcmp(name, "scene") == 0) {
-        if (w->count < 2 || sscanf(w->word[1], "%16" SCNx64, &h->scene_hash) != 1) {
-            return bad_line(replay, error, "the scene's hash", w->word[1]);
-        }
-    } else if (strcmp(name, "dt") == 0) {
-        if (w->count < 2 || strcmp(w->word[1], "1/60") != 0) return bad_line(replay, error, "dt 1/60", w->word[1]);
-    } else if (strcmp(name, "frames") == 0) {
-        bool whole = one && a >= 0 && a <= MAX_FRAMES && a == floor(a);
-        if (!whole) return bad_line(replay, error, "a number of frames up to 10000000", w->word[1]);
-        h->frames = (long)a;
-    } else {
-        return bad_line(replay, error, "version, size, scale, ui-scale, scene, dt, frames or an event", name);
-    }
-    return true;
-}
-
 static bool read_header(struct replay *replay, struct error *error)
 {
+    struct replay_header *h = &replay->header;
     const char *first = next_line(replay);
     replay->line = replay->number;
     if (!first || strcmp(first, first_line) != 0) return bad_line(replay, error, "\"wiggly-replay 1\"", first);
     while ((replay->event = next_line(replay)) && !isdigit((unsigned char)*replay->event)) {
-        struct words words = split(replay->event);
+        const struct words words = split(replay->event), *w = &words;
+        const char *name = w->word[0];
+        double a = 0, b = 0;
+        const bool one = w->count > 1 && read_number(w->word[1], &a);
+        const bool two = one && w->count > 2 && read_number(w->word[2], &b);
         replay->line = replay->number;
-        if (!read_header_line(replay, &words, error)) return false;
+        if (strcmp(name, "size") == 0) {
+            if (!two || !is_size(a, b)) return bad_line(replay, error, size_limits, w->word[1]);
+            h->width = (int)a, h->height = (int)b;
+        } else if (strcmp(name, "scale") == 0 || strcmp(name, "ui-scale") == 0) {
+            if (!one || a < 0.25 || a > 8) return bad_line(replay, error, "a scale from 0.25 to 8", w->word[1]);
+            *(name[0] == 's' ? &h->scale : &h->ui_scale) = a;
+        } else if (strcmp(name, "scene") == 0) {
+            if (w->count < 2 || sscanf(w->word[1], "%16" SCNx64, &h->scene_hash) != 1)
+                return bad_line(replay, error, "the scene's hash", w->word[1]);
+        } else if (strcmp(name, "dt") == 0) {
+            if (w->count < 2 || strcmp(w->word[1], "1/60") != 0)
+                return bad_line(replay, error, "dt 1/60", w->word[1]);
+        } else if (strcmp(name, "frames") == 0) {
+            const bool whole = one && a >= 0 && a <= MAX_FRAMES && a == floor(a);
+            if (!whole) return bad_line(replay, error, "a number of frames up to 10000000", w->word[1]);
+            h->frames = (long)a;
+        } else if (strcmp(name, "version") != 0) {
+            return bad_line(replay, error, "version, size, scale, ui-scale, scene, dt, frames or an event", name);
+        }
     }
     replay->line = replay->number;
-    if (replay->header.width > 0 && replay->header.frames >= 0) return true;
+    if (h->width > 0 && h->frames >= 0) return true;
     return fail(error, ERROR_INPUT, "%s:%d: expected a header with size and frames", replay->path, replay->line);
 }
 
@@ -152,7 +143,7 @@ static bool check_frames(struct replay *replay, struct error *error)
 }
 
 /// Reads the scene's text and checks the replay.
-static struct replay *finish(struct replay *replay, size_t size, struct error *error)
+static struct replay *finish_reading(struct replay *replay, size_t size, struct error *error)
 {
     const bool whole =
         strlen(replay->text) == size || fail(error, ERROR_INPUT, "%s: expected text, got a NUL byte", replay->path);
@@ -164,7 +155,7 @@ static struct replay *finish(struct replay *replay, size_t size, struct error *e
     return NULL;
 }
 
-static struct replay *create(const char *path)
+static struct replay *create_replay(const char *path)
 {
     struct replay *replay = need_zeroed(1, sizeof *replay);
     replay->path = need_text(path);
@@ -176,17 +167,17 @@ static struct replay *create(const char *path)
 struct replay *replay_load(const char *path, struct error *error)
 {
     size_t size = 0;
-    struct replay *replay = create(path);
-    if (file_read_text(path, MAX_REPLAY, &replay->text, &size, error)) return finish(replay, size, error);
+    struct replay *replay = create_replay(path);
+    if (file_read_text(path, MAX_REPLAY, &replay->text, &size, error)) return finish_reading(replay, size, error);
     replay_destroy(replay);
     return NULL;
 }
 
 struct replay *replay_parse(const char *name, const char *text, size_t size, struct error *error)
 {
-    struct replay *replay = create(name);
+    struct replay *replay = create_replay(name);
     replay->text = memcpy(need_zeroed(size + 1, 1), text, size);
-    return finish(replay, size, error);
+    return finish_reading(replay, size, error);
 }
 
 void replay_destroy(struct replay *replay)
@@ -268,10 +259,12 @@ static bool read_float(struct event_line *c, float *value)
     return true;
 }
 
-/// "@knot(sway,2)+4,-3": the target's position now plus an offset in logical pixels.
-static bool read_target(struct event_line *c, char *word, struct event *event)
+/// Two numbers, or "@knot(sway,2)+4,-3": the target's position now plus an offset in logical pixels.
+static bool read_position(struct event_line *c, struct event *event)
 {
-    char *end = strrchr(word, ')');
+    if (c->next == c->words.count || c->words.word[c->next][0] != '@')
+        return read_float(c, &event->x) && read_float(c, &event->y);
+    char *word = take_word(c), *end = strrchr(word, ')');
     if (!end) return bad_line(c->replay, c->error, "a target such as @knot(sway,2)", word);
     float dx = 0, dy = 0;
     if (end[1] && (sscanf(end + 1, "%f,%f", &dx, &dy) != 2 || !isfinite(dx) || !isfinite(dy))) {
@@ -286,49 +279,6 @@ static bool read_target(struct event_line *c, char *word, struct event *event)
     event->x += dx;
     event->y += dy;
     return true;
-}
-
-static bool read_position(struct event_line *c, struct event *event)
-{
-    if (c->next < c->words.count && c->words.word[c->next][0] == '@') return read_target(c, take_word(c), event);
-    return read_float(c, &event->x) && read_float(c, &event->y);
-}
-
-static bool read_button(struct event_line *c, struct event *event)
-{
-    char *word = take_word(c);
-    for (int b = 0; word && b <= BUTTON_MIDDLE; b++) {
-        if (strcmp(word, button_names[b]) == 0) {
-            event->button = (enum event_button)b;
-            return true;
-        }
-    }
-    return bad_line(c->replay, c->error, "left, right or middle", word);
-}
-
-static bool read_mods(struct event_line *c, struct event *event)
-{
-    for (char *word = take_word(c); word; word = take_word(c)) {
-        int m = 0;
-        while (m < MOD_COUNT && strcmp(word, mod_names[m].name) != 0) m++;
-        if (m == MOD_COUNT) return bad_line(c->replay, c->error, "shift, ctrl, alt or super", word);
-        event->mods |= mod_names[m].mod;
-    }
-    return true;
-}
-
-static bool read_key(struct event_line *c, struct event *event)
-{
-    char *word = take_word(c);
-    event->key = word ? key_from_name(word) : KEY_NONE;
-    return event->key != KEY_NONE || bad_line(c->replay, c->error, "the name of a key", word);
-}
-
-static bool read_code(struct event_line *c, struct event *event)
-{
-    char *word = take_word(c);
-    return (word && sscanf(word, "U+%" SCNx32, &event->codepoint) == 1) ||
-           bad_line(c->replay, c->error, "U+ and a code", word);
 }
 
 /// Decodes %20, %25 and the like in place. They keep a text one word.
@@ -350,30 +300,35 @@ static bool read_escaped(struct event_line *c, const char *expected, const char 
 
 static bool read_operands(struct event_line *c, const struct verb *verb, struct event *event)
 {
-    unsigned with = verb->operands;
-    return (!(with & WITH_KEY) || read_key(c, event)) && (!(with & WITH_BUTTON) || read_button(c, event)) &&
-           (!(with & WITH_WHEEL) || (read_float(c, &event->dx) && read_float(c, &event->dy))) &&
-           (!(with & WITH_CODE) || read_code(c, event)) && (!(with & WITH_POSITION) || read_position(c, event)) &&
-           (!(with & WITH_PATH) || read_escaped(c, "a path", &event->path)) &&
-           (!(with & WITH_TEXT) || read_escaped(c, "a text", &event->text)) &&
-           (!(with & WITH_MODS) || read_mods(c, event));
-}
-
-static bool read_event(struct event_line *c, struct event *event)
-{
-    char *word = take_word(c);
-    for (int v = 0; word && v < VERB_COUNT; v++) {
-        if (strcmp(word, verbs[v].name) != 0) continue;
-        *event = (struct event){.kind = verbs[v].kind, .action = verbs[v].action, .clicks = verbs[v].clicks};
-        if (event->kind == EVENT_SIZE) event->scale = (float)c->replay->header.scale;
-        if (!read_operands(c, &verbs[v], event)) return false;
-        if (event->kind == EVENT_SIZE && !is_size((double)event->x, (double)event->y)) {
-            return bad_line(c->replay, c->error, size_limits, c->words.word[2]);
-        }
-        word = take_word(c);
-        return !word || bad_line(c->replay, c->error, "the end of the line", word);
+    const unsigned with = verb->operands;
+    if (with & WITH_KEY) {
+        char *word = take_word(c);
+        event->key = word ? key_from_name(word) : KEY_NONE;
+        if (event->key == KEY_NONE) return bad_line(c->replay, c->error, "the name of a key", word);
     }
-    return bad_line(c->replay, c->error, "an event (pointer, press, key, …)", word);
+    if (with & WITH_BUTTON) {
+        char *word = take_word(c);
+        int b = 0;
+        while (word && b <= BUTTON_MIDDLE && strcmp(word, button_names[b]) != 0) b++;
+        if (!word || b > BUTTON_MIDDLE) return bad_line(c->replay, c->error, "left, right or middle", word);
+        event->button = (enum event_button)b;
+    }
+    if (with & WITH_WHEEL && !(read_float(c, &event->dx) && read_float(c, &event->dy))) return false;
+    if (with & WITH_CODE) {
+        char *word = take_word(c);
+        if (!word || sscanf(word, "U+%" SCNx32, &event->codepoint) != 1)
+            return bad_line(c->replay, c->error, "U+ and a code", word);
+    }
+    if (with & WITH_POSITION && !read_position(c, event)) return false;
+    if (with & WITH_PATH && !read_escaped(c, "a path", &event->path)) return false;
+    if (with & WITH_TEXT && !read_escaped(c, "a text", &event->text)) return false;
+    for (char *word; with & WITH_MODS && (word = take_word(c));) {
+        int m = 0;
+        while (m < MOD_COUNT && strcmp(word, mod_names[m].name) != 0) m++;
+        if (m == MOD_COUNT) return bad_line(c->replay, c->error, "shift, ctrl, alt or super", word);
+        event->mods |= mod_names[m].mod;
+    }
+    return true;
 }
 
 bool replay_next(struct replay *replay, long frame, replay_locate *locate, void *user, struct event *event,
@@ -384,7 +339,18 @@ bool replay_next(struct replay *replay, long frame, replay_locate *locate, void 
     struct event_line c = {
         .replay = replay, .words = split(replay->event), .next = 1, .locate = locate, .user = user, .error = error};
     replay->event = next_line(replay);
-    return read_event(&c, event);
+
+    char *word = take_word(&c);
+    int v = 0;
+    while (word && v < VERB_COUNT && strcmp(word, verbs[v].name) != 0) v++;
+    if (!word || v == VERB_COUNT) return bad_line(replay, error, "an event (pointer, press, key, …)", word);
+    *event = (struct event){.kind = verbs[v].kind, .action = verbs[v].action, .clicks = verbs[v].clicks};
+    if (event->kind == EVENT_SIZE) event->scale = (float)replay->header.scale;
+    if (!read_operands(&c, &verbs[v], event)) return false;
+    if (event->kind == EVENT_SIZE && !is_size((double)event->x, (double)event->y))
+        return bad_line(replay, error, size_limits, c.words.word[2]);
+    word = take_word(&c);
+    return !word || bad_line(replay, error, "the end of the line", word);
 }
 
 struct recording {
