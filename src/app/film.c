@@ -378,12 +378,6 @@ static void choose_indices(struct film_file *file, const unsigned char *pixels, 
 
 // --- pictures
 
-/// When a picture begins, in hundredths of a second.
-static long begins(const struct film_file *file, long picture)
-{
-    return lround(100 * (double)picture / file->shape.rate);
-}
-
 static enum film_state put_gif(struct film_file *file, const unsigned char *pixels, bool wait, struct error *error)
 {
     (void)wait;
@@ -394,7 +388,8 @@ static enum film_state put_gif(struct film_file *file, const unsigned char *pixe
     choose_colors(file, pixels, &palette);
     choose_indices(file, pixels, &palette);
     fwrite("\x21\xf9\x04\x05", 1, 4, stream); // on top of the last; with transparency
-    const long time = begins(file, file->written + 1) - begins(file, file->written);
+    const double before = (double)file->written, rate = file->shape.rate;
+    const long time = lround(100 * (before + 1) / rate) - lround(100 * before / rate); // hundredths of a second
     put_short(stream, time < LONGEST ? time : LONGEST);
     putc(TRANSPARENT, stream);
     putc(0, stream);
@@ -446,7 +441,7 @@ enum { PATIENCE = 100 };
 static char output_name[] = "/dev/fd/1";
 
 /// Starts ffmpeg from PATH, without a shell and shielded from the terminal's Ctrl+C. Returns 0 or errno.
-static int spawn(struct film_file *file, char *const *arguments, int input)
+static int spawn_encoder(struct film_file *file, char *const *arguments, int input)
 {
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -469,15 +464,9 @@ static int spawn(struct film_file *file, char *const *arguments, int input)
     return cause;
 }
 
-static void hang_up(struct film_file *file)
-{
-    if (file->feed >= 0) close(file->feed);
-    file->feed = -1;
-}
-
 static void close_encoder(struct film_file *file)
 {
-    hang_up(file);
+    if (file->feed >= 0) close(file->feed);
     if (file->process > 0) {
         kill(file->process, SIGKILL);
         while (waitpid(file->process, NULL, 0) < 0 && errno == EINTR) continue;
@@ -510,7 +499,7 @@ static struct film_file *open_encoder(const char *path, const struct film_shape 
             cause = errno;
         } else {
             file->feed = ends[0];
-            cause = spawn(file, arguments, ends[1]);
+            cause = spawn_encoder(file, arguments, ends[1]);
             close(ends[1]);
         }
         if (cause == 0) return file;
@@ -545,7 +534,8 @@ static enum film_state fail_encoder(struct film_file *file, struct error *error)
 static enum film_state end_encoder(struct film_file *file, bool wait)
 {
     int status;
-    hang_up(file);
+    if (file->feed >= 0) close(file->feed);
+    file->feed = -1;
     pid_t ended = waitpid(file->process, &status, WNOHANG);
     for (int waited = 0; wait && ended == 0 && waited < PATIENCE; waited += 5) {
         poll(NULL, 0, 5);
@@ -790,35 +780,9 @@ double film_pictures(const char *ending, const struct document *document, double
     return count_pictures((last - first) / document->fps * *rate, format->repeats && loops(document));
 }
 
-static bool choose_frames(struct film *film, const struct document *document, const struct export_options *options,
-                          struct error *error)
-{
-    const double first = options->has_frames ? options->first : document->first_frame;
-    const double last = options->has_frames ? options->last : document->last_frame;
-    const bool in_rounds = options->loops > 0 || (film->format->repeats && loops(document));
-    const int rounds = options->loops > 0 ? options->loops : 1;
-    if (!(first <= last) || first < document->first_frame || last > document->last_frame)
-        return fail(error, ERROR_INPUT, "--frames: expected frames from %d to %d in this order, got %g:%g",
-                    document->first_frame, document->last_frame, first, last);
-    if (options->loops > 0 && !loops(document))
-        return fail(error, ERROR_INPUT, "--loops: nothing in this scene loops: its end does not meet its start");
-    const double most = film->format->most_rate;
-    if (options->rate > most)
-        return fail(error, ERROR_INPUT, "--fps: expected at most %g pictures a second in a %s file, got %g", most,
-                    film->format->ending, options->rate);
-    film->shape.rate = options->rate > 0 ? options->rate : fmin(document->fps, most);
-    film->first = first;
-    film->spacing = document->fps / film->shape.rate;
-    film->period = in_rounds ? last - first : 0;
-    const double count = count_pictures((last - first) / film->spacing, in_rounds ? rounds : 0);
-    if (count > MAX_PICTURES)
-        return fail(error, ERROR_INPUT, "expected at most %d pictures, got %.0f: choose fewer frames or loops",
-                    MAX_PICTURES, count);
-    film->shape.count = (long)count;
-    return true;
-}
-
-static bool choose_shape(struct film *film, const struct export_options *options, struct error *error)
+/// Size, coding, frames and rate.
+static bool choose_shape(struct film *film, const struct document *document, const struct export_options *options,
+                         struct error *error)
 {
     struct film_shape *shape = &film->shape;
     shape->width = options->size[0] > 0 ? options->size[0] : film->format->width;
@@ -832,9 +796,33 @@ static bool choose_shape(struct film *film, const struct export_options *options
                     shape->width, shape->height);
     film->transparent = options->transparent;
     shape->coding = film->transparent ? film->format->alpha : film->format->coding;
-    return !options->transparent || film->format->has_alpha ||
-           fail(error, ERROR_USAGE, "--transparent: a %s file has no transparency: .webm and .png have",
-                film->format->ending);
+    if (options->transparent && !film->format->has_alpha)
+        return fail(error, ERROR_USAGE, "--transparent: a %s file has no transparency: .webm and .png have",
+                    film->format->ending);
+
+    const double first = options->has_frames ? options->first : document->first_frame;
+    const double last = options->has_frames ? options->last : document->last_frame;
+    const bool in_rounds = options->loops > 0 || (film->format->repeats && loops(document));
+    const int rounds = options->loops > 0 ? options->loops : 1;
+    if (!(first <= last) || first < document->first_frame || last > document->last_frame)
+        return fail(error, ERROR_INPUT, "--frames: expected frames from %d to %d in this order, got %g:%g",
+                    document->first_frame, document->last_frame, first, last);
+    if (options->loops > 0 && !loops(document))
+        return fail(error, ERROR_INPUT, "--loops: nothing in this scene loops: its end does not meet its start");
+    const double most = film->format->most_rate;
+    if (options->rate > most)
+        return fail(error, ERROR_INPUT, "--fps: expected at most %g pictures a second in a %s file, got %g", most,
+                    film->format->ending, options->rate);
+    shape->rate = options->rate > 0 ? options->rate : fmin(document->fps, most);
+    film->first = first;
+    film->spacing = document->fps / shape->rate;
+    film->period = in_rounds ? last - first : 0;
+    const double count = count_pictures((last - first) / film->spacing, in_rounds ? rounds : 0);
+    if (count > MAX_PICTURES)
+        return fail(error, ERROR_INPUT, "expected at most %d pictures, got %.0f: choose fewer frames or loops",
+                    MAX_PICTURES, count);
+    shape->count = (long)count;
+    return true;
 }
 
 struct film *film_open(const struct opened *opened, const char *path, const struct export_options *options,
@@ -845,8 +833,7 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
     film->kind = film->format->kind;
     film->path = path;
     film->editor = editor_create();
-    if (file_check_place(path, error) && choose_shape(film, options, error) &&
-        choose_frames(film, opened->document, options, error) &&
+    if (file_check_place(path, error) && choose_shape(film, opened->document, options, error) &&
         (film->picture = picture_create(film->shape.width, film->shape.height, error)) &&
         (film->file = film->kind->open(path, &film->shape, error))) {
         editor_open(film->editor, &(struct editor_world){.document = opened->document,

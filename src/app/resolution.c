@@ -46,9 +46,9 @@ double resolution_wait(const struct resolution *resolution, double now)
 }
 
 /// Counts up while something holds, down otherwise.
-static int count(int before, bool holds) { return holds ? before + 1 : before > 0 ? before - 1 : 0; }
+static int leaky_count(int before, bool holds) { return holds ? before + 1 : before > 0 ? before - 1 : 0; }
 
-static void step(struct resolution *resolution, int level, bool down)
+static void change_level(struct resolution *resolution, int level, bool down)
 {
     const bool failed = down && resolution->tried && resolution->since < PATIENCE;
     if (failed && resolution->patience < LONGEST_PATIENCE) resolution->patience *= 2;
@@ -66,15 +66,15 @@ void resolution_measure(struct resolution *resolution, const struct resolution_c
     while (level + 1 < LEVELS && levels[level] > scale_of(resolution->moving)) level++;
     // Fewer pixels help only if drawing is the bottleneck.
     const bool slow = resolution->since >= LATE && frame_ms > too_long && draw_ms > frame_ms / 2;
-    resolution->slow = count(resolution->slow, slow);
-    resolution->quick = count(resolution->quick, frame_ms < short_again);
+    resolution->slow = leaky_count(resolution->slow, slow);
+    resolution->quick = leaky_count(resolution->quick, frame_ms < short_again);
     resolution->since++;
     if (resolution->patience == 0 || (resolution->tried && resolution->since > PATIENCE))
         resolution->patience = PATIENCE;
     if (resolution->slow >= SLOW_FRAMES && level + 1 < LEVELS) {
-        step(resolution, level + 1, true);
+        change_level(resolution, level + 1, true);
     } else if (level > 0 && resolution->quick >= resolution->patience) {
-        step(resolution, level - 1, false);
+        change_level(resolution, level - 1, false);
     }
 }
 

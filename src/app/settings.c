@@ -29,7 +29,7 @@ struct settings {
     int lock; ///< descriptor of the locked folder, or -1
 };
 
-static void drop(struct settings *settings, int at)
+static void drop_line(struct settings *settings, int at)
 {
     free(settings->lines[at].key);
     free(settings->lines[at].value);
@@ -39,7 +39,7 @@ static void drop(struct settings *settings, int at)
 }
 
 /// Inserts a line at `at` if there is room.
-static void insert(struct settings *settings, int at, const char *key, const char *value)
+static void insert_line(struct settings *settings, int at, const char *key, const char *value)
 {
     if (settings->count == MAX_LINES) return;
     memmove(&settings->lines[at + 1], &settings->lines[at],
@@ -72,10 +72,10 @@ struct settings *settings_load(const char *path, struct error *error)
     for (int number = 1; rest && *rest && number <= MAX_LINES; number++) {
         char *line = trim(strsep(&rest, "\n")), *equals = strchr(line, '=');
         if (line[0] == '\0' || line[0] == '#') {
-            insert(settings, settings->count, NULL, line);
+            insert_line(settings, settings->count, NULL, line);
         } else if (equals && equals > line) {
             *equals = '\0';
-            insert(settings, settings->count, trim(line), trim(equals + 1));
+            insert_line(settings, settings->count, trim(line), trim(equals + 1));
         } else if (error->kind == ERROR_NONE) {
             fail(error, ERROR_INPUT, "%s:%d: expected key = value, got \"%.40s\": ignoring this line", path, number,
                  line);
@@ -105,7 +105,7 @@ struct settings *settings_open(const char *path, struct error *error)
 void settings_free(struct settings *settings)
 {
     if (!settings) return;
-    while (settings->count > 0) drop(settings, settings->count - 1);
+    while (settings->count > 0) drop_line(settings, settings->count - 1);
     if (settings->lock >= 0) close(settings->lock);
     free(settings);
 }
@@ -145,8 +145,8 @@ static bool is_storable(const char *value)
 void settings_set(struct settings *settings, const char *key, const char *value)
 {
     const int first = find_line(settings, key, 0);
-    for (int at = first; at >= 0; at = find_line(settings, key, 0)) drop(settings, at);
-    if (is_storable(value)) insert(settings, first >= 0 ? first : settings->count, key, value);
+    for (int at = first; at >= 0; at = find_line(settings, key, 0)) drop_line(settings, at);
+    if (is_storable(value)) insert_line(settings, first >= 0 ? first : settings->count, key, value);
 }
 
 void settings_set_number(struct settings *settings, const char *key, double value)
@@ -175,13 +175,13 @@ void recent_note(struct settings *settings, const char *path)
     int first = find_line(settings, key, 0);
     for (int n = 0, at; (at = find_line(settings, key, n)) >= 0;) {
         if (strcmp(settings->lines[at].value, full) == 0) {
-            drop(settings, at);
+            drop_line(settings, at);
         } else {
             n++;
         }
     }
-    insert(settings, first >= 0 ? first : settings->count, key, full);
-    for (int at; (at = find_line(settings, key, DIALOG_MAX_RECENT)) >= 0;) drop(settings, at);
+    insert_line(settings, first >= 0 ? first : settings->count, key, full);
+    for (int at; (at = find_line(settings, key, DIALOG_MAX_RECENT)) >= 0;) drop_line(settings, at);
 }
 
 int recent_list(const struct settings *settings, struct dialog_recent *files, int most)
