@@ -406,19 +406,6 @@ static void end_frame(struct app *app)
     if (!app_screenshot(app, path, &app->error)) app->failed = true;
 }
 
-/// Whether characters of a new document must be fetched first.
-static bool is_fetching(const struct table *table)
-{
-    const struct document *document = table->document;
-    bool any = false;
-    if (table->models_serial == document->serial) return false;
-    for (int r = 0; r < document->rig_count; r++) {
-        char path[PATH_LIMIT];
-        any |= document_model_path(document, r, path) && platform_fetches(path);
-    }
-    return any;
-}
-
 void app_frame(struct app *app)
 {
     struct table *table = &app->table;
@@ -433,7 +420,11 @@ void app_frame(struct app *app)
     app_show_title(app);
     ui_scale_update(app);
     personal_update(app);
-    app->fetches = is_fetching(table);
+    app->fetches = false; // characters of a new document
+    for (int r = 0; table->models_serial != table->document->serial && r < table->document->rig_count; r++) {
+        char path[PATH_LIMIT];
+        app->fetches |= document_model_path(table->document, r, path) && platform_fetches(path);
+    }
     if (app->failed || app->fetches) return;
     table_solve(table, row);
     table_pose(table, row);
@@ -571,20 +562,6 @@ void app_open_editor(struct app *app)
     ui_scale_fit(app);
 }
 
-/// Refuses to write over the scene's models and the files that these name, before any of it is overwritten.
-static bool check_outputs(const struct app *app, struct error *error)
-{
-    const struct app_options *o = app->options;
-    const char *const outputs[] = {o->log, o->screenshot, o->record, o->result};
-    bool good = true, any = o->frames_dir;
-    for (int i = 0; i < 4; i++) any |= outputs[i] != NULL;
-    if (!any) return true;
-    document_note_models(app->table.document);
-    models_update(app->table.models, app->table.document, NULL); // reads their files, which notes them
-    for (int i = 0; i < 4 && good; i++) good = !outputs[i] || file_check_unread(outputs[i], error);
-    return good;
-}
-
 static bool start_app(struct app *app, struct error *error)
 {
     const struct app_options *o = app->options;
@@ -623,7 +600,18 @@ static bool start_app(struct app *app, struct error *error)
         return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
                     o->replay, (unsigned long long)replay_get_header(app->replay)->scene_hash,
                     (unsigned long long)hash);
-    if (!check_outputs(app, error)) return false;
+
+    // No output may replace the scene's models and the files that these name. Updating the models reads those files, which notes them.
+    const char *const outputs[] = {o->log, o->screenshot, o->record, o->result};
+    bool writes = o->frames_dir;
+    for (int i = 0; i < 4; i++) writes |= outputs[i] != NULL;
+    if (writes) {
+        document_note_models(app->table.document);
+        models_update(app->table.models, app->table.document, NULL);
+    }
+    for (int i = 0; i < 4; i++) {
+        if (outputs[i] && !file_check_unread(outputs[i], error)) return false;
+    }
     if (o->record) {
         struct replay_header header = {.width = (int)lroundf((float)width / scale),
                                        .height = (int)lroundf((float)height / scale),

@@ -125,12 +125,6 @@ static int run_job(void *user)
     return 0;
 }
 
-/// Stops a running export without writing anything.
-static void exporting_stop(struct app *app)
-{
-    if (app->export_job) atomic_store(&app->export_job->stop, true);
-}
-
 /// FILM_RUNS while any format has more to do.
 static enum film_state continue_job(struct export_job *job, bool wait)
 {
@@ -186,7 +180,7 @@ void app_stop_export(struct app *app)
 {
     struct export_job *job = app->export_job;
     if (!job) return;
-    exporting_stop(app);
+    atomic_store(&job->stop, true);
     if (job->threaded) thrd_join(job->thread, NULL);
     film_close(job->film);
     opened_free(&job->opened);
@@ -234,8 +228,6 @@ static bool assets_has(const char *path)
 }
 
 const char *app_path(const struct app *app) { return app->table.document->path ? app->table.document->path : ""; }
-
-static void file_watch_note_now(struct app *app) { app->own_file.content = file_content(app_path(app)); }
 
 /// Content hash of the document's file if another program changed it; 0: unchanged, or gone.
 static uint64_t changed_content(const struct app *app)
@@ -370,7 +362,7 @@ static bool take_theirs(struct app *app, struct error *error)
     history_mark_saved(app->table.history);
     editor_refresh(app->table.editor);
     show_title(app);
-    file_watch_note_now(app);
+    app->own_file.content = file_content(app_path(app));
     return true;
 }
 
@@ -403,7 +395,7 @@ static bool save(struct app *app, const char *path, struct error *error)
         return false;
     history_set_path(app->table.history, path);
     history_mark_saved(app->table.history);
-    file_watch_note_now(app);
+    app->own_file.content = file_content(app_path(app));
     core_set_path(&app->table.editor->core, app_path(app));
     show_title(app);
     personal_note_file(app, app_path(app));
@@ -525,7 +517,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_SAVE_AS:
         return may_replace(app, request, error) && save(app, request->path, error);
     case REQUEST_KEEP_MINE:
-        file_watch_note_now(app);
+        app->own_file.content = file_content(app_path(app));
         history_mark_unsaved(app->table.history);
         return true;
     case REQUEST_THEIRS:
@@ -533,7 +525,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
     case REQUEST_EXPORT:
         return may_replace(app, request, error) && start_export(app, request, error);
     case REQUEST_EXPORT_STOP:
-        exporting_stop(app);
+        if (app->export_job) atomic_store(&app->export_job->stop, true);
         return true;
     case REQUEST_QUIT:
         app->quit = true;
