@@ -3,7 +3,6 @@
 #include "base/hash.h"
 #include "base/need.h"
 #include "base/progress.h"
-#include "draw/batch.h"
 #include "draw/damage.h"
 #include "draw/gl.h"
 #include "draw/paint.h"
@@ -91,7 +90,7 @@ static void draw_stage(struct draw *draw, const struct draw_input *input, struct
     const float scale = input->stage_scale;
     if (is_reduced(scale) && stage_target_draw(&draw->stage_target, draw->stage, input->stage, place, scale)) return;
     int width = viewport.x1 - viewport.x0, height = viewport.y1 - viewport.y0;
-    batch_apply_scissor(visible, input->height);
+    gl_scissor(visible, input->height);
     stage_draw(draw->stage, input->stage, viewport.x0, input->height - viewport.y1, width, height);
 }
 
@@ -101,11 +100,8 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
     struct area on_stage = area_intersect(area, viewport);
     glEnable(GL_SCISSOR_TEST);
     if (!area_contains(viewport, area)) {
-        batch_apply_scissor(area, input->height);
-        const uint32_t panel = theme()->panel;
-        glClearColor((float)(panel >> 24) / 255, (float)(panel >> 16 & 0xFF) / 255, (float)(panel >> 8 & 0xFF) / 255,
-                     1);
-        glClear(GL_COLOR_BUFFER_BIT);
+        gl_scissor(area, input->height);
+        gl_clear(theme()->panel | 0xFF);
     }
     if (area_empty(on_stage)) return;
     draw_stage(draw, input, viewport, on_stage);

@@ -36,17 +36,6 @@ static bool is_compiled(GLuint shader, const char *name, struct error *error)
     return refuse(name, "compile", log, error);
 }
 
-static bool is_linked(GLuint program, const char *name, struct error *error)
-{
-    char log[256] = "";
-    GLint ok = 0;
-    glLinkProgram(program);
-    glGetProgramiv(program, GL_LINK_STATUS, &ok);
-    if (ok) return true;
-    glGetProgramInfoLog(program, sizeof log, NULL, log);
-    return refuse(name, "link", log, error);
-}
-
 GLuint gl_program(const char *vertex_name, const char *fragment_name, const char *define, struct error *error)
 {
     const GLuint vertex = compile(GL_VERTEX_SHADER, vertex_name, NULL);
@@ -54,8 +43,17 @@ GLuint gl_program(const char *vertex_name, const char *fragment_name, const char
     GLuint program = glCreateProgram();
     glAttachShader(program, vertex);
     glAttachShader(program, fragment);
-    if (!is_compiled(vertex, vertex_name, error) || !is_compiled(fragment, fragment_name, error) ||
-        !is_linked(program, vertex_name, error)) {
+    GLint linked = 0;
+    if (is_compiled(vertex, vertex_name, error) && is_compiled(fragment, fragment_name, error)) {
+        char log[256] = "";
+        glLinkProgram(program);
+        glGetProgramiv(program, GL_LINK_STATUS, &linked);
+        if (!linked) {
+            glGetProgramInfoLog(program, sizeof log, NULL, log);
+            refuse(vertex_name, "link", log, error);
+        }
+    }
+    if (!linked) {
         glDeleteProgram(program);
         program = 0;
     }
@@ -95,6 +93,18 @@ void gl_uniform_linear(GLint location, uint32_t color)
     float linear[3];
     for (int k = 0; k < 3; k++) linear[k] = srgb_to_linear((float)(color >> (24 - 8 * k) & 0xFFu) / 255);
     glUniform3fv(location, 1, linear);
+}
+
+void gl_scissor(struct area area, int height)
+{
+    glScissor(area.x0, height - area.y1, area.x1 - area.x0, area.y1 - area.y0);
+}
+
+void gl_clear(uint32_t color)
+{
+    glClearColor((float)(color >> 24) / 255, (float)(color >> 16 & 0xFF) / 255, (float)(color >> 8 & 0xFF) / 255,
+                 (float)(color & 0xFF) / 255);
+    glClear(GL_COLOR_BUFFER_BIT);
 }
 
 int gl_largest_texture(void)

@@ -3,6 +3,7 @@
 #define DRAW_GL_H
 
 #include "base/error.h"
+#include "draw/area.h"
 #include <epoxy/gl.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -30,6 +31,12 @@ GLuint gl_picture(const unsigned char *pixels, int width, int height);
 
 /// Sets a vec3 of the current program to a colour 0xRRGGBBAA (sRGB), converted to linear.
 void gl_uniform_linear(GLint location, uint32_t color);
+
+/// Calls glScissor for an area counted from the top of a framebuffer of `height` pixels.
+void gl_scissor(struct area area, int height);
+
+/// Clears to a colour 0xRRGGBBAA.
+void gl_clear(uint32_t color);
 
 // GPU timing.
 

@@ -2,36 +2,57 @@
 #ifndef DRAW_PAINT_H
 #define DRAW_PAINT_H
 
-#include "draw/batch.h"
+#include "base/error.h"
+#include "draw/gl.h"
 #include "ui/font.h"
+#include <stdint.h>
 
-// Filled shapes.
-
-/// A vertex of a filled shape: full coverage, white texel.
-struct batch_vertex shape_vertex(float x, float y, uint32_t color);
-
-/// A rectangle: corners in device pixels and in the atlas.
-struct quad {
-    float x0, y0, x1, y1, u0, v0, u1, v1;
+/// Position in device pixels from the top left; texel in the glyph atlas; colour bytes R, G, B, A. Coverage is clamp(reach − |across|) ·
+/// clamp(along) · texel.
+struct batch_vertex {
+    float x, y;
+    float u, v;
+    unsigned char color[4];
+    float across, reach, along;
 };
 
-void shape_quad(struct batch *batch, const struct quad *quad, uint32_t color);
-/// Fills from (x0, y0) to (x1, y1).
-void shape_fill(struct batch *batch, float x0, float y0, float x1, float y1, uint32_t color);
+enum { BATCH_VERTICES = 1 << 16, BATCH_INDICES = 3 << 16, BATCH_PARTS = 512 };
 
-/// The rectangle from (x0, y0) to (x1, y1) in device pixels, clipped to `clip`. A partly covered pixel gets exactly that share of the
-/// colour.
-void shape_rect(struct batch *batch, const float corners[4], struct area clip, uint32_t color);
+/// Triangles under one scissor, or an area to fill with a colour.
+struct batch_part {
+    struct area scissor;
+    int first, count;
+    bool is_fill;
+    uint32_t fill;
+};
 
-/// A convex polygon of `count` points in logical pixels.
-void shape_convex(struct batch *batch, const float *xy, int count, float scale, uint32_t color);
+/// Collects triangles on the CPU.
+struct batch {
+    GLuint program, array, vertex_buffer, index_buffer;
+    GLint framebuffer_uniform, atlas_size_uniform;
+    struct batch_vertex *vertices;
+    uint32_t *indices;
+    struct batch_part *parts;
+    int vertex_count, index_count, part_count;
+    unsigned generation; ///< changes with every flush, which invalidates earlier indices
+    int width, height;   ///< framebuffer
+    struct area scissor; ///< of shapes added next; set by the caller
+    GLuint texture;
+    int texture_width, texture_height;
+    double upload_us;
+    long uploaded_bytes; ///< both since batch_begin()
+};
 
-// The area of a line that goes up and down between points.
+bool batch_create(struct batch *batch, struct error *error);
+void batch_destroy(struct batch *batch);
 
-/// Everything between each of `count` points and the next, `width` wide. Points and width are logical pixels; x never decreases.
-void band_add(struct batch *batch, const float *xy, int count, float width, float scale, uint32_t color);
+/// Starts a frame of width × height device pixels with an atlas texture.
+void batch_begin(struct batch *batch, int width, int height, GLuint texture, int texture_width, int texture_height);
 
-// Polylines.
+/// Uploads and draws everything, then empties the batch.
+void batch_flush(struct batch *batch);
+
+// Draw lists.
 
 enum { LINE_POINTS = 8192 };
 
@@ -44,42 +65,6 @@ struct line_point {
 struct line_scratch {
     struct line_point points[LINE_POINTS], dash[LINE_POINTS];
 };
-
-struct line_style {
-    float width;   ///< logical pixels
-    float on, off; ///< dashes, logical pixels; both 0: solid
-    float scale;   ///< device pixels per logical pixel
-    uint32_t color;
-};
-
-/// Adds a polyline in logical pixels; omits parts that cannot touch `visible`.
-void line_add(struct batch *batch, struct line_scratch *scratch, const float *xy, int count, struct line_style style,
-              struct area visible);
-
-// The triangle strip of one line, in device pixels.
-
-/// A line being drawn: its style, and the last pair of vertices, which the next quad shares.
-struct stroke {
-    struct batch *batch;
-    struct area visible;
-    uint32_t color;
-    float reach; ///< half width + 1/2, device pixels
-    uint32_t left, right;
-    unsigned generation;
-    bool linked;
-};
-
-/// Distinct points; if closed, the last equals the first.
-struct polyline {
-    const struct line_point *points;
-    int count;
-    bool closed;
-};
-
-/// Adds the triangles of a line of at least two points; omits segments outside the clip.
-void stroke_draw(struct stroke *stroke, struct polyline line);
-
-// Draw lists.
 
 struct painter {
     struct batch *batch;

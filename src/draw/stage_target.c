@@ -1,5 +1,4 @@
 /// Offscreen framebuffers; draws the stage at a lower resolution and enlarges it.
-#include "draw/batch.h"
 #include "draw/stage.h"
 
 void stage_target_destroy(struct stage_target *target)
@@ -54,10 +53,10 @@ bool stage_target_draw(struct stage_target *target, struct stage_renderer *rende
     glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &screen);
     bool drawn = stage_target_bind(target, width, height);
     if (drawn) {
-        batch_apply_scissor(needed(place, scale, width, height), height);
+        gl_scissor(needed(place, scale, width, height), height);
         stage_draw(renderer, view, 0, 0, width, height);
         glBindFramebuffer(GL_DRAW_FRAMEBUFFER, (GLuint)screen);
-        batch_apply_scissor(place.visible, place.height);
+        gl_scissor(place.visible, place.height);
         glBlitFramebuffer(0, 0, width, height, to.x0, place.height - to.y1, to.x1, place.height - to.y0,
                           GL_COLOR_BUFFER_BIT, GL_LINEAR);
     }
