@@ -323,7 +323,7 @@ $(B)/adversary: $(B)/obj/tools/adversary.o $(patsubst %.c,$(B)/obj/%.o,$(wildcar
 # Of the sources only what readers and exports need, and no GL.
 FUZZED := $(wildcard src/base/*.c src/maths/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
     $(addprefix src/app/,replay.c settings.c) src/timing/framelog.c \
-    $(wildcard src/rig/*.c src/export/*.c src/simulation/*.c) src/draw/skirt.c src/draw/posed.c src/commands/companion.c
+    $(wildcard src/rig/*.c src/export/*.c src/simulation/*.c) src/draw/posed.c src/commands/companion.c
 fuzzers: $(FUZZERS:%=$(B)/%)
 $(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
 	$(Q)rm -f $@ && ar rcs $@ $^

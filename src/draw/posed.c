@@ -1,4 +1,4 @@
-/// Collects and poses the triangles of characters.
+/// Collects and poses the triangles of characters, finds their outlines and builds skirts.
 #include "draw/posed.h"
 #include "base/need.h"
 #include "model/adjacency.h"
@@ -43,25 +43,31 @@ static void find_neighbours(struct posed *mesh, int from)
     free(look);
 }
 
-// --- imported characters and foxes
-
-static bool allocate_gltf(struct posed *mesh, const struct gltf *gltf)
+/// Whether a triangle faces the eye, or nearly. Near the limit the rasteriser decides, because it rounds.
+static bool is_front(const float a[3], const float b[3], const float c[3], const float eye[3], float sign)
 {
-    size_t vertices = 0, indices = 0, parts = 0;
-    for (int n = 0; n < gltf->node_count; n++) {
-        if (gltf->nodes[n].mesh < 0) continue;
-        const struct gltf_mesh *shown = &gltf->meshes[gltf->nodes[n].mesh];
-        vertices += (size_t)gltf_vertex_count(gltf, n);
-        parts += (size_t)shown->part_count;
-        for (int p = 0; p < shown->part_count; p++) indices += (size_t)shown->parts[p].index_count;
-    }
-    *mesh = (struct posed){0};
-    if (!need_has_room(vertices * (2 * sizeof *mesh->place + sizeof *mesh->looks) +
-                       indices * 8 * sizeof *mesh->neighbours))
-        return false;
-    allocate(mesh, vertices, indices, parts);
-    return true;
+    static const float slack = 1e-6f; // squared cosine
+    const vec3s normal = triangle_normal(a, b, c);
+    const vec3s to_eye = glms_vec3_sub(vec3_from(eye), vec3_from(a));
+    const float facing = sign * glms_vec3_dot(normal, to_eye);
+    return facing >= 0.0f || facing * facing < slack * glms_vec3_norm2(normal) * glms_vec3_norm2(to_eye);
 }
+
+/// Marks the triangles that face the eye.
+static void mark_front(struct posed *mesh, const float eye[3])
+{
+    const float(*place)[3] = (const float(*)[3])mesh->place;
+    for (int p = 0; p < mesh->part_count; p++) {
+        const struct posed_part *part = &mesh->parts[p];
+        for (int i = part->first; i < part->end; i += 3) {
+            const uint32_t *corner = mesh->indices + i;
+            mesh->front[i / 3] =
+                is_front(place[corner[0]], place[corner[1]], place[corner[2]], eye, part->mirrored ? -1.0f : 1.0f);
+        }
+    }
+}
+
+// --- imported characters and foxes
 
 static enum stage_program program_of(const struct gltf_part *part, const struct gltf_material *material)
 {
@@ -71,24 +77,9 @@ static enum stage_program program_of(const struct gltf_part *part, const struct 
     return plain ? PROGRAM_PLAIN : PROGRAM_PICTURED;
 }
 
-static void look_at_part(const struct gltf_part *part, int vertex, struct posed_look *look)
-{
-    static const float white[4] = {1, 1, 1, 1};
-    if (part->mark) {
-        const float *mark = part->mark[vertex], *place = part->position[vertex];
-        *look = (struct posed_look){{place[0], place[1], place[2], part->fur[vertex][0]},
-                                    {mark[0], mark[1]},
-                                    {mark[2], part->fur[vertex][1]},
-                                    1};
-        return;
-    }
-    memcpy(look->color, part->color ? part->color[vertex] : white, sizeof look->color);
-    look->cover = 1;
-    if (part->uv) memcpy(look->uv, part->uv[vertex], sizeof look->uv);
-}
-
 static void add_gltf_part(struct posed *mesh, const struct gltf *gltf, int node, const struct gltf_part *part)
 {
+    static const float white[4] = {1, 1, 1, 1};
     static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};
     const struct gltf_material *material = part->material < 0 ? &plain : &gltf->materials[part->material];
     struct posed_part *added = &mesh->parts[mesh->part_count++];
@@ -103,7 +94,18 @@ static void add_gltf_part(struct posed *mesh, const struct gltf *gltf, int node,
                                  .both_sides = material->double_sided};
     memcpy(added->base, material->color, sizeof added->base);
     memcpy(mesh->place + added->vertex, part->position, (size_t)part->vertex_count * sizeof *mesh->place);
-    for (int v = 0; v < part->vertex_count; v++) look_at_part(part, v, &mesh->looks[added->vertex + v]);
+    for (int v = 0; v < part->vertex_count; v++) {
+        struct posed_look *look = &mesh->looks[added->vertex + v];
+        if (part->mark) {
+            const float *mark = part->mark[v], *place = part->position[v], *fur = part->fur[v];
+            *look =
+                (struct posed_look){{place[0], place[1], place[2], fur[0]}, {mark[0], mark[1]}, {mark[2], fur[1]}, 1};
+            continue;
+        }
+        memcpy(look->color, part->color ? part->color[v] : white, sizeof look->color);
+        look->cover = 1;
+        if (part->uv) memcpy(look->uv, part->uv[v], sizeof look->uv);
+    }
     for (int i = 0; i < part->index_count; i++)
         mesh->indices[added->first + i] = (uint32_t)added->vertex + part->indices[i];
     mesh->vertex_count += part->vertex_count;
@@ -112,7 +114,19 @@ static void add_gltf_part(struct posed *mesh, const struct gltf *gltf, int node,
 
 void posed_from_gltf(struct posed *mesh, const struct gltf *gltf)
 {
-    if (!allocate_gltf(mesh, gltf)) return;
+    size_t vertices = 0, indices = 0, parts = 0;
+    for (int n = 0; n < gltf->node_count; n++) {
+        if (gltf->nodes[n].mesh < 0) continue;
+        const struct gltf_mesh *shown = &gltf->meshes[gltf->nodes[n].mesh];
+        vertices += (size_t)gltf_vertex_count(gltf, n);
+        parts += (size_t)shown->part_count;
+        for (int p = 0; p < shown->part_count; p++) indices += (size_t)shown->parts[p].index_count;
+    }
+    *mesh = (struct posed){0};
+    if (!need_has_room(vertices * (2 * sizeof *mesh->place + sizeof *mesh->looks) +
+                       indices * 8 * sizeof *mesh->neighbours))
+        return;
+    allocate(mesh, vertices, indices, parts);
     for (int n = 0; n < gltf->node_count; n++) {
         const int from = mesh->part_count;
         if (gltf->nodes[n].mesh < 0) continue;
@@ -137,7 +151,7 @@ void posed_pose_gltf(struct posed *mesh, const struct stage_model *shown, const 
         glm_mat4_mulv3(to_world.raw, mesh->place[v], 1.0f, mesh->place[v]);
         glm_mat4_mulv3(to_world.raw, mesh->normal[v], 0.0f, mesh->normal[v]);
     }
-    posed_face(mesh, eye);
+    mark_front(mesh, eye);
 }
 
 // --- soft characters
@@ -152,7 +166,7 @@ static void map_color(const struct figure *figure, const float phase[2], float c
     glm_vec3_lerp(color, mapped, share, color);
 }
 
-static void look_at(const struct figure *figure, int map, int axis, int vertex, struct posed_look *look)
+static void color_vertex(const struct figure *figure, int map, int axis, int vertex, struct posed_look *look)
 {
     const struct character *c = &figure->character;
     *look = (struct posed_look){.color = {[3] = 1.0f}, .cover = 1.0f};
@@ -206,7 +220,7 @@ void posed_from_figure(struct posed *mesh, const struct figure *figure, bool coa
     allocate(mesh, (size_t)c->vertex_count, (size_t)count, (size_t)materials + 1);
     mesh->vertex_count = c->vertex_count;
     memcpy(mesh->place, c->position, (size_t)c->vertex_count * sizeof *mesh->place);
-    for (int v = 0; v < c->vertex_count; v++) look_at(figure, -1, 0, v, &mesh->looks[v]);
+    for (int v = 0; v < c->vertex_count; v++) color_vertex(figure, -1, 0, v, &mesh->looks[v]);
     for (int m = 0; m < materials; m++) add_material(mesh, figure, coarse, m, materials);
     add_material(mesh, figure, coarse, -1, materials);
     find_neighbours(mesh, 0);
@@ -225,7 +239,7 @@ bool posed_map_figure(struct posed *mesh, const struct stage_character *shown)
     mesh->map_coordinate = map;
     mesh->map_axis = axis;
     mesh->map_version = figure->version;
-    for (int v = 0; v < mesh->vertex_count; v++) look_at(figure, map, axis, v, &mesh->looks[v]);
+    for (int v = 0; v < mesh->vertex_count; v++) color_vertex(figure, map, axis, v, &mesh->looks[v]);
     dress(mesh, &figure->character.looks);
     return true;
 }
@@ -238,5 +252,85 @@ void posed_pose_figure(struct posed *mesh, const struct stage_character *shown, 
         morph_vertex(figure, &shown->morph, v, mesh->place[v], mesh->normal[v]);
         for (int k = 0; k < 3; k++) mesh->place[v][k] += place[k];
     }
-    posed_face(mesh, eye);
+    mark_front(mesh, eye);
+}
+
+// --- skirts
+
+/// Pixels towards the eye for skirts on a continuing surface, which may itself lean towards the eye.
+static const float LIFT = 2.0f;
+
+int skirt_next(const struct posed *mesh, const struct posed_part *part, int from)
+{
+    for (int i = from; i < part->end; i++) {
+        const int other = mesh->neighbours[i];
+        const bool front = mesh->front[i / 3];
+        if (other < 0 ? front || part->both_sides : front && !mesh->front[other]) return i;
+    }
+    return part->end;
+}
+
+/// The skirt's offset at one end of an edge: one pixel, across the line of sight. `side` points away from the triangle.
+static vec3s step_out(const struct skirt_vertex *end, vec3s edge, float side, bool open, const float eye[3],
+                      float seam)
+{
+    const vec3s ray = glms_vec3_sub(vec3_from(end->place), vec3_from(eye));
+    const vec3s off_edge = glms_vec3_scale(glms_vec3_normalize(glms_vec3_cross(ray, edge)), side);
+    const vec3s normal = vec3_from(end->normal);
+    const float depth = glms_vec3_dot(normal, ray) / glms_vec3_norm2(ray);
+    const vec3s along = glms_vec3_normalize(glms_vec3_sub(normal, glms_vec3_scale(ray, depth)));
+    // Along the vertex normal, so that skirts of consecutive edges meet. If that does not point away from the edge, across the edge.
+    const vec3s out = open || glms_vec3_dot(along, off_edge) < 0.3f ? off_edge : along;
+    return glms_vec3_scale(out, seam * glms_vec3_norm(ray));
+}
+
+/// The surface at one end of an edge, with the normal towards the eye if `back`. Without normals it is the triangle's.
+static void start_end(const struct posed *mesh, const struct posed_part *part, int corner, bool back,
+                      struct skirt_vertex *out)
+{
+    const uint32_t vertex = mesh->indices[corner], *const triangle = mesh->indices + corner / 3 * 3;
+    vec3s normal = vec3_from(mesh->normal[vertex]);
+    if (glms_vec3_norm2(normal) == 0)
+        normal = glms_vec3_scale(glms_vec3_normalize(triangle_normal(
+                                     mesh->place[triangle[0]], mesh->place[triangle[1]], mesh->place[triangle[2]])),
+                                 part->mirrored ? -1.0f : 1.0f);
+    *out = (struct skirt_vertex){.look = mesh->looks[vertex]};
+    for (int k = 0; k < 3; k++) {
+        out->place[k] = mesh->place[vertex][k];
+        out->normal[k] = back ? -normal.raw[k] : normal.raw[k];
+    }
+}
+
+/// Moves the texture coordinate half a pixel into the triangle: a lookup at its edge may hit the opposite side of the picture.
+static void pull_in(const struct posed *mesh, int corner, const float eye[3], float seam, struct skirt_vertex ends[2])
+{
+    const uint32_t third = mesh->indices[next_corner(next_corner(corner))];
+    const vec3s from = vec3_from(ends[0].place), edge = glms_vec3_sub(vec3_from(ends[1].place), from);
+    const float area = glms_vec3_norm(glms_vec3_cross(edge, glms_vec3_sub(vec3_from(mesh->place[third]), from)));
+    const float pixel = seam * glms_vec3_distance(from, vec3_from(eye));
+    const float share = fminf(0.5f * pixel * glms_vec3_norm(edge) / fmaxf(area, 1e-12f), 0.5f);
+    for (int e = 0; e < 2; e++) {
+        for (int k = 0; k < 2; k++) ends[e].look.uv[k] += share * (mesh->looks[third].uv[k] - ends[e].look.uv[k]);
+    }
+}
+
+void skirt_hang(const struct posed *mesh, const struct posed_part *part, int corner, const float eye[3], float seam,
+                struct skirt_vertex out[SKIRT_CORNERS])
+{
+    const bool front = mesh->front[corner / 3], open = mesh->neighbours[corner] < 0;
+    const float side = front == part->mirrored ? -1.0f : 1.0f; // the triangle is to the left of its edge
+    start_end(mesh, part, corner, !front, &out[0]);
+    start_end(mesh, part, next_corner(corner), !front, &out[1]);
+    pull_in(mesh, corner, eye, seam, out);
+    const vec3s edge = glms_vec3_sub(vec3_from(out[1].place), vec3_from(out[0].place));
+    for (int e = 0; e < 2; e++) {
+        const vec3s off = step_out(&out[e], edge, side, open, eye, seam);
+        struct skirt_vertex *outer = &out[3 - e];
+        *outer = out[e];
+        outer->look.cover = 0.0f;
+        for (int k = 0; k < 3; k++) outer->place[k] += off.raw[k];
+    }
+    for (int c = 0; mesh->neighbours[corner] == NEIGHBOUR_CUT && c < SKIRT_CORNERS; c++) {
+        for (int k = 0; k < 3; k++) out[c].place[k] += LIFT * seam * (eye[k] - out[c].place[k]);
+    }
 }

@@ -57,9 +57,6 @@ void posed_free(struct posed *mesh);
 void posed_pose_gltf(struct posed *mesh, const struct stage_model *shown, const float eye[3]);
 void posed_pose_figure(struct posed *mesh, const struct stage_character *shown, const float eye[3]);
 
-/// Marks the triangles that face the eye.
-void posed_face(struct posed *mesh, const float eye[3]);
-
 /// Switches between own colours and phases; false if nothing changed.
 bool posed_map_figure(struct posed *mesh, const struct stage_character *shown);
 
@@ -80,23 +77,5 @@ int skirt_next(const struct posed *mesh, const struct posed_part *part, int from
 /// The strip along the edge at a corner. `seam` is metres per pixel at a distance of 1 m.
 void skirt_hang(const struct posed *mesh, const struct posed_part *part, int corner, const float eye[3], float seam,
                 struct skirt_vertex out[SKIRT_CORNERS]);
-
-// On the GPU.
-
-/// These return the number of uploaded bytes. They skip pictures that cannot be decoded or are too large for the driver.
-long posed_upload(struct posed *mesh);
-long posed_upload_gltf_pictures(struct posed *mesh, const struct gltf *gltf);
-long posed_upload_figure_pictures(struct posed *mesh, const struct looks *looks);
-long posed_upload_places(const struct posed *mesh);
-long posed_upload_looks(const struct posed *mesh);
-
-/// Also frees its memory.
-void posed_delete(struct posed *mesh);
-
-/// Attributes of stage_skirt.vert.
-enum { POSED_PLACE, POSED_NORMAL, POSED_COLOR, POSED_UV, POSED_PHASE, POSED_COVER };
-
-/// Sets the attributes of looks that lie in each `stride` bytes at an offset.
-void posed_look_attributes(size_t stride, size_t offset);
 
 #endif
