@@ -1,6 +1,6 @@
 /// What typing finds in a list.
 #include "near.h"
-#include "ui/filter.h"
+#include "ui/widgets.h"
 #include <string.h>
 
 TEST(test_fits)

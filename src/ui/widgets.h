@@ -13,7 +13,6 @@
 #include "base/file.h"
 #include "ui/drawlist.h"
 #include "ui/event.h"
-#include "ui/filter.h"
 
 enum {
     UI_ROW = 24,
@@ -37,6 +36,32 @@ struct ui_text {
     int length, caret; ///< bytes
     bool all;          ///< all selected: the next character replaces it
 };
+
+// Typing filters lists, the help and the palette.
+
+enum { FILTER_SIZE = 48 };
+
+/// The typed text. Empty text matches everything.
+struct ui_filter {
+    char typed[FILTER_SIZE];
+};
+
+/// How well a text matches, better ones larger. Case is ignored; of several words, all must match.
+enum fit {
+    FIT_NOT,
+    FIT_LETTERS, ///< has the letters in order
+    FIT_INSIDE,  ///< contains the text
+    FIT_WORD,    ///< one of its words starts with the text
+    FIT_START    ///< starts with the text
+};
+
+enum fit ui_filter_fit(const struct ui_filter *filter, const char *text);
+/// The least fit to show if `best` is the best in the list: scattered letters count only without better matches.
+enum fit ui_filter_least(enum fit best);
+/// Adds a character or handles Backspace; true if used. A filter does not start with a space.
+bool ui_filter_event(struct ui_filter *filter, const struct event *event);
+
+// The panel.
 
 struct ui_scroll {
     float offset, content; ///< scrolled pixels; height of the content at the last layout

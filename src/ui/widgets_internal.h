@@ -1,4 +1,4 @@
-/// Functions that the widgets' files share.
+/// What the widgets' two files share.
 #ifndef UI_WIDGETS_INTERNAL_H
 #define UI_WIDGETS_INTERNAL_H
 
@@ -23,21 +23,10 @@ enum ui_change ui_held_change(struct ui *ui);
 bool ui_focused_key(const struct ui *ui, uint32_t id);
 /// Keeps a widget alive that was not built in this pass.
 void ui_keep(struct ui *ui, uint32_t id);
-/// Moves the focus to the next (1) or previous (-1) widget, cyclically, and scrolls to it.
-void ui_move_focus(struct ui *ui, int direction);
-/// Enter or Space on the focused widget; used up.
-bool ui_activated(struct ui *ui, uint32_t id);
-/// Registers a pressable widget; true if pressed with the left button, Enter or Space.
-bool ui_clicked(struct ui *ui, uint32_t id, struct rect r);
 
 /// `hot`: under the pointer.
 void ui_outline(struct ui *ui, struct rect r, float radius, bool hot);
 void ui_focus_ring(struct ui *ui, uint32_t id, struct rect r);
 void ui_number_text(struct ui *ui, struct rect r, const char *text, uint32_t color);
-/// An event's effect on the line typed in `field`: UI_LINE_DONE by a press elsewhere, Enter, or Tab, which is not used up.
-enum ui_line ui_typing_event(struct ui *ui, uint32_t id, struct rect field);
-/// Draws the typed line and its caret.
-void ui_paint_text(struct ui *ui, struct rect r, const struct ui_text *text, enum font font, float size,
-                   bool focused);
 
 #endif

@@ -4,8 +4,8 @@
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/dialogs/state.h"
-#include "ui/filter.h"
 #include "ui/theme.h"
+#include "ui/widgets.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
