@@ -279,8 +279,9 @@ static void add_convex(struct batch *batch, const float *xy, int count, float sc
         points[n++] = p;
     }
     while (n > 1 && hypotf(points[0].x - points[n - 1].x, points[0].y - points[n - 1].y) < 0.01f) n--;
+    if (n < 3) return;
     float area = 0.0f; // twice the signed one, whose sign gives the winding
-    for (int i = 0; n >= 3 && i < n; i++) {
+    for (int i = 0; i < n; i++) {
         struct point a = points[i], b = points[(i + 1) % n];
         area += (a.x - points[0].x) * (b.y - points[0].y) - (b.x - points[0].x) * (a.y - points[0].y);
     }
