@@ -244,7 +244,7 @@ docs/scene-format.md~Up to four coordinates~src/scene/rig.h~CHARACTER_MAX_DRIVES
 docs/mathematics.md~at most 1e−9 (cubic) or 1e−8 (other modes)~tests/test_vectors.c~WIGGLY_CUBIC ? 1e-9 : 1e-8
 docs/mathematics.md~exceeds 10⁴ times~src/spline/complete.c~blow_up = 1e4
 docs/mathematics.md~again with c = 0.05~src/spline/problem.h~FALLBACK_CALM 0.05
-docs/mathematics.md~at least 0.05·c~src/spline/solver.h~LEAST_DAMPING 0.05
+docs/mathematics.md~at least 0.05·c~src/spline/poles.h~LEAST_DAMPING 0.05
 docs/mathematics.md~\ge 10^{-4}~src/spline/pins.c~out_of_reach = 1e-4, firm = 0.04
 docs/mathematics.md~(0.04/\varepsilon)~src/spline/pins.c~firm = 0.04
 docs/mathematics.md~10⁻⁵ of the character's size~src/scene/evaluate.c~DEEP = 1e-5

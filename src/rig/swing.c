@@ -5,8 +5,7 @@
 #include "spline/poles.h"
 #include <math.h>
 
-static const double LEAST_DAMPING = 0.05; ///< as in the cost of the start
-static const double STILL = 1e-4;         ///< metres of swing that are invisible
+static const double STILL = 1e-4; ///< metres of swing that are invisible
 static const double RADIANS = 0.017453292519943295;
 
 static cplx pole(const struct swing_filter *filter, int k) { return (cplx){filter->s[k][0], filter->s[k][1]}; }

@@ -84,13 +84,18 @@ band_block *band_own(band_matrix *m, int k)
     return &m->own[k];
 }
 
+/// What a factor's storage depends on: the count, negative outside complex mode, and a bit for a loop.
+static int shape_of(const band_matrix *m)
+{
+    return (m->is_complex ? m->count : -m->count) ^ (m->cyclic ? 1 << 30 : 0);
+}
+
 void band_keep(band_matrix *m)
 {
     m->is_kept = m->is_factor && m->is_alike;
     if (!m->is_kept) return;
     m->kept_alike = m->alike;
-    m->kept_count = m->is_complex ? m->count : -m->count;
-    if (m->cyclic) m->kept_count ^= 1 << 30;
+    m->kept_shape = shape_of(m);
     memcpy(m->kept_marks, m->marks, (size_t)m->count);
     for (int k = 0; k < m->count; k++) {
         if (m->marks[k] & BAND_OWN) m->kept_own[k] = m->own[k];
@@ -99,9 +104,7 @@ void band_keep(band_matrix *m)
 
 bool band_is_kept(const band_matrix *m)
 {
-    int count = m->is_complex ? m->count : -m->count;
-    if (m->cyclic) count ^= 1 << 30;
-    if (!m->is_alike || m->kept_count != count || memcmp(&m->kept_alike, &m->alike, sizeof m->alike) != 0 ||
+    if (!m->is_alike || m->kept_shape != shape_of(m) || memcmp(&m->kept_alike, &m->alike, sizeof m->alike) != 0 ||
         memcmp(m->kept_marks, m->marks, (size_t)m->count) != 0)
         return false;
     for (int k = 0; k < m->count; k++) {

@@ -45,7 +45,7 @@ typedef struct band_matrix {
     band_block *own;
     band_block kept_alike, *kept_own; ///< of the matrix that the factor is of
     unsigned char *kept_marks;
-    int kept_count;
+    int kept_shape;
     double *record, *seam; ///< the factor, two samples at a time
     double dense[BAND_DENSE][BAND_DENSE], dense_inverse[BAND_DENSE];
     double *

@@ -32,13 +32,7 @@ static void put_complex(double *at, cplx z) { at[0] += z.re, at[1] -= z.im, at[2
 static void set_own(const system_rows *rows, band_matrix *m, int k)
 {
     band_block *block = band_own(m, k);
-    const int n = rows->count,
-              next = k + 1 < n    ? k + 1
-                     : rows->loop ? 0
-                                  : -1,
-              before = k > 0        ? k - 1
-                       : rows->loop ? n - 1
-                                    : -1;
+    const int next = system_beside(rows, k, 1), before = system_beside(rows, k, -1);
     const jet_row own = system_jet(rows, k);
     double d = own.weight * cplx_norm(own.own);
     *block = (band_block){.d = {0}};
@@ -49,7 +43,7 @@ static void set_own(const system_rows *rows, band_matrix *m, int k)
         d += after.weight * cplx_norm(after.before);
         put_complex(block->e, cplx_scale(after.weight, cplx_mul(cplx_conj(after.own), after.before)));
         put_complex(block->e, of_own != 0 ? (cplx){of_own, 0} : cplx_scale(own.weight, own.own));
-        const bool ends = !rows->loop && next == n - 1;
+        const bool ends = !rows->loop && next == rows->count - 1;
         if (!ends && !(rows->fixed[next] & FIXED_STILL))
             put_complex(block->f, cplx_scale(after.weight, after.before));
     }
@@ -59,23 +53,18 @@ static void set_own(const system_rows *rows, band_matrix *m, int k)
 
 static void set_own_around(const system_rows *rows, band_matrix *m, int i)
 {
-    const int n = rows->count;
-    for (int k = i - 1; k <= i + 1; k++) {
-        const int at = rows->loop ? (k + n) % n : k;
-        if (at >= 0 && at < n && !(m->marks[at] & BAND_OWN)) set_own(rows, m, at);
+    for (int by = -1; by <= 1; by++) {
+        const int at = system_beside(rows, i, by);
+        if (at >= 0 && !(m->marks[at] & BAND_OWN)) set_own(rows, m, at);
     }
 }
 
 stencil system_slope_stencil(const system_rows *rows, const slope_row *slope)
 {
-    int n = rows->count, k = slope->sample;
-    stencil s = {.before = k > 0        ? k - 1
-                           : rows->loop ? n - 1
-                                        : -1,
+    const int k = slope->sample;
+    stencil s = {.before = system_beside(rows, k, -1),
                  .at = k,
-                 .after = k < n - 1    ? k + 1
-                          : rows->loop ? 0
-                                       : -1,
+                 .after = system_beside(rows, k, 1),
                  .c = {cplx_scale(-1, slope->behind), cplx_add(slope->here, cplx_sub(slope->behind, slope->ahead)),
                        slope->ahead}};
     if (s.after < 0) s.c[1] = cplx_add(s.c[1], cplx_mul(slope->ahead, (cplx){1 + rows->tail.re, rows->tail.im}));

@@ -44,15 +44,6 @@ WIDEST static double add_change(double *restrict x, const double *restrict by, i
     return largest;
 }
 
-static void solve(band_matrix *m, double *x)
-{
-    if (m->has_spread) {
-        band_solve(m, x);
-    } else {
-        band_solve_spread(m, x);
-    }
-}
-
 /// Puts a solution that the gradient's memory holds into x.
 static void put_solution(const system_rows *rows)
 {
@@ -74,7 +65,7 @@ static void solve_first(wiggly_solver *solver)
     } else {
         system_right_side(rows, m);
     }
-    solve(m, rows->gradient);
+    (m->has_spread ? band_solve : band_solve_spread)(m, rows->gradient);
     put_solution(rows);
 }
 

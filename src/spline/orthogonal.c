@@ -88,9 +88,8 @@ static void add_row(walk *w, double weight, bool real, int n, const int *samples
 static void add_jet(walk *w, int i)
 {
     const system_rows *rows = w->rows;
-    const int n = rows->count;
     const jet_row jet = system_jet(rows, i);
-    const int before = i > 0 ? i - 1 : rows->loop ? n - 1 : -1, after = i < n - 1 ? i + 1 : rows->loop ? 0 : -1;
+    const int before = system_beside(rows, i, -1), after = system_beside(rows, i, 1);
     const cplx one = {1, 0};
     if (rows->fixed[i] & FIXED_STILL) { // two rows
         if (before >= 0) add_row(w, jet.weight, false, 1, &before, &jet.before);
@@ -218,9 +217,9 @@ bool orthogonal_factor(const system_rows *rows, band_matrix *m)
         walk w = {.rows = rows, .interior = between.interior, .steps = between.steps, .lane = lane};
         for (int step = 0; step < w.steps; step++) {
             w.k = lane == UP ? step : w.interior - 1 - step;
-            for (int i = w.k - 1; i <= w.k + 1; i++) { // those that begin here lie on it, or beside it
-                const int n = rows->count, at = rows->loop ? (i + n) % n : i;
-                if (at >= 0 && at < n) add_rows(&w, at);
+            for (int by = -1; by <= 1; by++) { // those that begin here lie on it, or beside it
+                const int at = system_beside(rows, w.k, by);
+                if (at >= 0) add_rows(&w, at);
             }
             if (!finish_step(&w, step, m)) return false;
         }

@@ -83,6 +83,9 @@ typedef struct start_cost {
     } row[2];
 } start_cost;
 
+/// The lowest damping ratio for the start's cost; times calm, for a loop.
+#define LEAST_DAMPING 0.05
+
 /// Faster decay makes no difference to a double, but weights and their products stay finite.
 #define DEEPEST 100.0
 

@@ -178,7 +178,7 @@ static double pull_each(const system_rows *rows, double *energy)
     *energy = 0;
     for (int i = rows->jet_from; i <= rows->jet_to; i++) {
         const jet_row row = system_jet(rows, i);
-        const int before = i > 0 ? i - 1 : rows->loop ? n - 1 : -1, after = i < n - 1 ? i + 1 : rows->loop ? 0 : -1;
+        const int before = system_beside(rows, i, -1), after = system_beside(rows, i, 1);
         const bool still = rows->fixed[i] & FIXED_STILL;
         const cplx x = as_cplx(sample_of(rows, i)), back = as_cplx(sample_of(rows, i - 1));
         cplx r = cplx_add(cplx_mul(row.own, x), cplx_mul(row.before, back)), ahead = {0, 0};
@@ -320,7 +320,7 @@ static void add_known(const system_rows *rows, const band_matrix *m, row_errors 
         const double x = fabs(rows->x[2 * k]), off = rows->noise + DBL_EPSILON * x;
         double a = 0;
         for (int i = k - 1; i <= k + 1; i++) {
-            const int n = rows->count, at = rows->loop ? (i + n) % n : i;
+            const int at = system_beside(rows, k, i - k);
             if (at < rows->jet_from || at > rows->jet_to) continue;
             const jet_row row = system_jet(rows, at);
             a += row.weight * (i < k ? 1 : cplx_norm(i > k ? row.before : row.own));
@@ -385,9 +385,9 @@ void system_right_side(const system_rows *rows, const band_matrix *m)
     for (int i = rows->jet_from; i <= rows->jet_to && rows->driven; i++) {
         const jet_row row = system_jet(rows, i);
         const cplx j = cplx_scale(-row.weight, rows->drive[i]);
-        load(rows, i > 0 ? i - 1 : rows->loop ? n - 1 : -1, cplx_mul(cplx_conj(row.before), j));
+        load(rows, system_beside(rows, i, -1), cplx_mul(cplx_conj(row.before), j));
         load(rows, i, cplx_mul(cplx_conj(row.own), j));
-        load(rows, i < n - 1 ? i + 1 : rows->loop ? 0 : -1, j);
+        load(rows, system_beside(rows, i, 1), j);
     }
     for (int k = 0; k < n; k++) {
         if (!(rows->fixed[k] & FIXED_RE)) continue; // Im x is known of poses alone, or 0
@@ -395,8 +395,7 @@ void system_right_side(const system_rows *rows, const band_matrix *m)
         const band_block own = band_block_at(m, k);
         rows->gradient[2 * k] -= own.d[1] * im, rows->gradient[2 * k + 1] -= own.d[1] * re;
         for (int by = 1; by <= 2; by++) {
-            const int after = k + by < n ? k + by : rows->loop ? k + by - n : -1;
-            const int before = k >= by ? k - by : rows->loop ? k - by + n : -1;
+            const int after = system_beside(rows, k, by), before = system_beside(rows, k, -by);
             const double *c = by == 1 ? own.e : own.f;
             load(rows, after, (cplx){-(c[0] * re + c[1] * im), -(c[2] * re + c[3] * im)});
             if (before < 0) continue;

@@ -3,8 +3,6 @@
 #include "spline/poles.h"
 #include <string.h>
 
-static const double LEAST_DAMPING = 0.05; ///< of a loop, times calm
-
 /// x without the response to the equilibrium's motion, of which `response` has total and Im, N numbers each; NULL: none.
 static cplx made_by_knots(const wiggly_curve *curve, const double *response, int sample)
 {

@@ -7,9 +7,6 @@
 #include "spline/forced_response.h"
 #include "spline/system.h"
 
-/// The lowest damping ratio for the start's cost; times calm, for a loop.
-#define LEAST_DAMPING 0.05
-
 /// Results of constant parameters, computed anew only when they change.
 typedef struct constant_filter {
     bool known;

@@ -80,6 +80,14 @@ typedef struct jet_row {
 
 jet_row system_jet(const system_rows *rows, int i);
 
+/// The sample that comes `by` samples after k; a loop goes round. -1: there is none.
+static inline int system_beside(const system_rows *rows, int k, int by)
+{
+    const int n = rows->count, at = k + by;
+    if (at >= 0 && at < n) return at;
+    return rows->loop ? (at + n) % n : -1;
+}
+
 /// A row's m and p.
 static inline coefficients system_coefficients(const system_rows *rows, int i)
 {
