@@ -686,8 +686,8 @@ static void bounds_solve(void *user, double *force)
     }
 }
 
-/// λ with the pushing bounds as equalities. It is right if none of them pulls and no other bound is violated; else, as nearly equal bounds are
-/// hard to tell apart, the worst of these is exchanged.
+/// λ with the pushing bounds as equalities. It is right if none of them pulls and no other bound is violated. If not, the worst one is
+/// exchanged and all is solved again: nearly equal bounds are hard to tell apart.
 static bool bounds_finish(void *user)
 {
     wiggly_group *g = user;
