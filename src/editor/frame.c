@@ -31,7 +31,6 @@ static void press(struct editor *editor, const struct event *event)
 {
     enum divider divider = core_divider_at(&editor->core, event->x, event->y);
     const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
-    if (presenter_is_sliding(&editor->core)) return; // a finger that calls the panels aims at nothing in them
     if (divider != DIVIDER_NONE && event->button == BUTTON_LEFT) {
         drag_begin(&editor->core, &divider_drags[divider], NULL, NULL, event);
     } else if (panel == PANEL_CURVES) {
