@@ -79,8 +79,10 @@ static void find_exact(const struct adversary_problem *p, struct adversary_verdi
     const double inverse = textbook_inverse(&book);
     v->pivot = book.pivot;
     v->growth = book.growth;
-    v->undecided = book.open ? !asked && v->said != WIGGLY_CALMED && v->said != WIGGLY_LEVELLED
-                             : !asked || inverse > 1e26 || book.pivot < 1e-20; // what 34 digits can tell
+    const bool is_blurred = !asked || inverse > 1e26 || book.pivot < 1e-20; // for 34 digits
+    v->undecided = book.open && v->said != WIGGLY_OK
+                       ? !asked && v->said != WIGGLY_CALMED && v->said != WIGGLY_LEVELLED
+                       : is_blurred;
     v->borderline =
         book.open && ((asked && (book.pivot < 1e-11 || inverse > 1e14)) || (book.growth > 300 && book.growth < 3e5));
     v->exists = textbook_curve(&p->desc, &book, &v->status, a->total, a->re, a->im);

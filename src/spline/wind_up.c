@@ -134,6 +134,8 @@ static void look_back(const wiggly_solver *solver, const problem *p, const poles
     g->both = both;
     g->row = missed + 0.5;
     g->knot = knot - cplx_norm(both) / g->row;
+    const double doubt = DBL_EPSILON * (g->end - g->begin + 8) * knot;
+    g->doubt = doubt < 0.1 * g->knot ? doubt / g->knot : INFINITY;
 }
 
 /// The squared gains of pushes, |g_i/g_k|², to `jet_weight`.
@@ -197,7 +199,7 @@ static void set_gap(wiggly_solver *solver, const problem *p, int from, int end, 
     if (solver->wind.is_constant && like && !g->is_cut) {
         g->push = like->push;
         g->back[0] = like->back[0], g->back[1] = like->back[1];
-        g->both = like->both, g->row = like->row, g->knot = like->knot;
+        g->both = like->both, g->row = like->row, g->knot = like->knot, g->doubt = like->doubt;
     } else {
         g->push = push;
         if (!solver->wind.is_constant) set_weights(solver, p, g);
@@ -228,7 +230,7 @@ static cplx as_posed(const problem *p, int sample, cplx w)
 static double error_at_end(const wind_gap *g, cplx w, double before, const goal *to)
 {
     if (to->is_whole) return 0;
-    const double unit = 32 * DBL_EPSILON * (g->end - g->begin + 8), share = cplx_size(g->both) / g->row;
+    const double unit = 32 * DBL_EPSILON * (g->end - g->from + 8), share = cplx_size(g->both) / g->row;
     const double size = cplx_size(g->coast[0]) + share * cplx_size(g->coast[1]);
     return cplx_size(mean_of(g, (cplx){before, 0})) + unit * size * cplx_size(w);
 }
@@ -267,7 +269,7 @@ static void coast(wiggly_solver *solver, const problem *p, cplx w, int from, int
     }
 }
 
-/// Fills the samples after a gap's knot, to its end; returns by how much the pushes miss the end.
+/// Fills the samples after a gap's knot, to its end; returns by how much the pushes miss the end, or by how much doubt in them moves the curve.
 static double fill_gap(wiggly_solver *solver, const problem *p, const wind_gap *g, cplx w, cplx end, double *re,
                        double *im)
 {
@@ -278,6 +280,7 @@ static double fill_gap(wiggly_solver *solver, const problem *p, const wind_gap *
     const cplx missed = cplx_add(cplx_mul(g->coast[1], w), cplx_mul(cplx_conj(g->both), knot));
     const cplx row = cplx_scale(-1 / g->row, missed);
     cplx x = cplx_mul(g->at, w), d = cplx_mul(g->step, w);
+    double largest = cplx_norm(apart);
     if (g->begin > g->from && g->part > 0.5) { // the wind-up begins before it
         const int at = sample_of(p, g->begin);
         re[at] = x.re, im[at] = x.im;
@@ -293,12 +296,14 @@ static double fill_gap(wiggly_solver *solver, const problem *p, const wind_gap *
             x = cplx_add(x, d);
             d = cplx_add(d, bent);
             re[at] = x.re, im[at] = x.im;
+            largest = fmax(largest, cplx_norm(x));
         }
         d = cplx_add(d, cplx_scale(q, e));
     }
     const int at = sample_of(p, g->end);
     re[at] = end.re, im[at] = end.im;
-    return fmax(fabs(x.re + d.re - end.re), fabs(x.im + d.im - end.im));
+    const double missed_by = fmax(fabs(x.re + d.re - end.re), fabs(x.im + d.im - end.im));
+    return largest > 0 ? fmax(missed_by, g->doubt * sqrt(largest)) : missed_by;
 }
 
 // --- a spline

@@ -124,7 +124,8 @@ bool presenter_event(struct core *core, const struct event *event)
     struct presenter *presenter = &core->presenter;
     if (event->kind == EVENT_POINTER) presenter->pointed = true;
     if (!presenter->on || event->action != ACTION_PRESS) return false;
-    if (event->kind == EVENT_BUTTON) return presenter_is_sliding(core); // a finger that calls the panels aims at nothing
+    if (event->kind == EVENT_BUTTON)
+        return presenter_is_sliding(core); // a finger that calls the panels aims at nothing
     if (event->kind != EVENT_KEY || event->key != KEY_TAB || event->mods) return false;
     presenter->pinned = !presenter->pinned;
     presenter->shares |= presenter->pinned;
