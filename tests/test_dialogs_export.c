@@ -15,8 +15,7 @@ static struct exporting *of(struct session *s) { return &s->editor->dialogs->exp
 static void open_other(struct session *s, const char *text, const char *path, float width, float height)
 {
     panel_open(s, text, width, height);
-    dialogs_set_files(s->editor->dialogs,
-                      &(struct dialog_files){.formats = exporting_formats, .format_count = exporting_format_count()});
+    dialogs_set_files(s->editor->dialogs, &(struct dialog_files){.format_count = exporting_format_count()});
     core_set_path(&s->editor->core, path);
     session_key(s, 'E', MOD_CTRL);
     assert_int_equal(dialog_of(s)->kind, DIALOG_EXPORT);
@@ -85,8 +84,7 @@ TEST(test_a_character_keeps_its_file)
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
         struct session s;
         panel_open(&s, with_dog, 1280, 720);
-        dialogs_set_files(s.editor->dialogs, &(struct dialog_files){.formats = exporting_formats,
-                                                                    .format_count = exporting_format_count()});
+        dialogs_set_files(s.editor->dialogs, &(struct dialog_files){.format_count = exporting_format_count()});
         core_set_path(&s.editor->core, cases[i].path);
         session_key(&s, 'E', MOD_CTRL);
         session_key(&s, KEY_ENTER, 0);
@@ -98,7 +96,7 @@ TEST(test_a_character_keeps_its_file)
 SESSION_TEST(test_the_ending_is_the_format, open_session(s, "walk.json", 1280, 720))
 {
     panel_type(s, "take.csv"); // over the selected name
-    assert_string_equal(exporting_formats[of(s)->format].ending, ".csv");
+    assert_string_equal(export_formats[of(s)->format].ending, ".csv");
     assert_null(shown_text(s->editor, "clip"));
     session_key(s, KEY_DOWN, 0);
     assert_string_equal(of(s)->memory.path, "take.pc2");
@@ -263,7 +261,7 @@ SESSION_TEST(test_remembered, open_session(s, "walk.json", 1280, 720))
     session_key(s, 'E', MOD_CTRL);
     assert_non_null(shown_text(s->editor, "work/run.webm")); // its own name, in the format of last time
     for (int format = 0; format < s->editor->dialogs->dialog.files.format_count; format++) { // whichever that was
-        const char *ending = s->editor->dialogs->dialog.files.formats[format].ending;
+        const char *ending = export_formats[format].ending;
         struct export_memory memory = {.path = "films/first"};
         strncat(memory.path, ending, 16);
         session_key(s, KEY_ESCAPE, 0);

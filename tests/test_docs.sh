@@ -155,6 +155,9 @@ missing=$(for command in $commands; do [[ $all =~ \`wiggly\ \[?$command[^a-z] ]]
 [ -z "$missing" ] || echo "  not in README or docs: $missing"
 [ -n "$commands" ] && [ -z "$missing" ]
 ok "every command is named" $?
+missing=$("$build/wiggly" export --help | sed -n 's/.* required: //p' | grep -o '\.[a-z0-9]*' | grep -vxFf <(grep -oE '\.[a-z0-9]+' docs/export.md))
+[ -z "$missing" ] || echo "  not in docs/export.md: $missing"
+holds "every format is named" [ -z "$missing" ]
 
 # shellcheck disable=SC2086
 unknown=$(grep -ohE '`wiggly [a-z]+' $documents | cut -d' ' -f2 | sort -u | grep -vxFf <(tr ' ' '\n' <<<"$commands help"))

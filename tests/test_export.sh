@@ -83,7 +83,7 @@ says "which is explained" "refers to files beside it: export it to the same fold
 
 expect 2 "no file to write" "$WIGGLY" export $scenes/tail.json
 expect 2 "an ending that nobody knows" "$WIGGLY" export $scenes/tail.json -o "$scratch/tail.fbx"
-says "the ones there are" ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd or .npy" "$err"
+says "the ones there are" ".glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .gif, .mp4, .webm or .png" "$err"
 expect 2 "frames that are none" "$WIGGLY" export $scenes/tail.json -o "$scratch/t.glb" --frames 24
 expect 2 "--fps and --substeps" "$WIGGLY" export $scenes/tail.json -o "$scratch/t.glb" --fps 24 --substeps 2
 expect 2 "keys that are neither" "$WIGGLY" export $scenes/tail.json -o "$scratch/t.glb" --keys square

@@ -17,12 +17,12 @@ BEGIN {
     sees["rig"]      = "rig scene model spline maths base include"
     sees["export"]   = "export rig scene model spline maths base include"
     sees["ui"]       = "ui model maths base"
-    sees["editor"]   = "editor ui rig scene model spline maths base include"
+    sees["editor"]   = "editor ui export rig scene model spline maths base include"
     sees["draw"]     = "draw ui model maths base"
     sees["platform"] = "platform ui model base"
     sees["timing"]   = "timing base include"
     sees["analysis"] = "analysis model spline maths base include"
-    sees["app"]      = "app draw platform timing export " sees["editor"]
+    sees["app"]      = "app draw platform timing " sees["editor"]
     sees["commands"] = "commands simulation analysis " sees["app"]
     sees["main"]     = "commands base include"
 }

@@ -22,35 +22,15 @@
 
 // --- exports: a thread solves and writes a copy of the document; films are drawn frame by frame
 
-enum { WIDTH = 1280, HEIGHT = 720, SMALL_WIDTH = 640, SMALL_HEIGHT = 360 };
-enum {
-    MORPHS = CHOICE_KEYS | CHOICE_RIG | CHOICE_CLIP | CHOICE_SIGNED,
-    POINTS = CHOICE_KEYS | CHOICE_RIG | CHOICE_ONE
-};
-
-const struct dialog_format exporting_formats[] = {
-    {".glb", "character and motion: Blender, three.js, game engines", .choices = MORPHS | CHOICE_CUBIC},
-    {".gltf", "the same as readable text", .choices = MORPHS | CHOICE_CUBIC},
-    {".usda", "character and motion: USD, Houdini, Omniverse", .choices = MORPHS & ~CHOICE_CLIP},
-    {".bvh", "joints and their motion: motion-capture tools", .choices = POINTS | CHOICE_JOINTS},
-    {".csv", "every spline and angle as a table", .choices = CHOICE_KEYS | CHOICE_RIG},
-    {".pc2", "every vertex at every key: Blender's Mesh Cache", .choices = POINTS},
-    {".mdd", "the same for Maya, LightWave and others", .choices = POINTS},
-    {".npy", "the same as an array: Python", .choices = POINTS},
-    {".gif", "a small film that repeats: messages, README files", CHOICE_SIZE, SMALL_WIDTH, SMALL_HEIGHT,
-     film_pictures},
-    {".mp4", "a film that plays everywhere", CHOICE_SIZE, WIDTH, HEIGHT, film_pictures},
-    {".webm", "a film for web pages", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT, film_pictures},
-    {".png", "one numbered picture per frame", CHOICE_SIZE | CHOICE_ALPHA, WIDTH, HEIGHT, film_pictures},
-};
-enum { FORMATS = sizeof exporting_formats / sizeof *exporting_formats };
-
 int exporting_format_count(void)
 {
-    int count = FORMATS;
-    while (!film_can(exporting_formats[count - 1].ending)) count--;
+    int count = EXPORT_FORMATS;
+    // A browser has no ffmpeg, and would make a download of each picture of many.
+    while (platform_in_page() && export_formats[count - 1].film > FILM_GIF) count--;
     return count;
 }
+
+static bool is_film(const char *path) { return export_format(path)->film != FILM_NONE; }
 
 struct export_job {
     struct request request;
@@ -77,7 +57,7 @@ static struct export_options options_of(struct export_job *job)
 {
     const struct export_wish *wish = &job->request.wish;
     const char *path = job->request.path;
-    const bool all_clips = wish->all_clips && (path_has_end(path, ".glb") || path_has_end(path, ".gltf"));
+    const bool all_clips = wish->all_clips && (export_format(path)->choices & CHOICE_CUBIC);
     const struct document *document = job->opened.document;
     const char *name = NULL;
     for (int i = 0; i < document->rig_count && wish->rig > 0; i++) {
@@ -112,7 +92,7 @@ static void work_on_job(struct export_job *job)
         job->good = models_update(opened->models, opened->document, &job->error);
         if (job->good) opened_solve(opened, SOLVER_BY_LENGTH);
     }
-    if (job->prepared || !job->good || film_knows(job->request.path)) atomic_store(&job->ended, true);
+    if (job->prepared || !job->good || is_film(job->request.path)) atomic_store(&job->ended, true);
     job->prepared = true;
 }
 
@@ -134,7 +114,7 @@ static enum film_state continue_job(struct export_job *job, bool wait)
         if (job->threaded) thrd_join(job->thread, NULL);
         job->threaded = false;
         if (!job->good) return FILM_FAILED;
-        if (!film_knows(job->request.path)) return FILM_DONE;
+        if (!is_film(job->request.path)) return FILM_DONE;
     }
     if (atomic_load(&job->stop)) {
         fail(&job->error, ERROR_ENVIRONMENT, "interrupted; nothing was written");
@@ -464,7 +444,7 @@ static bool start_export(struct app *app, const struct request *request, struct 
         return true;
     }
     if (app->export_job) return fail(error, ERROR_INPUT, "Another export is running.");
-    if (!app->draw && film_knows(placed.path))
+    if (!app->draw && is_film(placed.path))
         return fail(error, ERROR_ENVIRONMENT, "%s: pictures need OpenGL, which is missing", placed.path);
     struct export_job *job = need_zeroed(1, sizeof *job);
     job->request = placed;
@@ -623,7 +603,6 @@ void app_connect_files(struct app *app)
 {
     dialogs_set_files(app->table.editor->dialogs, &(struct dialog_files){.list = list_folder,
                                                                          .recent = list_recent,
-                                                                         .formats = exporting_formats,
                                                                          .format_count = exporting_format_count(),
                                                                          .user = app});
 }

@@ -702,26 +702,18 @@ const struct film_file_kind film_png = {open_pictures, put_picture, finish_pictu
 
 enum { MAX_PICTURES = 10000000, MAX_SIDE = 8192 };
 
-static const struct film_format {
-    const char *ending;
+static const struct {
     const struct film_file_kind *kind;
-    char *const *coding, *const *alpha; ///< ffmpeg's arguments (film_file.h); with transparency
-    int width, height;                  ///< defaults
-    double most_rate;                   ///< pictures per second that players show
-    bool is_even;                       ///< only even sizes
-    bool has_alpha;
-    bool repeats; ///< players loop it
-} formats[] = {
-    {".mp4", &film_ffmpeg, film_mp4, NULL, 1280, 720, INFINITY, .is_even = true},
-    {".webm", &film_ffmpeg, film_webm, film_webm_alpha, 1280, 720, INFINITY, .is_even = true, .has_alpha = true},
-    {".gif", &film_gif, NULL, NULL, 640, 360, 50, .repeats = true},
-    {".png", &film_png, NULL, NULL, 1280, 720, INFINITY, .has_alpha = true},
+    char *const *coding, *const *alpha; ///< ffmpeg's arguments; with transparency
+} writers[] = {
+    [FILM_GIF] = {&film_gif, NULL, NULL},
+    [FILM_MP4] = {&film_ffmpeg, film_mp4, NULL},
+    [FILM_WEBM] = {&film_ffmpeg, film_webm, film_webm_alpha},
+    [FILM_PNG] = {&film_png, NULL, NULL},
 };
 
-enum { FORMATS = sizeof formats / sizeof *formats };
-
 struct film {
-    const struct film_format *format;
+    const struct export_format *format;
     const char *path;
     const struct film_file_kind *kind;
     struct film_shape shape;
@@ -735,50 +727,6 @@ struct film {
     long drawn, done;            ///< pictures
     off_t bytes;
 };
-
-static const struct film_format *find_format(const char *path)
-{
-    for (int f = 0; f < FORMATS; f++) {
-        if (path_has_end(path, formats[f].ending)) return &formats[f];
-    }
-    return NULL;
-}
-
-static const struct film_format *find_ending(const char *ending)
-{
-    for (int f = 0; f < FORMATS; f++) {
-        if (strcmp(formats[f].ending, ending) == 0) return &formats[f];
-    }
-    return NULL;
-}
-
-bool film_knows(const char *path) { return find_format(path) != NULL; }
-
-/// A browser has no ffmpeg, and would make a download of each picture of many.
-bool film_can(const char *ending)
-{
-    const struct film_format *format = find_ending(ending);
-    return !format || !platform_in_page() || format->kind == &film_gif;
-}
-
-/// Whether the scene's end meets its start, by a spline or an imported clip.
-static bool loops(const struct document *document)
-{
-    return document_loops(document) || document_find_rig(document, RIG_MODEL, 0) >= 0;
-}
-
-/// Of a film from start to end, or of `rounds` of a loop, whose end is its start.
-static double count_pictures(double steps, int rounds)
-{
-    return rounds > 0 && steps > 0 ? fmax(1, round(rounds * steps)) : floor(steps + 1e-6) + 1;
-}
-
-double film_pictures(const char *ending, const struct document *document, double first, double last, double *rate)
-{
-    const struct film_format *format = find_ending(ending);
-    *rate = fmin(document->fps, format->most_rate);
-    return count_pictures((last - first) / document->fps * *rate, format->repeats && loops(document));
-}
 
 /// Size, coding, frames and rate.
 static bool choose_shape(struct film *film, const struct document *document, const struct export_options *options,
@@ -795,29 +743,27 @@ static bool choose_shape(struct film *film, const struct document *document, con
         return fail(error, ERROR_INPUT, "--size: expected at most %d pixels a side, got %d × %d", MAX_SIDE,
                     shape->width, shape->height);
     film->transparent = options->transparent;
-    shape->coding = film->transparent ? film->format->alpha : film->format->coding;
-    if (options->transparent && !film->format->has_alpha)
+    shape->coding = film->transparent ? writers[film->format->film].alpha : writers[film->format->film].coding;
+    if (options->transparent && !(film->format->choices & CHOICE_ALPHA))
         return fail(error, ERROR_USAGE, "--transparent: a %s file has no transparency: .webm and .png have",
                     film->format->ending);
 
     const double first = options->has_frames ? options->first : document->first_frame;
     const double last = options->has_frames ? options->last : document->last_frame;
-    const bool in_rounds = options->loops > 0 || (film->format->repeats && loops(document));
-    const int rounds = options->loops > 0 ? options->loops : 1;
+    const bool loops = export_loops(document);
     if (!(first <= last) || first < document->first_frame || last > document->last_frame)
         return fail(error, ERROR_INPUT, "--frames: expected frames from %d to %d in this order, got %g:%g",
                     document->first_frame, document->last_frame, first, last);
-    if (options->loops > 0 && !loops(document))
+    if (options->loops > 0 && !loops)
         return fail(error, ERROR_INPUT, "--loops: nothing in this scene loops: its end does not meet its start");
-    const double most = film->format->most_rate;
-    if (options->rate > most)
-        return fail(error, ERROR_INPUT, "--fps: expected at most %g pictures a second in a %s file, got %g", most,
-                    film->format->ending, options->rate);
-    shape->rate = options->rate > 0 ? options->rate : fmin(document->fps, most);
+    if (options->rate > film->format->most_rate)
+        return fail(error, ERROR_INPUT, "--fps: expected at most %g pictures a second in a %s file, got %g",
+                    film->format->most_rate, film->format->ending, options->rate);
+    shape->rate = options->rate;
+    const double count = export_pictures(film->format, document, last - first, options->loops, &shape->rate);
     film->first = first;
     film->spacing = document->fps / shape->rate;
-    film->period = in_rounds ? last - first : 0;
-    const double count = count_pictures((last - first) / film->spacing, in_rounds ? rounds : 0);
+    film->period = options->loops > 0 || (film->format->repeats && loops) ? last - first : 0;
     if (count > MAX_PICTURES)
         return fail(error, ERROR_INPUT, "expected at most %d pictures, got %.0f: choose fewer frames or loops",
                     MAX_PICTURES, count);
@@ -829,8 +775,8 @@ struct film *film_open(const struct opened *opened, const char *path, const stru
                        struct error *error)
 {
     struct film *film = need_zeroed(1, sizeof *film);
-    film->format = find_format(path);
-    film->kind = film->format->kind;
+    film->format = export_format(path);
+    film->kind = writers[film->format->film].kind;
     film->path = path;
     film->editor = editor_create();
     if (file_check_place(path, error) && choose_shape(film, opened->document, options, error) &&

@@ -6,17 +6,6 @@
 #include "rig/import.h"
 #include <sys/types.h>
 
-#define FILM_ENDINGS ".mp4, .webm, .gif and .png"
-
-/// Whether a path names a film or a picture.
-bool film_knows(const char *path);
-
-/// false for the ending of a film that cannot be made here: in a browser only a .gif can.
-bool film_can(const char *ending);
-
-/// How many pictures a film of these frames has, and how many `rate` a second, unless options say otherwise.
-double film_pictures(const char *ending, const struct document *document, double first, double last, double *rate);
-
 /// Writes a film completely or not at all; needs no display. A .png path with %d in it (walk-%04d.png) names a sequence, and several
 /// pictures in walk.png are numbered. Call with solved splines and loaded models.
 bool film_write(const struct opened *opened, const char *path, const struct export_options *options,

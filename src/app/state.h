@@ -185,9 +185,7 @@ void app_connect_files(struct app *app);
 
 // Exports in the background: a thread solves and writes a copy of the document; films are drawn frame by frame.
 
-/// The formats in the dialog's order, which begins with those that can be made in a browser, too.
-extern const struct dialog_format exporting_formats[];
-/// How many can be made here.
+/// How many of `export_formats` can be made here: all but some films.
 int exporting_format_count(void);
 
 /// Call once per frame: continues the export and tells the editor. With a fixed clock it finishes in the frame it began in.

@@ -41,8 +41,9 @@ static bool export_motion(struct job *job, struct opened *opened, struct error *
     job->options.user = job;
     job->progress.started = clock_now();
     if (job->theme) theme_use((enum theme_kind)(job->theme - 1));
-    const bool done = film_knows(job->output) ? film_write(opened, job->output, &job->options, &report, error)
-                                              : export_write(&posing, job->output, &job->options, &report, error);
+    const bool done = export_format(job->output)->film
+                          ? film_write(opened, job->output, &job->options, &report, error)
+                          : export_write(&posing, job->output, &job->options, &report, error);
     if (!done) progress_clear(&job->progress);
     if (done && *report.note) print_line(stderr, "%s: warning: %s", job->output, report.note);
     if (done && !job->quiet) print_line(stdout, "wrote %s: %s", job->output, report.text);
@@ -70,10 +71,11 @@ int command_export(int argc, char **argv)
 {
     struct job job = {0};
     struct export_options *o = &job.options;
+    char endings[EXPORT_ENDINGS], output[EXPORT_ENDINGS + 16];
+    export_endings(0, endings);
+    snprintf(output, sizeof output, "required: %s", endings);
     const struct option_spec options[] = {
-        {"--output", "-o", "FILE",
-         "required: .glb, .gltf, .usda, .bvh, .csv, .pc2, .mdd, .npy, .mp4, .webm, .gif or .png", OPTION_OUTPUT,
-         &job.output, 0, 0},
+        {"--output", "-o", "FILE", output, OPTION_OUTPUT, &job.output, 0, 0},
         {"--frames", NULL, "A:B", "frames A to B (default: all)", OPTION_TEXT, &job.frames, 0, 0},
         {"--fps", NULL, "N", "keys or pictures per second (default: a key per sample, a picture per frame)",
          OPTION_REAL, &o->rate, 1e-3, 1e5},
@@ -112,13 +114,10 @@ int command_export(int argc, char **argv)
     enum options_result result = options_parse(&usage, argc, argv, &job.scene);
     if (result != OPTIONS_RUN) return (int)result;
 
-    char endings[EXPORT_ENDINGS];
     int end = 0;
     if (!job.output) return (int)options_wrong(&usage, "-o FILE is missing: name the file to write");
-    export_endings(endings);
-    if (!export_knows(job.output) && !film_knows(job.output))
-        return (int)options_wrong(&usage, "--output: expected a name ending in %s, or " FILM_ENDINGS ", got '%s'",
-                                  endings, job.output);
+    if (!export_format(job.output))
+        return (int)options_wrong(&usage, "--output: expected a name ending in %s, got '%s'", endings, job.output);
     if (job.paint && !path_has_end(job.output, ".npy"))
         return (int)options_wrong(&usage, "--paint: expected an output that ends in .npy, got '%s'", job.output);
     o->has_frames = job.frames != NULL;

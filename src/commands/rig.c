@@ -120,11 +120,12 @@ int command_rig(int argc, char **argv)
     if (result != OPTIONS_RUN) return (int)result;
 
     const bool as_scene = job.output && path_has_end(job.output, ".json");
+    const struct export_format *format = job.output ? export_format(job.output) : NULL;
     if (!import_suits(job.character))
         return (int)options_wrong(&usage, "expected a character ending in .glb or .gltf, got '%s'", job.character);
     if (job.chains.count > 0 && !job.output)
         return (int)options_wrong(&usage, "-o FILE is missing: name the file to write");
-    if (job.output && !as_scene && !export_knows(job.output))
+    if (job.output && !as_scene && (!format || format->film))
         return (int)options_wrong(&usage, "--output: expected a scene (.json) or a character (.glb), got '%s'",
                                   job.output);
     if (job.all_clips && (!job.output || as_scene))

@@ -13,47 +13,79 @@
 #include <sys/types.h>
 #include <unistd.h>
 
-static const struct format formats[] = {
-    {.ending = ".glb", .holds = FORM_MESH | FORM_FILE, .write = gltf_write, .has_tangents = true, .is_binary = true},
-    {.ending = ".gltf", .holds = FORM_MESH | FORM_FILE, .write = gltf_write, .has_tangents = true},
-    {.ending = ".usda", .holds = FORM_MESH | FORM_FILE, .write = usda_write},
-    {.ending = ".bvh", .holds = FORM_JOINTS, .write = bvh_write, .one_rig = true},
-    {.ending = ".csv", .write = csv_write, .without_rigs = true},
-    {.ending = ".pc2", .holds = FORM_POINTS, .write = points_write, .motion = MOTION_PC2, .one_rig = true},
-    {.ending = ".mdd", .holds = FORM_POINTS, .write = points_write, .motion = MOTION_MDD, .one_rig = true},
-    {.ending = ".npy", .holds = FORM_POINTS, .write = points_write, .motion = MOTION_NPY, .one_rig = true},
+enum {
+    MORPHS = CHOICE_KEYS | CHOICE_RIG | CHOICE_CLIP | CHOICE_SIGNED,
+    POINTS = CHOICE_KEYS | CHOICE_RIG | CHOICE_ONE,
+    MODEL = FORM_MESH | FORM_FILE
 };
 
-enum { FORMAT_COUNT = sizeof formats / sizeof *formats, MAX_KEYS = 100000000, NAMES_TEXT = 256, NAME_MOST = 64 };
+// In the order of the Export dialog.
+const struct export_format export_formats[EXPORT_FORMATS] = {
+    {".glb", "character and motion: Blender, three.js, game engines", MORPHS | CHOICE_CUBIC, MODEL,
+     .write = gltf_write, .is_binary = true},
+    {".gltf", "the same as readable text", MORPHS | CHOICE_CUBIC, MODEL, .write = gltf_write},
+    {".usda", "character and motion: USD, Houdini, Omniverse", MORPHS & ~CHOICE_CLIP, MODEL, .write = usda_write},
+    {".bvh", "joints and their motion: motion-capture tools", POINTS | CHOICE_JOINTS, FORM_JOINTS,
+     .write = bvh_write},
+    {".csv", "every spline and angle as a table", CHOICE_KEYS | CHOICE_RIG, .write = csv_write},
+    {".pc2", "every vertex at every key: Blender's Mesh Cache", POINTS, FORM_POINTS, .write = points_write,
+     .motion = MOTION_PC2},
+    {".mdd", "the same for Maya, LightWave and others", POINTS, FORM_POINTS, .write = points_write,
+     .motion = MOTION_MDD},
+    {".npy", "the same as an array: Python", POINTS, FORM_POINTS, .write = points_write, .motion = MOTION_NPY},
+    {".gif", "a small film that repeats: messages, README files", CHOICE_SIZE, .film = FILM_GIF, .width = 640,
+     .height = 360, .most_rate = 50, .repeats = true},
+    {".mp4", "a film that plays everywhere", CHOICE_SIZE, .film = FILM_MP4, .width = 1280, .height = 720,
+     .most_rate = INFINITY, .is_even = true},
+    {".webm", "a film for web pages", CHOICE_SIZE | CHOICE_ALPHA, .film = FILM_WEBM, .width = 1280, .height = 720,
+     .most_rate = INFINITY, .is_even = true},
+    {".png", "one numbered picture per frame", CHOICE_SIZE | CHOICE_ALPHA, .film = FILM_PNG, .width = 1280,
+     .height = 720, .most_rate = INFINITY},
+};
 
-static const struct format *find_format(const char *path)
+enum { MAX_KEYS = 100000000, NAMES_TEXT = 256, NAME_MOST = 64 };
+
+const struct export_format *export_format(const char *path)
 {
     const char *dot = strrchr(path, '.');
-    for (int i = 0; dot && i < FORMAT_COUNT; i++) {
-        if (strcasecmp(dot, formats[i].ending) == 0) return &formats[i];
+    for (int i = 0; dot && i < EXPORT_FORMATS; i++) {
+        if (strcasecmp(dot, export_formats[i].ending) == 0) return &export_formats[i];
     }
     return NULL;
 }
 
-static bool fits(const struct format *format, unsigned holds) { return !format->holds || (format->holds & holds); }
+bool export_loops(const struct document *document)
+{
+    return document_loops(document) || document_find_rig(document, RIG_MODEL, 0) >= 0;
+}
 
-/// The endings of the formats for something that gives what `holds` says.
-static void list_endings(unsigned holds, char text[EXPORT_ENDINGS])
+double export_pictures(const struct export_format *format, const struct document *document, double frames, int loops,
+                       double *rate)
+{
+    if (!(*rate > 0)) *rate = fmin(document->fps, format->most_rate);
+    const double steps = frames / (document->fps / *rate);
+    const int rounds = loops > 0 ? loops : format->repeats && export_loops(document);
+    return rounds > 0 && steps > 0 ? fmax(1, round(rounds * steps))
+                                   : floor(steps + 1e-6) + 1; // a loop's end is its start
+}
+
+static bool fits(const struct export_format *format, unsigned holds)
+{
+    return !holds || (!format->film && (!format->holds || (format->holds & holds)));
+}
+
+void export_endings(unsigned holds, char text[EXPORT_ENDINGS])
 {
     int left = 0;
-    for (int i = 0; i < FORMAT_COUNT; i++) left += fits(&formats[i], holds);
+    for (int i = 0; i < EXPORT_FORMATS; i++) left += fits(&export_formats[i], holds);
     text[0] = '\0';
-    for (int i = 0; i < FORMAT_COUNT; i++) {
-        if (!fits(&formats[i], holds)) continue;
-        strcat(text, formats[i].ending);
+    for (int i = 0; i < EXPORT_FORMATS; i++) {
+        if (!fits(&export_formats[i], holds)) continue;
+        strcat(text, export_formats[i].ending);
         left--;
         strcat(text, left > 1 ? ", " : left == 1 ? " or " : "");
     }
 }
-
-bool export_knows(const char *path) { return find_format(path) != NULL; }
-
-void export_endings(char text[EXPORT_ENDINGS]) { list_endings(~0u, text); }
 
 static void note(struct export_report *report, const char *format, ...) __attribute__((format(printf, 2, 3)));
 
@@ -71,7 +103,7 @@ static void note(struct export_report *report, const char *format, ...)
 static bool choose_rigs(struct export_range *range, struct error *error)
 {
     const struct document *document = range->posing->document;
-    const struct format *format = range->format;
+    const struct export_format *format = range->format;
     const char *wanted = range->options->rig;
     int unfit = -1;
     for (int i = 0; i < document->rig_count && i < SCENE_MAX_RIGS; i++) {
@@ -83,8 +115,8 @@ static bool choose_rigs(struct export_range *range, struct error *error)
             unfit = i;
         }
     }
-    const bool none = range->rig_count == 0 && !(format->without_rigs && !wanted);
-    if (!none && (range->rig_count <= 1 || !format->one_rig)) return true;
+    const bool none = range->rig_count == 0 && (format->holds || wanted);
+    if (!none && (range->rig_count <= 1 || !(format->choices & CHOICE_ONE))) return true;
 
     char names[NAMES_TEXT], endings[EXPORT_ENDINGS];
     size_t used = 0;
@@ -100,7 +132,7 @@ static bool choose_rigs(struct export_range *range, struct error *error)
                     wanted);
     if (none) {
         const struct rig *rig = document->rigs[unfit];
-        list_endings(form_kind(rig->kind)->holds, endings);
+        export_endings(form_kind(rig->kind)->holds, endings);
         return fail(error, ERROR_INPUT, "a %s file cannot hold the %s \"%s\": export it as %s", format->ending,
                     rig_word(rig->kind), form_name(rig), endings);
     }
@@ -228,16 +260,16 @@ bool export_write(const struct posing *posing, const char *path, const struct ex
     struct export_range range = {
         .posing = posing,
         .options = options,
-        .format = find_format(path),
+        .format = export_format(path),
         .path = path,
         .rig_choice = options->rig_choice ? options->rig_choice : "--rig",
     };
     *report = (struct export_report){0};
-    if (!range.format) {
-        export_endings(endings);
+    if (!range.format || range.format->film) {
+        export_endings(~0u, endings);
         return fail(error, ERROR_USAGE, "%s: expected a name ending in %s", path, endings);
     }
-    if (options->all_clips && range.format->write != gltf_write)
+    if (options->all_clips && !(range.format->choices & CHOICE_CUBIC))
         return fail(error, ERROR_USAGE, "%s: holds one clip: all clips need .glb or .gltf", path);
     const char *file = posing->document->path ? path_name(posing->document->path) : "wiggly";
     const char *dot = strrchr(file, '.');
@@ -279,7 +311,8 @@ bool range_pose(const struct export_range *range, int rig, double key, struct ri
 
 const float *range_root(const struct export_range *range, int rig, const struct rig_pose *pose)
 {
-    const bool is_placed = range->options->as_shown || (range->rig_count > 1 && !range->format->one_rig);
+    const bool is_placed =
+        range->options->as_shown || (range->rig_count > 1 && !(range->format->choices & CHOICE_ONE));
     return is_placed && range->posing->document->rigs[rig]->kind == RIG_MODEL ? pose->model.root : NULL;
 }
 

@@ -504,7 +504,7 @@ bool keys_collect(struct export_range *range, int rig, struct form *form, struct
     const struct sampler from = {range, form, rig};
     const size_t count = (size_t)range->key_count,
                  width = 3 + 10 * (size_t)form->joint_count + (size_t)form->target_count;
-    const bool tangents = range->options->is_cubic && range->format->has_tangents && range->key_count > 1;
+    const bool tangents = range->options->is_cubic && (range->format->choices & CHOICE_CUBIC) && range->key_count > 1;
     *keys = (struct keys){.count = range->key_count, .width = (int)width, .joints = form->joint_count};
     if (!need_has_room((2 * count + 1) * width * sizeof *keys->rows)) return fail_no_memory(error, form->name);
     keys->rows = pool_take(&form->pool, (count + 1) * width, sizeof *keys->rows);

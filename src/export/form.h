@@ -7,7 +7,6 @@
 #include "base/names.h"
 #include "base/need.h"
 #include "export/export.h"
-#include "model/motion.h"
 
 enum { FORM_INFLUENCES = 4, FORMAT_SUMMARY = 96 };
 
@@ -40,7 +39,7 @@ void sidecars_discard(struct sidecars *sidecars);
 struct export_range {
     const struct posing *posing;
     const struct export_options *options;
-    const struct format *format;
+    const struct export_format *format;
     int rigs[SCENE_MAX_RIGS]; ///< indices in the document
     int rig_count;
     double first;   ///< frame of the first key
@@ -53,18 +52,6 @@ struct export_range {
     char summary[FORMAT_SUMMARY]; ///< a short description of the result
     long done, total;             ///< keys of all rigs
     struct sidecars sidecars;     ///< files that the exported file refers to
-};
-
-struct format {
-    const char *ending;
-    bool without_rigs; ///< can be exported without rigs
-    unsigned holds;    ///< the content it needs of a rig (FORM_MESH …); 0: any kind
-    bool one_rig;      ///< has only one rig
-    bool is_binary;    ///< the binary one of two containers
-    bool has_tangents; ///< supports tangents
-    enum motion_form motion;
-    /// Writes everything to a stream and fills the summary. The caller checks the stream for errors.
-    bool (*write)(struct export_range *range, FILE *out, struct error *error);
 };
 
 bool csv_write(struct export_range *range, FILE *out, struct error *error);

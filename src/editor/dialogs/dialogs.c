@@ -196,16 +196,13 @@ static bool is_running(const struct dialog *dialog) { return dialog->awaited == 
 /// The format of a path's extension, or -1.
 static int format_by_ending(const struct dialog_files *files, const char *path)
 {
-    const char *dot = strrchr(path, '.');
-    for (int f = 0; dot && f < files->format_count; f++) {
-        if (strcasecmp(dot, files->formats[f].ending) == 0) return f;
-    }
-    return -1;
+    const struct export_format *format = export_format(path);
+    return format && format - export_formats < files->format_count ? (int)(format - export_formats) : -1;
 }
 
-static const struct dialog_format *format_of(const struct dialogs *dialogs)
+static const struct export_format *format_of(const struct dialogs *dialogs)
 {
-    return &dialogs->dialog.files.formats[dialogs->exporting.format];
+    return &export_formats[dialogs->exporting.format];
 }
 
 /// Replaces a path's extension by a format's; false if the path gets too long.
@@ -213,8 +210,8 @@ static bool with_ending(const struct dialog_files *files, const char *path, int 
 {
     const size_t length = strlen(path);
     const int old = format_by_ending(files, path);
-    const size_t stem = old >= 0 ? length - strlen(files->formats[old].ending) : length;
-    return snprintf(full, PATH_LIMIT, "%.*s%s", (int)stem, path, files->formats[format].ending) < PATH_LIMIT;
+    const size_t stem = old >= 0 ? length - strlen(export_formats[old].ending) : length;
+    return snprintf(full, PATH_LIMIT, "%.*s%s", (int)stem, path, export_formats[format].ending) < PATH_LIMIT;
 }
 
 static void choose_format(struct dialogs *dialogs, int format)
@@ -411,7 +408,7 @@ static void build_frames(struct dialogs *dialogs, const struct document *documen
     if (changed) wish->part = wish->first > first || wish->last < last;
 }
 
-static void build_size(struct dialogs *dialogs, const struct dialog_format *format, struct rect *row)
+static void build_size(struct dialogs *dialogs, const struct export_format *format, struct rect *row)
 {
     struct export_wish *wish = &dialogs->exporting.memory.wish;
     struct rect r = labelled(&dialogs->dialog.ui, row, PAIR_WIDTH, "size");
@@ -493,7 +490,7 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
 {
     struct export_memory *memory = &dialogs->exporting.memory;
     struct ui *ui = &dialogs->dialog.ui;
-    const struct dialog_format *format = format_of(dialogs);
+    const struct export_format *format = format_of(dialogs);
     const bool narrow = ui->area.w < 480; // one choice a row
     struct rect rows[CHOICE_ROWS + 2];
     for (int i = 0; i < CHOICE_ROWS + 2 * narrow; i++) rows[i] = ui_row(ui, UI_ROW);
@@ -549,11 +546,11 @@ static void build_formats(struct dialogs *dialogs, float room)
     for (int f = 0; f < files->format_count; f++) {
         char name[32];
         const struct rect r = ui_row(ui, UI_ROW);
-        snprintf(name, sizeof name, "export%s", files->formats[f].ending);
+        snprintf(name, sizeof name, "export%s", export_formats[f].ending);
         if (ui_list_row(ui, r, name, "", 0, f == chosen)) taken = f;
-        ui_label(ui, (struct rect){r.x + 6, r.y, ENDING_WIDTH, r.h}, files->formats[f].ending, theme()->text);
-        ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h},
-                 files->formats[f].holds, theme()->text_dim);
+        ui_label(ui, (struct rect){r.x + 6, r.y, ENDING_WIDTH, r.h}, export_formats[f].ending, theme()->text);
+        ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h}, export_formats[f].use,
+                 theme()->text_dim);
     }
     ui_scroll_end(ui);
     if (taken >= 0) choose_format(dialogs, taken);
@@ -564,7 +561,7 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
     const struct dialog *dialog = &dialogs->dialog;
     const struct exporting *exporting = &dialogs->exporting;
     const struct export_wish *wish = &exporting->memory.wish;
-    const struct dialog_format *format = format_of(dialogs);
+    const struct export_format *format = format_of(dialogs);
     struct ui *ui = &dialogs->dialog.ui;
     const float top = ui->y;
     char text[160];
@@ -575,10 +572,11 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
         snprintf(text, sizeof text, "Getting ready. Esc cancels and leaves nothing behind.");
     } else {
         const int keys = wish->keys > 0 ? wish->keys : document->substeps;
-        double rate = document->fps * keys, count = (wish->last - wish->first) * keys + 1;
-        if (format->pictures) count = format->pictures(format->ending, document, wish->first, wish->last, &rate);
+        const double frames = wish->last - wish->first;
+        double rate = format->film ? 0 : document->fps * keys;
+        const double count = format->film ? export_pictures(format, document, frames, 0, &rate) : frames * keys + 1;
         snprintf(text, sizeof text, "%.0f %s%s, %g a second. ↑ ↓ choose the format, Tab goes to the choices.", count,
-                 format->pictures ? "picture" : "key", count == 1 ? "" : "s", rate);
+                 format->film ? "picture" : "key", count == 1 ? "" : "s", rate);
     }
     if (is_running(dialog)) {
         const struct rect bar = ui_row(ui, 8);

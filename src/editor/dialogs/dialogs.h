@@ -3,6 +3,7 @@
 #define EDITOR_DIALOGS_DIALOGS_H
 
 #include "editor/core/state.h"
+#include "export/export.h"
 #include "ui/widgets.h"
 
 // The app provides functions to list folders; the editor opens no files.
@@ -17,35 +18,12 @@ struct dialog_recent {
 /// Writes at most `most` recent files, newest first; returns how many.
 typedef int dialog_list_recent(void *user, struct dialog_recent *files, int most);
 
-/// What a user can choose for a format, besides name and frames.
-enum dialog_choice {
-    CHOICE_KEYS = 1,   ///< keys per frame
-    CHOICE_RIG = 2,    ///< one rig or all
-    CHOICE_ONE = 4,    ///< one rig per file
-    CHOICE_CLIP = 8,   ///< the animation's name
-    CHOICE_CUBIC = 16, ///< linear or cubic keys
-    CHOICE_SIGNED = 32,
-    CHOICE_SIZE = 64, ///< size of its pictures
-    CHOICE_ALPHA = 128,
-    CHOICE_JOINTS = 256, ///< tails and imported characters only
-};
-
-/// An export format.
-struct dialog_format {
-    const char *ending, *holds; ///< ".glb", and one line about its use
-    unsigned choices;           ///< of enum dialog_choice
-    int width, height;          ///< default size for CHOICE_SIZE
-    /// How many pictures these frames are, and how many a second; NULL: it has keys.
-    double (*pictures)(const char *ending, const struct document *document, double first, double last, double *rate);
-};
-
 struct dialog_files {
     /// Lists the scenes (*.json) and folders (with a trailing '/') in `folder`, sorted. Writes at most `max`, returns how many, or -1 if
     /// the folder cannot be read. NULL: dialogs are plain text fields.
     int (*list)(void *user, const char *folder, char names[][256], int max);
     dialog_list_recent *recent; ///< NULL: there are none
-    const struct dialog_format *formats;
-    int format_count; ///< 0: no export
+    int format_count;           ///< how many of `export_formats` are offered; 0: no export
     void *user;
 };
 
