@@ -360,7 +360,8 @@ static inline void overwrite(const char *path, const char *text, const char *fro
 /// Another program or window writes the scene's file or the settings; then the window gets the focus and the question an answer.
 static inline void another(struct monkey *m)
 {
-    static const char *const settings[] = {"theme = light\nui_scale = 1.5\n", "theme dark\n\nui_scale = 1e999\n", "",
+    static const char *const settings[] = {"{\"theme\": \"light\", \"ui_scale\": 1.5}",
+                                           "{\"theme\" \"dark\", \"ui_scale\": 1e999}", "",
                                            "recent = a.json\nrecent = /nowhere\nrecent = \nstage_share = -5\n"};
     static const int answers[] = {'K', 'T', 'S', KEY_ESCAPE, KEY_ENTER};
     const char *path = app_path(&m->blind->app);

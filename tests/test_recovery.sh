@@ -24,13 +24,13 @@ cp assets/scenes/tail.json "$scratch/mine.json"
 before=$(grep -o '"frame":' "$scratch/mine.json" | wc -l)
 start_app mine.json "$scratch/mine.json"
 xdotool key F1 Escape
-said() { grep -qx "welcomed = yes" "$XDG_CONFIG_HOME/wiggly/settings"; }
+said() { grep -q '"welcomed": true' "$XDG_CONFIG_HOME/wiggly/settings"; }
 eventually "what to try first is said once" said
 xdotool key F10
-light() { grep -qx "theme = light" "$XDG_CONFIG_HOME/wiggly/settings"; }
+light() { grep -q '"theme": "light"' "$XDG_CONFIG_HOME/wiggly/settings"; }
 eventually "the theme is remembered" light
 xdotool key ctrl+shift+equal
-larger() { grep -qE "^ui_scale = 1\.[0-9]+" "$XDG_CONFIG_HOME/wiggly/settings"; }
+larger() { grep -qE '"ui_scale": 1\.[0-9]+' "$XDG_CONFIG_HOME/wiggly/settings"; }
 eventually "how large everything is, is remembered" larger
 xdotool key ctrl+shift+0
 edit_and_kill shift+Left Right Right Right
@@ -59,7 +59,7 @@ eventually "saved: nothing is left to recover" gone "$state/recovery-1"
 quit_app
 [ "$(grep -o '"frame":' "$scratch/mine.json" | wc -l)" -eq $((before + 1)) ]
 ok "the work is in the scene's own file" $?
-says "and that is a recent file" "recent = $scratch/mine.json" "$(cat "$XDG_CONFIG_HOME/wiggly/settings")"
+says "and that is a recent file" "\"$scratch/mine.json\"" "$(grep -A1 recent "$XDG_CONFIG_HOME/wiggly/settings")"
 
 start_app mine.json "$scratch/mine.json"
 edit_and_kill shift+Left Right Right Right Right Right
@@ -95,7 +95,7 @@ expect 0 "which finds its character" "$WIGGLY" export "$bytes/mine.json" -o "$by
 expect 0 "and can be read" "$WIGGLY" check "$bytes/mine.json"
 holds "without a warning" [ -z "$err" ]
 
-echo "theme dark" >"$XDG_CONFIG_HOME/wiggly/settings"
+echo '{"theme" "dark"}' >"$XDG_CONFIG_HOME/wiggly/settings"
 start_app wiggly
 quit_app
 holds "broken settings keep nobody from working" silent "$(cat "$scratch/app.err")"

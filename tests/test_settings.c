@@ -26,72 +26,91 @@ static void assert_saved(const struct settings *settings, const char *expected)
     free(data);
 }
 
-/// What this program does not know, remarks included, is there again after a save.
-TEST_WITH(folder_make, folder_remove, test_unknown_lines_stay)
+/// What this program does not know is there again after a save.
+TEST_WITH(folder_make, folder_remove, test_unknown_keys_stay)
 {
-    struct settings *settings = load("# mine\ntheme = dark\n\nfuture = 1 = 2\n");
-    assert_string_equal(settings_get(settings, "future", 0), "1 = 2");
-    assert_null(settings_get(settings, "future", 1));
+    struct settings *settings = load("\xEF\xBB\xBF{\"theme\": \"dark\", \"future\": {\"a\": [1, 0.1, null]}}");
+    assert_string_equal(settings_get(settings, "theme"), "dark");
     settings_set(settings, "theme", "light");
-    settings_set_number(settings, "inspector_width", 300);
-    assert_saved(settings, "# mine\ntheme = light\n\nfuture = 1 = 2\ninspector_width = 300\n");
+    settings_set_number(settings, "inspector_width", 300.25);
+    settings_set_flag(settings, "more", true);
+    assert_saved(settings,
+                 "{\n  \"theme\": \"light\",\n  \"future\": {\n    \"a\": [\n      1,\n      0.1,\n      null\n"
+                 "    ]\n  },\n  \"inspector_width\": 300.25,\n  \"more\": true\n}\n");
     settings_free(settings);
 }
 
-TEST_WITH(folder_make, folder_remove, test_numbers)
+TEST_WITH(folder_make, folder_remove, test_values_of_another_kind)
 {
-    struct settings *settings = load("a = 0.25\nb = wide\nc =\nd = inf\n");
+    struct settings *settings = load("{\"a\": 0.25, \"b\": \"wide\", \"c\": true, \"d\": 3}");
     assert_near(settings_number(settings, "a", 1), 0.25, 0);
     assert_near(settings_number(settings, "b", 1), 1, 0);
-    assert_near(settings_number(settings, "c", 1), 1, 0);
-    assert_near(settings_number(settings, "d", 1), 1, 0);
+    assert_near(settings_number(settings, "d", 1), 3, 0);
     assert_near(settings_number(settings, "e", 2), 2, 0);
+    assert_true(settings_flag(settings, "c", false));
+    assert_true(settings_flag(settings, "a", true));
+    assert_null(settings_get(settings, "a"));
     settings_free(settings);
 }
 
-/// One sentence about the first broken line; the others count.
+/// A broken file is said and stays as it is, so that nothing that can be mended is lost.
 TEST_WITH(folder_make, folder_remove, test_broken)
 {
     struct error error;
-    struct settings *settings =
-        settings_load(folder_file("settings", "theme dark\n= x\ninspector_width = 300\n"), &error);
+    const char *path = folder_file("settings", "{\"theme\": \"dark\",\n\"more\" true}");
+    struct settings *settings = settings_load(path, &error);
     assert_non_null(settings);
     assert_int_equal(error.kind, ERROR_INPUT);
-    assert_non_null(strstr(error.text, "settings:1: expected key = value, got \"theme dark\""));
-    assert_near(settings_number(settings, "inspector_width", 0), 300, 0);
+    assert_non_null(strstr(error.text, "settings:2: "));
+    assert_null(settings_get(settings, "theme"));
     settings_free(settings);
-    settings = settings_load(folder, &error); // a directory in its place
-    assert_non_null(settings);
+    assert_null(settings_open(path, &error));
     assert_int_equal(error.kind, ERROR_INPUT);
-    settings_free(settings);
+    assert_null(settings_open(folder, &error)); // a directory in its place
+    assert_int_equal(error.kind, ERROR_INPUT);
     settings = settings_load(folder_path("none"), &error);
     assert_non_null(settings);
     assert_int_equal(error.kind, ERROR_NONE);
     settings_free(settings);
 }
 
-/// A byte order mark is no part of a line, which may come first the next time.
-TEST_WITH(folder_make, folder_remove, test_byte_order_marks)
+/// Earlier versions wrote lines.
+TEST_WITH(folder_make, folder_remove, test_lines)
 {
-    struct settings *settings = load("\xEF\xBB\xBFtheme = dark\n\xEF\xBB\xBF\xEF\xBB\xBF own = 1\n");
-    assert_saved(settings, "theme = dark\nown = 1\n");
+    struct settings *settings =
+        load("# mine\ntheme = dark\r\nrecent = /b = c \nrecent = /a\nmore = yes\nui_scale = 1.5\n");
+    struct dialog_recent files[2];
+    assert_string_equal(settings_get(settings, "theme"), "dark");
+    assert_near(settings_number(settings, "ui_scale", 1), 1.5, 0);
+    assert_true(settings_flag(settings, "more", false));
+    assert_int_equal(recent_list(settings, files, 2), 2);
+    assert_string_equal(files[0].path, "/b = c ");
+    assert_string_equal(files[1].path, "/a");
     settings_free(settings);
 }
 
-/// Values that a line cannot hold are left out, never written so that they read back as others.
-TEST_WITH(folder_make, folder_remove, test_unstorable)
+/// Any name of a file is read back as it was.
+TEST_WITH(folder_make, folder_remove, test_names)
 {
-    struct settings *settings = load("recent = /a\n");
-    recent_note(settings, folder_file("b\nrecent = c", "{}"));
-    recent_note(settings, folder_file("d ", "{}"));
-    settings_set(settings, "theme", "light\n");
-    assert_saved(settings, "recent = /a\n");
+    static const char *const names[] = {"a\nb", " c ", "\"d\\", "\xFFgr\xC3\xBC\xC3n"};
+    struct settings *settings = load("{}");
+    for (int i = 0; i < 4; i++) recent_note(settings, folder_file(names[i], "{}"));
+    assert_done(settings_save(settings, folder_path("settings"), &error));
+    settings_free(settings);
+    struct error error;
+    settings = settings_load(folder_path("settings"), &error);
+    struct dialog_recent files[5];
+    assert_int_equal(recent_list(settings, files, 5), 4);
+    for (int i = 0; i < 4; i++) {
+        assert_string_equal(path_name(files[3 - i].path), names[i]);
+        assert_false(files[3 - i].missing);
+    }
     settings_free(settings);
 }
 
 TEST_WITH(folder_make, folder_remove, test_recent)
 {
-    struct settings *settings = load("theme = dark\n");
+    struct settings *settings = load("{\"theme\": \"dark\"}");
     struct dialog_recent files[DIALOG_MAX_RECENT + 4];
     char name[32];
     for (int i = 0; i < 15; i++) {

@@ -76,9 +76,9 @@ to $first t # it has noticed the second's work
 sleep 1
 to $first F10
 to $second ctrl+shift+equal
-both() { grep -qx "theme = light" "$settings" && grep -qE "^ui_scale = 1\.[0-9]+" "$settings"; }
+both() { grep -q '"theme": "light"' "$settings" && grep -qE '"ui_scale": 1\.[0-9]+' "$settings"; }
 eventually "what one window has set stays when another sets something else" both
-grep -qx "recent = $mine" "$settings" && [ "$(grep -c "^recent = $mine\$" "$settings")" -eq 1 ]
+[ "$(grep -c "\"$mine\"" <(sed -n '/"recent"/,/]/p' "$settings"))" -eq 1 ]
 ok "a file that both have open is a recent file once" $?
 
 # --- one folder of recovery files

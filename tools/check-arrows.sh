@@ -1,6 +1,6 @@
 #!/bin/sh
 # Checks that includes, headers' own ones too, follow the directions listed here. GL stays in draw and platform, JSON in scene, the glTF
-# files of model and export, and commands/companion.c; cglm is included through model/vector.h; the spline core does no I/O. In the editor
+# files of model and export, app/settings.c and commands/companion.c; cglm is included through model/vector.h; the spline core does no I/O. In the editor
 # a panel may include core and itself, core no panel, and the editor's own files only the panels' interfaces (curves/curves.h).
 # Usage: tools/check-arrows.sh [root of the tree]
 set -eu
@@ -42,8 +42,8 @@ function reason(file, header,    room) {
         return index(" " sees[room] " ", " " room_of(header) " ") ? "" : room " must not include " short(header)
     if (header ~ /^(epoxy|GL|GLES[0-9]*|EGL|GLFW)\// && room != "draw" && room != "platform")
         return header " belongs in src/draw and src/platform alone"
-    if (header ~ /^jansson/ && room != "scene" && file !~ /^src\/(model\/gl(b|tf)|export\/gltf|base\/json|commands\/companion)/)
-        return header " belongs in src/scene, src/base/json.h, src/commands/companion.c and the glTF files of src/model and src/export alone"
+    if (header ~ /^jansson/ && room != "scene" && file !~ /^src\/(model\/gl(b|tf)|export\/gltf|base\/json|app\/settings|commands\/companion)/)
+        return header " belongs in src/scene, src/base/json.h, src/app/settings.c, src/commands/companion.c and the glTF files of src/model and src/export alone"
     if (header ~ /^(stdio|unistd|fcntl)\.h$/ && room == "spline") return "the spline core does no I/O: " header
     return ""
 }

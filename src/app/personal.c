@@ -60,12 +60,15 @@ static void complain(struct app *app, const struct error *error)
 }
 
 /// Reads the settings again before every change, because another window may have written them; locks them until written. NULL without a
-/// file.
-static struct settings *open_settings(const struct app *app)
+/// file, or with a broken one.
+static struct settings *open_settings(struct app *app)
 {
     const struct personal *personal = app->personal;
-    struct error ignored;
-    return personal && personal->settings_path[0] ? settings_open(personal->settings_path, &ignored) : NULL;
+    struct error error = {0};
+    if (!personal || !personal->settings_path[0]) return NULL;
+    struct settings *settings = settings_open(personal->settings_path, &error);
+    complain(app, &error);
+    return settings;
 }
 
 static void store_settings(struct app *app, struct settings *settings)
@@ -104,9 +107,9 @@ static void note_choices(struct app *app, bool ends)
     if (now.ui_scale != before.ui_scale) settings_set_number(settings, "ui_scale", now.ui_scale);
     if (has_moved) settings_set_number(settings, "stage_share", now.stage_share);
     if (has_moved) settings_set_number(settings, "inspector_width", now.inspector_width);
-    if (now.is_welcomed && !before.is_welcomed) settings_set(settings, "welcomed", "yes");
-    if (now.more != before.more) settings_set(settings, "more", now.more ? "yes" : "no");
-    if (now.keep != before.keep) settings_set(settings, "keep", now.keep ? "yes" : "no");
+    if (now.is_welcomed && !before.is_welcomed) settings_set_flag(settings, "welcomed", true);
+    if (now.more != before.more) settings_set_flag(settings, "more", now.more);
+    if (now.keep != before.keep) settings_set_flag(settings, "keep", now.keep);
     store_settings(app, settings);
 }
 
@@ -123,7 +126,7 @@ static void start_settings(struct app *app)
     }
     snprintf(personal->settings_path, sizeof personal->settings_path, "%s/settings", folder);
     struct settings *settings = settings_load(personal->settings_path, &error);
-    const char *name = settings_get(settings, "theme", 0);
+    const char *name = settings_get(settings, "theme");
     const int kind = name ? theme_find(name) : -1;
     if (kind >= 0 && !app->options->theme) theme_use((enum theme_kind)kind);
     core_set_panels(core, settings_number(settings, "stage_share", (double)core->layout.stage_share),
@@ -131,11 +134,9 @@ static void start_settings(struct app *app)
     const double scale = settings_number(settings, "ui_scale", app->ui_scale);
     if (!(app->options->ui_scale > 0)) app->ui_scale = fmin(fmax(scale, UI_SCALE_LEAST), UI_SCALE_MOST);
     ui_scale_fit(app);
-    const char *more = settings_get(settings, "more", 0);
-    core->more = more && strcmp(more, "yes") == 0;
-    const char *keep = settings_get(settings, "keep", 0);
-    core->keep = !keep || strcmp(keep, "no") != 0;
-    if (!settings_get(settings, "welcomed", 0)) dialogs_welcome(app->table.editor->dialogs);
+    core->more = settings_flag(settings, "more", false);
+    core->keep = settings_flag(settings, "keep", true);
+    if (!settings_flag(settings, "welcomed", false)) dialogs_welcome(app->table.editor->dialogs);
     personal->choices = choices_of(app);
     export_memory_read(settings, app_path(app), &memory);
     dialogs_set_export(app->table.editor->dialogs, &memory);

@@ -1,11 +1,12 @@
 /// Reads and writes the settings file and its recent files.
 #include "app/settings.h"
 #include "base/file.h"
+#include "base/json.h"
 #include "base/need.h"
+#include "scene/text.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
-#include <math.h>
 #include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -14,77 +15,62 @@
 #include <time.h>
 #include <unistd.h>
 
-enum { MAX_LINES = 1000, PATIENCE = 5000 };
+enum { PATIENCE = 5000 };
 
 static const size_t LARGEST = 1 << 20;
 
-/// A line: key and value, or (key NULL) a comment.
-struct line {
-    char *key, *value;
-};
-
 struct settings {
-    struct line lines[MAX_LINES];
-    int count;
+    json_t *values;
     int lock; ///< descriptor of the locked folder, or -1
 };
 
-static void drop_line(struct settings *settings, int at)
+/// A string, whose bytes that are not UTF-8 survive the file.
+static json_t *string_value(const char *string)
 {
-    free(settings->lines[at].key);
-    free(settings->lines[at].value);
-    settings->count--;
-    memmove(&settings->lines[at], &settings->lines[at + 1],
-            (size_t)(settings->count - at) * sizeof settings->lines[0]);
+    struct text quoted = {0};
+    text_path(&quoted, string);
+    json_t *value = json_loadb(quoted.data, quoted.size, JSON_DECODE_ANY, NULL);
+    free(quoted.data);
+    return value;
 }
 
-/// Inserts a line at `at` if there is room.
-static void insert_line(struct settings *settings, int at, const char *key, const char *value)
+/// The lines `key = value` of earlier settings, with one for each recent file.
+static void read_lines(json_t *values, char *text)
 {
-    if (settings->count == MAX_LINES) return;
-    memmove(&settings->lines[at + 1], &settings->lines[at],
-            (size_t)(settings->count - at) * sizeof settings->lines[0]);
-    settings->lines[at] = (struct line){key ? need_text(key) : NULL, need_text(value)};
-    settings->count++;
-}
-
-static char *trim(char *text)
-{
-    // A byte order mark goes in any line: where those before it are ignored, it comes first the next time.
-    for (size_t mark = 1; mark > 0; text += mark) {
-        text += strspn(text, " \t\r");
-        mark = file_text_mark(text);
+    char key[64], value[PATH_LIMIT];
+    json_object_set_new(values, "recent", json_array());
+    for (char *line; (line = strsep(&text, "\n")) != NULL;) {
+        if (sscanf(line, " %63[^ =#] = %4095[^\r]", key, value) != 2) continue;
+        const bool is_flag = strcmp(value, "yes") == 0 || strcmp(value, "no") == 0;
+        json_t *old = is_flag ? json_boolean(value[0] == 'y') : json_loads(value, JSON_DECODE_ANY, NULL);
+        if (!old) old = string_value(value);
+        json_t *list = json_object_get(values, key);
+        if (json_array_append(list, old) != 0) json_object_set(values, key, old); // not a list
+        json_decref(old);
     }
-    size_t length = strlen(text);
-    while (length > 0 && strchr(" \t\r", text[length - 1])) text[--length] = '\0';
-    return text;
 }
 
 struct settings *settings_load(const char *path, struct error *error)
 {
     struct settings *settings = need_zeroed(1, sizeof *settings);
-    char *data, *rest;
+    char *text;
     size_t size;
+    json_error_t wrong;
     *error = (struct error){0};
     settings->lock = -1;
-    if (access(path, F_OK) != 0 || !file_read(path, LARGEST, &data, &size, error)) return settings;
-    rest = data;
-    for (int number = 1; rest && *rest && number <= MAX_LINES; number++) {
-        char *line = trim(strsep(&rest, "\n")), *equals = strchr(line, '=');
-        if (line[0] == '\0' || line[0] == '#') {
-            insert_line(settings, settings->count, NULL, line);
-        } else if (equals && equals > line) {
-            *equals = '\0';
-            insert_line(settings, settings->count, trim(line), trim(equals + 1));
-        } else if (error->kind == ERROR_NONE) {
-            fail(error, ERROR_INPUT, "%s:%d: expected key = value, got \"%.40s\": ignoring this line", path, number,
-                 line);
-        }
+    settings->values = json_object();
+    if (access(path, F_OK) != 0 || !file_read_text(path, LARGEST, &text, &size, error)) return settings;
+    if (text[strspn(text, " \t\r\n")] != '{') {
+        read_lines(settings->values, text);
+    } else {
+        json_t *values = json_read(text, size, JSON_REJECT_DUPLICATES, &wrong);
+        if (!values)
+            fail(error, ERROR_INPUT, "%s:%d: %s: correct or delete this file, else no setting is kept", path,
+                 wrong.line, wrong.text);
+        json_object_update(settings->values, values);
+        json_decref(values);
     }
-    if (rest && *rest && error->kind == ERROR_NONE)
-        fail(error, ERROR_INPUT, "%s:%d: expected at most %d lines, got more: ignoring the rest", path, MAX_LINES + 1,
-             MAX_LINES);
-    free(data);
+    free(text);
     return settings;
 }
 
@@ -99,100 +85,95 @@ struct settings *settings_open(const char *path, struct error *error)
         nanosleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
     struct settings *settings = settings_load(path, error);
     settings->lock = lock;
-    return settings;
+    if (error->kind == ERROR_NONE) return settings;
+    settings_free(settings);
+    return NULL;
 }
 
 void settings_free(struct settings *settings)
 {
     if (!settings) return;
-    while (settings->count > 0) drop_line(settings, settings->count - 1);
+    json_decref(settings->values);
     if (settings->lock >= 0) close(settings->lock);
     free(settings);
 }
 
-/// Index of the `n`th line with a key, or -1.
-static int find_line(const struct settings *settings, const char *key, int n)
+const char *settings_get(const struct settings *settings, const char *key)
 {
-    for (int i = 0; i < settings->count; i++) {
-        const char *other = settings->lines[i].key;
-        if (other && strcmp(other, key) == 0 && n-- == 0) return i;
-    }
-    return -1;
-}
-
-const char *settings_get(const struct settings *settings, const char *key, int n)
-{
-    int at = find_line(settings, key, n);
-    return at >= 0 ? settings->lines[at].value : NULL;
+    return json_string_value(json_object_get(settings->values, key));
 }
 
 double settings_number(const struct settings *settings, const char *key, double fallback)
 {
-    const char *text = settings_get(settings, key, 0);
-    char *end = NULL;
-    double value = text ? strtod(text, &end) : NAN;
-    return text && end != text && *end == '\0' && isfinite(value) ? value : fallback;
+    const json_t *value = json_object_get(settings->values, key);
+    return json_is_number(value) ? json_number_value(value) : fallback;
 }
 
-/// Whether the value survives the file: no line break, no space at the ends.
-static bool is_storable(const char *value)
+bool settings_flag(const struct settings *settings, const char *key, bool fallback)
 {
-    size_t length = strlen(value);
-    return !strchr(value, '\n') &&
-           (length == 0 || (!strchr(" \t\r", value[0]) && !strchr(" \t\r", value[length - 1])));
+    const json_t *value = json_object_get(settings->values, key);
+    return json_is_boolean(value) ? json_is_true(value) : fallback;
 }
 
 void settings_set(struct settings *settings, const char *key, const char *value)
 {
-    const int first = find_line(settings, key, 0);
-    for (int at = first; at >= 0; at = find_line(settings, key, 0)) drop_line(settings, at);
-    if (is_storable(value)) insert_line(settings, first >= 0 ? first : settings->count, key, value);
+    json_object_set_new(settings->values, key, string_value(value));
 }
 
 void settings_set_number(struct settings *settings, const char *key, double value)
 {
-    char text[32];
-    snprintf(text, sizeof text, "%.6g", value);
-    settings_set(settings, key, text);
+    json_object_set_new(settings->values, key, json_real(value));
+}
+
+void settings_set_flag(struct settings *settings, const char *key, bool value)
+{
+    json_object_set_new(settings->values, key, json_boolean(value));
 }
 
 bool settings_save(const struct settings *settings, const char *path, struct error *error)
 {
     struct file_output output;
     if (!file_output_open(&output, path, error)) return false;
-    for (int i = 0; i < settings->count; i++) {
-        const struct line *line = &settings->lines[i];
-        fprintf(output.stream, "%s%s%s\n", line->key ? line->key : "", line->key ? " = " : "", line->value);
-    }
+    json_dumpf(settings->values, output.stream, JSON_INDENT(2) | JSON_REAL_PRECISION(15));
+    fputc('\n', output.stream);
     return file_output_commit(&output, error);
 }
 
 void recent_note(struct settings *settings, const char *path)
 {
-    static const char key[] = "recent";
     char full[PATH_MAX];
-    if (!realpath(path, full) || !is_storable(full)) return;
-    int first = find_line(settings, key, 0);
-    for (int n = 0, at; (at = find_line(settings, key, n)) >= 0;) {
-        if (strcmp(settings->lines[at].value, full) == 0) {
-            drop_line(settings, at);
-        } else {
-            n++;
-        }
+    if (!realpath(path, full)) return;
+    json_t *recent = json_array(), *old, *own = string_value(full);
+    size_t i;
+    json_array_append(recent, own);
+    json_array_foreach(json_object_get(settings->values, "recent"), i, old)
+    {
+        if (!json_equal(old, own) && json_array_size(recent) < DIALOG_MAX_RECENT) json_array_append(recent, old);
     }
-    insert_line(settings, first >= 0 ? first : settings->count, key, full);
-    for (int at; (at = find_line(settings, key, DIALOG_MAX_RECENT)) >= 0;) drop_line(settings, at);
+    json_object_set_new(settings->values, "recent", recent);
+    json_decref(own);
+}
+
+/// Copies a string if it is there and fits.
+static bool read_string(const json_t *value, char *text, size_t size)
+{
+    const char *string = json_string_value(value);
+    if (!string || strlen(string) >= size) return false;
+    strcpy(text, string);
+    text_read_path(text);
+    return true;
 }
 
 int recent_list(const struct settings *settings, struct dialog_recent *files, int most)
 {
     int count = 0;
-    const char *path;
-    for (int n = 0; count < most && (path = settings_get(settings, "recent", n)) != NULL; n++) {
+    size_t i;
+    json_t *path;
+    json_array_foreach(json_object_get(settings->values, "recent"), i, path)
+    {
         struct dialog_recent *file = &files[count];
-        if (strlen(path) >= sizeof file->path) continue;
-        snprintf(file->path, sizeof file->path, "%s", path);
-        file->missing = access(path, R_OK) != 0;
+        if (count == most || !read_string(path, file->path, sizeof file->path)) continue;
+        file->missing = access(file->path, R_OK) != 0;
         count++;
     }
     return count;
@@ -218,25 +199,17 @@ static const struct {
     {"export_height", offsetof(struct export_wish, height), 8192},
 };
 
-static void read_text(const struct settings *settings, const char *key, char *text, size_t size)
-{
-    const char *value = settings_get(settings, key, 0);
-    if (value && strlen(value) < size) snprintf(text, size, "%s", value);
-}
-
 void export_memory_read(const struct settings *settings, const char *scene, struct export_memory *memory)
 {
     char *wish = (char *)&memory->wish, open[PATH_LIMIT];
     *memory = (struct export_memory){.path = ""};
-    read_text(settings, "export_path", memory->path, sizeof memory->path);
-    read_text(settings, "export_scene", memory->scene, sizeof memory->scene);
+    read_string(json_object_get(settings->values, "export_path"), memory->path, sizeof memory->path);
+    read_string(json_object_get(settings->values, "export_scene"), memory->scene, sizeof memory->scene);
     // The dialog knows the scene by the path it was opened with.
     if (path_resolve("", scene, open) && strcmp(open, memory->scene) == 0)
         snprintf(memory->scene, sizeof memory->scene, "%s", scene);
-    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
-        const char *value = settings_get(settings, flags[i].key, 0);
-        *(bool *)(void *)(wish + flags[i].offset) = value && strcmp(value, "yes") == 0;
-    }
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
+        *(bool *)(void *)(wish + flags[i].offset) = settings_flag(settings, flags[i].key, false);
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++) {
         const double value = settings_number(settings, numbers[i].key, 0);
         *(int *)(void *)(wish + numbers[i].offset) = value >= 1 && value <= numbers[i].most ? (int)value : 0;
@@ -256,9 +229,8 @@ void export_memory_write(struct settings *settings, const struct request *reques
     const char *wish = (const char *)&request->wish;
     write_path(settings, "export_path", request->path);
     write_path(settings, "export_scene", scene);
-    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++) {
-        settings_set(settings, flags[i].key, *(const bool *)(const void *)(wish + flags[i].offset) ? "yes" : "no");
-    }
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
+        settings_set_flag(settings, flags[i].key, *(const bool *)(const void *)(wish + flags[i].offset));
     for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
         settings_set_number(settings, numbers[i].key, *(const int *)(const void *)(wish + numbers[i].offset));
 }

@@ -1,10 +1,8 @@
-/// Settings kept between runs: a small text file of lines `key = value`.
+/// Settings kept between runs: a small JSON file.
 ///
-///     # wiggly's settings
-///     theme = dark
-///     recent = /home/me/walk.json
+///     {"theme": "dark", "stage_share": 0.4, "more": true, "recent": ["/home/me/walk.json"]}
 ///
-/// A key may repeat (recent files, newest first). Unknown keys are kept, so that an older program does not lose a newer one's settings.
+/// Recent files are listed newest first. Unknown keys are kept, so that an older program does not lose a newer one's settings.
 #ifndef APP_SETTINGS_H
 #define APP_SETTINGS_H
 
@@ -13,21 +11,22 @@
 
 struct settings;
 
-/// Reads the settings; a missing file is empty. After a broken line or an unreadable file, `error` is set (else ERROR_NONE) and defaults
-/// apply.
+/// Reads the settings; a missing file is empty. If the file is broken or unreadable, `error` is set (else ERROR_NONE) and defaults apply.
 struct settings *settings_load(const char *path, struct error *error);
 
-/// Reads them for a change. Other programs wait for settings_free(), at most five seconds.
+/// Reads them for a change; NULL with an error if that would lose a broken file. Other programs wait for settings_free(), at most five
+/// seconds.
 struct settings *settings_open(const char *path, struct error *error);
 void settings_free(struct settings *settings);
 
-/// The `n`th value of a key from 0, or NULL. The second: the first value as a number, or `fallback`.
-const char *settings_get(const struct settings *settings, const char *key, int n);
+/// The value of a key: a string or NULL; a number or `fallback`; true or false, or `fallback`.
+const char *settings_get(const struct settings *settings, const char *key);
 double settings_number(const struct settings *settings, const char *key, double fallback);
+bool settings_flag(const struct settings *settings, const char *key, bool fallback);
 
-/// Replaces all values of a key. Ignores a value with a line break.
 void settings_set(struct settings *settings, const char *key, const char *value);
 void settings_set_number(struct settings *settings, const char *key, double value);
+void settings_set_flag(struct settings *settings, const char *key, bool value);
 
 /// Writes atomically.
 bool settings_save(const struct settings *settings, const char *path, struct error *error);
