@@ -15,7 +15,7 @@ write_run() { # <file.csv> <ms of every frame but each tenth>
 
 write_run "$scratch/a.csv" 10
 expect 0 "a log of one run" "$WIGGLY" log "$scratch/a.csv"
-says "counts its frames without the warm-up" "a.csv: 60 frames of 1 run," "$out"
+says "counts its frames without the warm-up" "a.csv: 60 frames of 1 run in 59.01 s, 1.0 fps on average," "$out"
 says "frames over budget" "6 of 60 frames (10.0 %), up to 1 in a row" "$out"
 says "where the slowest frame spent its time" "40.000 ms: swap_us 39900" "$out"
 says "the percentiles of what was measured" "solve_us                100.0      100.0      100.0      100.0" "$out"
@@ -25,7 +25,7 @@ ok "and nothing of what was not" $?
 write_run "$scratch/b.csv" 20
 cat "$scratch/a.csv" "$scratch/b.csv" >"$scratch/both.csv"
 expect 0 "a log of two runs" "$WIGGLY" log "$scratch/both.csv"
-says "counts both" "120 frames of 2 runs," "$out"
+says "counts both" "120 frames of 2 runs in " "$out"
 
 cat "$scratch/b.csv" "$scratch/b.csv" >"$scratch/twice.csv"
 expect 0 "a log of two slow runs" "$WIGGLY" log "$scratch/twice.csv"

@@ -441,7 +441,7 @@ void app_frame(struct app *app)
 // --- start and end
 
 enum { DEFAULT_WIDTH = 1280, DEFAULT_HEIGHT = 720, HEADLESS_FRAMES = 1200, WARM_UP = 10, REFERENCE_FRAMES = 21 };
-enum { LOG_ROWS = 200000 };
+enum { LOG_ROWS = 1 << 16 };
 
 /// Whether events come from a file and frames run as fast as they can.
 static bool is_replay(const struct app *app) { return app->replay && !app->demo.on; }

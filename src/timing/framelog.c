@@ -84,44 +84,74 @@ struct over_budget statistics_over(const double *values, int count, double budge
     return over;
 }
 
-/// Frames over each budget, and the longest run of them; a run of frames ends with its program run. `run` is NULL for one run, whose
-/// lines are shorter.
-static void print_over(const double *ms, const int *run, int rows, FILE *out)
+// --- the summary
+
+/// The measured values of a column in the order of the log; `values` has room for all rows. Returns how many.
+static int column_values(const struct timing_log *log, int column, double *values)
 {
+    int count = 0;
+    for (int row = 0; row < log->rows; row++) {
+        double value = log->values[(size_t)row * COLUMN_COUNT + (size_t)column];
+        if (!isnan(value)) values[count++] = value;
+    }
+    return count;
+}
+
+/// Percentiles of the chosen columns, a bit for each, as far as they were measured; frames over budget, and the rate that all but 1 % of
+/// the frames reach, of enough frames.
+static void summary_print(const struct timing_log *log, const char *name, unsigned columns, FILE *out)
+{
+    enum { ENOUGH_FOR_LOW = 1000 };
+    double *values = need_zeroed((size_t)log->rows, sizeof *values), elapsed = 0;
+    for (int row = 0; row < log->rows; row++) {
+        const double *v = &log->values[(size_t)row * COLUMN_COUNT];
+        if (row == 0 || log->run[row - 1] != log->run[row]) elapsed -= v[COLUMN_TIME];
+        if (row + 1 == log->rows || log->run[row + 1] != log->run[row])
+            elapsed += v[COLUMN_TIME] + v[COLUMN_FRAME_MS] / 1000;
+    }
+    print_line(out, "%s: %d frames of %d %s in %.2f s, %.1f fps on average, without the warm-up ones", name,
+               log->rows, log->runs, log->runs == 1 ? "run" : "runs", elapsed, log->rows / elapsed);
+    if (log->solvers[0]) print_line(out, "solver: %s", log->solvers);
+
+    fprintf(out, "\n%-18s %10s %10s %10s %10s\n", "", "p50", "p95", "p99", "largest");
+    for (int c = 0; c < COLUMN_COUNT; c++) {
+        static const double at[] = {0.5, 0.95, 0.99, 1};
+        const struct column *column = &timing_columns[c];
+        const int count = columns >> c & 1 ? column_values(log, c, values) : 0;
+        if ((column->use != COLUMN_COST && column->use != COLUMN_WAIT) || count == 0) continue;
+        statistics_sort(values, count);
+        fprintf(out, "%-18s", column->name);
+        for (int i = 0; i < 4; i++) {
+            const int decimals = column->is_count ? 0 : column->decimals > 1 ? 3 : 1;
+            fprintf(out, " %10.*f", decimals, statistics_quantile(values, count, at[i]));
+        }
+        fputc('\n', out);
+    }
+    fputc('\n', out);
+
+    for (int row = 0; row < log->rows; row++) values[row] = log->values[(size_t)row * COLUMN_COUNT + COLUMN_FRAME_MS];
     for (int b = 0; b < BUDGET_COUNT; b++) {
-        const double budget = frame_budgets_ms[b];
-        struct over_budget all = {0, 0};
-        for (int row = 0, start = 0; row < rows; row++) {
-            if (row + 1 < rows && (!run || run[row + 1] == run[row])) continue;
-            const struct over_budget over = statistics_over(ms + start, row + 1 - start, budget);
+        struct over_budget all = {0, 0}; // a run of frames ends with its program run
+        for (int row = 0, start = 0; row < log->rows; row++) {
+            if (row + 1 < log->rows && log->run[row + 1] == log->run[row]) continue;
+            const struct over_budget over = statistics_over(values + start, row + 1 - start, frame_budgets_ms[b]);
             all.frames += over.frames;
             all.longest = over.longest > all.longest ? over.longest : all.longest;
             start = row + 1;
         }
-        fprintf(out, "over %.1f ms   %s%d of %d frames", budget, run ? "    " : "", all.frames, rows);
-        if (run) fprintf(out, " (%.1f %%)", 100.0 * all.frames / rows);
-        if (run || all.longest > 1) fprintf(out, ", up to %d in a row", all.longest);
-        fputc('\n', out);
+        fprintf(out, "over %.1f ms       %d of %d frames (%.1f %%), up to %d in a row\n", frame_budgets_ms[b],
+                all.frames, log->rows, 100.0 * all.frames / log->rows, all.longest);
     }
-}
-
-/// The rate that all but 1 % of the frames reach, of enough frames.
-static void print_low(double *intervals_ms, int count, int width, FILE *out)
-{
-    enum { NEEDED = 1000 };
-    if (count < NEEDED) return;
-    statistics_sort(intervals_ms, count);
-    fprintf(out, "%-*s %.1f fps\n", width, "1 % low", 1000 / statistics_quantile(intervals_ms, count, 0.99));
+    const int intervals = column_values(log, COLUMN_FRAME_INTERVAL_MS, values);
+    statistics_sort(values, intervals);
+    if (intervals >= ENOUGH_FOR_LOW)
+        fprintf(out, "%-18s %.1f fps\n", "1 % low", 1000 / statistics_quantile(values, intervals, 0.99));
+    free(values);
 }
 
 // --- writing a log
 
 enum { BLOCK_ROWS = 256, LATE_ROWS = 16 }; ///< the last rows wait for their GPU times
-
-/// What the summary needs of a frame: all that is kept of it once its row is written.
-enum { SUMMED_TIME, SUMMED_FRAME, SUMMED_INTERVAL, SUMMED_SOLVE, SUMMED_EVENT, SUMMED_COUNT };
-static const int summed_columns[SUMMED_COUNT] = {COLUMN_TIME, COLUMN_FRAME_MS, COLUMN_FRAME_INTERVAL_MS,
-                                                 COLUMN_SOLVE_US, COLUMN_EVENT_TO_SWAP_US};
 
 struct framelog {
     FILE *file; ///< NULL: for the summary only, or a write failed
@@ -130,8 +160,7 @@ struct framelog {
     int warm_up;
     const char *solver;                ///< as the file says so far
     struct frame_row rows[BLOCK_ROWS]; ///< ring: row n of the run at n % BLOCK_ROWS
-    float (*summed)[SUMMED_COUNT];     ///< ring: of row n at n % capacity
-    double *scratch;                   ///< capacity numbers, for sorting
+    struct timing_log kept;            ///< for the summary; ring: row n after the warm-up at n % capacity
     int capacity;
     long pushed, written; ///< rows of the run so far
 };
@@ -200,8 +229,7 @@ static void framelog_free(struct framelog *log)
 {
     if (log->file) fclose(log->file);
     free(log->path);
-    free(log->summed);
-    free(log->scratch);
+    timing_log_free(&log->kept);
     free(log);
 }
 
@@ -211,8 +239,9 @@ struct framelog *framelog_open(const char *path, const struct frame_header *head
     log->capacity = capacity;
     log->warm_up = header->warm_up;
     log->solver = header->solver;
-    log->summed = need_zeroed((size_t)capacity, sizeof *log->summed);
-    log->scratch = need_zeroed((size_t)capacity, sizeof *log->scratch);
+    log->kept.values = need_zeroed((size_t)capacity, COLUMN_COUNT * sizeof *log->kept.values);
+    log->kept.run = need_zeroed((size_t)capacity, sizeof *log->kept.run);
+    log->kept.runs = 1;
     if (!path) return log;
     log->path = need_text(path);
     log->file = file_open_growing(path, error);
@@ -227,8 +256,9 @@ struct framelog *framelog_open(const char *path, const struct frame_header *head
 void framelog_push(struct framelog *log, const struct frame_row *row)
 {
     log->rows[log->pushed % BLOCK_ROWS] = *row;
-    float *summed = log->summed[log->pushed++ % log->capacity];
-    for (int i = 0; i < SUMMED_COUNT; i++) summed[i] = (float)column_value(&timing_columns[summed_columns[i]], row);
+    const long kept = log->pushed++ - log->warm_up;
+    for (int c = 0; kept >= 0 && c < COLUMN_COUNT; c++)
+        log->kept.values[kept % log->capacity * COLUMN_COUNT + c] = column_value(&timing_columns[c], row);
     if (log->pushed - log->written >= BLOCK_ROWS) write_rows(log, log->pushed - LATE_ROWS);
 }
 
@@ -241,51 +271,29 @@ void framelog_gpu(struct framelog *log, long frame, double gpu_us)
     }
 }
 
-/// Collects the measured values of one kind over the frames from `first` on in the log's scratch.
-static int collect_summed(const struct framelog *log, long first, int summed)
-{
-    int count = 0;
-    for (long n = first; n < log->pushed; n++) {
-        const double value = (double)log->summed[n % log->capacity][summed];
-        if (!isnan(value)) log->scratch[count++] = value;
-    }
-    return count;
-}
-
-static void print_summed(const struct framelog *log, long first, int summed, double to_ms, const char *what,
-                         FILE *out)
-{
-    int count = collect_summed(log, first, summed);
-    if (count == 0) return;
-    statistics_sort(log->scratch, count);
-    fprintf(out, "%-14s p50 %8.3f ms   p95 %8.3f ms   p99 %8.3f ms\n", what,
-            to_ms * statistics_quantile(log->scratch, count, 0.5),
-            to_ms * statistics_quantile(log->scratch, count, 0.95),
-            to_ms * statistics_quantile(log->scratch, count, 0.99));
-}
-
 bool framelog_close(struct framelog *log, FILE *summary, struct error *error)
 {
     if (log->file) write_rows(log, log->pushed);
     if (log->file && fclose(log->file) != 0) log->write_errno = errno;
     log->file = NULL;
 
-    const long oldest = log->pushed > log->capacity ? log->pushed - log->capacity : 0;
-    const long first = oldest > log->warm_up ? oldest : log->warm_up, frames = log->pushed - first;
+    struct timing_log *kept = &log->kept;
+    const long frames = log->pushed - log->warm_up, begin = frames % log->capacity;
+    kept->rows = (int)(frames < log->capacity ? frames : log->capacity);
     if (summary && frames <= 0) {
-        fprintf(summary, "frames         %ld, all of them warm-up: nothing to sum up\n", log->pushed);
+        fprintf(summary, "live: %ld frames, all of them warm-up: nothing to sum up\n", log->pushed);
     } else if (summary) {
-        const float *start = log->summed[first % log->capacity],
-                    *end = log->summed[(log->pushed - 1) % log->capacity];
-        const float elapsed = end[SUMMED_TIME] + end[SUMMED_FRAME] / 1000 - start[SUMMED_TIME];
-        fprintf(summary, "frames         %ld in %.2f s, %.1f fps on average, the first %ld left out\n", frames,
-                (double)elapsed, (double)frames / (double)elapsed, first);
-        print_summed(log, first, SUMMED_FRAME, 1, "frame", summary);
-        print_summed(log, first, SUMMED_INTERVAL, 1, "interval", summary);
-        print_summed(log, first, SUMMED_SOLVE, 1e-3, "solve", summary);
-        print_summed(log, first, SUMMED_EVENT, 1e-3, "event to swap", summary);
-        print_over(log->scratch, NULL, collect_summed(log, first, SUMMED_FRAME), summary);
-        print_low(log->scratch, collect_summed(log, first, SUMMED_INTERVAL), 14, summary);
+        if (frames > log->capacity) { // the oldest first
+            const size_t row = COLUMN_COUNT * sizeof *kept->values, later = (size_t)(log->capacity - begin);
+            double *values = need((size_t)log->capacity, row);
+            memcpy(values, kept->values + begin * COLUMN_COUNT, later * row);
+            memcpy(values + later * COLUMN_COUNT, kept->values, (size_t)begin * row);
+            free(kept->values);
+            kept->values = values;
+        }
+        const unsigned columns = 1U << COLUMN_FRAME_MS | 1U << COLUMN_FRAME_INTERVAL_MS | 1U << COLUMN_SOLVE_US |
+                                 1U << COLUMN_EVENT_TO_SWAP_US;
+        summary_print(kept, "live", columns, summary);
     }
 
     bool written = log->write_errno == 0;
@@ -428,17 +436,6 @@ void timing_log_free(struct timing_log *log)
 
 enum { BAR = 50, BINS = 24, SLOWEST = 5 };
 
-/// The measured values of a column in the order of the log; `values` has room for all rows. Returns how many.
-static int column_values(const struct timing_log *log, int column, double *values)
-{
-    int count = 0;
-    for (int row = 0; row < log->rows; row++) {
-        double value = log->values[(size_t)row * COLUMN_COUNT + (size_t)column];
-        if (!isnan(value)) values[count++] = value;
-    }
-    return count;
-}
-
 /// The smallest of 1, 2 and 5 times a power of ten that is not below `least`.
 static double bin_width(double least)
 {
@@ -497,27 +494,7 @@ static void print_slowest(const struct timing_log *log, FILE *out)
 void distribution_print(const struct timing_log *log, const char *name, FILE *out)
 {
     double *values = need_zeroed((size_t)log->rows, sizeof *values);
-    print_line(out, "%s: %d frames of %d %s, without the warm-up ones", name, log->rows, log->runs,
-               log->runs == 1 ? "run" : "runs");
-    if (log->solvers[0]) print_line(out, "solver: %s", log->solvers);
-    fprintf(out, "\n%-18s %10s %10s %10s %10s\n", "", "p50", "p95", "p99", "largest");
-    for (int c = 0; c < COLUMN_COUNT; c++) {
-        static const double at[] = {0.5, 0.95, 0.99, 1};
-        const struct column *column = &timing_columns[c];
-        const int count = column_values(log, c, values);
-        if ((column->use != COLUMN_COST && column->use != COLUMN_WAIT) || count == 0) continue;
-        statistics_sort(values, count);
-        fprintf(out, "%-18s", column->name);
-        for (int i = 0; i < 4; i++) {
-            const int decimals = column->is_count ? 0 : column->decimals > 1 ? 3 : 1;
-            fprintf(out, " %10.*f", decimals, statistics_quantile(values, count, at[i]));
-        }
-        fputc('\n', out);
-    }
-    fputc('\n', out);
-    for (int row = 0; row < log->rows; row++) values[row] = log->values[(size_t)row * COLUMN_COUNT + COLUMN_FRAME_MS];
-    print_over(values, log->run, log->rows, out);
-    print_low(values, column_values(log, COLUMN_FRAME_INTERVAL_MS, values), 18, out);
+    summary_print(log, name, ~0U, out);
     print_histogram(log, values, out);
     print_slowest(log, out);
     free(values);

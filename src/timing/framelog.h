@@ -50,8 +50,8 @@ void framelog_push(struct framelog *log, const struct frame_row *row);
 /// dropped.
 void framelog_gpu(struct framelog *log, long frame, double gpu_us);
 
-/// Writes what is left, checks every call; with `summary` prints frames, fps, percentiles, frames over budget and the 1 %
-/// low. Frees the log.
+/// Writes what is left, checks every call; with `summary` prints frames, fps, percentiles of four times, frames over budget
+/// and the 1 % low. Frees the log.
 bool framelog_close(struct framelog *log, FILE *summary, struct error *error);
 
 /// Allocations by our own objects since the start of the process (-Wl,--wrap=malloc, calloc, realloc).
