@@ -511,9 +511,7 @@ static bool run_frame(void *user)
         turns_take();
         app->last_swap = NAN; // the other program's frame came between
     }
-    mtx_lock(&app->working);
     app_frame(app);
-    mtx_unlock(&app->working);
     if (app->frame == 1 && run->timed && !app->log && !open_log(app, &app->error)) app->failed = true;
     if (app->options->turns && !app->failed) turns_give();
     return !app->quit && !app->failed && !process_was_told_to_end() && (run->frames == 0 || app->frame < run->frames);
@@ -632,7 +630,6 @@ static bool start_app(struct app *app, struct error *error)
         file_guard_reads(false);
         if (!o->scene || !import_suits(o->scene)) file_forget_reads(o->scene); // the user may save it
         personal_start(app);
-        app_rescue_without_memory(app);
     }
     if (o->welcome) dialogs_welcome(app->table.editor->dialogs);
     return true;
@@ -657,7 +654,6 @@ int app_run(const struct app_options *options, struct error *error)
     double age = process_age();
     app.process_start = clock_now() - (isnan(age) ? 0 : age);
     if (options->gl_debug) platform_debug_gl();
-    mtx_init(&app.working, mtx_timed);
     bool good = start_app(&app, error);
     if (good) {
         long frames = options->frames                    ? options->frames
@@ -682,10 +678,8 @@ int app_run(const struct app_options *options, struct error *error)
     if (screenshot && !app_screenshot(&app, screenshot, good ? error : &late)) good = false;
     if (!close_files(&app, good ? error : &late)) good = false;
     platform_on_lost(NULL, NULL); // a rescue would save the document, which is freed below
-    personal_end(&app, !good);    // autosave's thread may still run out of memory
-    need_keep(0, NULL, NULL);
+    personal_end(&app, !good);
     app_free(&app);
-    mtx_destroy(&app.working);
     int complaints = platform_gl_complaints();
     if (good && complaints > 0)
         good = fail(error, ERROR_ENVIRONMENT, "--gl-debug: the OpenGL driver complained %d times", complaints);

@@ -137,11 +137,9 @@ struct autosave *autosave_open(const struct recovery_slot *slot)
 
 static bool is_busy(struct autosave *autosave) { return autosave->writes && !atomic_load(&autosave->ended); }
 
-/// Waits for the thread, unless this is the thread.
 static void wait_for_write(struct autosave *autosave)
 {
-    while (is_busy(autosave) && !thrd_equal(thrd_current(), autosave->thread))
-        thrd_sleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
+    while (is_busy(autosave)) thrd_sleep(&(struct timespec){.tv_nsec = 1000000}, NULL);
 }
 
 /// Joins the last write's thread and frees its document.
@@ -223,7 +221,6 @@ void autosave_close(struct autosave *autosave, bool keep)
 // --- the rescue: to the recovery file, or else to a new file beside the original
 
 enum { MAX_NAMES = 1000 };
-enum { RESERVE = 64 << 20, LONGEST_WAIT = 2 }; ///< bytes reserved for the rescue; seconds
 
 /// Writes the work into a folder ("": working folder) under an unused name made of `name`.
 static bool rescue_to(const struct app *app, const char *folder, const char *name, char *path, size_t size,
@@ -277,21 +274,4 @@ void app_rescue(struct app *app, struct error *error)
     } else {
         fail(error, why.kind, "%s; the unsaved scene is lost: %s", why.text, trouble.text);
     }
-}
-
-/// Other threads wait for the end of the frame, when the document is consistent, but not long: the frame may wait for them.
-static void on_no_memory(void *user, struct error *error)
-{
-    struct app *app = user;
-    struct timespec until;
-    timespec_get(&until, TIME_UTC);
-    until.tv_sec += LONGEST_WAIT;
-    if (!thrd_equal(thrd_current(), app->main_thread)) mtx_timedlock(&app->working, &until);
-    app_rescue(app, error);
-}
-
-void app_rescue_without_memory(struct app *app)
-{
-    app->main_thread = thrd_current();
-    need_keep(RESERVE, on_no_memory, app);
 }

@@ -60,7 +60,7 @@ bool autosave_is_behind(struct autosave *autosave, const struct autosave_work *w
 /// Whether the last write failed: the recovery file is missing or old.
 bool autosave_fails(const struct autosave *autosave);
 
-/// Writes the work in the calling thread, which may be autosave's, and returns when it is on disk.
+/// Writes the work in the calling thread, and returns when it is on disk.
 bool autosave_flush(struct autosave *autosave, const struct autosave_work *work, struct error *error);
 
 /// Moves to another slot and its file; deletes the old file and releases its slot.

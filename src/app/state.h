@@ -15,7 +15,6 @@
 #include "timing/framelog.h"
 #include "ui/theme.h"
 #include <stdint.h>
-#include <threads.h>
 
 #define UI_SCALE_LEAST 0.75
 #define UI_SCALE_MOST 3.0
@@ -67,9 +66,6 @@ struct app {
     char replaceable[PATH_LIMIT]; ///< existing file that "Save as" may replace if asked again
     struct own_file own_file;
     unsigned last_serial; ///< highest document.serial so far
-
-    thrd_t main_thread;
-    mtx_t working; ///< locked during a frame; a thread without memory waits for it before saving
 
     struct export_job *export_job; ///< NULL: no export
     struct personal *personal;     ///< NULL: not interactive
@@ -129,9 +125,6 @@ void app_show_title(struct app *app);
 
 /// Writes unsaved work to the recovery file, or else to a new file beside the scene's, and adds the path to the error's text.
 void app_rescue(struct app *app, struct error *error);
-
-/// Makes need() call app_rescue() when memory runs out. Call in the thread that makes frames.
-void app_rescue_without_memory(struct app *app);
 
 /// Handles a new window size, in the display's logical pixels.
 void app_resize(struct app *app, float width, float height, float scale);

@@ -1,5 +1,5 @@
-/// Memory that the program cannot do without. need() and its kin never return NULL: where memory runs out they free a reserve, let the
-/// app save the work, remove what is half-written, say one sentence and end the process with exit status 3.
+/// Memory that the program cannot do without. need() and its kin never return NULL: if memory runs out they remove unfinished files, say
+/// so in one sentence and end the process with exit status 3. Unsaved work is in autosave's recovery file.
 ///
 /// Sizes that a file claims are not for these: readers of files, and libwiggly, return an error.
 #ifndef BASE_NEED_H
@@ -30,13 +30,6 @@ _Noreturn void need_failed(void);
 
 /// Where the process ends so, it is called last, to remove what is half-written. NULL: nothing.
 extern void (*_Atomic need_at_end)(void);
-
-/// Saves the work, and adds to the sentence in `error` where it is. It may be called in any thread, once; if memory runs out in it too,
-/// the process ends there.
-typedef void need_rescue(void *user, struct error *error);
-
-/// From now on `rescue` (NULL: none) is called where memory runs out, and has `reserve` bytes that are put by for it.
-void need_keep(size_t reserve, need_rescue *rescue, void *user);
 
 // Memory that is freed together.
 
