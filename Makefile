@@ -72,8 +72,6 @@ TOOLS := $(filter-out adversary,$(basename $(notdir $(wildcard tools/*.c))))
 MODEL_MAKERS := creature_obj dog_glb fox_glb
 TOOL_PARTS := $(filter-out $(MODEL_MAKERS:%=tools/models/%.c),$(wildcard tools/*/*.c))
 TESTS ?= $(sort $(wildcard tests/test_*.c tests/test_*.sh))
-FUZZERS := $(basename $(notdir $(wildcard tests/fuzz/fuzz_*.c)))
-FUZZ_SUPPORT := $(filter-out tests/fuzz/fuzz_%.c,$(wildcard tests/fuzz/*.c))
 TEST_SUPPORT := $(filter-out tests/test_%.c,$(wildcard tests/*.c))
 
 GENERATED := $(B)/generated
@@ -128,18 +126,11 @@ LINK = $(CC) $(OWN_LDFLAGS) $(CFLAGS) $(LDFLAGS)
 
 # --- goals -------------------------------------------------------------------------------------------------------------
 
-.PHONY: all library run test test-all bench feel adversary web npm wheel blender blender-proof proof models check figures regress fuzz fuzzers install install-library clean help packages \
-    compile_commands.json FORCE
+.PHONY: all library run test test-all check clean help packages compile_commands.json FORCE
 
 all: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(MODEL_MAKERS:%=$(B)/%)
 
 library: $(LIBRARIES)
-
-wheel:
-	$(Q)python/wheels.sh $(B) $(PLATFORMS)
-
-npm:
-	$(Q)npm/build.sh $(B)
 
 # The app itself finds out whether it has a display; however it ran, it leaves its log and its last picture.
 LIVE_OUT ?= $(B)
@@ -157,48 +148,8 @@ test: $(B)/wiggly $(LIBRARIES) $(TOOLS:%=$(B)/%) $(MODEL_MAKERS:%=$(B)/%) $(TEST
 test-all: export THOROUGH = 1
 test-all: test
 
-bench: $(B)/wiggly-bench
-	$(Q)$< $(ARGS)
-
-feel: $(B)/feel
-	$(Q)$<
-
-COUNT ?= 2000
-adversary: $(B)/adversary
-	$(Q)$< $(SEED) $(COUNT) $(JOBS)
-
-# The platforms that Blender runs on.
-blender: PLATFORMS ?= manylinux_2_17_x86_64 win_amd64 macosx_11_0_x86_64 macosx_11_0_arm64
-blender: wheel
-	$(Q)tools/pack-blender.sh $(B) $(VERSION) $(PLATFORMS)
-
-# Each Blender that there is as a Python module: those of $(BPY), Pythons that have it.
-BPY ?= $(B)/proof/venv/bin/python
-blender-proof: library
-	$(Q)PYTHONPATH=python/src WIGGLY_LIBRARY=$(abspath $(SHARED_LIBRARY)) python3 blender/tests/table.py docs/blender.md $(BPY)
-
-# Programs of others evaluate every file that wiggly writes; fetched into the build folder.
-proof: $(B)/wiggly
-	$(Q)B=$(B) WIGGLY=$(B)/wiggly tests/others/proof.sh && B=$(B) WIGGLY=$(B)/wiggly tests/others/strangers.sh
-
 check: | packages
 	$(Q)tools/check.sh
-
-FIGURES ?= $(B)/figures
-figures: $(B)/paper_figures
-	$(Q)mkdir -p $(FIGURES) && $< $(FIGURES) && echo "Figures: $(FIGURES)"
-
-regress: $(B)/wiggly $(B)/timing_diff
-	$(Q)$(if $(BASE),,echo "make regress: BASE=path/to/other/wiggly is missing" >&2; exit 2;) \
-	tools/regress.sh "$(BASE)" $(B)/wiggly $(B)/timing_diff $(B)/regress
-
-# Objects of their own, for clang's fuzzer and both sanitizers.
-SECONDS ?= 20
-SEED ?= 1
-fuzz:
-	$(Q)tools/install-missing.sh build clang
-	$(Q)$(MAKE) --no-print-directory CC=$(if $(findstring clang,$(CC)),$(CC),clang) SANITIZE=1 FUZZ=1 B=$(B)/fuzz fuzzers
-	$(Q)SECONDS_EACH=$(SECONDS) RUNS=$(RUNS) SEED=$(SEED) tests/fuzz/run.sh $(B)/fuzz $(sort $(notdir $(FUZZERS)))
 
 # What make would run to compile everything anew.
 compile_commands.json: | packages
@@ -206,39 +157,6 @@ compile_commands.json: | packages
 
 help:
 	@sed -n '1,/^$$/s/^# \{0,1\}//p' Makefile
-
-ROOT = $(DESTDIR)$(PREFIX)
-define PLACE_LIBRARY
-	install -d "$(ROOT)/lib/pkgconfig" "$(ROOT)/lib/cmake/wiggly" "$(ROOT)/include/wiggly"
-	install -m 644 $(B)/libwiggly.a "$(ROOT)/lib/libwiggly.a"
-	$(if $(filter $(SHARED_LIBRARY),$(LIBRARIES)),install -m 755 $(SHARED_LIBRARY) "$(ROOT)/lib" && \
-	    ln -sf libwiggly.so.$(VERSION) "$(ROOT)/lib/libwiggly.so.$(MAJOR)" && ln -sf libwiggly.so.$(MAJOR) "$(ROOT)/lib/libwiggly.so")
-	install -m 644 include/wiggly/wiggly.h include/wiggly/more.h "$(ROOT)/include/wiggly"
-	sed -e 's|@VERSION@|$(VERSION)|' wiggly.pc.in > "$(ROOT)/lib/pkgconfig/wiggly.pc"
-	$(Q)for file in assets/cmake/*.in; do \
-	    name=$${file##*/}; sed -e 's|@VERSION@|$(VERSION)|; s|@MAJOR@|$(MAJOR)|' $$file > "$(ROOT)/lib/cmake/wiggly/$${name%.in}"; \
-	done
-	chmod 644 "$(ROOT)/lib/pkgconfig/wiggly.pc" "$(ROOT)"/lib/cmake/wiggly/*
-	$(Q)[ -n "$(DESTDIR)" ] || [ "$$(id -u)" != 0 ] || ldconfig
-endef
-
-install-library: $(if $(BORROWED),,$(LIBRARIES))
-	$(PLACE_LIBRARY)
-	$(Q)tools/install-from.sh --done $(B)
-
-install: $(if $(BORROWED),,$(B)/wiggly $(LIBRARIES))
-	$(PLACE_LIBRARY)
-	install -d "$(ROOT)/bin" "$(ROOT)/share/wiggly/scenes" "$(ROOT)/share/wiggly/models" "$(ROOT)/share/doc/wiggly" \
-	    "$(ROOT)/share/man/man1" "$(ROOT)/share/applications" "$(ROOT)/share/icons/hicolor/scalable/apps"
-	install -m 755 $(B)/wiggly "$(ROOT)/bin/wiggly"
-	install -m 644 $(wildcard assets/scenes/*.json) "$(ROOT)/share/wiggly/scenes"
-	install -m 644 $(wildcard assets/models/*.glb) "$(ROOT)/share/wiggly/models"
-	$(B)/wiggly --licenses > "$(ROOT)/share/doc/wiggly/copyright"
-	install -m 644 assets/desktop/wiggly.desktop "$(ROOT)/share/applications"
-	install -m 644 assets/desktop/wiggly.svg "$(ROOT)/share/icons/hicolor/scalable/apps"
-	tools/man-page.sh $(B)/wiggly > "$(ROOT)/share/man/man1/wiggly.1"
-	chmod 644 "$(ROOT)/share/doc/wiggly/copyright" "$(ROOT)/share/man/man1/wiggly.1"
-	$(Q)tools/install-from.sh --done $(B)
 
 clean:
 	rm -rf "$(realpath $(B))" $(B)
@@ -315,21 +233,6 @@ $(B)/obj/tests/test_%.o: private OWN_CFLAGS += -O0
 $(TEST_PROGRAMS): $(B)/tests/%: $(B)/obj/tests/%.o $(B)/tests/libparts.so
 	$(Q)$(LINK) $^ -Wl,-rpath,'$$ORIGIN' $(TEST_LIBS) $(LIBS) -o $@
 
-# It judges by the tests' textbook, which not every machine can build.
-$(B)/obj/tools/adversary.o: private OWN_CPPFLAGS += -Itests
-$(B)/adversary: $(B)/obj/tools/adversary.o $(patsubst %.c,$(B)/obj/%.o,$(wildcard tests/adversary*.c tests/textbook*.c)) $(B)/parts.a
-	$(Q)$(LINK) $^ -lquadmath $(LIBS) -o $@
-
-# Of the sources only what readers and exports need, and no GL.
-FUZZED := $(wildcard src/base/*.c src/maths/*.c src/spline/*.c src/scene/*.c src/model/*.c) src/ui/event.c src/ui/theme.c \
-    $(addprefix src/app/,replay.c settings.c) src/timing/framelog.c \
-    $(wildcard src/rig/*.c src/export/*.c src/simulation/*.c) src/draw/posed.c src/commands/companion.c
-fuzzers: $(FUZZERS:%=$(B)/%)
-$(B)/fuzzed.a: $(FUZZED:%.c=$(B)/obj/%.o) $(B)/obj/src/model/draco.o $(B)/obj/build.o $(B)/obj/embedded_table.o $(B)/obj/embedded_data.o $(FUZZ_SUPPORT:%.c=$(B)/obj/%.o)
-	$(Q)rm -f $@ && ar rcs $@ $^
-$(FUZZERS:%=$(B)/%): $(B)/%: $(B)/obj/tests/fuzz/%.o $(B)/fuzzed.a
-	$(Q)$(CC) -fsanitize=fuzzer$(comma)address$(comma)undefined -Wl,--as-needed -Wl,--wrap=_Znwm -Wl,--wrap=_Znam $^ $(LIBS) -o $@
-
 # --- generated ---------------------------------------------------------------------------------------------------------
 
 $(GENERATED)/embedded_data.S $(GENERATED)/embedded_table.c &: tools/embed.sh $(EMBEDDED) $(B)/embedded $(B)/parts.txt | packages
@@ -351,9 +254,9 @@ $(B)/parts.txt: FORCE | packages
 $(GENERATED)/build.c: FORCE | packages
 	@tools/build-info.sh $@ "$(CC)" "$(filter -O% -f% -m%,$(OWN_CFLAGS) $(CFLAGS) $(FIXED_CFLAGS))$(if $(SPLINE_CFLAGS),; spline $(SPLINE_CFLAGS))"
 
-# --- the web page, and the characters of assets/models -----------------------------------------------------------------
+# --- what is not built every day ----------------------------------------------------------------------------------------
 
-include src/platform/web/web.mk tools/models/models.mk
+include tools/package.mk tools/measure.mk src/platform/web/web.mk tools/models/models.mk
 
 .SECONDARY:
 -include $(shell find $(B)/obj -name "*.d" 2>/dev/null)

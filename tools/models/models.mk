@@ -1,5 +1,6 @@
 # make models: the generated characters, in $(B)/models. README.md says how they become those of assets/models.
 
+.PHONY: models
 models: $(addprefix $(B)/models/,creature.obj dog.glb fox.glb)
 $(B)/models/%.obj: $(B)/%_obj
 	@mkdir -p $(@D)

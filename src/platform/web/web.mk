@@ -19,6 +19,7 @@ WEB_LDFLAGS := -Os -lnodefs.js -sMIN_WEBGL_VERSION=2 -sMAX_WEBGL_VERSION=2 -sALL
 WEB_FILES := $(wildcard $(addprefix src/platform/web/,*.html *.js *.json)) assets/desktop/wiggly.svg
 WEB_PAGE := $(addprefix $(B)/web/,$(filter-out sw.js,$(notdir $(WEB_FILES))) wiggly.js)
 
+.PHONY: web
 web: $(WEB_PAGE) $(B)/web/sw.js $(addprefix $(B)/web/models/,dog.glb creature.glb)
 	@echo "Page: $(B)/web/index.html"
 
