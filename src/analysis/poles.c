@@ -156,14 +156,14 @@ int subspace_poles(const struct lapack *lapack, const double *gram, int frames, 
         // Restores what remove_trend() removed of white noise of this power per window and frame, so that it is white again.
         const double noise = fmax(values[length / 2], 0);
         for (int d = 0; d < length; d++) {
-            double lost = 0;
+            double removed = 0;
             for (int j = 0; j + d < windows; j++) {
-                lost += trend(windows, false, j) * trend(windows, false, j + d);
-                lost += trend(windows, true, j) * trend(windows, true, j + d);
+                removed += trend(windows, false, j) * trend(windows, false, j + d);
+                removed += trend(windows, true, j) * trend(windows, true, j + d);
             }
             for (int i = 0; i + d < length; i++) {
-                c[i * length + i + d] += noise / windows * lost;
-                if (d > 0) c[(i + d) * length + i] += noise / windows * lost;
+                c[i * length + i + d] += noise / windows * removed;
+                if (d > 0) c[(i + d) * length + i] += noise / windows * removed;
             }
         }
         if (lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'V', 'L', length, c, length, values) == 0)

@@ -169,7 +169,7 @@ static void fit_frames(struct rigid *rigid, const struct lapack *lapack, const s
         }
         for (int a = 0; a < 3; a++) path[a * frames + t] = s->mean[t][a];
     }
-    rigid->loose = !known;
+    rigid->base_unknown = !known;
     const bool follows = known || keep_slow(path, frames);
 
     // R and p of every frame from the path.

@@ -13,7 +13,7 @@ struct rigid {
     double (*turn)[3][3]; ///< R of every frame
     double (*place)[3];   ///< p of every frame, metres
     bool whole;           ///< the base is the whole mesh
-    bool loose;           ///< the base is not known: a coordinate may have rigid motions of the mesh
+    bool base_unknown;    ///< the base is not known: a coordinate may have rigid motions of the mesh
     double travel, angle; ///< at most, from the first frame on: metres of the base's centre, degrees
 };
 

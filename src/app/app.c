@@ -184,7 +184,7 @@ void app_resize(struct app *app, float width, float height, float scale)
 static void handle_event(struct app *app, const struct event *event)
 {
     if (app->recording) recording_event(app->recording, app->frame, event);
-    if (event->kind == EVENT_EXPOSE) app->lost = true;
+    if (event->kind == EVENT_EXPOSE) app->must_redraw = true;
     if (event->kind == EVENT_FOCUS) {
         file_watch_look(app);
         return;
@@ -331,7 +331,7 @@ static double step_clock(struct app *app)
 static struct draw_input draw_input(const struct app *app, float stage_scale)
 {
     struct draw_input input = {
-        .keeps = !app->lost && platform_keeps(app->platform),
+        .keeps = !app->must_redraw && platform_keeps(app->platform),
         .list = &app->table.editor->core.list,
         .stage = editor_stage(app->table.editor),
         .frame = app->frame,
@@ -347,7 +347,7 @@ static void draw_timed(struct app *app)
     struct draw_input input = draw_input(app, app->resolution.shown);
     struct draw_cost cost = {0};
     draw_frame(app->draw, &input, &cost);
-    app->lost = false;
+    app->must_redraw = false;
     double swap_start = clock_now();
     platform_swap(app->platform);
     double end = clock_now();
@@ -485,7 +485,7 @@ static bool open_log(struct app *app, struct error *error)
     if (o->log && !header.vsync && app->draw) {
         header.reference_ms = draw_reference_ms(app->draw, header.width, header.height,
                                                 header.scale * (float)app->ui_scale_shown, REFERENCE_FRAMES);
-        app->lost = true;
+        app->must_redraw = true;
         app->last_swap = NAN;
     }
     app->log = framelog_open(o->log, &header, LOG_ROWS, error);
@@ -621,7 +621,7 @@ static bool start_app(struct app *app, struct error *error)
     if (o->frames_dir) mkdir(o->frames_dir, 0777);
     if (o->saves) mkdir(o->saves, 0777);
     app->fixed_clock = !window || is_replay(app) || app->recording;
-    app->lost = true;
+    app->must_redraw = true;
     if (window) {
         platform_on_lost(on_lost, app);
         if (!is_replay(app)) process_catch_end();

@@ -566,11 +566,11 @@ static enum film_state put_encoder(struct film_file *file, const unsigned char *
 
 static enum film_state finish_encoder(struct film_file *file, bool wait, off_t *bytes, struct error *error)
 {
-    struct stat about;
+    struct stat status;
     enum film_state state = end_encoder(file, wait);
     if (state == FILM_FAILED) return fail_encoder(file, error);
     if (state == FILM_RUNS) return FILM_RUNS;
-    *bytes = fstat(fileno(file->output.stream), &about) == 0 ? about.st_size : 0;
+    *bytes = fstat(fileno(file->output.stream), &status) == 0 ? status.st_size : 0;
     return file_output_commit(&file->output, error) ? FILM_DONE : FILM_FAILED;
 }
 
@@ -673,12 +673,12 @@ static enum film_state finish_pictures(struct film_file *file, bool wait, off_t 
     *bytes = 0;
     for (long n = 1; n <= file->written; n++) {
         char from[PATH_LIMIT], to[PATH_LIMIT];
-        struct stat about;
+        struct stat status;
         if (!name_temporary(file, n, from) || !name_picture(file, n, to)) {
             fail(error, ERROR_INPUT, "%s: the path is too long", file->path);
             return FILM_FAILED;
         }
-        if (stat(from, &about) == 0) *bytes += about.st_size;
+        if (stat(from, &status) == 0) *bytes += status.st_size;
         if (!file_move(from, to, error)) return FILM_FAILED;
     }
     return FILM_DONE;

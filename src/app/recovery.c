@@ -71,15 +71,15 @@ bool recovery_find(const char *folder, const char *of, struct recovery_entry *en
     int found = 0;
     for (int n = 1; n <= RECOVERY_SLOTS; n++) {
         struct recovery_slot slot;
-        struct stat about;
+        struct stat status;
         char path[PATH_LIMIT];
         snprintf(path, sizeof path, "%s/recovery-%d", folder, n);
-        if (stat(path, &about) != 0 || (of && !is_of(path, of)) || !claim_slot(folder, n, &slot)) continue;
-        bool newer = found++ == 0 || about.st_mtim.tv_sec > newest.tv_sec ||
-                     (about.st_mtim.tv_sec == newest.tv_sec && about.st_mtim.tv_nsec > newest.tv_nsec);
+        if (stat(path, &status) != 0 || (of && !is_of(path, of)) || !claim_slot(folder, n, &slot)) continue;
+        bool newer = found++ == 0 || status.st_mtim.tv_sec > newest.tv_sec ||
+                     (status.st_mtim.tv_sec == newest.tv_sec && status.st_mtim.tv_nsec > newest.tv_nsec);
         if (newer && found > 1) recovery_release(&entry->slot);
         if (newer) {
-            newest = about.st_mtim;
+            newest = status.st_mtim;
             entry->slot = slot;
         } else {
             recovery_release(&slot);
@@ -234,8 +234,8 @@ static bool rescue_to(const struct app *app, const char *folder, const char *nam
         int length =
             snprintf(path, size, "%s%s%.*s.recovered%s.json", folder, folder[0] ? "/" : "", stem, name, number);
         if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
-        struct stat about; // lstat: even a dangling link is someone's
-        if (lstat(path, &about) != 0) return scene_save(app->table.document, path, error);
+        struct stat status; // lstat: even a dangling link is someone's
+        if (lstat(path, &status) != 0) return scene_save(app->table.document, path, error);
     }
     return fail(error, ERROR_ENVIRONMENT, "%s: too many recovered scenes are there already", path);
 }

@@ -80,7 +80,7 @@ struct app {
     double last_swap; ///< end of the last swap; NAN if the next interval means nothing
     bool fixed_clock; ///< every frame is 1/60 s (headless, replays, recordings)
     bool was_idle;    ///< nothing was moving before this frame
-    bool lost;        ///< the framebuffer does not hold the last frame
+    bool must_redraw; ///< the framebuffer does not hold the last frame
     struct {
         float width, height, scale;
     } display;             ///< the window in the display's logical pixels; device pixels per logical pixel

@@ -42,7 +42,7 @@ static bool fail_no_file(struct error *error, enum error_kind kind, const char *
 }
 
 /// Opens a regular file without blocking (a FIFO would wait for a writer).
-static int open_regular(const char *path, struct stat *about, struct error *error)
+static int open_regular(const char *path, struct stat *status, struct error *error)
 {
     int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
     if (file < 0) {
@@ -50,8 +50,8 @@ static int open_regular(const char *path, struct stat *about, struct error *erro
         return -1;
     }
     file_note_read(path, NULL);
-    if (fstat(file, about) == 0 && S_ISREG(about->st_mode)) return file;
-    fail_no_file(error, ERROR_INPUT, path, about->st_mode);
+    if (fstat(file, status) == 0 && S_ISREG(status->st_mode)) return file;
+    fail_no_file(error, ERROR_INPUT, path, status->st_mode);
     close(file);
     return -1;
 }
@@ -87,15 +87,15 @@ static bool read_to_end(int file, const char *path, size_t limit, char **data, s
 
 bool file_read(const char *path, size_t limit, char **data, size_t *size, struct error *error)
 {
-    struct stat about;
-    int file = open_regular(path, &about, error);
+    struct stat status;
+    int file = open_regular(path, &status, error);
     *data = NULL;
     if (file < 0) return false;
     bool done = false;
-    if ((size_t)about.st_size > limit) {
+    if ((size_t)status.st_size > limit) {
         fail_too_large(path, limit, error);
     } else {
-        size_t capacity = about.st_size > 0 ? (size_t)about.st_size + 1 : READ_BLOCK;
+        size_t capacity = status.st_size > 0 ? (size_t)status.st_size + 1 : READ_BLOCK;
         done = read_to_end(file, path, limit, data, capacity, size, error);
     }
     close(file);
@@ -226,10 +226,10 @@ static void remove_stale(int folder, const char *name)
     // Open for writing, though nothing is written: otherwise NFS cannot lock it.
     int file = openat(folder, name, O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     if (file < 0 && errno == EISDIR) file = openat(folder, name, O_RDONLY | O_NOFOLLOW | O_DIRECTORY | O_CLOEXEC);
-    struct stat about;
+    struct stat status;
     if (file < 0) return;
-    if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &about) == 0) {
-        const bool is_folder = S_ISDIR(about.st_mode); // which file_folder_beside() has made
+    if (flock(file, LOCK_EX | LOCK_NB) == 0 && fstat(file, &status) == 0) {
+        const bool is_folder = S_ISDIR(status.st_mode); // which file_folder_beside() has made
         const int own = is_folder ? dup(file) : -1;
         DIR *directory = own >= 0 ? fdopendir(own) : NULL;
         for (const struct dirent *entry; directory && (entry = readdir(directory)) != NULL;)
@@ -351,9 +351,9 @@ FILE *file_open_growing(const char *path, struct error *error)
 
 bool file_check_place(const char *path, struct error *error)
 {
-    struct stat about;
-    return file_check_unread(path, error) && (stat(path, &about) != 0 || S_ISREG(about.st_mode) ||
-                                              fail_no_file(error, ERROR_ENVIRONMENT, path, about.st_mode));
+    struct stat status;
+    return file_check_unread(path, error) && (stat(path, &status) != 0 || S_ISREG(status.st_mode) ||
+                                              fail_no_file(error, ERROR_ENVIRONMENT, path, status.st_mode));
 }
 
 /// Opens the output: a temporary file beside the target, or the target itself if it is a device or pipe.
@@ -405,10 +405,10 @@ static bool sync_file(int file) { return fsync(file) == 0 || is_unsupported(errn
 static bool copy_to_new(const char *from, const char *to)
 {
     char block[READ_BLOCK];
-    struct stat about;
+    struct stat status;
     const int in = open(from, O_RDONLY | O_CLOEXEC);
-    const int out = in >= 0 && fstat(in, &about) == 0
-                        ? open(to, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, about.st_mode & 0777)
+    const int out = in >= 0 && fstat(in, &status) == 0
+                        ? open(to, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, status.st_mode & 0777)
                         : -1;
     ssize_t got = 0;
     while (out >= 0 && (got = read(in, block, sizeof block)) > 0) {

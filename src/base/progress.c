@@ -9,11 +9,11 @@ double clock_now(void)
     return (double)now.tv_sec + (double)now.tv_nsec * 1.0e-9;
 }
 
-static stage_listener *listening;
+static progress_listener *listening;
 
-void stage_listen(stage_listener *listener) { listening = listener; }
+void progress_listen(progress_listener *listener) { listening = listener; }
 
-void stage_tell(const char *doing, long done, long total)
+void progress_report(const char *doing, long done, long total)
 {
     if (listening) listening(doing, done, total);
 }

@@ -6,12 +6,12 @@
 double clock_now(void);
 
 /// Receives the present stage ("reading the mesh") and its share done. A stage may come again; it then begins at 0.
-typedef void stage_listener(const char *doing, long done, long total);
+typedef void progress_listener(const char *doing, long done, long total);
 
 /// Sets who listens: nobody at first. Call it before the work begins, and with no other thread at work.
-void stage_listen(stage_listener *listener);
+void progress_listen(progress_listener *listener);
 
 /// Reports a stage; `doing` is a literal. Costs little if nobody listens.
-void stage_tell(const char *doing, long done, long total);
+void progress_report(const char *doing, long done, long total);
 
 #endif

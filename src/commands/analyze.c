@@ -174,7 +174,7 @@ static void warn_of_input(const struct input *in, const struct analysis *a, cons
     }
 
     // Of a mesh that is not known to be held, a coordinate may be a rigid motion.
-    for (int k = 0; in->base.loose && k < a->count; k++) {
+    for (int k = 0; in->base.base_unknown && k < a->count; k++) {
         const double share = rigid_share((const double complex(*)[3])a->components[k].shape, rest);
         if (share < rigid_warning) continue;
         print_line(

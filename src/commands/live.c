@@ -6,7 +6,7 @@
 #include <stdio.h>
 
 /// Reports once that a large file is being read.
-static void tell_large(const char *doing, long done, long bytes)
+static void show_large(const char *doing, long done, long bytes)
 {
     enum { LARGE = 24 << 20 };
     static long told;
@@ -74,7 +74,7 @@ int command_live(int argc, char **argv)
         return (int)options_wrong(&usage, "--saves is for what a replay writes: expected --replay, too");
     options.width = size[0];
     options.height = size[1];
-    stage_listen(tell_large);
+    progress_listen(show_large);
     struct error error = {0};
     int status = app_run(&options, &error);
     if (status != 0) fprintf(stderr, "wiggly live: %s\n", error.text);

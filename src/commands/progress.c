@@ -67,5 +67,5 @@ static void show_stage(const char *doing, long done, long total)
 void progress_show_stages(bool lines)
 {
     stage.lines = lines;
-    stage_listen(show_stage);
+    progress_listen(show_stage);
 }

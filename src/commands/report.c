@@ -8,7 +8,7 @@
 static const double BELOW = 1e-4; ///< metres below a floor worth a report
 static const double MET = 1e-4;   ///< of the rig's size; chains are posed in floats
 
-void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_tell *tell,
+void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_line *print,
                        void *user)
 {
     char sentence[160], solved[EVALUATION_SENTENCE];
@@ -16,7 +16,7 @@ void solution_warnings(const struct document *document, const struct evaluation 
         struct error warning; // fail() makes any name printable
         if (!evaluation_sentence(evaluation, s, solved)) continue;
         fail(&warning, ERROR_INPUT, "splines[%d]: \"%s\": %s", s, document->splines[s]->name, solved);
-        tell(user, warning.text);
+        print(user, warning.text);
     }
     for (int r = 0; r < document->rig_count; r++) {
         for (int p = 0; p < document->rigs[r]->pin_count; p++) {
@@ -30,7 +30,7 @@ void solution_warnings(const struct document *document, const struct evaluation 
                 snprintf(sentence, sizeof sentence,
                          "rigs[%d].pins[%d]: there is no such point, so the pin has no effect", r, p);
             }
-            tell(user, sentence);
+            print(user, sentence);
         }
     }
     for (int r = 0; r < document->rig_count; r++) {
@@ -39,13 +39,13 @@ void solution_warnings(const struct document *document, const struct evaluation 
         snprintf(sentence, sizeof sentence,
                  "rigs[%d].floor: knots and pins hold the character up to %.3g m below it, deepest at frame %.6g", r,
                  left->depth, document_frame(document, left->sample));
-        tell(user, sentence);
+        print(user, sentence);
     }
     for (int s = 0; s < document->spline_count; s++) {
         if (!pins_move_spline(document, s) || !spline_is_limited(document->splines[s])) continue;
         snprintf(sentence, sizeof sentence, "splines[%d].limits: ignored, because pins or a floor move this spline",
                  s);
-        tell(user, sentence);
+        print(user, sentence);
     }
 }
 

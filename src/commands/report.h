@@ -6,10 +6,10 @@
 #include "scene/evaluate.h"
 
 /// Receives a printable sentence.
-typedef void report_tell(void *user, const char *sentence);
+typedef void report_line(void *user, const char *sentence);
 
 /// Reports splines that needed more than a plain solve, unmet pins and floors, and limits that those override.
-void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_tell *tell,
+void solution_warnings(const struct document *document, const struct evaluation *evaluation, report_line *print,
                        void *user);
 
 /// Prints a glTF character's clips, bones and nodes as a tree, possible chains, and what is not shown.

@@ -74,7 +74,8 @@ static bool simulate_once(const struct shake_job *job, struct soft *soft, struct
     integrator.tolerance = 1e-4 * soft->lattice.cell; // Newton's next iteration would change a thousandth of that
     integrator.loads = job->loads;
     bool good = true;
-    if (job->loads.gravity > 0 && soft->pinned > 0 && soft->loose_parts == 0 && !integrator_settle(&integrator))
+    if (job->loads.gravity > 0 && soft->pinned > 0 && soft->unpinned_parts == 0 &&
+        !integrator_find_equilibrium(&integrator))
         good = fail(error, ERROR_INPUT, "%s: the body finds no rest under its weight: try a higher --frequency",
                     job->mesh);
     if (good) soft_shake(soft, &job->shake, &integrator);
@@ -178,7 +179,7 @@ static bool simulate_shake(const struct shake_job *job, struct soft *soft, const
             }
             lattice_embed(&soft->lattice, (const double(*)[3])x, position);
             fwrite(position, sizeof *position, (size_t)vertices, output.stream);
-            stage_tell("writing the motion", frame + 1, frames);
+            progress_report("writing the motion", frame + 1, frames);
         }
         free(position);
         free(x);
@@ -344,9 +345,9 @@ static void report_body(const struct job *job, const struct soft *soft)
             "sways slowly, --pin more of it",
             job->mesh, lowest, soft_frequency(soft));
     }
-    if (soft->loose_parts > 0 && soft->pinned > 0) {
+    if (soft->unpinned_parts > 0 && soft->pinned > 0) {
         print_line(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift", job->mesh,
-                   soft->loose_parts, soft->lattice.part_count);
+                   soft->unpinned_parts, soft->lattice.part_count);
     }
 }
 
@@ -375,16 +376,16 @@ static bool simulate_mesh(struct job *job, struct error *error)
 static const char *parse_drive(struct job *job)
 {
     static const char *const kinds[] = {"none", "sine", "burst", "sweep"}; // as in enum drive_kind
-    const bool impulse = job->shake.shake.impulse, loose = job->soft.pin.kind == REGION_NONE;
+    const bool impulse = job->shake.shake.impulse, unpinned = job->soft.pin.kind == REGION_NONE;
     const bool adjusted = job->drive.frequency > 0 || job->shake.world;
     enum drive_kind kind = DRIVE_NONE;
     if (!job->drive_text && adjusted) job->drive_text = "burst";
-    const char *text = job->drive_text ? job->drive_text : impulse || loose ? "none" : "burst";
+    const char *text = job->drive_text ? job->drive_text : impulse || unpinned ? "none" : "burst";
     while (kind < DRIVE_TRACK && strcmp(text, kinds[kind]) != 0) kind++;
     set_swing(job, kind);
     if (kind == DRIVE_NONE) return adjusted ? "--drive-frequency and --world need a drive, got none" : NULL;
     if (impulse) return "--impulse and a drive both start the motion: give one";
-    if (loose) return "--drive moves the pinned part, but --pin none pins nothing";
+    if (unpinned) return "--drive moves the pinned part, but --pin none pins nothing";
     if (kind != DRIVE_TRACK) return NULL;
     if (!path_has_end(text, ".csv")) return "--drive: expected burst, sine, sweep, a track's FILE.csv or none";
     if (isfinite(job->amplitude) || job->drive.frequency > 0)

@@ -125,8 +125,8 @@ static struct key_times list_times(const struct export_range *range, const struc
 // --- other channels, where the part is not the clip
 
 /// A sampler's numbers, as a channel without a node; false if they are none.
-static bool read_sampler(const struct glb *stored, const json_t *sampler, bool turns, struct gltf_channel *channel,
-                         int *element)
+static bool read_sampler(const struct glb *stored, const json_t *sampler, bool is_rotation,
+                         struct gltf_channel *channel, int *element)
 {
     const char *interpolation = json_string_value(json_object_get(sampler, "interpolation"));
     struct glb_numbers times = {0}, values = {0};
@@ -134,12 +134,13 @@ static bool read_sampler(const struct glb *stored, const json_t *sampler, bool t
     bool good = glb_numbers(stored, glb_integer(sampler, "input", -1), &times, &error) &&
                 glb_numbers(stored, glb_integer(sampler, "output", -1), &values, &error) && times.components == 1 &&
                 times.count > 0;
-    *channel = (struct gltf_channel){.path = turns ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};
+    *channel =
+        (struct gltf_channel){.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};
     if (interpolation && strcmp(interpolation, "STEP") == 0) channel->interpolation = GLTF_STEP;
     if (interpolation && strcmp(interpolation, "CUBICSPLINE") == 0) channel->interpolation = GLTF_CUBIC;
     const size_t total = good ? (size_t)values.count * (size_t)values.components : 0,
                  keys = (size_t)times.count * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
-    good = good && total > 0 && total % keys == 0 && (!turns || total == 4 * keys);
+    good = good && total > 0 && total % keys == 0 && (!is_rotation || total == 4 * keys);
     if (good) {
         channel->key_count = times.count;
         channel->components = (int)(total / keys);
@@ -219,7 +220,7 @@ static void push_between(struct gltf_channel *to, const struct gltf_channel *fro
 }
 
 /// Lets a sampler have the part's keys. One whose numbers cannot be read stays as it is.
-static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t *sampler, bool turns,
+static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t *sampler, bool is_rotation,
                         const struct part *part)
 {
     static const enum gltf_elements kinds[17] = {[1] = ELEMENTS_KEYS,
@@ -229,7 +230,7 @@ static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t
                                                  [16] = ELEMENTS_MATRICES};
     struct gltf_channel own, unrolled, result;
     int element = 0;
-    if (!read_sampler(stored, sampler, turns, &own, &element)) return;
+    if (!read_sampler(stored, sampler, is_rotation, &own, &element)) return;
     const int stride = stride_of(&own), middle = stride > own.components ? own.components : 0, count = own.key_count;
 
     // The keys of all rounds, in the exported file's times. A channel that begins after its clip, or ends before, stands still there.

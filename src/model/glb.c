@@ -63,7 +63,7 @@ static bool read_chunks(struct glb *glb, size_t size, struct error *error)
 bool glb_open_bytes(struct glb *glb, const char *path, char *data, size_t size, struct error *error)
 {
     *glb = (struct glb){.path = path, .data = data, .room = GLB_ROOM + GLB_GROWTH * size};
-    stage_tell("reading a glTF file", 0, (long)size);
+    progress_report("reading a glTF file", 0, (long)size);
     const bool binary = size >= 4 && word_at(data) == GLB_MAGIC;
     bool parsed =
         !path_has_end(path, ".fbx") ||
@@ -146,7 +146,7 @@ bool glb_read_uri(struct glb *glb, const char *uri, struct glb_buffer *buffer, s
     size_t size;
     if (!file_read(path, GLB_FILE_LIMIT, &data, &size, error)) return false;
     glb->room += GLB_GROWTH * size;
-    stage_tell("reading a glTF file", 0, (long)size);
+    progress_report("reading a glTF file", 0, (long)size);
     *buffer = (struct glb_buffer){{(unsigned char *)data, size}, data};
     return true;
 }

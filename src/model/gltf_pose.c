@@ -402,15 +402,15 @@ static float dot(const float *a, const float *b, int count)
 static struct ends ends_of(const struct gltf_channel *channel)
 {
     const int n = channel->components, stride = n * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
-    const bool turns = channel->path == GLTF_ROTATION;
+    const bool is_rotation = channel->path == GLTF_ROTATION;
     struct ends ends = {.first = channel->values + (stride > n ? n : 0), .sign = 1};
     ends.last = ends.first + (size_t)(channel->key_count - 1) * (size_t)stride;
-    if (turns && dot(ends.first, ends.last, n) < 0) ends.sign = -1;
+    if (is_rotation && dot(ends.first, ends.last, n) < 0) ends.sign = -1;
     float largest = 1e-6f, apart = 0;
     for (int i = 0; i < n; i++) {
         float lo = ends.first[i], hi = lo;
         for (const float *key = ends.first; key <= ends.last; key += stride) {
-            const float value = turns && dot(ends.first, key, n) < 0 ? -key[i] : key[i];
+            const float value = is_rotation && dot(ends.first, key, n) < 0 ? -key[i] : key[i];
             lo = fminf(lo, value);
             hi = fmaxf(hi, value);
         }

@@ -165,14 +165,14 @@ static bool read_header(struct motion *m, int64_t size, struct error *error)
 bool motion_open(struct motion *motion, const char *path, struct error *error)
 {
     *motion = (struct motion){.path = path, .file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC)};
-    struct stat about;
+    struct stat status;
     bool done;
-    if (motion->file < 0 || fstat(motion->file, &about) != 0) {
+    if (motion->file < 0 || fstat(motion->file, &status) != 0) {
         done = fail(error, ERROR_INPUT, "%s: cannot be opened: %s", path, strerror(errno));
-    } else if (!S_ISREG(about.st_mode)) {
+    } else if (!S_ISREG(status.st_mode)) {
         done = fail(error, ERROR_INPUT, "%s: expected a file, got something else", path);
     } else {
-        done = read_header(motion, about.st_size, error);
+        done = read_header(motion, status.st_size, error);
     }
     if (!done) motion_close(motion);
     return done;

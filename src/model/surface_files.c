@@ -209,7 +209,7 @@ static bool obj_read(struct words *words, struct surface_builder *builder)
     if (memchr(text, '\0', (size_t)size))
         return fail(r.error, ERROR_INPUT, "%s: expected the text of an OBJ file, got binary data", r.path);
     while (!builder->failed && obj_next_line(&r.lines)) {
-        if (r.lines.number % TELLING == 0) stage_tell("reading the mesh", r.lines.next - text, size);
+        if (r.lines.number % TELLING == 0) progress_report("reading the mesh", r.lines.next - text, size);
         const struct obj_lines *l = &r.lines;
         char *at;
         if ((at = obj_behind(l, "v"))) {

@@ -303,14 +303,14 @@ static void file_destroy(struct model_file *file)
 static const struct model_file *read_model(struct model_files *files, const char *path, enum model_kind kind,
                                            struct error *error)
 {
-    struct stat about = {0};
-    const bool is_there = stat(path, &about) == 0;
+    struct stat status = {0};
+    const bool is_there = stat(path, &status) == 0;
     struct model_file **old = NULL;
     for (int i = 0; i < files->count && !old; i++) {
         if (files->files[i]->kind == kind && strcmp(files->files[i]->path, path) == 0) old = &files->files[i];
     }
-    if (old && is_there && (*old)->size == about.st_size && (*old)->changed.tv_sec == about.st_mtim.tv_sec &&
-        (*old)->changed.tv_nsec == about.st_mtim.tv_nsec)
+    if (old && is_there && (*old)->size == status.st_size && (*old)->changed.tv_sec == status.st_mtim.tv_sec &&
+        (*old)->changed.tv_nsec == status.st_mtim.tv_nsec)
         return *old;
 
     struct model_file *file = need_zeroed(1, sizeof *file);
@@ -328,8 +328,8 @@ static const struct model_file *read_model(struct model_files *files, const char
         return NULL;
     }
     if (kind == MODEL_FIGURE) figure_create(&file->figure, &character);
-    file->changed = about.st_mtim;
-    file->size = about.st_size;
+    file->changed = status.st_mtim;
+    file->size = status.st_size;
 
     if (old) {
         file_destroy(*old);

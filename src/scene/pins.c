@@ -135,10 +135,10 @@ static bool check_work(const struct document *document, const int *group, struct
     long long left = SCENE_MAX_PINNED;
     for (int r = 0; r < document->rig_count; r++) {
         const struct rig *rig = document->rigs[r];
-        const int lead = is_held(rig) ? rig_point_spline(rig) : -1,
+        const int held = is_held(rig) ? rig_point_spline(rig) : -1,
                   pins = rig->pin_count + FLOOR_PINS * rig_has_floor(rig);
         int splines = 0;
-        for (int s = 0; lead >= 0 && s < document->spline_count; s++) splines += group[s] == group[lead];
+        for (int s = 0; held >= 0 && s < document->spline_count; s++) splines += group[s] == group[held];
         left -= (long long)pins * splines * samples;
         if (left >= 0) continue;
         *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};

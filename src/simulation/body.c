@@ -613,7 +613,7 @@ static void build_basis(struct lanczos *l)
     for (int k = 0; k < m; k++) {
         double(*next)[3] = l->basis + (size_t)(k + 1) * n;
         double *parts = l->values; // unused until the end
-        stage_tell("finding the modes", k, m);
+        progress_report("finding the modes", k, m);
         memset(parts, 0, (size_t)m * sizeof *parts);
 
         const double *mass = l->body->mass;
@@ -676,7 +676,7 @@ void modes_create(struct modes *modes, struct body *body, int count)
         for (int d = 0; d < 9; d += 4) stiff->block[stiff->diagonal[i]][d] += l.shift * body->mass[i];
     }
     build_basis(&l);
-    stage_tell("finding the modes", steps, steps);
+    progress_report("finding the modes", steps, steps);
 
     // Modes of the small problem, lowest frequency first. Those near the shift are rigid and are skipped.
     const int m = l.done;

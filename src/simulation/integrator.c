@@ -498,16 +498,16 @@ static double energy_surplus(struct integrator *m, const struct scheme *s)
     return energy + end - work - w->least - growth_allowed * w->scale;
 }
 
-bool integrator_settle(struct integrator *m)
+bool integrator_find_equilibrium(struct integrator *m)
 {
-    enum { SETTLE_STEPS = 200 };
+    enum { EQUILIBRIUM_STEPS = 200 };
     const double step = m->step;
     const size_t bytes = (size_t)m->body->node_count * sizeof *m->x;
     double moved = INFINITY;
     m->step = 10; // s: so long that inertia hardly matters
     m->time = -m->step;
     const struct scheme scheme = backward_euler(m->step);
-    for (int i = 0; i < SETTLE_STEPS && moved > m->tolerance; i++) {
+    for (int i = 0; i < EQUILIBRIUM_STEPS && moved > m->tolerance; i++) {
         memset(m->v, 0, bytes);
         memset(m->work->a, 0, bytes);
         set_targets(m, &scheme);

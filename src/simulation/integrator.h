@@ -114,7 +114,7 @@ void integrator_create(struct integrator *integrator, struct body *body, double 
 void integrator_free(struct integrator *integrator);
 
 /// Moves the body to its equilibrium under the loads at the start, at rest. It must be pinned, or it falls for ever.
-bool integrator_settle(struct integrator *integrator);
+bool integrator_find_equilibrium(struct integrator *integrator);
 
 /// One step. False if a number is not finite any more, as under unbounded forces.
 bool integrator_step(struct integrator *integrator);

@@ -463,7 +463,7 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
         const double length = vec3_length(normal[i]);
         struct nearest n = {.pyramid = &pyramid, .distance = INFINITY, .found = -1};
         lattice->host[i] = -1;
-        if (i % TELLING == 0) stage_tell("placing the vertices", i, surface->vertex_count);
+        if (i % TELLING == 0) progress_report("placing the vertices", i, surface->vertex_count);
         if (!used[i]) continue;
         for (int c = 0; c < 3; c++) {
             double inward = length > 0 ? 0.5 * normal[i][c] / length : 0;
@@ -480,7 +480,7 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
         for (int c = 0; c < 3; c++) away[c] = (double)surface->position[i][c] - lattice->node[node[0]][c];
         for (int a = 0; a < 4; a++) lattice->weight[i][a] = (a == 0) + vec3_dot(element.gradient[a], away);
     }
-    stage_tell("placing the vertices", surface->vertex_count, surface->vertex_count);
+    progress_report("placing the vertices", surface->vertex_count, surface->vertex_count);
     for (int level = 1; level <= pyramid.top; level++) free(pyramid.any[level]);
     free(normal);
     free(used);

@@ -342,7 +342,7 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
     for (int e = 0; e < lattice->tet_count; e++) {
         for (int a = 0; a < 4; a++) part_held[lattice->part[e]] |= body->pinned[lattice->tet[e][a]];
     }
-    for (int p = 0; p < lattice->part_count; p++) soft->loose_parts += !part_held[p];
+    for (int p = 0; p < lattice->part_count; p++) soft->unpinned_parts += !part_held[p];
     free(part_held);
 
     static const int order[] = {1, 0, 2, 1}; // y again if none is long enough

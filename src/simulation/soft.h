@@ -85,7 +85,7 @@ struct soft {
     double young;          ///< Pa
     double alpha, beta;    ///< Rayleigh's coefficients, 1/s and s
     int pinned;            ///< nodes
-    int loose_parts;       ///< parts of the lattice without a pinned node
+    int unpinned_parts;    ///< parts of the lattice without a pinned node
 };
 
 /// `name` is the surface's, for messages. Errors: those of lattice, region and softness, and everything pinned.

@@ -356,7 +356,7 @@ static void turn_patches(struct repair *r)
 }
 
 /// Reports progress; the parts of the repair take about equally long.
-static void tell_repair(long parts) { stage_tell("mending the mesh", parts, 5); }
+static void report_repair(long parts) { progress_report("mending the mesh", parts, 5); }
 
 void solid_create(struct solid *solid, const struct surface *surface, double thickness)
 {
@@ -371,7 +371,7 @@ void solid_create(struct solid *solid, const struct surface *surface, double thi
                        .patch = need(indices, sizeof *r.patch)};
     memcpy(solid->shape.indices, surface->indices, (indices - 1) * sizeof *surface->indices);
 
-    tell_repair(0); // vertices at the same place get one name
+    report_repair(0); // vertices at the same place get one name
     struct spot *spots = need((size_t)surface->vertex_count, sizeof *spots);
     spots_sort((const float(*)[3])surface->position, surface->vertex_count, spots);
     for (int i = 0, first = 0; i < surface->vertex_count; i++) {
@@ -379,10 +379,10 @@ void solid_create(struct solid *solid, const struct surface *surface, double thi
         r.name[spots[i].vertex] = (uint32_t)first;
     }
     free(spots);
-    tell_repair(1);
+    report_repair(1);
     leave_out(&r, &solid->duplicates);
 
-    tell_repair(2); // edges with the same ends lie together; two triangles that share one are neighbours
+    report_repair(2); // edges with the same ends lie together; two triangles that share one are neighbours
     uint32_t *corner = solid->shape.indices;
     r.edge_count = solid->shape.index_count;
     for (int i = 0; i < r.edge_count; i++) {
@@ -398,7 +398,7 @@ void solid_create(struct solid *solid, const struct surface *surface, double thi
         join_triangles(&r, a->triangle, b->triangle, a->direction != b->direction);
         join_triangles(&r, b->triangle, a->triangle, a->direction != b->direction);
     }
-    tell_repair(3);
+    report_repair(3);
     turn_patches(&r);
     for (int i = 0, end; !(thickness > 0) && i < r.edge_count; i = end) { // a closed surface runs each edge both ways
         int sum = 0;
@@ -413,10 +413,10 @@ void solid_create(struct solid *solid, const struct surface *surface, double thi
         corner[i + 2] = swap;
         solid->turned++;
     }
-    tell_repair(4);
+    report_repair(4);
     solid->area = whole_area(&solid->shape) / 2;
     if (solid->open > 0) winding_create(&solid->winding, &solid->shape);
-    tell_repair(5);
+    report_repair(5);
     free(r.name);
     free(r.edge);
     free(r.next);
@@ -627,7 +627,7 @@ static void fill_open(struct voxels *v, const struct solid *solid, const struct 
     }
     size_t next = 0;
     for (c.i = lo[0]; c.i < hi[0]; c.i++) {
-        stage_tell("looking for the inside of the open mesh", c.i - lo[0], hi[0] - lo[0]);
+        progress_report("looking for the inside of the open mesh", c.i - lo[0], hi[0] - lo[0]);
         for (c.j = lo[1]; c.j < hi[1]; c.j++) {
             const int column = c.i * v->size[1] + c.j;
             int sum = 0;
@@ -647,7 +647,7 @@ static void fill_open(struct voxels *v, const struct solid *solid, const struct 
             }
         }
     }
-    stage_tell("looking for the inside of the open mesh", 1, 1);
+    progress_report("looking for the inside of the open mesh", 1, 1);
     free(c.crossed);
 }
 
@@ -680,7 +680,7 @@ static void fill_sheet(struct voxels *v, const struct solid *solid)
     for (int t = 0; t < triangles; t++) {
         double corner[3][3], at[3];
         int lo[3], hi[3];
-        if (t % TELLING == 0) stage_tell("cutting the mesh into tetrahedra", t, triangles);
+        if (t % TELLING == 0) progress_report("cutting the mesh into tetrahedra", t, triangles);
         triangle_corners(&solid->shape, t, corner);
         for (int c = 0; c < 3; c++) {
             const double low = fmin(corner[0][c], fmin(corner[1][c], corner[2][c])) - reach - v->origin[c];
@@ -715,10 +715,10 @@ void voxels_fill(struct voxels *voxels, const struct solid *solid)
     struct raster raster = {.voxels = voxels};
     raster.scale = (1 << 24) / (voxels->spacing * fmax(voxels->size[0], voxels->size[1]));
     for (int i = 0; i < surface->index_count; i += 3) {
-        if (i % TELLING == 0) stage_tell("cutting the mesh into tetrahedra", i, surface->index_count);
+        if (i % TELLING == 0) progress_report("cutting the mesh into tetrahedra", i, surface->index_count);
         rasterise(&raster, surface, surface->indices + i, &list);
     }
-    stage_tell("cutting the mesh into tetrahedra", surface->index_count, surface->index_count);
+    progress_report("cutting the mesh into tetrahedra", surface->index_count, surface->index_count);
     if (list.count) qsort(list.items, list.count, sizeof *list.items, compare_crossings);
     if (solid->open) fill_open(voxels, solid, &list);
 
