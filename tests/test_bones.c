@@ -368,7 +368,7 @@ SESSION_TEST(test_a_clicked_chain_leaves_its_feel_in_sight, open_beast(s, LEFT_E
     session_click(s, "bone(ear_L_2)");
     session_frame(s);
     assert_string_equal(selected(s), "ear_L_2");
-    assert_near(s->editor->inspector->scroll.offset, 0, 0);
+    assert_near(s->editor->inspector->sections.offset, 0, 0);
 }
 
 SESSION_TEST(test_a_tail_has_no_twin, open_beast(s, TAIL))

@@ -43,7 +43,7 @@ SESSION_TEST(test_more_opens_the_rest_and_closes_it, open_first(s))
     session_key(s, KEY_F9, 0);
     assert_false(panel_shows(s, "follow.frequency"));
     session_key(s, KEY_F9, 0);
-    s->editor->inspector->scroll.offset = 1e6f;
+    s->editor->inspector->sections.offset = 1e6f;
     session_frame(s);
     assert_true(panel_shows(s, "section.history"));
 }

@@ -80,15 +80,15 @@ SESSION_TEST(test_wheel, open_list(s, 40))
     float x, y;
     assert_true(inspector_target(s->editor->inspector, "section.history", &x, &y));
     session_move(s, x, y + 60);
-    const float offset = inspector->scroll.offset;
+    const float offset = inspector->sections.offset;
     assert_true(offset > 100);
-    for (size_t top = inspector->history.top; top > 0; top = inspector->history.top) {
+    for (float top = inspector->history.list.offset; top > 0; top = inspector->history.list.offset) {
         session_wheel(s, 1);
-        assert_true(inspector->history.top < top);
-        assert_near(inspector->scroll.offset, offset, 0);
+        assert_true(inspector->history.list.offset < top);
+        assert_near(inspector->sections.offset, offset, 0);
     }
     session_wheel(s, 1);
-    assert_true(inspector->scroll.offset < offset);
+    assert_true(inspector->sections.offset < offset);
 }
 
 /// The list says what it does not have any more.

@@ -74,7 +74,7 @@ static void check_inspector(struct session *f)
             selection_set(&f->editor->core.selection, spline->knots[0].id, true);
         }
         for (int page = 0; page < 3; page++) {
-            f->editor->inspector->scroll.offset = 150.0f * (float)page;
+            f->editor->inspector->sections.offset = 150.0f * (float)page;
             show(f);
             inspector_show(f->editor->inspector, false);
             assert_true(assert_texts_apart(&f->editor->core.list, 0, f->editor->core.layout.inspector) > 15);
@@ -397,7 +397,7 @@ SESSION_TEST(test_in_an_upright_window_the_panels_lie_below_each_other, panel_op
 
 SESSION_TEST(test_a_drag_beside_its_controls_scrolls_the_inspector, panel_open(s, small_scene, 390, 792))
 {
-    struct ui_scroll *scroll = &s->editor->inspector->scroll;
+    struct ui_list *scroll = &s->editor->inspector->sections;
     session_move(s, 30, s->editor->core.layout.inspector.y + 150);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, -80, 4);

@@ -192,7 +192,7 @@ static int problems_of(struct session *s, const char *where, bool whole)
 /// The panel scrolled all the way down, page by page.
 static int walk_inspector(struct session *s, const char *where, bool whole)
 {
-    struct ui_scroll *scroll = &s->editor->inspector->scroll;
+    struct ui_list *scroll = &s->editor->inspector->sections;
     int problems = 0;
     for (int page = 0; page < 8; page++) {
         scroll->offset = 0.5f * s->editor->core.layout.inspector.h * (float)page;

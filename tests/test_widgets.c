@@ -7,7 +7,7 @@
 /// A panel with one of everything.
 struct panel {
     struct ui ui;
-    struct ui_scroll scroll;
+    struct ui_list list;
     struct rect area;
     double speed, offset, before;
     bool on, pressed;
@@ -42,7 +42,7 @@ static void count(struct panel *p, enum ui_change change)
 static void build(struct panel *p)
 {
     struct ui *ui = &p->ui;
-    ui_scroll_begin(ui, &p->scroll, p->area);
+    ui_list_begin(ui, &p->list, p->area);
     p->change = ui_value(ui, ui_row(ui, UI_ROW), &speed_number, &p->speed);
     count(p, p->change);
     count(p, ui_value(ui, ui_row(ui, UI_ROW), &offset_number, &p->offset));
@@ -54,7 +54,7 @@ static void build(struct panel *p)
         snprintf(name, sizeof name, "row.%d", i);
         ui_list_row(ui, ui_row(ui, UI_ROW), name, name, 0, false);
     }
-    ui_scroll_end(ui);
+    ui_list_end(ui);
 }
 
 static struct panel make_panel(void)
@@ -363,10 +363,10 @@ TEST(test_scrolling_is_limited_and_follows_the_focus)
     move(&p, 1100, 100, 0);
     struct event wheel = {.kind = EVENT_WHEEL, .dy = -100, .x = 1100, .y = 100};
     assert_true(send(&p, wheel));
-    assert_near(p.scroll.offset, 25 * UI_ROW - 200, 0);
+    assert_near(p.list.offset, 25 * UI_ROW - 200, 0);
     wheel.dy = 100;
     send(&p, wheel);
-    assert_near(p.scroll.offset, 0, 0);
+    assert_near(p.list.offset, 0, 0);
     ui_begin_find(&p.ui, p.area, "row.19", NULL);
     build(&p);
     assert_false(ui_end(&p.ui)); // scrolled out of sight

@@ -25,7 +25,7 @@ static void begin_pass(struct ui *ui, enum ui_pass pass, struct rect area)
     ui->found = 0;
     ui->used = false;
     ui->began = false;
-    ui->scroll = NULL;
+    ui->scrolled = NULL;
     ui->stop_count = 0;
     ui->depth = 0;
     ui->popup.built = ui->popup.fresh = false;
@@ -76,17 +76,8 @@ static void move_focus(struct ui *ui, int direction)
         at = (at + direction + ui->stop_count) % ui->stop_count;
     }
     ui->focus = ui->stop[at].id;
-    if (!ui->scroll) return;
-
-    // Scroll just far enough to show it.
     const struct rect r = ui->stop[at].rect;
-    float above = ui->scroll_area.y - r.y;
-    float below = r.y + r.h - (ui->scroll_area.y + ui->scroll_area.h);
-    if (above > 0) {
-        ui->scroll->offset = fmaxf(0, ui->scroll->offset - above);
-    } else if (below > 0) {
-        ui->scroll->offset += below;
-    }
+    if (ui->scrolled) ui_list_show(ui->scrolled, r.y - ui->scroll_area.y + ui->scrolled->offset, r.h);
 }
 
 void ui_keep(struct ui *ui, uint32_t id)
@@ -154,23 +145,52 @@ struct rect ui_row(struct ui *ui, float height)
 
 void ui_space(struct ui *ui, float height) { ui->y += height; }
 
-void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view)
+void ui_list_fit(struct ui_list *list, float view, float content)
 {
-    scroll->offset = roundf(fmaxf(0, fminf(scroll->offset, scroll->content - view.h)));
-    ui->scroll = scroll;
+    list->view = view;
+    list->content = content;
+    ui_list_scroll(list, 0);
+}
+
+bool ui_list_scroll(struct ui_list *list, float by)
+{
+    const float before = list->offset;
+    list->offset = fmaxf(0, fminf(list->content - list->view, before + by));
+    return list->offset != before;
+}
+
+void ui_list_show(struct ui_list *list, float top, float height)
+{
+    list->offset = fminf(fmaxf(list->offset, top + height - list->view), top);
+}
+
+void ui_list_bar(const struct ui_list *list, struct drawlist *drawn, struct rect track, float gap)
+{
+    const float room = list->content - list->view;
+    if (room <= 0) return;
+    const float length = track.h * list->view / list->content;
+    const float top = track.y + (track.h - length) * fminf(1, list->offset / room);
+    const struct rect bar = {track.x, top + gap, track.w, length - 2 * gap};
+    drawlist_rounded(drawn, bar, track.w / 2, theme()->control);
+}
+
+void ui_list_begin(struct ui *ui, struct ui_list *list, struct rect view)
+{
+    ui_list_fit(list, view.h, list->content);
+    list->offset = roundf(list->offset);
+    ui->scrolled = list;
     ui->scroll_area = view;
     ui->scroll_clip = ui->clip;
     ui->clip = rect_intersect(ui->clip, view);
-    ui->y = view.y - scroll->offset;
+    ui->y = view.y - list->offset;
     if (ui->pass == UI_PASS_DRAW) drawlist_push_clip(ui->list, view);
 }
 
-void ui_scroll_end(struct ui *ui)
+void ui_list_end(struct ui *ui)
 {
     struct rect view = ui->scroll_area;
-    struct ui_scroll *scroll = ui->scroll;
-    scroll->content = ui->y + scroll->offset - view.y;
-    float room = fmaxf(0, scroll->content - view.h);
+    struct ui_list *list = ui->scrolled;
+    list->content = ui->y + list->offset - view.y;
     const uint32_t held = ui_hash("scroll");
     const struct event *event = ui->event;
     float by = 0; // the event scrolls: the wheel, or a drag beside the widgets
@@ -184,14 +204,9 @@ void ui_scroll_end(struct ui *ui)
         ui->used = true;
         by = -2 * UI_ROW * event->dy;
     }
-    if (by != 0) scroll->offset = fmaxf(0, fminf(room, scroll->offset + by));
+    if (by != 0) ui_list_scroll(list, by);
     if (ui->pass == UI_PASS_DRAW) {
-        if (room > 0) {
-            float length = view.h * view.h / scroll->content;
-            float top = view.y + (view.h - length) * fminf(1, scroll->offset / room);
-            drawlist_rounded(ui->list, (struct rect){view.x + view.w - 6, top + 2, 4, length - 4}, 2,
-                             theme()->control);
-        }
+        ui_list_bar(list, ui->list, (struct rect){view.x + view.w - 6, view.y, 4, view.h}, 2);
         drawlist_set_clip(ui->list, ui->scroll_clip);
     }
     ui->clip = ui->scroll_clip;
@@ -722,13 +737,13 @@ void ui_popup_begin(struct ui *ui, float width, float height)
         drawlist_rounded(ui->list, box, UI_RADIUS + 1, theme()->raised);
         ui_outline(ui, box, UI_RADIUS + 1, false);
     }
-    ui_scroll_begin(ui, &ui->popup.scroll, rect_inset(box, POPUP_PAD));
+    ui_list_begin(ui, &ui->popup.list, rect_inset(box, POPUP_PAD));
 }
 
 void ui_popup_end(struct ui *ui)
 {
     struct rect box = ui->scroll_area;
-    ui_scroll_end(ui);
+    ui_list_end(ui);
     if (ui->pass != UI_PASS_EVENT || ui->popup.id == 0) return;
     if (ui->popup.fresh) {
         ui->focus = ui->popup.focus ? ui->popup.focus : ui->stop_count > 0 ? ui->stop[0].id : 0;
@@ -853,7 +868,7 @@ int ui_popup_list(struct ui *ui, const char *name, const struct ui_item *items, 
         int i = 0;
         while (i < count && ui_filter_fit(&ui->popup.filter, items[i].label) < now) i++;
         ui->used = true;
-        ui->popup.scroll.offset = 0;
+        ui->popup.list.offset = 0;
         if (i < count) {
             ui->focus = push_row(ui, i, &items[i], row);
             ui_pop(ui);

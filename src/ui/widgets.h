@@ -63,9 +63,22 @@ bool ui_filter_event(struct ui_filter *filter, const struct event *event);
 
 // The panel.
 
-struct ui_scroll {
-    float offset, content; ///< scrolled pixels; height of the content at the last layout
+/// A list that scrolls: rows behind a view that may be lower than they are. Its heights are all in pixels, or in whole rows. Zero is the
+/// top. The caller lays out, paints and presses the rows; ui_list_begin() is for rows that are widgets.
+struct ui_list {
+    float offset;  ///< height scrolled out of sight
+    float view;    ///< height in sight at the last layout
+    float content; ///< height of all rows
 };
+
+/// Sets the heights, and scrolls no further than to the end.
+void ui_list_fit(struct ui_list *list, float view, float content);
+/// Scrolls down by a height, within the rows; true if that moved them.
+bool ui_list_scroll(struct ui_list *list, float by);
+/// Scrolls just enough to show a row, from its top on if it is higher than the view.
+void ui_list_show(struct ui_list *list, float top, float height);
+/// The bar in `track`, shorter by `gap` at both ends, if there is more than is in sight.
+void ui_list_bar(const struct ui_list *list, struct drawlist *drawn, struct rect track, float gap);
 
 /// A widget that Tab reaches.
 struct ui_stop {
@@ -79,7 +92,7 @@ struct ui_popup {
     int which;          ///< its subject, chosen by the caller
     struct rect anchor; ///< the rectangle that it opens at
     struct rect room;   ///< its limits; empty: the panel
-    struct ui_scroll scroll;
+    struct ui_list list;
     uint32_t focus;          ///< widget to focus first; 0: the first
     uint32_t opener;         ///< widget that gets the focus back; 0: opened by the pointer
     bool fresh;              ///< opened by this event
@@ -125,8 +138,8 @@ struct ui {
     float found_x, found_y;
     bool used;
     struct rect area, clip, list_clip;
-    float y; ///< of the next row
-    struct ui_scroll *scroll;
+    float y;                  ///< of the next row
+    struct ui_list *scrolled; ///< open, or NULL
     struct rect scroll_area, scroll_clip;
     struct ui_stop stop[UI_MAX_FOCUS];
     int stop_count;
@@ -158,8 +171,8 @@ struct rect ui_row(struct ui *ui, float height);
 void ui_space(struct ui *ui, float height);
 
 /// Widgets between these two scroll inside `view`: by the wheel, by a drag beside them, and to show the focus.
-void ui_scroll_begin(struct ui *ui, struct ui_scroll *scroll, struct rect view);
-void ui_scroll_end(struct ui *ui);
+void ui_list_begin(struct ui *ui, struct ui_list *list, struct rect view);
+void ui_list_end(struct ui *ui);
 
 /// Baseline that centres capitals in `r`.
 float ui_baseline(struct rect r, enum font font, float size);

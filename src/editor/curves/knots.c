@@ -733,17 +733,15 @@ void sheet_update(struct curves *curves, struct core *core)
     int rows = total < MOST_ROWS ? total : MOST_ROWS;
     if (rows > (int)(room / ROW)) rows = (int)fmaxf(room / ROW, 0);
     if (sheet->active != core->active_id) { // scroll its row into view
-        const bool is_shown = spline_list_shows(core, core->active);
         int active = 0;
         for (int s = 0; s < core->active; s++) active += spline_list_shows(core, s);
-        if (is_shown && active < sheet->first) sheet->first = active;
-        if (is_shown && active >= sheet->first + rows) sheet->first = active - rows + 1;
+        sheet->list.view = (float)rows;
+        if (spline_list_shows(core, core->active)) ui_list_show(&sheet->list, (float)active, 1);
         sheet->active = core->active_id;
     }
-    if (sheet->first > total - rows) sheet->first = total - rows;
     sheet->rows = rows;
-    sheet->total = total;
-    list_rows(core, sheet->first, sheet->spline, rows);
+    ui_list_fit(&sheet->list, (float)rows, (float)total);
+    list_rows(core, (int)sheet->list.offset, sheet->spline, rows);
     const float height = rows > 0 ? (float)(rows * ROW + 2 * SHEET_PAD) : 0;
     if (core->layout.sheet_height == height) return;
     core->layout.sheet_height = height;
@@ -814,9 +812,8 @@ bool sheet_wheel(struct curves *curves, struct core *core, const struct event *e
 {
     struct dope_sheet *sheet = &curves->sheet;
     if (!rect_contains(sheet_area(core), event->x, event->y)) return false;
-    if (event->mods || sheet->total <= sheet->rows) return false;
-    sheet->first += event->dy > 0 ? -1 : 1;
-    if (sheet->first < 0) sheet->first = 0; // sheet_update() bounds the other end
+    if (event->mods || sheet->list.content <= sheet->list.view) return false;
+    ui_list_scroll(&sheet->list, event->dy > 0 ? -1 : 1);
     return true;
 }
 
@@ -878,10 +875,7 @@ void sheet_show(const struct curves *curves, struct core *core)
     if (area->h <= 0) return;
     const struct dope_sheet *sheet = &curves->sheet;
     for (int row = 0; row < sheet->rows; row++) show_row(curves, core, row);
-    if (sheet->total > sheet->rows) { // more rows lie above or below
-        const float track = area->h - 2 * SHEET_PAD, length = track * (float)sheet->rows / (float)sheet->total;
-        const float top = area->y + SHEET_PAD + track * (float)sheet->first / (float)sheet->total;
-        drawlist_rounded(&core->list, (struct rect){area->x - 7, top, 3, length}, 1.5f, theme()->control);
-    }
+    const struct rect track = {area->x - 7, area->y + SHEET_PAD, 3, area->h - 2 * SHEET_PAD};
+    ui_list_bar(&sheet->list, &core->list, track, 0);
     drawlist_rect(&core->list, (struct rect){area->x, area->y + area->h - 1, area->w, 1}, theme()->border);
 }

@@ -4,6 +4,7 @@
 
 #include "editor/curves/curves.h"
 #include "scene/warnings.h"
+#include "ui/widgets.h"
 
 enum {
     EDITOR_MAX_COLUMNS = 4096, ///< vertices per curve
@@ -21,7 +22,8 @@ struct value_map {
 enum { SHEET_MAX_ROWS = 16 };
 
 struct dope_sheet {
-    int first, rows, total; ///< first visible row, visible rows, all rows
+    struct ui_list list; ///< in rows
+    int rows;            ///< visible
     int spline[SHEET_MAX_ROWS];
     unsigned active; ///< id of the spline last scrolled into view
 };

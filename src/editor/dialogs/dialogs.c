@@ -537,12 +537,11 @@ static void build_formats(struct dialogs *dialogs, float room)
                      : fitting > files->format_count ? files->format_count
                                                      : fitting;
     const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
-    // Scroll to the format being typed.
-    if (ui->focus == ui_id(ui, path_field))
-        exporting->scroll.offset =
-            fmaxf(fminf(exporting->scroll.offset, (float)chosen * UI_ROW), (float)(chosen + 1 - rows) * UI_ROW);
     int taken = -1;
-    ui_scroll_begin(ui, &exporting->scroll, view);
+    ui_list_fit(&exporting->formats, view.h, (float)files->format_count * UI_ROW);
+    if (ui->focus == ui_id(ui, path_field)) // shows the format being typed
+        ui_list_show(&exporting->formats, (float)chosen * UI_ROW, UI_ROW);
+    ui_list_begin(ui, &exporting->formats, view);
     for (int f = 0; f < files->format_count; f++) {
         char name[32];
         const struct rect r = ui_row(ui, UI_ROW);
@@ -552,7 +551,7 @@ static void build_formats(struct dialogs *dialogs, float room)
         ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h}, export_formats[f].use,
                  theme()->text_dim);
     }
-    ui_scroll_end(ui);
+    ui_list_end(ui);
     if (taken >= 0) choose_format(dialogs, taken);
 }
 
@@ -897,7 +896,10 @@ static void build_list(struct dialogs *dialogs, struct core *core)
     const bool twice = ui->pass == UI_PASS_EVENT && event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
                        event->button == BUTTON_LEFT && event->clicks == 2;
     const bool confirmed = twice && rect_contains(list, event->x, event->y) && *path_name(ui->text.bytes);
-    int first = dialog->choice >= rows ? dialog->choice - rows + 1 : 0, taken = -1;
+    struct ui_list matches = {.view = (float)rows, .content = (float)dialog->match_count};
+    ui_list_show(&matches, (float)dialog->choice, 1);
+    const int first = (int)fmaxf(matches.offset, 0);
+    int taken = -1;
     for (int row = 0; row < rows; row++) {
         struct rect r = ui_row(ui, UI_ROW);
         const int match = first + row;

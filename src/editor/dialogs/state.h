@@ -77,7 +77,7 @@ struct exporting {
     unsigned serial;             ///< of its document
     int format;                  ///< index of the format: by the path's extension, else the last one used
     uint32_t typed;              ///< the field that `ui.text` holds; 0: none
-    struct ui_scroll scroll;     ///< of the format list
+    struct ui_list formats;      ///< the list of them
     long done, total;
 };
 

@@ -112,10 +112,8 @@ static void build_sections(struct inspector *in)
         ui_pop(ui);
         ui_space(ui, 4);
         if (!in->revealed || strcmp(in->revealed, section->name) != 0) continue;
-        in->revealed = NULL; // scroll just enough to show the section
-        const float below = ui->y - (ui->scroll_area.y + ui->scroll_area.h), above = top - ui->scroll_area.y;
-        if (below > 0) in->scroll.offset += fminf(below, above);
-        if (above < 0) in->scroll.offset += above;
+        in->revealed = NULL;
+        ui_list_show(&in->sections, top - ui->scroll_area.y + in->sections.offset, ui->y - top);
     }
 }
 
@@ -136,10 +134,10 @@ static void build_panel(struct inspector *in, struct rect area)
     struct ui *ui = &in->ui;
     struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
     in->list = NULL;
-    ui_scroll_begin(ui, &in->scroll, view);
+    ui_list_begin(ui, &in->sections, view);
     build_sections(in);
     ui_space(ui, 4);
-    ui_scroll_end(ui);
+    ui_list_end(ui);
 
     const struct rect footer = {area.x, area.y + view.h, area.w, FOOTER};
     const struct rect row = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
@@ -169,7 +167,7 @@ const struct ui *inspector_ui(const struct inspector *in) { return &in->ui; }
 void inspector_reset(struct inspector *in)
 {
     ui_release(&in->ui);
-    in->scroll.offset = 0;
+    in->sections.offset = 0;
     in->rig = 0;
     in->selected = 0;
     in->model = 0;
@@ -496,8 +494,9 @@ int inspector_icons(struct inspector *in, struct rect r, const struct icon_butto
 
 int inspector_first_row(int count, int chosen, int most)
 {
-    const int first = chosen - most / 2, last = count - most;
-    return first > last ? (last > 0 ? last : 0) : first > 0 ? first : 0;
+    struct ui_list list = {.view = (float)most, .content = (float)count};
+    ui_list_scroll(&list, (float)(chosen - most / 2));
+    return (int)list.offset;
 }
 
 void inspector_more(struct inspector *in, int count, int most, const char *what)
@@ -568,19 +567,6 @@ static void go_to(struct inspector *in, size_t row)
     core_jump(in->core, row);
 }
 
-static void scroll_history(struct inspector *in, struct rect list)
-{
-    struct ui *ui = &in->ui;
-    struct history_view *view = &in->history;
-    bool wheel = ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_WHEEL && !ui->used && ui_hovered(ui, list);
-    if (!wheel || view->count < HISTORY_ROWS) return;
-    bool up = ui->event->dy > 0;
-    size_t room = up ? view->top : view->count + 1 - HISTORY_ROWS - view->top;
-    size_t by = room < 3 ? room : 3;
-    view->top = up ? view->top - by : view->top + by;
-    ui->used = by > 0;
-}
-
 /// ↑ and ↓ on the focused row: undo, redo.
 static void step_by_key(struct inspector *in, size_t first, size_t end)
 {
@@ -628,19 +614,18 @@ void inspector_history(struct inspector *in)
 {
     const struct history *history = in->core->history;
     struct history_view *view = &in->history;
-    size_t count = history_count(history);
-    const size_t done = history_done(history), last_top = count + 1 > HISTORY_ROWS ? count + 1 - HISTORY_ROWS : 0;
-    if (view->count != count || view->done != done) { // scroll to the present step
-        if (done < view->top) view->top = done;
-        if (done >= view->top + HISTORY_ROWS) view->top = done - HISTORY_ROWS + 1;
-    }
+    const size_t count = history_count(history), done = history_done(history);
+    const bool changed = view->count != count || view->done != done;
     view->count = count;
     view->done = done;
-    if (view->top > last_top) view->top = last_top;
+    view->list.view = HISTORY_ROWS;
+    if (changed) ui_list_show(&view->list, (float)done, 1); // the present step
+    ui_list_fit(&view->list, HISTORY_ROWS, (float)(count + 1));
 
-    size_t first = view->top, end = first + HISTORY_ROWS < count + 1 ? first + HISTORY_ROWS : count + 1,
-           pressed = end;
-    struct rect list = {in->ui.area.x, in->ui.y, in->ui.area.w, (float)(end - first) * UI_ROW};
+    const size_t first = (size_t)view->list.offset;
+    const size_t end = first + HISTORY_ROWS < count + 1 ? first + HISTORY_ROWS : count + 1;
+    size_t pressed = end;
+    const struct rect list = {in->ui.area.x, in->ui.y, in->ui.area.w, (float)(end - first) * UI_ROW};
     for (size_t row = first; row < end; row++) {
         if (build_step(in, row)) pressed = row;
     }
@@ -649,7 +634,9 @@ void inspector_history(struct inspector *in)
         snprintf(text, sizeof text, "Steps %zu to %zu of %zu", first > 0 ? first : 1, end - 1, count);
         ui_paragraph(&in->ui, text, theme()->text_dim);
     }
-    scroll_history(in, list);
+    const struct event *event = in->ui.event; // at its end the wheel scrolls the panel
+    if (in->ui.pass == UI_PASS_EVENT && event->kind == EVENT_WHEEL && !in->ui.used && ui_hovered(&in->ui, list))
+        in->ui.used = ui_list_scroll(&view->list, event->dy > 0 ? -3 : 3);
     step_by_key(in, first, end);
     if (pressed < end) go_to(in, pressed);
 }

@@ -78,7 +78,7 @@ void inspector_rename(struct inspector *in, int unused)
     (void)unused;
     if (!spline) return;
     inspector_unfold(in, "section.splines");
-    in->scroll.offset = 0; // the list is near the top
+    in->sections.offset = 0; // the list is near the top
     ui_line_begin(&in->ui, rename_line, spline->name);
 }
 

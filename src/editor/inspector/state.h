@@ -27,8 +27,8 @@ struct poles_view {
 };
 
 struct history_view {
-    size_t top;         ///< first visible row
-    size_t count, done; ///< of the history at the last layout
+    struct ui_list list; ///< in rows
+    size_t count, done;  ///< of the history at the last layout
 };
 
 /// A field of the selected knots: the first knot's number, and whether others differ.
@@ -43,7 +43,7 @@ struct inspector {
     struct core *core;
     struct ui ui;
     enum ui_change change; ///< the change a number is being set by
-    struct ui_scroll scroll;
+    struct ui_list sections;
     bool flipped[INSPECTOR_MAX_SECTIONS]; ///< sections open that start closed, or the reverse
     bool called[INSPECTOR_MAX_SECTIONS];  ///< requested sections, shown without More until closed
     int rig, channel;                     ///< the shown tail or chain, and its channel
@@ -196,7 +196,7 @@ enum { INSPECTOR_ICON = 24 };
 /// Icon buttons from left to right; the pressed one, or -1.
 int inspector_icons(struct inspector *in, struct rect r, const struct icon_button *buttons, int count);
 
-/// The first of `most` visible rows of a list, with the chosen one among them.
+/// The first of `most` visible rows of a list that follows the chosen one.
 int inspector_first_row(int count, int chosen, int most);
 /// Notes below a list that it has more rows.
 void inspector_more(struct inspector *in, int count, int most, const char *what);
