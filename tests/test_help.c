@@ -12,7 +12,7 @@ static void open_help(struct session *s, float width, float height)
 {
     panel_open(s, scene, width, height);
     session_key(s, KEY_F1, 0);
-    assert_true(s->editor->dialogs->help.open);
+    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
 }
 
 static bool is_seen(const struct draw_command *c) { return c && c->y > c->clip.y && c->y < c->clip.y + c->clip.h; }
@@ -61,14 +61,14 @@ SESSION_TEST(test_esc_enter_f1_and_a_click_close_the_help, panel_open(s, scene, 
     static const int closing[] = {KEY_ESCAPE, KEY_ENTER, KEY_F1};
     for (size_t i = 0; i < sizeof closing / sizeof closing[0]; i++) {
         session_key(s, KEY_F1, 0);
-        assert_true(s->editor->dialogs->help.open);
+        assert_true(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
         session_key(s, closing[i], 0);
-        assert_false(s->editor->dialogs->help.open);
+        assert_false(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
     }
     session_key(s, KEY_F1, 0);
     session_move(s, 500, 500);
     session_click_here(s, 1);
-    assert_false(s->editor->dialogs->help.open);
+    assert_false(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
 }
 
 /// As a finger does; it stays open, and no row is clicked.
@@ -79,19 +79,19 @@ SESSION_TEST(test_a_drag_scrolls_the_lists, open_help(s, 390, 792))
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, -160, 8);
     session_release(s, BUTTON_LEFT);
-    assert_near(s->editor->dialogs->help.offset, 160, 1);
+    assert_near(s->editor->dialogs->lookup.list.offset, 160, 1);
     session_key(s, KEY_F3, 0);
     session_move(s, from[0], from[1]);
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, 0, -160, 8);
-    assert_int_equal(s->editor->dialogs->palette.first, 10);
+    assert_near(s->editor->dialogs->lookup.list.offset, 10, 0);
     session_drag(s, 0, 80, 8);
     session_release(s, BUTTON_LEFT);
-    assert_int_equal(s->editor->dialogs->palette.first, 5);
-    assert_true(s->editor->dialogs->palette.open);
+    assert_near(s->editor->dialogs->lookup.list.offset, 5, 0);
+    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
     session_move(s, 5, 5);
     session_click_here(s, 1);
-    assert_false(s->editor->dialogs->palette.open);
+    assert_false(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
 }
 
 SESSION_TEST(test_typing_searches_the_help, panel_open(s, scene, 1280, 720))
@@ -137,7 +137,7 @@ TEST(test_ten_keys_about_what_is_under_the_pointer)
 static void search(struct session *s, const char *text)
 {
     session_key(s, KEY_F3, 0);
-    assert_true(s->editor->dialogs->palette.open);
+    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
     panel_type(s, text);
 }
 
@@ -161,7 +161,7 @@ TEST(test_the_palette_runs_what_is_found)
         search(&s, cases[i].typed);
         if (!shown_text(s.editor, expected->name)) fail_msg("%s: not found by %s", expected->name, cases[i].typed);
         session_key(&s, KEY_ENTER, 0);
-        assert_false(s.editor->dialogs->palette.open);
+        assert_false(s.editor->dialogs->lookup.kind == LOOKUP_PALETTE);
         session_close(&s);
     }
 }
@@ -187,10 +187,10 @@ SESSION_TEST(test_the_palette_says_what_is_missing, session_open(s, scene))
     session_frame(s);
     assert_non_null(shown_text(s->editor, "Select a knot first."));
     session_key(s, KEY_ENTER, 0);
-    assert_true(s->editor->dialogs->palette.open);
+    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
     session_key(s, KEY_DELETE, 0);
     session_key(s, KEY_ESCAPE, 0);
-    assert_false(s->editor->dialogs->palette.open);
+    assert_false(s->editor->dialogs->lookup.kind == LOOKUP_PALETTE);
     assert_saved(s, before);
 }
 
@@ -268,12 +268,12 @@ SESSION_TEST(test_the_palette_is_walked, session_open(s, scene))
 {
     search(s, "");
     session_key(s, KEY_UP, 0);
-    const int last = s->editor->dialogs->palette.choice;
+    const int last = s->editor->dialogs->lookup.choice;
     assert_true(last > 80);
     session_key(s, KEY_DOWN, 0);
-    assert_int_equal(s->editor->dialogs->palette.choice, 0);
+    assert_int_equal(s->editor->dialogs->lookup.choice, 0);
     for (int i = 0; i < 20; i++) session_key(s, KEY_PAGE_DOWN, 0);
-    assert_int_equal(s->editor->dialogs->palette.choice, last);
+    assert_int_equal(s->editor->dialogs->lookup.choice, last);
     session_wheel(s, 1000);
     panel_type(s, "onion");
     const struct draw_command *row = shown_text(s->editor, "Onion skin");

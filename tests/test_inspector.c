@@ -80,7 +80,7 @@ SESSION_TEST(test_typing_keeps_keys_from_the_editor, panel_open(s, scene, 1280, 
     assert_int_equal(s->document->splines[0]->knot_count, 3);
     assert_false(s->editor->core.playback.playing);
     session_key(s, KEY_F1, 0);
-    assert_true(s->editor->dialogs->help.open);
+    assert_true(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
     session_key(s, KEY_ESCAPE, 0);
     session_key(s, KEY_ESCAPE, 0);
     assert_false(inspector_ui(s->editor->inspector)->typing);

@@ -332,7 +332,7 @@ SESSION_TEST(test_dialog_takes_every_key, panel_open(s, small_scene, 1280, 720))
     session_key(s, KEY_F1, 0);
     session_key(s, KEY_DELETE, 0);
     assert_int_equal(s->editor->core.look, LOOK_WIGGLY);
-    assert_false(s->editor->dialogs->help.open);
+    assert_false(s->editor->dialogs->lookup.kind == LOOKUP_KEYS);
     assert_int_equal(s->document->splines[0]->knot_count, 2);
     assert_string_equal(s->editor->dialogs->dialog.ui.text.bytes, "vim. ");
 }

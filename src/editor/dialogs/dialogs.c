@@ -1037,41 +1037,14 @@ void dialogs_destroy(struct dialogs *dialogs) { free(dialogs); }
 
 void dialogs_set_files(struct dialogs *dialogs, const struct dialog_files *files) { dialogs->dialog.files = *files; }
 
-/// In F1's page and the palette a drag scrolls, and a click counts when it ends. false: the event does nothing else.
-static bool drag_list(struct dialogs *dialogs, struct event *event)
-{
-    static const float STEP = 16; // pixels
-    struct list_drag *drag = &dialogs->list_drag;
-    const bool button = event->kind == EVENT_BUTTON, open = dialogs->help.open || dialogs->palette.open;
-    if (button && event->action == ACTION_PRESS && open && !dialogs_are_asking(dialogs)) {
-        *drag = (struct list_drag){.held = true, .y = event->y};
-        return false;
-    }
-    if (!drag->held || !open || (!button && event->kind != EVENT_POINTER)) return true;
-    drag->held = !button;
-    event->action = ACTION_PRESS;
-    if (button) return !drag->moved;
-    const float steps = truncf((event->y - drag->y) / STEP);
-    drag->y += steps * STEP;
-    drag->moved |= steps != 0;
-    event->kind = EVENT_WHEEL;
-    event->dy = steps / 3;
-    return steps != 0;
-}
-
 bool dialogs_event(struct dialogs *dialogs, struct core *core, const struct event *event)
 {
-    struct event meant = *event;
-    if (!drag_list(dialogs, &meant)) return true;
-    const bool calm = meant.kind == EVENT_POINTER && dialogs->dialog.kind == DIALOG_NONE;
-    return !calm && (dialog_event(dialogs, core, &meant) || palette_event(dialogs, core, &meant) ||
-                     help_event(dialogs, core, &meant) || welcome_event(dialogs, &meant));
+    return dialog_event(dialogs, core, event) || lookup_event(dialogs, core, event) || welcome_event(dialogs, event);
 }
 
 void dialogs_show(struct dialogs *dialogs, struct core *core)
 {
-    help_show(dialogs, core);
-    palette_show(dialogs, core);
+    lookup_show(dialogs, core);
     if (dialogs->dialog.kind == DIALOG_NONE) return;
     struct drawlist *list = &core->list;
     const struct rect box = dialog_box(dialogs, core);
@@ -1085,10 +1058,7 @@ void dialogs_show(struct dialogs *dialogs, struct core *core)
 
 bool dialogs_are_asking(const struct dialogs *dialogs) { return dialogs->dialog.kind != DIALOG_NONE; }
 
-bool dialogs_cover(const struct dialogs *dialogs)
-{
-    return dialogs_are_asking(dialogs) || dialogs->help.open || dialogs->palette.open;
-}
+bool dialogs_cover(const struct dialogs *dialogs) { return dialogs_are_asking(dialogs) || dialogs->lookup.kind; }
 
 bool dialogs_over(const struct dialogs *dialogs, enum ui_over *over)
 {

@@ -1,4 +1,5 @@
-/// The overlays without questions: the keys (F1), the command palette (F3), the card for new users, and pressed keys for an audience.
+/// The overlays without questions: the commands with their keys (F1) and the palette that runs them (F3), the card for new users, and
+/// pressed keys for an audience.
 #include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
@@ -11,6 +12,49 @@
 #include <stdio.h>
 #include <string.h>
 
+enum { COMMANDS_MOST = 256 };
+
+/// The commands that match the typed text, best first.
+struct commands_found {
+    const struct command *list[COMMANDS_MOST];
+    const char *missing[COMMANDS_MOST]; ///< from need_missing()
+    int count;
+};
+
+/// Finds matching commands. For the palette those that can run now come first; for F1 all its rows are in the table's order.
+static void commands_find(const struct dialogs *dialogs, const struct core *core, struct commands_found *found)
+{
+    const struct command *commands = dialogs->commands.commands;
+    const int count = dialogs->commands.count;
+    const struct ui_filter *filter = &dialogs->lookup.filter;
+    const bool runs = dialogs->lookup.kind == LOOKUP_PALETTE;
+    const char *missing[NEEDS_COUNT];
+    enum fit fits[COMMANDS_MOST], best = FIT_NOT;
+    for (enum need need = 0; need < NEEDS_COUNT; need++) missing[need] = runs ? need_missing(core, need) : NULL;
+    for (int i = 0; i < count; i++) {
+        const struct command *command = &commands[i];
+        char keys[COMMAND_KEYS];
+        fits[i] = FIT_NOT;
+        if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
+        command_keys(command, keys); // its keys also find it
+        fits[i] = ui_filter_fit(filter, command->name);
+        if (fits[i] < FIT_INSIDE && ui_filter_fit(filter, keys) >= FIT_WORD) fits[i] = FIT_INSIDE;
+        if (fits[i] > best) best = fits[i];
+    }
+
+    found->count = 0;
+    for (enum fit fit = FIT_START; fit >= ui_filter_least(best); fit--) {
+        for (int lacking = 0; lacking < 2; lacking++) {
+            for (int i = 0; i < count; i++) {
+                const char *lacks = missing[commands[i].needs];
+                if (fits[i] != fit || (lacks != NULL) != lacking) continue;
+                found->missing[found->count] = lacks;
+                found->list[found->count++] = &commands[i];
+            }
+        }
+    }
+}
+
 enum {
     PALETTE_WIDTH = 640,
     PALETTE_ROW = 26,
@@ -19,218 +63,6 @@ enum {
     PALETTE_PAD = 12,
     PALETTE_GAP = 16
 };
-
-/// How a command matches: by name or by key.
-static enum fit fit_of(const struct command *command, const struct ui_filter *filter)
-{
-    char keys[COMMAND_KEYS];
-    const enum fit fit = ui_filter_fit(filter, command->name);
-    command_keys(command, keys);
-    return fit < FIT_INSIDE && ui_filter_fit(filter, keys) >= FIT_WORD ? FIT_INSIDE : fit;
-}
-
-/// Adds the commands of one fit, either those that can run or those that cannot.
-static void add_found(const struct command_list *commands, const enum fit *fits, enum fit fit,
-                      const char *const *missing, bool lacking, struct commands_found *found)
-{
-    for (int i = 0; i < commands->count; i++) {
-        const struct command *command = &commands->commands[i];
-        const char *lacks = missing[command->needs];
-        if (fits[i] != fit || (lacks != NULL) != lacking) continue;
-        found->missing[found->count] = lacks;
-        found->list[found->count++] = command;
-    }
-}
-
-/// Finds matching commands, those that can run now first. Without `core`: all rows of F1 in table order.
-static void commands_find(const struct command_list *commands, const struct core *core,
-                          const struct ui_filter *filter, struct commands_found *found)
-{
-    const char *missing[NEEDS_COUNT];
-    enum fit fits[COMMANDS_MOST], best = FIT_NOT;
-    for (enum need need = 0; need < NEEDS_COUNT; need++) missing[need] = core ? need_missing(core, need) : NULL;
-    for (int i = 0; i < commands->count; i++) {
-        const struct command *command = &commands->commands[i];
-        const bool listed = command->name && (core ? command_runs(command) : command->about != ABOUT_NOTHING);
-        fits[i] = listed ? fit_of(command, filter) : FIT_NOT;
-        if (fits[i] > best) best = fits[i];
-    }
-    found->count = 0;
-    for (enum fit fit = FIT_START; fit >= ui_filter_least(best); fit--) {
-        add_found(commands, fits, fit, missing, false, found);
-        add_found(commands, fits, fit, missing, true, found);
-    }
-}
-
-/// Draws a text field with its text, or `empty` as a hint.
-static void commands_show_field(struct drawlist *list, struct rect r, const struct ui_filter *filter,
-                                const char *empty)
-{
-    const bool typed = filter->typed[0] != '\0';
-    const float y = ui_baseline(r, FONT_LABEL, THEME_TEXT_NORMAL);
-    const float end = r.x + 10 + font_width(FONT_LABEL, THEME_TEXT_NORMAL, filter->typed);
-    drawlist_rounded(list, r, 4, theme()->raised);
-    drawlist_rounded_line(list, r, 4, 1.5f, theme()->accent);
-    drawlist_text_fit(list, r.x + (typed ? 10 : 14), y, r.w - 20, FONT_LABEL, THEME_TEXT_NORMAL,
-                      typed ? theme()->text : theme()->text_dim, typed ? filter->typed : empty);
-    drawlist_rect(list, (struct rect){roundf(fminf(end, r.x + r.w - 10)), r.y + 8, 1, r.h - 16}, theme()->accent);
-}
-
-void dialogs_palette(struct dialogs *dialogs)
-{
-    const bool open = !dialogs->palette.open;
-    dialogs->palette = (struct palette){.open = open};
-    dialogs->help.open = false;
-    dialogs->welcome &= !open;
-}
-
-const struct command *dialogs_take_command(struct dialogs *dialogs)
-{
-    const struct command *chosen = dialogs->palette.chosen;
-    dialogs->palette.chosen = NULL;
-    return chosen;
-}
-
-struct sheet {
-    struct rect box, field, list;
-    int rows; ///< visible
-};
-
-static struct sheet sheet_of(struct rect window, int found)
-{
-    struct sheet sheet;
-    const float room = window.h - 32 - PALETTE_FIELD - 3 * PALETTE_PAD;
-    sheet.rows = (int)fmaxf(fminf(floorf(room / PALETTE_ROW), PALETTE_ROWS), 1);
-    const float w = fminf(PALETTE_WIDTH, window.w - 16), rest = PALETTE_FIELD + 3 * PALETTE_PAD;
-    const float top = roundf(window.y + (window.h - rest - (float)(sheet.rows * PALETTE_ROW)) / 3);
-    if (found < sheet.rows) sheet.rows = found > 0 ? found : 1; // the field keeps its place
-    const float h = rest + (float)(sheet.rows * PALETTE_ROW);
-    sheet.box = (struct rect){roundf(window.x + (window.w - w) / 2), top, w, h};
-    sheet.field =
-        (struct rect){sheet.box.x + PALETTE_PAD, sheet.box.y + PALETTE_PAD, w - 2 * PALETTE_PAD, PALETTE_FIELD};
-    sheet.list = (struct rect){sheet.field.x, sheet.field.y + PALETTE_FIELD + PALETTE_PAD, sheet.field.w,
-                               (float)(sheet.rows * PALETTE_ROW)};
-    return sheet;
-}
-
-/// Chooses a row and scrolls to it.
-static void choose_row(struct palette *palette, int choice, int count, int rows)
-{
-    palette->choice = choice >= count ? count - 1 : choice;
-    if (palette->choice < 0) palette->choice = 0;
-    if (palette->first > palette->choice) palette->first = palette->choice;
-    if (palette->first < palette->choice - rows + 1) palette->first = palette->choice - rows + 1;
-}
-
-/// The choice stays in sight.
-static void scroll_palette(struct palette *palette, int by, int count, int rows)
-{
-    const int last = count > rows ? count - rows : 0, first = palette->first + by;
-    palette->first = first < 0 ? 0 : first > last ? last : first;
-    const int choice = palette->choice < palette->first ? palette->first : palette->choice;
-    choose_row(palette, choice < palette->first + rows ? choice : palette->first + rows - 1, count, rows);
-}
-
-/// Runs the row's command if it can run.
-static void take_row(struct palette *palette, const struct commands_found *found)
-{
-    if (palette->choice >= found->count) return;
-    if (!found->missing[palette->choice]) *palette = (struct palette){.chosen = found->list[palette->choice]};
-}
-
-static void palette_key(struct palette *palette, const struct commands_found *found, int pressed, int rows)
-{
-    const int choice = palette->choice, count = found->count;
-    if (pressed == KEY_ESCAPE) palette->open = false;
-    if (pressed == KEY_UP) choose_row(palette, choice > 0 ? choice - 1 : count - 1, count, rows);
-    if (pressed == KEY_DOWN) choose_row(palette, choice + 1 < count ? choice + 1 : 0, count, rows);
-    if (pressed == KEY_PAGE_UP) choose_row(palette, choice - rows, count, rows);
-    if (pressed == KEY_PAGE_DOWN) choose_row(palette, choice + rows, count, rows);
-    if (pressed == KEY_HOME) choose_row(palette, 0, count, rows);
-    if (pressed == KEY_END) choose_row(palette, count - 1, count, rows);
-    if (pressed == KEY_ENTER) take_row(palette, found);
-}
-
-/// Whether an overlay with a text field uses the event: not pointer movements, nor releases of keys pressed before it opened.
-static bool typing_concerns(const struct event *event)
-{
-    const bool release = event->kind == EVENT_KEY && event->action == ACTION_RELEASE;
-    return !release && event->kind != EVENT_POINTER && event->kind <= EVENT_WHEEL;
-}
-
-bool palette_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
-{
-    struct palette *palette = &dialogs->palette;
-    if (!palette->open || !typing_concerns(event)) return false;
-    struct commands_found found;
-    commands_find(&dialogs->commands, core, &palette->filter, &found);
-    const struct sheet sheet = sheet_of(core->layout.window, found.count);
-    if (ui_filter_event(&palette->filter, event)) {
-        palette->choice = palette->first = 0;
-    } else if (event->kind == EVENT_KEY) {
-        palette_key(palette, &found, event->key, sheet.rows);
-    } else if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
-        const int row = palette->first + (int)floorf((event->y - sheet.list.y) / PALETTE_ROW);
-        if (!rect_contains(sheet.box, event->x, event->y)) {
-            palette->open = false;
-        } else if (rect_contains(sheet.list, event->x, event->y) && row < found.count) {
-            palette->choice = row;
-            take_row(palette, &found);
-        }
-    } else if (event->kind == EVENT_WHEEL) {
-        scroll_palette(palette, (int)lroundf(-3 * event->dy), found.count, sheet.rows);
-    }
-    return true;
-}
-
-static void show_command_text(struct drawlist *list, struct rect r, uint32_t color, const char *text)
-{
-    drawlist_text_fit(list, r.x, ui_baseline(r, FONT_LABEL, THEME_TEXT_NORMAL), r.w, FONT_LABEL, THEME_TEXT_NORMAL,
-                      color, text);
-}
-
-static void show_command(struct core *core, struct rect r, const struct commands_found *found, int row, bool chosen)
-{
-    struct drawlist *list = &core->list;
-    const struct command *command = found->list[row];
-    const char *missing = found->missing[row];
-    char keys[COMMAND_KEYS];
-    command_keys(command, keys);
-    if (chosen) {
-        drawlist_rounded(list, r, 4, theme()->fill);
-    } else if (rect_contains(r, core->pointer_x, core->pointer_y)) {
-        drawlist_rounded(list, r, 4, theme()->raised);
-    }
-    const float name = ceilf(ui_text_width(command->name)), right = ceilf(ui_text_width(keys));
-    const float from = r.x + 10 + name + PALETTE_GAP, end = r.x + r.w - 10 - (right > 0 ? right + PALETTE_GAP : 0);
-    show_command_text(list, (struct rect){r.x + 10, r.y, r.w - 20, r.h}, missing ? theme()->text_dim : theme()->text,
-                      command->name);
-    show_command_text(list, (struct rect){r.x + r.w - 10 - right, r.y, right + 1, r.h}, theme()->text_dim, keys);
-    if (missing && end - from > 40) {
-        const float width = fminf(ceilf(ui_text_width(missing)), end - from);
-        show_command_text(list, (struct rect){end - width, r.y, width + 1, r.h}, theme()->text_dim, missing);
-    }
-}
-
-void palette_show(const struct dialogs *dialogs, struct core *core)
-{
-    const struct palette *palette = &dialogs->palette;
-    struct drawlist *list = &core->list;
-    if (!palette->open) return;
-    struct commands_found found;
-    commands_find(&dialogs->commands, core, &palette->filter, &found);
-    const struct sheet sheet = sheet_of(core->layout.window, found.count);
-    drawlist_rect(list, core->layout.window, theme()->veil);
-    drawlist_rounded(list, sheet.box, 8, theme()->panel);
-    drawlist_rounded_line(list, sheet.box, 8, 1, theme()->zero);
-    commands_show_field(list, sheet.field, &palette->filter, "Type what you want to do");
-    struct rect row = {sheet.list.x, sheet.list.y, sheet.list.w, PALETTE_ROW};
-    for (int i = palette->first; i < found.count && i < palette->first + sheet.rows; i++, row.y += PALETTE_ROW)
-        show_command(core, row, &found, i, i == palette->choice);
-    if (found.count == 0)
-        show_command_text(list, (struct rect){row.x + 10, row.y, row.w - 20, PALETTE_ROW}, theme()->text_dim,
-                          "No command matches. Esc closes.");
-}
 
 enum {
     MAX_COLUMNS = 4,
@@ -249,114 +81,112 @@ enum {
     LEAST_NOTE = 120
 };
 
-/// Groups per column: column c holds groups first[c] … first[c + 1] − 1.
-struct flow {
-    int columns, first[MAX_COLUMNS + 1];
-    float row, height; ///< height of a row; of the highest column
+/// The layout for a window.
+struct page {
+    struct rect box, field, body; ///< the body shows the list
+    float view, content;          ///< of the list, in its unit
+    int columns;                  ///< F1: column c holds headings first[c] … first[c + 1] − 1
+    int first[MAX_COLUMNS + 1];
+    float here,
+        column; ///< F1: height of the rows for the place under the pointer, with the gap below; a column's width
 };
 
-/// The first command under a heading. Commands of one heading are contiguous.
-static const struct command *first_of(const struct command_list *list, int about)
+static struct page palette_page(const struct commands_found *found, struct rect window)
 {
-    const struct command *command = list->commands;
-    while (command < list->commands + list->count && (int)command->about != about) command++;
-    return command;
+    const float rest = PALETTE_FIELD + 3 * PALETTE_PAD, room = window.h - 32 - rest;
+    const float w = fminf(PALETTE_WIDTH, window.w - 16);
+    float rows = fmaxf(fminf(floorf(room / PALETTE_ROW), PALETTE_ROWS), 1);
+    const float top = roundf(window.y + (window.h - rest - rows * PALETTE_ROW) / 3);
+    rows = fminf(rows, fmaxf((float)found->count, 1)); // the field keeps its place
+    struct page page = {.view = rows, .content = (float)found->count};
+    page.box = (struct rect){roundf(window.x + (window.w - w) / 2), top, w, rest + rows * PALETTE_ROW};
+    page.field = (struct rect){page.box.x + PALETTE_PAD, top + PALETTE_PAD, w - 2 * PALETTE_PAD, PALETTE_FIELD};
+    page.body =
+        (struct rect){page.field.x, page.field.y + PALETTE_FIELD + PALETTE_PAD, page.field.w, rows * PALETTE_ROW};
+    return page;
 }
 
-static int row_count(const struct command_list *list, int about)
+/// The first command under a heading, and how many there are. Commands of one heading are contiguous.
+static const struct command *headed(const struct command_list *list, int about, int *count)
 {
-    const struct command *first = first_of(list, about), *command = first;
-    while (command < list->commands + list->count && (int)command->about == about) command++;
-    return (int)(command - first);
+    const struct command *first = list->commands, *end = list->commands + list->count;
+    while (first < end && (int)first->about != about) first++;
+    for (*count = 0; first + *count < end && (int)first[*count].about == about;) ++*count;
+    return first;
 }
 
-static float group_height(const struct command_list *list, int about, float row)
+static float heading_height(const struct command_list *list, int about)
 {
-    return HEADER + row * (float)row_count(list, about) + GROUP_GAP;
+    int count;
+    headed(list, about, &count);
+    return HEADER + ROW * (float)count + GROUP_GAP;
 }
 
 /// Fills the columns up to a height; false if there are too few.
-static bool fill_columns(const struct command_list *list, struct flow *flow, float limit)
+static bool fill_columns(const struct command_list *list, struct page *page, float limit)
 {
     int column = 0;
     float height = 0;
-    flow->first[0] = 0;
-    for (int g = 0; g < ABOUT_COUNT; g++) {
-        float more = group_height(list, g, flow->row);
+    page->first[0] = 0;
+    for (int about = 0; about < ABOUT_COUNT; about++) {
+        const float more = heading_height(list, about);
         if (height > 0 && height + more > limit) {
-            if (++column == flow->columns) return false;
-            flow->first[column] = g;
+            if (++column == page->columns) return false;
+            page->first[column] = about;
             height = 0;
         }
         height += more;
     }
-    for (int c = column + 1; c <= flow->columns; c++) flow->first[c] = ABOUT_COUNT;
-    flow->height = limit - GROUP_GAP;
+    for (int c = column + 1; c <= page->columns; c++) page->first[c] = ABOUT_COUNT;
     return true;
 }
 
-/// The lowest columns that hold all groups in order.
-static struct flow flow_of(const struct command_list *list, int columns, float row)
-{
-    const float step = 4;
-    struct flow flow = {.columns = columns, .row = row};
-    float limit = 0;
-    for (int g = 0; g < ABOUT_COUNT; g++) limit += group_height(list, g, row) / (float)columns;
-    limit = ceilf(limit); // whole pixels, so that a list that just fits does not scroll
-    while (!fill_columns(list, &flow, limit)) limit += step;
-    return flow;
-}
-
-/// The layout for a window.
-struct page {
-    struct rect box, body;
-    struct flow flow;
-    float here;   ///< height of the rows for the place under the pointer, with the gap below
-    float height; ///< height of the whole content
-};
-
 static int grid_rows(int count, int columns) { return (count + columns - 1) / columns; }
 
-static struct page page_of(const struct dialogs *dialogs, const struct commands_found *found, struct rect window)
+static struct page keys_page(const struct dialogs *dialogs, const struct commands_found *found, struct rect window)
 {
-    struct page page;
-    const float room_x = fmaxf(window.w - 32, 1), room_y = fmaxf(window.h - 16, 1);
-    int columns = (int)((room_x - HELP_MARGIN) / (COLUMN_LEAST + HELP_MARGIN));
-    columns = columns < 1 ? 1 : columns > MAX_COLUMNS ? MAX_COLUMNS : columns;
-    page.flow = flow_of(&dialogs->commands, columns, ROW);
+    const struct command_list *list = &dialogs->commands;
+    const float room_x = fmaxf(window.w - 32, 1), room_y = fmaxf(window.h - 16, 1), step = 4;
+    const int fitting = (int)((room_x - HELP_MARGIN) / (COLUMN_LEAST + HELP_MARGIN));
+    const int columns = fitting < 1 ? 1 : fitting > MAX_COLUMNS ? MAX_COLUMNS : fitting;
+    struct page page = {.columns = columns};
+
+    // The lowest columns that hold all headings in order. Whole pixels, so that a list that just fits does not scroll.
+    float limit = 0;
+    for (int about = 0; about < ABOUT_COUNT; about++) limit += heading_height(list, about) / (float)columns;
+    limit = ceilf(limit);
+    while (!fill_columns(list, &page, limit)) limit += step;
+
     page.here = HEADER + (float)(ROW * grid_rows(HERE, columns)) + 3 * GROUP_GAP;
-    page.height = dialogs->help.filter.typed[0] ? (float)(ROW * grid_rows(found->count, columns))
-                                                : page.here + page.flow.height;
+    const float all = page.here + (limit - GROUP_GAP);
     const float w = fminf(room_x, (float)(columns * (COLUMN_MOST + HELP_MARGIN) + HELP_MARGIN));
-    const float h = fminf(room_y, page.here + page.flow.height + HELP_TITLE + HELP_MARGIN);
+    const float h = fminf(room_y, all + HELP_TITLE + HELP_MARGIN);
     page.box = (struct rect){roundf(window.x + (window.w - w) / 2), roundf(window.y + (window.h - h) / 2), w, h};
     page.body = (struct rect){page.box.x, page.box.y + HELP_TITLE, w, fmaxf(h - HELP_TITLE - HELP_MARGIN / 2, 0)};
+    page.column = (w - (float)(HELP_MARGIN * (columns + 1))) / (float)columns;
+    page.view = page.body.h;
+    page.content =
+        (dialogs->lookup.filter.typed[0] ? (float)(ROW * grid_rows(found->count, columns)) : all) + HELP_MARGIN / 2;
+    const float field = fminf(FIELD_WIDTH, w / 2 - HELP_MARGIN);
+    page.field = (struct rect){page.box.x + w - HELP_MARGIN - field, page.box.y + 18, field, FIELD};
     return page;
 }
 
-/// The largest scroll offset.
-static float range_of(const struct page *page) { return fmaxf(page->height + HELP_MARGIN / 2 - page->body.h, 0); }
-
-static float scrolled(const struct page *page, float offset) { return fmaxf(0, fminf(offset, range_of(page))); }
-
-/// Pixels scrolled by a key or the wheel; 0 for other events.
-static float scroll_of(const struct event *event, const struct page *page)
+/// Finds the commands and lays out the overlay that is open.
+static struct page lookup_page(const struct dialogs *dialogs, const struct core *core, struct commands_found *found)
 {
-    if (range_of(page) <= 0) return 0;
-    if (event->kind == EVENT_WHEEL) return -WHEEL * event->dy;
-    if (event->kind != EVENT_KEY || event->action == ACTION_RELEASE) return 0;
-    switch (event->key) {
-    case KEY_UP:
-        return -WHEEL;
-    case KEY_DOWN:
-        return WHEEL;
-    case KEY_PAGE_UP:
-        return -page->body.h;
-    case KEY_PAGE_DOWN:
-        return page->body.h;
-    default:
-        return 0;
-    }
+    commands_find(dialogs, core, found);
+    return dialogs->lookup.kind == LOOKUP_PALETTE ? palette_page(found, core->layout.window)
+                                                  : keys_page(dialogs, found, core->layout.window);
+}
+
+/// Opens it, or closes it if it is open.
+static void flip_lookup(struct dialogs *dialogs, struct lookup opened)
+{
+    const bool open = dialogs->lookup.kind != opened.kind;
+    if (!open) opened.kind = LOOKUP_NONE;
+    dialogs->lookup = opened;
+    dialogs->welcome &= !open;
 }
 
 void dialogs_help(struct dialogs *dialogs, const struct core *core)
@@ -368,32 +198,100 @@ void dialogs_help(struct dialogs *dialogs, const struct core *core)
                                         [PANEL_STATUS] = ON_TIME};
     const struct thing *thing = core->hover.thing;
     const enum panel panel = core_panel_at(core, core->pointer_x, core->pointer_y);
-    const bool open = !dialogs->help.open;
-    dialogs->help = (struct help){.open = open, .at = thing && thing->place ? thing->place : places[panel]};
-    dialogs->palette.open = false;
-    dialogs->welcome &= !open;
+    const enum place at = thing && thing->place ? thing->place : places[panel];
+    flip_lookup(dialogs, (struct lookup){.kind = LOOKUP_KEYS, .at = at});
 }
 
-static void find_listed(const struct dialogs *dialogs, struct commands_found *found)
+void dialogs_palette(struct dialogs *dialogs) { flip_lookup(dialogs, (struct lookup){.kind = LOOKUP_PALETTE}); }
+
+const struct command *dialogs_take_command(struct dialogs *dialogs)
 {
-    commands_find(&dialogs->commands, NULL, &dialogs->help.filter, found);
+    const struct command *chosen = dialogs->lookup.chosen;
+    dialogs->lookup.chosen = NULL;
+    return chosen;
 }
 
-bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
+/// A drag scrolls as the wheel does, and a click counts when it ends. false: the event does nothing else.
+static bool drag_lookup(struct lookup *lookup, struct event *event)
 {
-    struct help *help = &dialogs->help;
-    if (!help->open || !typing_concerns(event)) return false;
+    static const float STEP = 16; // pixels
+    const bool button = event->kind == EVENT_BUTTON;
+    if (button && event->action == ACTION_PRESS) {
+        lookup->held = true;
+        lookup->moved = false;
+        lookup->y = event->y;
+        return false;
+    }
+    if (!lookup->held || (!button && event->kind != EVENT_POINTER)) return true;
+    lookup->held = !button;
+    event->action = ACTION_PRESS;
+    if (button) return !lookup->moved;
+    const float steps = truncf((event->y - lookup->y) / STEP);
+    lookup->y += steps * STEP;
+    lookup->moved |= steps != 0;
+    event->kind = EVENT_WHEEL;
+    event->dy = steps / 3;
+    return steps != 0;
+}
+
+/// Chooses a row, and runs its command if it can run.
+static void palette_event(struct lookup *lookup, const struct page *page, const struct commands_found *found,
+                          const struct event *event)
+{
+    const int count = found->count, rows = (int)page->view;
+    int choice = lookup->choice;
+    bool runs = false;
+    if (event->kind == EVENT_WHEEL) { // the choice stays in sight
+        ui_list_scroll(&lookup->list, (float)lroundf(-3 * event->dy));
+        const int first = (int)lookup->list.offset;
+        choice = choice < first ? first : choice >= first + rows ? first + rows - 1 : choice;
+    } else if (event->kind == EVENT_BUTTON && event->action == ACTION_PRESS) {
+        const int row = (int)lookup->list.offset + (int)floorf((event->y - page->body.y) / PALETTE_ROW);
+        runs = rect_contains(page->body, event->x, event->y) && row < count;
+        if (runs) choice = row;
+        if (!rect_contains(page->box, event->x, event->y)) lookup->kind = LOOKUP_NONE;
+    } else if (event->kind == EVENT_KEY) {
+        if (event->key == KEY_UP) choice = choice > 0 ? choice - 1 : count - 1;
+        if (event->key == KEY_DOWN) choice = choice + 1 < count ? choice + 1 : 0;
+        if (event->key == KEY_PAGE_UP) choice -= rows;
+        if (event->key == KEY_PAGE_DOWN) choice += rows;
+        if (event->key == KEY_HOME) choice = 0;
+        if (event->key == KEY_END) choice = count - 1;
+        runs = event->key == KEY_ENTER && choice < count;
+    }
+    if (choice >= count) choice = count - 1;
+    lookup->choice = choice < 0 ? 0 : choice;
+    ui_list_show(&lookup->list, (float)lookup->choice, 1);
+    if (runs && !found->missing[choice]) *lookup = (struct lookup){.chosen = found->list[choice]};
+}
+
+bool lookup_event(struct dialogs *dialogs, const struct core *core, const struct event *event)
+{
+    struct lookup *lookup = &dialogs->lookup;
+    struct event meant = *event;
+    if (!lookup->kind) return false;
+    if (!drag_lookup(lookup, &meant)) return true;
+    const bool key = meant.kind == EVENT_KEY, press = meant.action == ACTION_PRESS;
+    if (key && meant.action == ACTION_RELEASE) return false; // the key was pressed before it opened
+    if (meant.kind == EVENT_POINTER || meant.kind > EVENT_WHEEL) return false;
     struct commands_found found;
-    find_listed(dialogs, &found);
-    const struct page page = page_of(dialogs, &found, core->layout.window);
-    const bool press = event->action == ACTION_PRESS;
-    const float by = scroll_of(event, &page);
-    if (by != 0) {
-        help->offset = scrolled(&page, help->offset + by);
-    } else if (ui_filter_event(&help->filter, event)) {
-        help->offset = 0;
-    } else if (press && (event->kind == EVENT_BUTTON || event->key == KEY_ESCAPE || event->key == KEY_ENTER)) {
-        help->open = false;
+    const struct page page = lookup_page(dialogs, core, &found);
+    ui_list_fit(&lookup->list, page.view, page.content);
+    if (ui_filter_event(&lookup->filter, &meant)) {
+        lookup->choice = 0;
+        lookup->list.offset = 0;
+    } else if (key && meant.key == KEY_ESCAPE) {
+        lookup->kind = LOOKUP_NONE;
+    } else if (lookup->kind == LOOKUP_PALETTE) {
+        palette_event(lookup, &page, &found, &meant);
+    } else if (press && (meant.kind == EVENT_BUTTON || meant.key == KEY_ENTER)) {
+        lookup->kind = LOOKUP_NONE;
+    } else if (meant.kind == EVENT_WHEEL) {
+        ui_list_scroll(&lookup->list, -WHEEL * meant.dy);
+    } else if (key && (meant.key == KEY_UP || meant.key == KEY_DOWN)) {
+        ui_list_scroll(&lookup->list, meant.key == KEY_UP ? -WHEEL : WHEEL);
+    } else if (key && (meant.key == KEY_PAGE_UP || meant.key == KEY_PAGE_DOWN)) {
+        ui_list_scroll(&lookup->list, meant.key == KEY_PAGE_UP ? -page.view : page.view);
     }
     return true;
 }
@@ -404,39 +302,40 @@ static void paint_line(struct drawlist *list, struct rect r, enum font font, uin
     drawlist_text_fit(list, r.x, y, r.w, font, THEME_TEXT_NORMAL, color, text);
 }
 
-/// `keys`: width of the key column.
-static void show_row(struct drawlist *list, struct rect r, float keys, const struct command *command)
+/// A row of the palette: name, what is missing, and keys.
+static void show_command(struct core *core, struct rect r, const struct commands_found *found, int row, bool chosen)
 {
-    char text[COMMAND_KEYS];
-    command_keys(command, text);
-    paint_line(list, (struct rect){r.x, r.y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, text);
-    paint_line(list, (struct rect){r.x + keys, r.y, r.w - keys, r.h}, FONT_LABEL, theme()->text_dim, command->name);
+    struct drawlist *list = &core->list;
+    const struct command *command = found->list[row];
+    const char *missing = found->missing[row];
+    char keys[COMMAND_KEYS];
+    command_keys(command, keys);
+    if (chosen) {
+        drawlist_rounded(list, r, 4, theme()->fill);
+    } else if (rect_contains(r, core->pointer_x, core->pointer_y)) {
+        drawlist_rounded(list, r, 4, theme()->raised);
+    }
+    const float name = ceilf(ui_text_width(command->name)), right = ceilf(ui_text_width(keys));
+    const float from = r.x + 10 + name + PALETTE_GAP, end = r.x + r.w - 10 - (right > 0 ? right + PALETTE_GAP : 0);
+    paint_line(list, (struct rect){r.x + 10, r.y, r.w - 20, r.h}, FONT_LABEL,
+               missing ? theme()->text_dim : theme()->text, command->name);
+    paint_line(list, (struct rect){r.x + r.w - 10 - right, r.y, right + 1, r.h}, FONT_LABEL, theme()->text_dim, keys);
+    if (missing && end - from > 40) {
+        const float width = fminf(ceilf(ui_text_width(missing)), end - from);
+        paint_line(list, (struct rect){end - width, r.y, width + 1, r.h}, FONT_LABEL, theme()->text_dim, missing);
+    }
 }
 
-/// Draws a group from `r`, one row high; returns the group's height.
-static float show_group(struct drawlist *list, struct rect r, float keys, const struct command_list *commands,
-                        int about)
+/// Draws rows of keys and names from `r` on, one row high.
+static void show_rows(struct drawlist *list, struct rect r, float keys, const struct command *const *rows, int count)
 {
-    const struct command *command = first_of(commands, about);
-    const float top = r.y;
-    paint_line(list, (struct rect){r.x, r.y, r.w, HEADER}, FONT_LABEL_BOLD, theme()->accent, about_titles[about]);
-    r.y += HEADER;
-    for (int i = 0; i < row_count(commands, about); i++, r.y += r.h) show_row(list, r, keys, command++);
-    return r.y + GROUP_GAP - top;
-}
-
-static void show_title(struct drawlist *list, const struct page *page, const struct help *help)
-{
-    const struct rect *box = &page->box;
-    const float left = box->x + HELP_MARGIN, width = fminf(FIELD_WIDTH, box->w / 2 - HELP_MARGIN);
-    const struct rect field = {box->x + box->w - HELP_MARGIN - width, box->y + 18, width, FIELD};
-    const float title = ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_TITLE, "Keys")) + HELP_MARGIN;
-    drawlist_text_fit(list, left, box->y + 40, field.x - left - 8, FONT_LABEL_BOLD, THEME_TEXT_TITLE, theme()->text,
-                      "Keys");
-    const struct rect rest = {left + title, box->y + 22, field.x - left - title - 8, FIELD - 8};
-    if (rest.w >= LEAST_NOTE)
-        paint_line(list, rest, FONT_LABEL, theme()->text_dim, "Esc closes. F3 runs any command by its name.");
-    commands_show_field(list, field, &help->filter, "Type to search");
+    for (int i = 0; i < count; i++, r.y += ROW) {
+        char text[COMMAND_KEYS];
+        command_keys(rows[i], text);
+        paint_line(list, (struct rect){r.x, r.y, keys - KEYS_GAP, r.h}, FONT_LABEL, theme()->text, text);
+        paint_line(list, (struct rect){r.x + keys, r.y, r.w - keys, r.h}, FONT_LABEL, theme()->text_dim,
+                   rows[i]->name);
+    }
 }
 
 /// Width of the widest keys with a gap, at most half a column.
@@ -451,26 +350,21 @@ static float keys_width(const struct command *const *rows, int count, float colu
     return fminf(ceilf(widest) + KEYS_GAP, floorf(0.5f * column));
 }
 
-static float column_width(const struct page *page)
-{
-    return (page->box.w - (float)(HELP_MARGIN * (page->flow.columns + 1))) / (float)page->flow.columns;
-}
-
 /// Draws rows in even columns from `y` on.
 static void show_grid(struct drawlist *list, const struct page *page, float y, const struct command *const *rows,
                       int count)
 {
-    const float width = column_width(page);
-    const int high = grid_rows(count, page->flow.columns);
+    const int high = grid_rows(count, page->columns);
     for (int first = 0, c = 0; first < count; first += high, c++) {
-        const int end = first + high < count ? first + high : count;
-        const float keys = keys_width(rows + first, end - first, width);
-        struct rect r = {page->box.x + HELP_MARGIN + (width + HELP_MARGIN) * (float)c, y, width, ROW};
-        for (int i = first; i < end; i++, r.y += ROW) show_row(list, r, keys, rows[i]);
+        const int length = first + high < count ? high : count - first;
+        const float x = page->box.x + HELP_MARGIN + (page->column + HELP_MARGIN) * (float)c;
+        const struct rect r = {x, y, page->column, ROW};
+        show_rows(list, r, keys_width(rows + first, length, page->column), rows + first, length);
     }
 }
 
-static void show_here(struct drawlist *list, const struct dialogs *dialogs, const struct page *page, float y)
+/// F1 without typed text: the rows for the place under the pointer, then all of them under their headings.
+static void show_headings(struct drawlist *list, const struct dialogs *dialogs, const struct page *page, float y)
 {
     static const struct {
         enum place place;
@@ -478,66 +372,97 @@ static void show_here(struct drawlist *list, const struct dialogs *dialogs, cons
     } titles[] = {
         {ON_CURVES, "Over the curves"}, {ON_KNOT, "Over a knot"}, {ON_TIME, "Over the ruler and the status line"},
         {ON_STAGE, "Over the stage"},   {ON_PIN, "Over a pin"},   {ON_INSPECTOR, "In the inspector"}};
-    const struct command *rows[HERE];
-    int count = 0;
-    for (int i = 0; i < dialogs->commands.count && count < HERE; i++) {
-        if (dialogs->commands.commands[i].at & dialogs->help.at) rows[count++] = &dialogs->commands.commands[i];
+    const struct command_list *commands = &dialogs->commands;
+    const struct command *rows[COMMANDS_MOST];
+    const float left = page->box.x + HELP_MARGIN, top = y + GROUP_GAP / 2;
+    int here = 0;
+    for (int i = 0; i < commands->count && here < HERE; i++) {
+        if (commands->commands[i].at & dialogs->lookup.at) rows[here++] = &commands->commands[i];
     }
-    const struct rect box = {page->box.x + HELP_MARGIN / 2, y - GROUP_GAP / 2, page->box.w - HELP_MARGIN,
-                             page->here - GROUP_GAP};
-    drawlist_rounded(list, box, 6, theme()->raised);
+    const struct rect back = {page->box.x + HELP_MARGIN / 2, y, page->box.w - HELP_MARGIN, page->here - GROUP_GAP};
+    drawlist_rounded(list, back, 6, theme()->raised);
     for (size_t i = 0; i < sizeof titles / sizeof titles[0]; i++) {
-        const struct rect title = {page->box.x + HELP_MARGIN, y, page->box.w - 2 * HELP_MARGIN, HEADER};
-        if (titles[i].place == dialogs->help.at)
+        const struct rect title = {left, top, page->box.w - 2 * HELP_MARGIN, HEADER};
+        if (titles[i].place == dialogs->lookup.at)
             paint_line(list, title, FONT_LABEL_BOLD, theme()->accent, titles[i].title);
     }
-    show_grid(list, page, y + HEADER, rows, count);
-}
+    show_grid(list, page, top + HEADER, rows, here);
 
-static void show_columns(struct drawlist *list, const struct command_list *commands, const struct page *page, float y)
-{
-    const struct flow *flow = &page->flow;
-    const float width = column_width(page);
-    for (int c = 0; c < flow->columns; c++) {
-        const struct command *rows[COMMANDS_MOST];
+    for (int c = 0; c < page->columns; c++) {
         int count = 0;
         for (int i = 0; i < commands->count; i++) {
             const int about = (int)commands->commands[i].about;
-            if (about >= flow->first[c] && about < flow->first[c + 1]) rows[count++] = &commands->commands[i];
+            if (about >= page->first[c] && about < page->first[c + 1]) rows[count++] = &commands->commands[i];
         }
-        struct rect r = {page->box.x + HELP_MARGIN + (width + HELP_MARGIN) * (float)c, y, width, flow->row};
-        const float keys = keys_width(rows, count, width);
-        for (int g = flow->first[c]; g < flow->first[c + 1]; g++) r.y += show_group(list, r, keys, commands, g);
+        struct rect r = {left + (page->column + HELP_MARGIN) * (float)c, y + page->here, page->column, ROW};
+        const float keys = keys_width(rows, count, page->column);
+        for (int about = page->first[c], row = 0; about < page->first[c + 1]; about++, row += count) {
+            const struct rect heading = {r.x, r.y, r.w, HEADER};
+            headed(commands, about, &count);
+            paint_line(list, heading, FONT_LABEL_BOLD, theme()->accent, about_titles[about]);
+            r.y += HEADER;
+            show_rows(list, r, keys, rows + row, count);
+            r.y += ROW * (float)count + GROUP_GAP;
+        }
     }
 }
 
-void help_show(const struct dialogs *dialogs, struct core *core)
+void lookup_show(const struct dialogs *dialogs, struct core *core)
 {
-    if (!dialogs->help.open) return;
-    struct drawlist *list = &core->list;
+    const struct lookup *lookup = &dialogs->lookup;
+    const bool is_palette = lookup->kind == LOOKUP_PALETTE, typed = lookup->filter.typed[0] != '\0';
+    struct drawlist *drawn = &core->list;
     struct commands_found found;
-    find_listed(dialogs, &found);
-    const struct page page = page_of(dialogs, &found, core->layout.window);
-    const float offset = scrolled(&page, dialogs->help.offset), y = page.body.y - offset;
-    drawlist_rect(list, core->layout.window, theme()->veil);
-    drawlist_rounded(list, page.box, 8, theme()->panel);
-    drawlist_rounded_line(list, page.box, 8, 1, theme()->zero);
-    show_title(list, &page, &dialogs->help);
-    struct rect clip = drawlist_push_clip(list, page.body);
-    if (dialogs->help.filter.typed[0]) {
-        const struct rect r = {page.box.x + HELP_MARGIN, y, page.box.w - 2 * HELP_MARGIN, ROW};
-        show_grid(list, &page, y, found.list, found.count);
-        if (found.count == 0) paint_line(list, r, FONT_LABEL, theme()->text_dim, "Nothing matches.");
-    } else {
-        show_here(list, dialogs, &page, y + GROUP_GAP / 2);
-        show_columns(list, &dialogs->commands, &page, y + page.here);
+    if (!lookup->kind) return;
+    const struct page page = lookup_page(dialogs, core, &found);
+    struct ui_list list = lookup->list;
+    ui_list_fit(&list, page.view, page.content);
+    drawlist_rect(drawn, core->layout.window, theme()->veil);
+    drawlist_rounded(drawn, page.box, 8, theme()->panel);
+    drawlist_rounded_line(drawn, page.box, 8, 1, theme()->zero);
+
+    // The field with its text, or what it is for.
+    const struct rect field = page.field;
+    const float end = field.x + 10 + font_width(FONT_LABEL, THEME_TEXT_NORMAL, lookup->filter.typed);
+    const char *empty = is_palette ? "Type what you want to do" : "Type to search";
+    drawlist_rounded(drawn, field, 4, theme()->raised);
+    drawlist_rounded_line(drawn, field, 4, 1.5f, theme()->accent);
+    paint_line(drawn, (struct rect){field.x + (typed ? 10 : 14), field.y, field.w - 20, field.h}, FONT_LABEL,
+               typed ? theme()->text : theme()->text_dim, typed ? lookup->filter.typed : empty);
+    drawlist_rect(drawn, (struct rect){roundf(fminf(end, field.x + field.w - 10)), field.y + 8, 1, field.h - 16},
+                  theme()->accent);
+
+    const struct rect body = page.body;
+    if (is_palette) {
+        struct rect row = {body.x, body.y, body.w, PALETTE_ROW};
+        const int first = (int)list.offset, last = first + (int)page.view;
+        for (int i = first; i < found.count && i < last; i++, row.y += PALETTE_ROW)
+            show_command(core, row, &found, i, i == lookup->choice);
+        row.x += 10;
+        row.w -= 20;
+        if (found.count == 0)
+            paint_line(drawn, row, FONT_LABEL, theme()->text_dim, "No command matches. Esc closes.");
+        return;
     }
-    drawlist_set_clip(list, clip);
-    const float range = range_of(&page), high = page.body.h;
-    if (range <= 0) return;
-    const float length = high * high / (high + range);
-    const struct rect bar = {page.box.x + page.box.w - 8, page.body.y + (high - length) * offset / range, 4, length};
-    drawlist_rounded(list, bar, 2, theme()->control);
+
+    const float left = page.box.x + HELP_MARGIN, y = body.y - list.offset;
+    const float title = ceilf(font_width(FONT_LABEL_BOLD, THEME_TEXT_TITLE, "Keys")) + HELP_MARGIN;
+    drawlist_text_fit(drawn, left, page.box.y + 40, field.x - left - 8, FONT_LABEL_BOLD, THEME_TEXT_TITLE,
+                      theme()->text, "Keys");
+    const struct rect note = {left + title, page.box.y + 22, field.x - left - title - 8, FIELD - 8};
+    if (note.w >= LEAST_NOTE)
+        paint_line(drawn, note, FONT_LABEL, theme()->text_dim, "Esc closes. F3 runs any command by its name.");
+    const struct rect clip = drawlist_push_clip(drawn, body);
+    if (!typed) {
+        show_headings(drawn, dialogs, &page, y);
+    } else if (found.count > 0) {
+        show_grid(drawn, &page, y, found.list, found.count);
+    } else {
+        const struct rect row = {left, y, page.box.w - 2 * HELP_MARGIN, ROW};
+        paint_line(drawn, row, FONT_LABEL, theme()->text_dim, "Nothing matches.");
+    }
+    drawlist_set_clip(drawn, clip);
+    ui_list_bar(&list, drawn, (struct rect){body.x + body.w - 8, body.y, 4, body.h}, 0);
 }
 
 enum { CARD_MARGIN = 16, CARD_PAD = 14, CARD_LINE = 20, CARD_GAP = 16, BAND_MARGIN = 6, CARD_TITLE = 40 };

@@ -11,29 +11,18 @@ struct command_list {
     int count;
 };
 
-enum { COMMANDS_MOST = 256 };
+/// What lists the commands: with their keys (F1), or to run them (F3).
+enum lookup_kind { LOOKUP_NONE, LOOKUP_KEYS, LOOKUP_PALETTE };
 
-/// The commands that match the typed text, best first.
-struct commands_found {
-    const struct command *list[COMMANDS_MOST];
-    const char *missing[COMMANDS_MOST]; ///< from need_missing()
-    int count;
-};
-
-/// The key overlay (F1).
-struct help {
-    bool open;
-    float offset; ///< scrolled pixels
-    unsigned at;  ///< enum place under the pointer when it opened
+struct lookup {
+    enum lookup_kind kind; ///< the open one
     struct ui_filter filter;
-};
-
-/// The command palette (F3).
-struct palette {
-    bool open;
-    struct ui_filter filter;
-    int choice, first;            ///< the row that Enter runs; the first visible row
+    struct ui_list list;          ///< F1: in pixels; palette: in rows
+    unsigned at;                  ///< F1: enum place under the pointer when it opened
+    int choice;                   ///< palette: the row that Enter runs
     const struct command *chosen; ///< command to run, or NULL
+    bool held, moved;             ///< a button is pressed, and has scrolled
+    float y;                      ///< scrolled up to here
 };
 
 enum dialog_kind {
@@ -93,19 +82,11 @@ struct pressed {
     bool is_demo;     ///< also shows the pointer
 };
 
-/// Of a pressed button over the help or the palette.
-struct list_drag {
-    bool held, moved;
-    float y; ///< scrolled up to here
-};
-
 struct dialogs {
     struct command_list commands;
     struct dialog dialog;
     struct exporting exporting;
-    struct help help;
-    struct palette palette;
-    struct list_drag list_drag;
+    struct lookup lookup;
     struct pressed pressed;
     char caption[160]; ///< of a demo
     bool welcome;      ///< the card for new users is shown
@@ -120,13 +101,10 @@ void dialog_go_on(struct dialogs *dialogs, struct core *core, const struct reque
 /// Sends a request to the app; the dialog ignores input until dialogs_answer().
 void dialog_await(struct dialogs *dialogs, struct core *core, enum request_kind kind, const char *path);
 
-/// Typing searches, wheel and arrows scroll, Esc, Enter or a click closes. true for keys, text, buttons and wheel while it is open.
-bool help_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
-void help_show(const struct dialogs *dialogs, struct core *core);
-
-/// Typing searches, ↑ ↓ choose, the wheel scrolls, Enter or a click runs a command, Esc closes. true for the same events while it is open.
-bool palette_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
-void palette_show(const struct dialogs *dialogs, struct core *core);
+/// Typing searches, the wheel and drags scroll, Esc closes. In F1 arrows scroll, and Enter or a click closes. In the palette arrows choose,
+/// and Enter or a click runs a command. true for keys, text, buttons, drags and wheel while it is open.
+bool lookup_event(struct dialogs *dialogs, const struct core *core, const struct event *event);
+void lookup_show(const struct dialogs *dialogs, struct core *core);
 
 /// A press on the card, Esc, an edit or F1 closes it; true if the event is used.
 bool welcome_event(struct dialogs *dialogs, const struct event *event);
