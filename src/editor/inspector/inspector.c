@@ -123,11 +123,12 @@ void inspector_unfold(struct inspector *in, const char *name)
         if (strcmp(sections[i].name, name) != 0) continue;
         in->called[i] = true;
         in->flipped[i] = sections[i].closed;
-        in->revealed = sections[i].name; // the measuring pass scrolls there
+        in->revealed = sections[i].name; // the next pass scrolls there
     }
 }
 
-static void build_panel(struct inspector *in, struct rect area)
+/// false if the sections no longer fit where they were laid out: a shorter panel was scrolled past its end, or one was to be revealed.
+static bool build_panel(struct inspector *in, struct rect area)
 {
     static const struct ui_choice looks[] = {
         [LOOK_WIGGLY] = {"wiggly", "Off"}, [LOOK_STIFF] = {"stiff", "Stiff"}, [LOOK_CUBIC] = {"cubic", "Cubic"}};
@@ -135,9 +136,12 @@ static void build_panel(struct inspector *in, struct rect area)
     struct rect view = {area.x, area.y, area.w, fmaxf(0, area.h - FOOTER)};
     in->list = NULL;
     ui_list_begin(ui, &in->sections, view);
+    const float offset = in->sections.offset;
     build_sections(in);
     ui_space(ui, 4);
     ui_list_end(ui);
+    struct ui_list next = in->sections;
+    ui_list_fit(&next, view.h, next.content);
 
     const struct rect footer = {area.x, area.y + view.h, area.w, FOOTER};
     const struct rect row = {footer.x + UI_PAD, footer.y + 8, footer.w - 2 * UI_PAD, UI_ROW};
@@ -151,6 +155,7 @@ static void build_panel(struct inspector *in, struct rect area)
         core_set_look(in->core, (enum look)look);
     inspector_offer(in, &inspector_add_list); // A works anywhere
     if (in->list) in->list->build(in, in->list);
+    return roundf(next.offset) == offset;
 }
 
 struct inspector *inspector_create(struct core *core)
@@ -240,13 +245,16 @@ void inspector_show(struct inspector *in, bool covered)
     const bool same = bone->any == seen->any && bone->node == seen->node && bone->file == seen->file;
     in->seen_bone = *bone;
     if (!same && bone->any) inspector_unfold(in, "section.model");
-    ui_begin_find(&in->ui, area, "", NULL); // measures, so that a shorter panel is not scrolled past its end
-    build_panel(in, area);
-    ui_end(&in->ui);
-    drawlist_rect(&in->core->list, area, theme()->panel);
-    ui_begin_draw(&in->ui, area, &in->core->list);
-    build_panel(in, area);
-    ui_end(&in->ui);
+    struct drawlist *list = &in->core->list;
+    const struct drawlist below = *list;
+    bool fits = false;
+    for (int pass = 0; pass < 2 && !fits; pass++) { // seldom twice
+        *list = below;
+        drawlist_rect(list, area, theme()->panel);
+        ui_begin_draw(&in->ui, area, list);
+        fits = build_panel(in, area);
+        ui_end(&in->ui);
+    }
 }
 
 void inspector_let_go(struct inspector *in)

@@ -43,6 +43,11 @@ void inspector_find_rig(struct inspector *in)
     if (shown && in->channel >= rig_input_count(shown)) in->channel = 0;
     if (in->selected >= in->core->document->rig_count) in->selected = in->core->document->rig_count - 1;
     if (in->selected < 0) in->selected = 0;
+
+    struct character_view *view = &in->core->characters;
+    if (!document_character(in->core->document, view->character)) view->character = 0;
+    const struct character_rig *character = document_character(in->core->document, view->character);
+    if (character && view->drive >= character->drive_count) view->drive = 0;
 }
 
 /// Shows a rig in the section of its kind.
@@ -830,10 +835,9 @@ void inspector_character(struct inspector *in)
     static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
     static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
     struct character_view *view = &in->core->characters;
-    if (!document_character(in->core->document, view->character)) view->character = 0;
+    inspector_find_rig(in); // a row may have removed one
     const struct character_rig *rig = document_character(in->core->document, view->character);
     struct ui_item items[MAX_COORDINATES];
-    if (view->drive >= rig->drive_count) view->drive = 0;
     build_drives(in, rig);
     if (free_coordinates(in, rig, items) > 0 && in->core->document->spline_count > 0)
         inspector_dropdown(in, &add_list, ui_row(&in->ui, UI_ROW), 0, "Add a channel", 0);
