@@ -12,13 +12,15 @@
 enum { SWITCH = 24, MOST_REACH = 1024 }; ///< pixels: width of a form button
 
 static const struct number_row rows[] = {
-    [ANGLE_REST] = {"rest", "rest", "°", "Upward bend of each joint at rest", "Set rest pose", BAR(-15, 15),
-                    TYPED(-36000, 36000), .step = 0.5, .decimals = 1},
-    [ANGLE_LAG] = {"lag", "lag", "°",
-                   "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)", "Set lag",
-                   BAR(0, 30), TYPED(-36000, 36000), .fallback = 6.5, .step = 0.5, .decimals = 1},
-    [ANGLE_GAIN] = {"gain", "gain", "°", "How far each joint bends when the spline is 1", "Set gain", BAR(0, 20),
-                    TYPED(-36000, 36000), .fallback = 5, .step = 0.5, .decimals = 1},
+    [ANGLE_REST] = {BAR(-15, 15), .name = "rest", .label = "rest", .unit = "°",
+                    .hint = "Upward bend of each joint at rest", .undo = "Set rest pose", TYPED(-36000, 36000),
+                    .step = 0.5, .decimals = 1},
+    [ANGLE_LAG] = {BAR(0, 30), .name = "lag", .label = "lag", .unit = "°",
+                   .hint = "How far each joint lags behind the last, in degrees of swing (hold L and press ↑ ↓)",
+                   .undo = "Set lag", TYPED(-36000, 36000), .fallback = 6.5, .step = 0.5, .decimals = 1},
+    [ANGLE_GAIN] = {BAR(0, 20), .name = "gain", .label = "gain", .unit = "°",
+                    .hint = "How far each joint bends when the spline is 1", .undo = "Set gain", TYPED(-36000, 36000),
+                    .fallback = 5, .step = 0.5, .decimals = 1},
 };
 
 static bool set_angles(struct inspector *in, enum angle_kind kind, const struct angles *angles, struct error *error)

@@ -47,28 +47,30 @@ static bool has_brush(const struct core *core) { return core->brush.on; }
 
 /// In order. Replays address headers by `name`.
 static const struct section {
-    const char *name, *title;
-    const char *(*titled)(struct inspector *in); ///< replaces a fixed title
+    const char *name;
     void (*build)(struct inspector *in);
-    unsigned needs;                         ///< shown if one of these is there; 0: always
-    bool (*shown)(const struct core *core); ///< shown without More; NULL: only on request
-    bool closed;                            ///< initially
+    const char *title;
+    const char *(*titled)(struct inspector *in); ///< replaces a fixed title
+    unsigned needs;                              ///< shown if one of these is there; 0: always
+    bool (*shown)(const struct core *core);      ///< shown without More; NULL: only on request
+    bool closed;                                 ///< initially
 } sections[] = {
-    {"section.feel", NULL, inspector_feel_title, inspector_feel, SPLINE, always, false},
-    {"section.knot", NULL, inspector_knot_title, inspector_knot, SPLINE, always, false},
-    {"section.splines", "Splines", NULL, inspector_splines, 0, always, false},
-    {"section.spline", "Spline", NULL, inspector_spline, SPLINE, NULL, false},
-    {"section.rigs", "Rigs", NULL, inspector_rigs, 0, has_no_spline, false},
-    {"section.model", "Imported character", NULL, inspector_model, MODELS, has_bone, false},
-    {"section.tail", NULL, tail_title, inspector_tail, TAILS | CHAINS, NULL, false},
-    {"section.character", "Character", NULL, inspector_character, CHARACTERS, has_brush, false},
-    {"section.pins", "Pins", NULL, inspector_pins, TAILS | CHAINS | CHARACTERS, pins_any_selected, false},
-    {"section.advanced", "Advanced", NULL, inspector_advanced, SPLINE, NULL, true},
-    {"section.poles", "Poles and response", NULL, inspector_poles, SPLINE, NULL, true},
-    {"section.limits", "Limits and steadiness", NULL, inspector_limits, SPLINE, NULL, true},
-    {"section.variation", "Variation", NULL, inspector_variation, SWING, NULL, true},
-    {"section.scene", "Scene", NULL, inspector_scene, 0, NULL, true},
-    {"section.history", "History", NULL, inspector_history, 0, NULL, true}, // last, see history.c
+    {"section.feel", inspector_feel, .titled = inspector_feel_title, .needs = SPLINE, .shown = always},
+    {"section.knot", inspector_knot, .titled = inspector_knot_title, .needs = SPLINE, .shown = always},
+    {"section.splines", inspector_splines, .title = "Splines", .shown = always},
+    {"section.spline", inspector_spline, .title = "Spline", .needs = SPLINE},
+    {"section.rigs", inspector_rigs, .title = "Rigs", .shown = has_no_spline},
+    {"section.model", inspector_model, .title = "Imported character", .needs = MODELS, .shown = has_bone},
+    {"section.tail", inspector_tail, .titled = tail_title, .needs = TAILS | CHAINS},
+    {"section.character", inspector_character, .title = "Character", .needs = CHARACTERS, .shown = has_brush},
+    {"section.pins", inspector_pins, .title = "Pins", .needs = TAILS | CHAINS | CHARACTERS,
+     .shown = pins_any_selected},
+    {"section.advanced", inspector_advanced, .title = "Advanced", .needs = SPLINE, .closed = true},
+    {"section.poles", inspector_poles, .title = "Poles and response", .needs = SPLINE, .closed = true},
+    {"section.limits", inspector_limits, .title = "Limits and steadiness", .needs = SPLINE, .closed = true},
+    {"section.variation", inspector_variation, .title = "Variation", .needs = SWING, .closed = true},
+    {"section.scene", inspector_scene, .title = "Scene", .closed = true},
+    {"section.history", inspector_history, .title = "History", .closed = true}, // last: its height changes
 };
 
 enum { SECTIONS = sizeof sections / sizeof sections[0], FIRST = 3 /* of sections that More opens */ };
@@ -533,16 +535,18 @@ static bool set_scene(struct inspector *in, int which, double number, struct err
 }
 
 static const struct number_row scene_rows[SCENE_ROWS] = {
-    [ROW_RATE] = {"scene.fps", "rate", "fps", "Frames per second; asks whether to keep frames or seconds", NULL,
-                  NUMBER_AT(struct document, fps), TYPED(0.001, SCENE_MAX_FPS), .fallback = 24, .step = 1},
-    [ROW_FIRST] = {"scene.first", "first", NULL, "First frame of the scene", NULL,
-                   WHOLE_AT(struct document, first_frame), TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN,
+    [ROW_RATE] = {NUMBER_AT(struct document, fps), .name = "scene.fps", .label = "rate", .unit = "fps",
+                  .hint = "Frames per second; asks whether to keep frames or seconds", TYPED(0.001, SCENE_MAX_FPS),
+                  .fallback = 24, .step = 1},
+    [ROW_FIRST] = {WHOLE_AT(struct document, first_frame), .name = "scene.first", .label = "first",
+                   .hint = "First frame of the scene", TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN,
                    .step = 1},
-    [ROW_LAST] = {"scene.last", "last", NULL, "Last frame of the scene; in a loop it repeats the first", NULL,
-                  WHOLE_AT(struct document, last_frame), TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN,
-                  .step = 1},
-    [ROW_SUBSTEPS] = {"scene.substeps", "substeps", NULL, "Samples per frame, for motion blur", NULL,
-                      WHOLE_AT(struct document, substeps), TYPED(1, SCENE_MAX_SUBSTEPS), .fallback = 1, .step = 1},
+    [ROW_LAST] = {WHOLE_AT(struct document, last_frame), .name = "scene.last", .label = "last",
+                  .hint = "Last frame of the scene; in a loop it repeats the first",
+                  TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1},
+    [ROW_SUBSTEPS] = {WHOLE_AT(struct document, substeps), .name = "scene.substeps", .label = "substeps",
+                      .hint = "Samples per frame, for motion blur", TYPED(1, SCENE_MAX_SUBSTEPS), .fallback = 1,
+                      .step = 1},
 };
 
 void inspector_scene(struct inspector *in)

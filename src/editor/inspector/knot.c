@@ -15,21 +15,25 @@
 enum { FIELD_FRAME, FIELD_VALUE, FIELD_PHASE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
 
 static const struct number_row knot_rows[FIELDS] = {
-    [FIELD_FRAME] = {"frame", "frame", NULL, "Frame of the first selected knot; the others move with it",
-                     "Move knots", NUMBER_AT(struct knot, frame), TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME),
-                     .fallback = NAN, .step = 1},
-    [FIELD_VALUE] = {"value", "value", NULL, "Type to set all selected knots; drag to shift each by the same amount",
-                     "Set values", NUMBER_AT(struct knot, value), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT),
-                     .step = 0.01, .decimals = 3},
-    [FIELD_PHASE] = {"phase", "phase", NULL, "Type to set all selected knots; drag to shift each by the same amount",
-                     "Set phases", NUMBER_AT(struct knot, phase), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT),
-                     .step = 0.01, .decimals = 3},
-    [FIELD_SLOPE] = {"slope", "slope", "/s", "Type to set all selected knots; drag to shift each by the same amount",
-                     "Set slopes", NUMBER_AT(struct knot, slope), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT),
-                     .step = 0.05, .decimals = 2},
-    [FIELD_STIFFNESS] = {"stiffness", "stiffness", "1/s", "How firmly the slopes hold; 1000 is firm", "Set stiffness",
-                         NUMBER_AT(struct knot, stiffness), TYPED(0.001, INSPECTOR_NO_LIMIT),
-                         .fallback = KNOT_DEFAULT_STIFFNESS, .step = 10, .decimals = 1},
+    [FIELD_FRAME] = {NUMBER_AT(struct knot, frame), .name = "frame", .label = "frame",
+                     .hint = "Frame of the first selected knot; the others move with it", .undo = "Move knots",
+                     TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1},
+    [FIELD_VALUE] = {NUMBER_AT(struct knot, value), .name = "value", .label = "value",
+                     .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                     .undo = "Set values", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
+                     .decimals = 3},
+    [FIELD_PHASE] = {NUMBER_AT(struct knot, phase), .name = "phase", .label = "phase",
+                     .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                     .undo = "Set phases", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
+                     .decimals = 3},
+    [FIELD_SLOPE] = {NUMBER_AT(struct knot, slope), .name = "slope", .label = "slope", .unit = "/s",
+                     .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                     .undo = "Set slopes", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.05,
+                     .decimals = 2},
+    [FIELD_STIFFNESS] = {NUMBER_AT(struct knot, stiffness), .name = "stiffness", .label = "stiffness", .unit = "1/s",
+                         .hint = "How firmly the slopes hold; 1000 is firm", .undo = "Set stiffness",
+                         TYPED(0.001, INSPECTOR_NO_LIMIT), .fallback = KNOT_DEFAULT_STIFFNESS, .step = 10,
+                         .decimals = 1},
 };
 
 /// The fields for a single selected knot.
@@ -366,16 +370,19 @@ static bool build_row(struct inspector *in, int row, struct pin_place place)
 enum { ROW_FRAME, ROW_POINT, PIN_ROWS = ROW_POINT + 4 };
 
 static const struct number_row pin_rows[PIN_ROWS] = {
-    {"pin.frame", "frame", NULL, "Frame of the pin (Alt+PgUp, Alt+PgDn)", "Move pin in time",
-     NUMBER_AT(struct pin, frame), .fallback = NAN, .step = 1},
-    {"pin.point", NULL, NULL, "The pinned point", "Pin another point", WHOLE_AT(struct pin, point), .fallback = NAN,
-     .step = 1},
-    {"pin.x", "x", "m", "Target of the point: across; 0 is the middle", "Move pin", NUMBER_AT(struct pin, to[0]),
+    {NUMBER_AT(struct pin, frame), .name = "pin.frame", .label = "frame",
+     .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)", .undo = "Move pin in time", .fallback = NAN, .step = 1},
+    {WHOLE_AT(struct pin, point), .name = "pin.point", .hint = "The pinned point", .undo = "Pin another point",
+     .fallback = NAN, .step = 1},
+    {NUMBER_AT(struct pin, to[0]), .name = "pin.x", .label = "x", .unit = "m",
+     .hint = "Target of the point: across; 0 is the middle", .undo = "Move pin",
      TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3},
-    {"pin.y", "y", "m", "Target of the point: height", "Move pin", NUMBER_AT(struct pin, to[1]),
-     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3},
-    {"pin.z", "z", "m", "Target of the point: depth", "Move pin", NUMBER_AT(struct pin, to[2]),
-     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3},
+    {NUMBER_AT(struct pin, to[1]), .name = "pin.y", .label = "y", .unit = "m", .hint = "Target of the point: height",
+     .undo = "Move pin", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005,
+     .decimals = 3},
+    {NUMBER_AT(struct pin, to[2]), .name = "pin.z", .label = "z", .unit = "m", .hint = "Target of the point: depth",
+     .undo = "Move pin", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005,
+     .decimals = 3},
 };
 
 static const void *pin_of(const struct inspector *in)

@@ -449,11 +449,11 @@ static void build_inset(struct inspector *in, const struct pole_setting *setting
     double spread = setting->hz * setting->bandwidth;
     struct ui_handle handles[HANDLES] = {
         [HANDLE_CENTRE] = {"pole.centre", "Drag sideways for frequency, up for damping (Shift: fine)",
-                           poles_x(view, inset, setting->hz), y, 0, 0},
+                           .x = poles_x(view, inset, setting->hz), .y = y},
         [HANDLE_LOWER] = {"pole.lower", "Pole: drag sideways for bandwidth, up for damping",
-                          poles_x(view, inset, setting->hz - spread), y, 0, 0},
+                          .x = poles_x(view, inset, setting->hz - spread), .y = y},
         [HANDLE_UPPER] = {"pole.upper", "Pole: drag sideways for bandwidth, up for damping",
-                          poles_x(view, inset, setting->hz + spread), y, 0, 0}};
+                          .x = poles_x(view, inset, setting->hz + spread), .y = y}};
     int which = 0, count = setting->kind == FILTER_TWO_COMPLEX ? HANDLES : 1;
     if (in->ui.pass == UI_PASS_DRAW) poles_draw_inset(view, setting, inset, in->ui.list);
     enum ui_change change = ui_handles(&in->ui, row, handles, count, &which);

@@ -288,21 +288,23 @@ static void build_name(struct inspector *in)
 enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN };
 
 static const struct number_row tail_rows[] = {
-    [ROW_X] = {"position.x", "x", "m", "Position of the body along x", "Move body",
-               NUMBER_AT(struct rig, tail.position[0].value), TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    {"position.y", "y", "m", "Position of the body along y", "Move body",
-     NUMBER_AT(struct rig, tail.position[1].value), TYPED(-1e6, 1e6), .fallback = 0.26, .step = 0.01, .decimals = 3},
-    {"position.z", "z", "m", "Position of the body along z", "Move body",
-     NUMBER_AT(struct rig, tail.position[2].value), TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    [ROW_JOINTS] = {"joints", "joints", NULL, "More joints bend more smoothly; shape and swing stay the same",
-                    "Set joints", WHOLE_AT(struct rig, tail.joints), BAR(1, 64), TYPED(1, TAIL_MAX_JOINTS),
-                    .fallback = TAIL_DEFAULT_JOINTS, .step = 1},
-    [ROW_LENGTH] = {"length", "length", "m", "Length of the tail; the body scales with it", "Set length",
-                    NUMBER_AT(struct rig, tail.length), BAR(0.2, 4), TYPED(1e-3, 1e6),
-                    .fallback = TAIL_DEFAULT_LENGTH, .step = 0.05, .decimals = 2},
-    [ROW_TURN] = {"chain.turn", "turn", "°", "Turns the axes of side and up about the chain's own direction",
-                  "Turn chain's axes", NUMBER_AT(struct rig, chain.turn), BAR(-180, 180), TYPED(-36000, 36000),
-                  .step = 1},
+    [ROW_X] = {NUMBER_AT(struct rig, tail.position[0].value), .name = "position.x", .label = "x", .unit = "m",
+               .hint = "Position of the body along x", .undo = "Move body", TYPED(-1e6, 1e6), .step = 0.01,
+               .decimals = 3},
+    {NUMBER_AT(struct rig, tail.position[1].value), .name = "position.y", .label = "y", .unit = "m",
+     .hint = "Position of the body along y", .undo = "Move body", TYPED(-1e6, 1e6), .fallback = 0.26, .step = 0.01,
+     .decimals = 3},
+    {NUMBER_AT(struct rig, tail.position[2].value), .name = "position.z", .label = "z", .unit = "m",
+     .hint = "Position of the body along z", .undo = "Move body", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
+    [ROW_JOINTS] = {WHOLE_AT(struct rig, tail.joints), .name = "joints", .label = "joints",
+                    .hint = "More joints bend more smoothly; shape and swing stay the same", .undo = "Set joints",
+                    BAR(1, 64), TYPED(1, TAIL_MAX_JOINTS), .fallback = TAIL_DEFAULT_JOINTS, .step = 1},
+    [ROW_LENGTH] = {NUMBER_AT(struct rig, tail.length), .name = "length", .label = "length", .unit = "m",
+                    .hint = "Length of the tail; the body scales with it", .undo = "Set length", BAR(0.2, 4),
+                    TYPED(1e-3, 1e6), .fallback = TAIL_DEFAULT_LENGTH, .step = 0.05, .decimals = 2},
+    [ROW_TURN] = {NUMBER_AT(struct rig, chain.turn), .name = "chain.turn", .label = "turn", .unit = "°",
+                  .hint = "Turns the axes of side and up about the chain's own direction",
+                  .undo = "Turn chain's axes", BAR(-180, 180), TYPED(-36000, 36000), .step = 1},
 };
 
 static int shown_rig(const struct inspector *in) { return in->rig; }
@@ -647,11 +649,13 @@ static const void *felt_drive(const struct inspector *in)
 }
 
 static const struct number_row drive_rows[] = {
-    {"drive.lag", "lag", "°", "How far it lags behind the spline; 360 is a full swing", "Set lag",
-     NUMBER_AT(struct drive, lag), BAR(-180, 180), TYPED(-36000, 36000), .step = 1, .decimals = 1},
-    {"amplitude", "amplitude", NULL, "How far it swings when the spline is 1", "Set amplitude",
-     NUMBER_AT(struct drive, amplitude), BAR(-2, 2), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT),
-     .fallback = DRIVE_DEFAULT_AMPLITUDE, .step = 0.05, .decimals = 2},
+    {NUMBER_AT(struct drive, lag), .name = "drive.lag", .label = "lag", .unit = "°",
+     .hint = "How far it lags behind the spline; 360 is a full swing", .undo = "Set lag", BAR(-180, 180),
+     TYPED(-36000, 36000), .step = 1, .decimals = 1},
+    {NUMBER_AT(struct drive, amplitude), .name = "amplitude", .label = "amplitude",
+     .hint = "How far it swings when the spline is 1", .undo = "Set amplitude", BAR(-2, 2),
+     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = DRIVE_DEFAULT_AMPLITUDE, .step = 0.05,
+     .decimals = 2},
 };
 
 static double was_drive(const struct inspector *in, int which)
@@ -739,9 +743,9 @@ static const struct dropdown add_list = {"drive.add", "Add a channel that the ac
 static int shown_character(const struct inspector *in) { return characters_rig(in->core); }
 
 static const struct number_row floor_rows[] = {
-    {"floor.height", "height", "m", "No point of the character goes lower", "Set floor",
-     NUMBER_AT(struct rig, character.floor), BAR(-1, 0), TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
-     .decimals = 3},
+    {NUMBER_AT(struct rig, character.floor), .name = "floor.height", .label = "height", .unit = "m",
+     .hint = "No point of the character goes lower", .undo = "Set floor", BAR(-1, 0),
+     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3},
 };
 
 /// The floor switch and its height.
@@ -798,10 +802,11 @@ static bool set_share(struct inspector *in, int which, double percent, struct er
 }
 
 static const struct number_row brush_rows[] = {
-    {"radius", "radius", "%", "Radius, relative to the character's height (Ctrl+wheel on the stage)", NULL,
-     BAR(1, 50), TYPED(1, 50), .fallback = 12, .step = 1},
-    {"strength", "strength", "%", "How fast paint flows (Shift+wheel on the stage)", NULL, BAR(2, 100), TYPED(2, 100),
-     .fallback = 40, .step = 1},
+    {BAR(1, 50), .name = "radius", .label = "radius", .unit = "%",
+     .hint = "Radius, relative to the character's height (Ctrl+wheel on the stage)", TYPED(1, 50), .fallback = 12,
+     .step = 1},
+    {BAR(2, 100), .name = "strength", .label = "strength", .unit = "%",
+     .hint = "How fast paint flows (Shift+wheel on the stage)", TYPED(2, 100), .fallback = 40, .step = 1},
 };
 
 static void build_brush(struct inspector *in)
@@ -900,16 +905,18 @@ static void choose_clip(struct inspector *in, const struct dropdown *list)
 static const struct dropdown clip_list = {"model.clips", "The clip of the file that it repeats", choose_clip};
 
 static const struct number_row place[] = {
-    {"model.x", "x", "m", "Where it stands along x", "Place character", NUMBER_AT(struct rig, model.position[0]),
-     TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    {"model.y", "y", "m", "Height of the ground under it", "Place character",
-     NUMBER_AT(struct rig, model.position[1]), TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    {"model.z", "z", "m", "Where it stands along z", "Place character", NUMBER_AT(struct rig, model.position[2]),
-     TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
-    {"model.scale", "scale", NULL, "Size, relative to the file's", "Place character",
-     NUMBER_AT(struct rig, model.scale), TYPED(1e-9, 1e9), .fallback = 1, .step = 0.01, .decimals = 3},
-    {"model.turn", "turn", "°", "About the vertical", "Place character", NUMBER_AT(struct rig, model.turn),
-     BAR(-180, 180), TYPED(-36000, 36000), .step = 1},
+    {NUMBER_AT(struct rig, model.position[0]), .name = "model.x", .label = "x", .unit = "m",
+     .hint = "Where it stands along x", .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
+    {NUMBER_AT(struct rig, model.position[1]), .name = "model.y", .label = "y", .unit = "m",
+     .hint = "Height of the ground under it", .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01,
+     .decimals = 3},
+    {NUMBER_AT(struct rig, model.position[2]), .name = "model.z", .label = "z", .unit = "m",
+     .hint = "Where it stands along z", .undo = "Place character", TYPED(-1e6, 1e6), .step = 0.01, .decimals = 3},
+    {NUMBER_AT(struct rig, model.scale), .name = "model.scale", .label = "scale",
+     .hint = "Size, relative to the file's", .undo = "Place character", TYPED(1e-9, 1e9), .fallback = 1, .step = 0.01,
+     .decimals = 3},
+    {NUMBER_AT(struct rig, model.turn), .name = "model.turn", .label = "turn", .unit = "°",
+     .hint = "About the vertical", .undo = "Place character", BAR(-180, 180), TYPED(-36000, 36000), .step = 1},
 };
 
 void inspector_model(struct inspector *in)

@@ -180,11 +180,16 @@ static const struct preset {
     double wind_up; ///< periods
     double lag;     ///< degrees between the first and last joint
 } presets[] = {
-    {"preset.cat", "Cat", "A cat's tail: slow, soon at rest, the tip far behind", 0.8, 0.22, 0.5, 170},
-    {"preset.whip", "Whip", "A whip: quick, a wave that runs to the tip", 1.8, 0.12, 0.35, 260},
-    {"preset.heavy", "Heavy", "Something heavy: slow, long in coming, soon at rest", 0.5, 0.35, 0.7, 90},
-    {"preset.jelly", "Jelly", "Jelly: quick, wobbles for long", 3, 0.06, 0.5, 60},
-    {"preset.antenna", "Antenna", "An antenna: very quick, stiff, rings for long", 5, 0.03, 0.5, 20},
+    {"preset.cat", "Cat", "A cat's tail: slow, soon at rest, the tip far behind", .frequency = 0.8, .damping = 0.22,
+     .wind_up = 0.5, .lag = 170},
+    {"preset.whip", "Whip", "A whip: quick, a wave that runs to the tip", .frequency = 1.8, .damping = 0.12,
+     .wind_up = 0.35, .lag = 260},
+    {"preset.heavy", "Heavy", "Something heavy: slow, long in coming, soon at rest", .frequency = 0.5,
+     .damping = 0.35, .wind_up = 0.7, .lag = 90},
+    {"preset.jelly", "Jelly", "Jelly: quick, wobbles for long", .frequency = 3, .damping = 0.06, .wind_up = 0.5,
+     .lag = 60},
+    {"preset.antenna", "Antenna", "An antenna: very quick, stiff, rings for long", .frequency = 5, .damping = 0.03,
+     .wind_up = 0.5, .lag = 20},
 };
 
 enum { PRESETS = sizeof presets / sizeof presets[0], PRESET_GAP = 4, PRESET_MARGINS = 8, TEXT = 32 /* two lines */ };
@@ -748,8 +753,9 @@ static bool set_gain(struct inspector *in, int which, double gain, struct error 
 }
 
 static const struct number_row gain_rows[] = {
-    {"joint.gain", "strength", NULL, "How much of the joint's motion it follows", "Set joint's gain",
-     NUMBER_AT(struct joint_motion, gain), TYPED(-1e6, 1e6), .fallback = 1, .step = 0.01, .decimals = 2},
+    {NUMBER_AT(struct joint_motion, gain), .name = "joint.gain", .label = "strength",
+     .hint = "How much of the joint's motion it follows", .undo = "Set joint's gain", TYPED(-1e6, 1e6), .fallback = 1,
+     .step = 0.01, .decimals = 2},
 };
 
 static void build_number(struct inspector *in, enum parameter parameter)
