@@ -1,12 +1,17 @@
-/// The inspector: the table of its sections, what they share, and the sections on scene and history.
+/// The inspector: the table of its sections, what they share, and the sections on scene, history, selected knots and pins.
 #include "editor/inspector/inspector.h"
+#include "base/names.h"
 #include "base/need.h"
+#include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
 #include "editor/core/pins.h"
+#include "editor/core/selection.h"
 #include "editor/inspector/state.h"
+#include "scene/pins.h"
 #include "ui/theme.h"
 #include <math.h>
+#include <stddef.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,36 +94,6 @@ static bool is_shown(const struct inspector *in, int i)
     return core->more || in->called[i] || (section->shown && section->shown(core));
 }
 
-static void build_sections(struct inspector *in)
-{
-    struct ui *ui = &in->ui;
-    inspector_find_rig(in);
-    for (int i = 0; i < SECTIONS; i++) {
-        const struct section *section = &sections[i];
-        bool *flipped = &in->flipped[i];
-        if (i == FIRST) { // at a fixed place
-            const bool more = in->core->more;
-            const struct rect row = ui_row(ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
-            ui_hint(ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
-            if (ui_button(ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
-        }
-        if (!is_shown(in, i)) continue;
-        bool closed = *flipped != section->closed;
-        const float top = ui->y;
-        bool open = ui_section(ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
-        *flipped = closed != section->closed;
-        in->called[i] &= open;
-        if (!open) continue;
-        ui_push(ui, (uint32_t)i);
-        section->build(in);
-        ui_pop(ui);
-        ui_space(ui, 4);
-        if (!in->revealed || strcmp(in->revealed, section->name) != 0) continue;
-        in->revealed = NULL;
-        ui_list_show(&in->sections, top - ui->scroll_area.y + in->sections.offset, ui->y - top);
-    }
-}
-
 void inspector_unfold(struct inspector *in, const char *name)
 {
     for (int i = 0; i < SECTIONS; i++) {
@@ -139,7 +114,32 @@ static bool build_panel(struct inspector *in, struct rect area)
     in->list = NULL;
     ui_list_begin(ui, &in->sections, view);
     const float offset = in->sections.offset;
-    build_sections(in);
+    inspector_find_rig(in);
+    for (int i = 0; i < SECTIONS; i++) {
+        const struct section *section = &sections[i];
+        bool *flipped = &in->flipped[i];
+        if (i == FIRST) { // at a fixed place
+            const bool more = in->core->more;
+            const struct rect row = ui_row(ui, UI_ROW + 4), r = {row.x, row.y + 3, row.w, UI_ROW - 2};
+            ui_hint(ui, r, more ? "Show only the main sections (F9)" : "Show all sections and controls (F9)");
+            if (ui_button(ui, r, "more", more ? "Less" : "More", false)) core_flip(in->core, SWITCH_MORE);
+        }
+        if (!is_shown(in, i)) continue;
+        bool closed = *flipped != section->closed;
+        const float top = ui->y;
+        const bool open =
+            ui_section(ui, section->name, section->titled ? section->titled(in) : section->title, &closed);
+        *flipped = closed != section->closed;
+        in->called[i] &= open;
+        if (!open) continue;
+        ui_push(ui, (uint32_t)i);
+        section->build(in);
+        ui_pop(ui);
+        ui_space(ui, 4);
+        if (!in->revealed || strcmp(in->revealed, section->name) != 0) continue;
+        in->revealed = NULL;
+        ui_list_show(&in->sections, top - ui->scroll_area.y + in->sections.offset, ui->y - top);
+    }
     ui_space(ui, 4);
     ui_list_end(ui);
     struct ui_list next = in->sections;
@@ -579,53 +579,12 @@ static void go_to(struct inspector *in, size_t row)
     core_jump(in->core, row);
 }
 
-/// ↑ and ↓ on the focused row: undo, redo.
-static void step_by_key(struct inspector *in, size_t first, size_t end)
-{
-    struct ui *ui = &in->ui;
-    bool key = ui->pass == UI_PASS_EVENT && ui->event->kind == EVENT_KEY && ui->event->action != ACTION_RELEASE;
-    if (!key || ui->used || (ui->event->key != KEY_UP && ui->event->key != KEY_DOWN)) return;
-    const struct history_view *view = &in->history;
-    for (size_t row = first; row < end; row++) {
-        char name[32];
-        name_of(row, name);
-        if (ui->focus != ui_id(ui, name)) continue;
-        ui->used = true;
-        bool up = ui->event->key == KEY_UP;
-        if (up ? view->done > 0 : view->done < view->count) go_to(in, up ? view->done - 1 : view->done + 1);
-        return;
-    }
-}
-
 /// Row 0 is the state before the oldest step, row n the state after step n.
-static bool build_step(struct inspector *in, size_t row)
-{
-    const struct history *history = in->core->history;
-    const struct history_view *view = &in->history;
-    struct ui *ui = &in->ui;
-    struct rect r = ui_row(ui, UI_ROW);
-    char name[32], text[96];
-    name_of(row, name);
-    const size_t dropped = history_dropped(history);
-    if (row > 0) {
-        snprintf(text, sizeof text, "%s", history_label(history, row - 1));
-    } else if (dropped == 0) {
-        snprintf(text, sizeof text, "Opened");
-    } else {
-        snprintf(text, sizeof text, "%zu older step%s dropped", dropped, dropped == 1 ? " was" : "s were");
-    }
-    bool pressed = ui_list_row(ui, r, name, "", 0, row == view->done);
-    uint32_t color = row > view->done ? theme()->text_dim : theme()->text;
-    ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 60, r.h}, text, color);
-    if (history_step_is_saved(history, row)) ui_label_right(ui, r, "saved", color);
-    ui_hint(ui, r, row > view->done ? "Redo to here" : "Undo to here");
-    return pressed;
-}
-
 void inspector_history(struct inspector *in)
 {
     const struct history *history = in->core->history;
     struct history_view *view = &in->history;
+    struct ui *ui = &in->ui;
     const size_t count = history_count(history), done = history_done(history);
     const bool changed = view->count != count || view->done != done;
     view->count = count;
@@ -637,18 +596,433 @@ void inspector_history(struct inspector *in)
     const size_t first = (size_t)view->list.offset;
     const size_t end = first + HISTORY_ROWS < count + 1 ? first + HISTORY_ROWS : count + 1;
     size_t pressed = end;
-    const struct rect list = {in->ui.area.x, in->ui.y, in->ui.area.w, (float)(end - first) * UI_ROW};
+    const struct rect list = {ui->area.x, ui->y, ui->area.w, (float)(end - first) * UI_ROW};
     for (size_t row = first; row < end; row++) {
-        if (build_step(in, row)) pressed = row;
+        const uint32_t color = row > done ? theme()->text_dim : theme()->text;
+        const size_t dropped = history_dropped(history);
+        char name[32], text[96] = "Opened";
+        if (row > 0) {
+            snprintf(text, sizeof text, "%s", history_label(history, row - 1));
+        } else if (dropped > 0) {
+            snprintf(text, sizeof text, "%zu older step%s dropped", dropped, dropped == 1 ? " was" : "s were");
+        }
+        const struct rect r = ui_row(ui, UI_ROW);
+        name_of(row, name);
+        if (ui_list_row(ui, r, name, "", 0, row == done)) pressed = row;
+        ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 60, r.h}, text, color);
+        if (history_step_is_saved(history, row)) ui_label_right(ui, r, "saved", color);
+        ui_hint(ui, r, row > done ? "Redo to here" : "Undo to here");
     }
     if (count + 1 > HISTORY_ROWS) {
         char text[96];
         snprintf(text, sizeof text, "Steps %zu to %zu of %zu", first > 0 ? first : 1, end - 1, count);
-        ui_paragraph(&in->ui, text, theme()->text_dim);
+        ui_paragraph(ui, text, theme()->text_dim);
     }
-    const struct event *event = in->ui.event; // at its end the wheel scrolls the panel
-    if (in->ui.pass == UI_PASS_EVENT && event->kind == EVENT_WHEEL && !in->ui.used && ui_hovered(&in->ui, list))
-        in->ui.used = ui_list_scroll(&view->list, event->dy > 0 ? -3 : 3);
-    step_by_key(in, first, end);
     if (pressed < end) go_to(in, pressed);
+
+    const struct event *event = ui->event;
+    if (ui->pass != UI_PASS_EVENT || ui->used) return;
+    if (event->kind == EVENT_WHEEL && ui_hovered(ui, list)) // at its end the wheel scrolls the panel
+        ui->used = ui_list_scroll(&view->list, event->dy > 0 ? -3 : 3);
+    if (event->kind != EVENT_KEY || event->action == ACTION_RELEASE) return;
+    if (event->key != KEY_UP && event->key != KEY_DOWN) return;
+    for (size_t row = first; row < end; row++) { // on the focused row: undo, redo
+        char name[32];
+        name_of(row, name);
+        if (ui->focus != ui_id(ui, name)) continue;
+        const bool up = event->key == KEY_UP;
+        ui->used = true;
+        if (up ? done > 0 : done < count) go_to(in, up ? done - 1 : done + 1);
+        return;
+    }
+}
+
+// The selected knots. A number typed for several knots sets all of them; a drag or an arrow moves all by the same amount. Frames keep
+// their distances either way.
+
+enum { FIELD_FRAME, FIELD_VALUE, FIELD_PHASE, FIELD_SLOPE, FIELD_STIFFNESS, FIELDS };
+
+static const struct number_row knot_rows[FIELDS] = {
+    [FIELD_FRAME] = {NUMBER_AT(struct knot, frame), .name = "frame", .label = "frame",
+                     .hint = "Frame of the first selected knot; the others move with it", .undo = "Move knots",
+                     TYPED(-SCENE_MAX_FRAME, SCENE_MAX_FRAME), .fallback = NAN, .step = 1},
+    [FIELD_VALUE] = {NUMBER_AT(struct knot, value), .name = "value", .label = "value",
+                     .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                     .undo = "Set values", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
+                     .decimals = 3},
+    [FIELD_PHASE] = {NUMBER_AT(struct knot, phase), .name = "phase", .label = "phase",
+                     .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                     .undo = "Set phases", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01,
+                     .decimals = 3},
+    [FIELD_SLOPE] = {NUMBER_AT(struct knot, slope), .name = "slope", .label = "slope", .unit = "/s",
+                     .hint = "Type to set all selected knots; drag to shift each by the same amount",
+                     .undo = "Set slopes", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.05,
+                     .decimals = 2},
+    [FIELD_STIFFNESS] = {NUMBER_AT(struct knot, stiffness), .name = "stiffness", .label = "stiffness", .unit = "1/s",
+                         .hint = "How firmly the slopes hold; 1000 is firm", .undo = "Set stiffness",
+                         TYPED(0.001, INSPECTOR_NO_LIMIT), .fallback = KNOT_DEFAULT_STIFFNESS, .step = 10,
+                         .decimals = 1},
+};
+
+/// The fields for a single selected knot.
+static const struct {
+    const char *undo, *hint;
+} of_one[FIELDS] = {
+    [FIELD_FRAME] = {"Move knot", "Frame of the knot"},
+    [FIELD_VALUE] = {"Set value", "Value of the knot; the curve hits it exactly"},
+    [FIELD_PHASE] = {"Set phase", "Phase of a pose, which holds every part that lags (P)"},
+    [FIELD_SLOPE] = {"Set slope", "Change per second (D, E)"},
+    [FIELD_STIFFNESS] = {"Set stiffness", "How firmly the slope holds; 1000 is firm (Shift+D, Shift+E)"},
+};
+
+static double get_knots(const struct inspector *in, int field)
+{
+    (void)field;
+    return in->knots.first;
+}
+
+/// Sets the number of all selected knots, or moves them along with the first, in an order in which they do not collide. false with an error
+/// if one cannot go there.
+static bool set_knots(struct inspector *in, int field, double value, struct error *error)
+{
+    const struct originals *originals = &in->core->originals;
+    core_collect(in->core, false);
+    const double by = value - number_at(&knot_rows[field], &originals->list[0].knot);
+    const bool together = in->change != UI_SET || field == FIELD_FRAME;
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[by > 0 ? originals->count - 1 - i : i];
+        struct knot knot = original->knot;
+        const double number = together ? number_at(&knot_rows[field], &knot) + by : value;
+        number_put(&knot_rows[field], &knot, fmax(knot_rows[field].lowest, number));
+        if (!edit_knot_set(in->core->document, original->spline, &knot, error)) return false;
+    }
+    return true;
+}
+
+static const char *show_several(const struct inspector *in, int field, char text[64])
+{
+    if (in->knots.count == 1) return NULL;
+    if (field != FIELD_FRAME) return in->knots.mixed ? "mixed" : NULL;
+    snprintf(text, 64, "%.6g …", in->knots.first);
+    return text;
+}
+
+static void build_knots(struct inspector *in, int field, struct rect r)
+{
+    static const struct number_home home = {.get = get_knots, .set = set_knots, .shown = show_several};
+    struct number_row row = knot_rows[field];
+    struct knot_numbers *numbers = &in->knots;
+    *numbers = (struct knot_numbers){.first = NAN}; // after the edit of the previous field
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at); numbers->count++) {
+        const double number = number_at(&row, knot_at(in->core->document, at));
+        if (isnan(numbers->first)) numbers->first = number;
+        numbers->mixed |= number != numbers->first;
+    }
+    if (numbers->count == 0) return;
+    if (numbers->count == 1) { // its own hint, limits and decimals
+        const double value = numbers->first;
+        row.hint = of_one[field].hint;
+        row.undo = of_one[field].undo;
+        if (field == FIELD_FRAME) {
+            const struct spline *spline = core_active_spline(in->core);
+            row.lowest = in->core->document->first_frame;
+            row.highest = document_frame(in->core->document, document_last_knot_sample(in->core->document, spline));
+            row.decimals = value == floor(value) ? 0 : 2;
+        }
+        if (field == FIELD_SLOPE) row.label = NULL; // its switch has the label
+        if (field == FIELD_STIFFNESS && value < 10) row.decimals = 3;
+    }
+    if (inspector_changed(inspector_number(in, &row, &home, field, r))) core_edited(in->core, -1);
+}
+
+static bool all_sloped(const struct inspector *in)
+{
+    bool sloped = true;
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);)
+        sloped &= knot_at(in->core->document, at)->has_slope || knot_at(in->core->document, at)->still;
+    return sloped;
+}
+
+/// What all selected knots hold, or -1. A still pose counts as a pose.
+static int all_hold(const struct inspector *in, bool *any_still)
+{
+    int all = -1;
+    *any_still = false;
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);) {
+        const int holds = (int)knot_holds(knot_at(in->core->document, at));
+        *any_still = *any_still || holds == HOLDS_STILL;
+        all = all == -1 ? holds : all == holds ? all : HOLDS_STILL + 1;
+    }
+    return all > HOLDS_STILL ? -1 : all;
+}
+
+struct knot_button {
+    const char *name, *label, *hint;
+    bool lit;
+};
+
+/// A row of buttons; returns the pressed one, or -1.
+static int build_buttons(struct inspector *in, int count, const struct knot_button *buttons)
+{
+    enum { GAP = 4 };
+    struct rect r = ui_row(&in->ui, UI_ROW);
+    int pressed = -1;
+    r.w = (r.w - (float)((count - 1) * GAP)) / (float)count;
+    for (int i = 0; i < count; i++, r.x += r.w + GAP) {
+        ui_hint(&in->ui, r, buttons[i].hint);
+        if (ui_button(&in->ui, r, buttons[i].name, buttons[i].label, buttons[i].lit)) pressed = i;
+    }
+    return pressed;
+}
+
+static void build_holds(struct inspector *in)
+{
+    bool any_still;
+    const int lit = all_hold(in, &any_still);
+    bool settles = true;
+    for (struct knot_place at = SELECTED_START; selected_next(in->core, &at);)
+        settles &= knot_at(in->core->document, at)->settles;
+    const int pressed = build_buttons(
+        in, 4,
+        (const struct knot_button[]){
+            {"holds.value", "Value", "Hold the value and leave the phase free", lit == HOLDS_VALUE},
+            {"holds.pose", "Pose", "Hold every part that lags as it is seen now (P)", lit == HOLDS_POSE},
+            {"holds.still", "Still", "The motion comes to rest at the equilibrium, and begins from rest (Shift+P)",
+             lit == HOLDS_STILL},
+            {"settles", "Settle", "Let the motion stay here: it overshoots the value and swings about it (Alt+P)",
+             settles}});
+    if (pressed == 3) {
+        core_toggle_settles(in->core, 0);
+    } else if (pressed >= 0 && pressed != lit) {
+        core_set_hold(in->core, pressed);
+    }
+}
+
+/// A number's row, or a note that there is none.
+static void build_or_idle(struct inspector *in, int field, bool there)
+{
+    if (there) {
+        build_knots(in, field, ui_row(&in->ui, UI_ROW));
+    } else {
+        inspector_idle(in, knot_rows[field].label, "–");
+    }
+}
+
+/// In the place of a still knot's value.
+static void build_at_rest(struct inspector *in)
+{
+    ui_label(&in->ui, ui_row(&in->ui, UI_ROW), "Comes to rest at the equilibrium", theme()->text_dim);
+}
+
+static void build_several(struct inspector *in)
+{
+    const bool sloped = all_sloped(in);
+    bool any_still;
+    const int holds = all_hold(in, &any_still);
+    for (int i = 0; i < FIELDS; i++) {
+        if (i == FIELD_PHASE) build_holds(in);
+        if (i >= FIELD_SLOPE && !sloped) {
+            inspector_idle(in, knot_rows[i].label, i == FIELD_SLOPE ? "not all have one" : "–");
+        } else if (i == FIELD_PHASE && holds != HOLDS_POSE) {
+            inspector_idle(in, knot_rows[i].label, "not all hold one");
+        } else if (i == FIELD_VALUE && holds == HOLDS_STILL) {
+            build_at_rest(in);
+        } else if (i == FIELD_VALUE && any_still) {
+            inspector_idle(in, knot_rows[i].label, "not all have one");
+        } else {
+            build_knots(in, i, ui_row(&in->ui, UI_ROW));
+        }
+    }
+}
+
+static bool has_slope(const struct inspector *in, unsigned id)
+{
+    const struct spline *spline = core_active_spline(in->core);
+    return spline->knots[spline_find_id(spline, id)].has_slope;
+}
+
+static void build_slopes(struct inspector *in, bool sloped)
+{
+    static const enum slopes how[] = {SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_TOGGLE};
+    const int pressed = build_buttons(
+        in, 3,
+        (const struct knot_button[]){
+            {"slope.flat", "Flat", "Make the slopes flat (Shift+T)", false},
+            {"slope.smooth", "Smooth", "Aim the slopes at the neighbours, as Catmull-Rom does (Ctrl+T)", false},
+            {"slope.switch", sloped ? "Remove" : "Add",
+             sloped ? "Remove the slopes (T)" : "Give the knots the slope that the curve has there (T)", false}});
+    if (pressed >= 0) slopes_set(in->core, (int)how[pressed]);
+}
+
+const char *inspector_knot_title(struct inspector *in)
+{
+    const int count = selected_count(in->core);
+    if (count < 2) return "Knot";
+    snprintf(in->knot_title, sizeof in->knot_title, "%d knots", count);
+    return in->knot_title;
+}
+
+/// Has the same height for every selection, so that nothing below moves.
+void inspector_knot(struct inspector *in)
+{
+    struct ui *ui = &in->ui;
+    const struct spline *spline = core_active_spline(in->core);
+    const int count = selected_count(in->core);
+    struct knot_place only = SELECTED_START;
+    const bool one = count == 1 && selected_next(in->core, &only) && only.spline == in->core->active;
+    const float end = ui->y + (FIELDS + 2) * UI_ROW;
+    if (count > 1) {
+        build_several(in);
+        build_slopes(in, all_sloped(in));
+    } else if (!one) { // the spline's knots, and buttons that work without pointing
+        const int knots = spline->knot_count;
+        char frames[64] = "none", values[64] = "–";
+        double range[2];
+        if (knots > 0) {
+            spline_values(spline, 0, knots, range);
+            snprintf(frames, sizeof frames, knots == 1 ? "%d, frame %.6g" : "%d, frames %.6g … %.6g", knots,
+                     spline->knots[0].frame, spline->knots[knots - 1].frame);
+            snprintf(values, sizeof values, knots == 1 ? "%.4g" : "%.4g … %.4g", range[0], range[1]);
+        }
+        ui_paragraph(ui, "Click a knot to edit it. Double-click the curve to insert one.", theme()->text_dim);
+        inspector_idle(in, "knots", frames);
+        inspector_idle(in, "values", values);
+        const int pressed =
+            build_buttons(in, 3,
+                          (const struct knot_button[]){
+                              {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)", false},
+                              {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)", false},
+                              {"knot.all", "All", "Select all knots of the spline (Ctrl+A)", false}});
+        if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, false);
+        if (pressed == 1) core_visit_neighbour(in->core, 1);
+        if (pressed == 2) core_select_all(in->core, false);
+    } else {
+        // Rows may edit the document and reorder knots; ids stay valid.
+        const unsigned id = spline->knots[only.knot].id;
+        bool still;
+        build_knots(in, FIELD_FRAME, ui_row(ui, UI_ROW));
+        const bool posed = all_hold(in, &still) == HOLDS_POSE;
+        if (still) {
+            build_at_rest(in);
+        } else {
+            build_knots(in, FIELD_VALUE, ui_row(ui, UI_ROW));
+        }
+        build_holds(in);
+        build_or_idle(in, FIELD_PHASE, posed);
+        struct rect r = inspector_labelled(in, "slope");
+        bool sloped = has_slope(in, id);
+        if (!still) ui_hint(ui, r, "Give the knot a slope (T); D and E turn it");
+        if (still) {
+            ui_label(ui, r, "–", theme()->text_dim);
+        } else if (ui_toggle(ui, r, "has_slope", &sloped)) {
+            slopes_set(in->core, SLOPES_TOGGLE); // the only selected knot
+        } else {
+            r = (struct rect){r.x + 36, r.y, r.w - 36, r.h};
+            if (sloped) build_knots(in, FIELD_SLOPE, r);
+            if (!sloped) ui_label(ui, r, "free", theme()->text_dim);
+        }
+        build_or_idle(in, FIELD_STIFFNESS, has_slope(in, id));
+        build_slopes(in, has_slope(in, id));
+    }
+    ui->y = end;
+}
+
+enum { MAX_PINS = 8 }; ///< listed at once
+
+static const char *word_of(const struct rig *rig) { return rig->kind == RIG_CHARACTER ? "vertex" : "joint"; }
+
+enum { ROW_FRAME, ROW_POINT, PIN_ROWS = ROW_POINT + 4 };
+
+static const struct number_row pin_rows[PIN_ROWS] = {
+    {NUMBER_AT(struct pin, frame), .name = "pin.frame", .label = "frame",
+     .hint = "Frame of the pin (Alt+PgUp, Alt+PgDn)", .undo = "Move pin in time", .fallback = NAN, .step = 1},
+    {WHOLE_AT(struct pin, point), .name = "pin.point", .hint = "The pinned point", .undo = "Pin another point",
+     .fallback = NAN, .step = 1},
+    {NUMBER_AT(struct pin, to[0]), .name = "pin.x", .label = "x", .unit = "m",
+     .hint = "Target of the point: across; 0 is the middle", .undo = "Move pin",
+     TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005, .decimals = 3},
+    {NUMBER_AT(struct pin, to[1]), .name = "pin.y", .label = "y", .unit = "m", .hint = "Target of the point: height",
+     .undo = "Move pin", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005,
+     .decimals = 3},
+    {NUMBER_AT(struct pin, to[2]), .name = "pin.z", .label = "z", .unit = "m", .hint = "Target of the point: depth",
+     .undo = "Move pin", TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .fallback = NAN, .step = 0.005,
+     .decimals = 3},
+};
+
+static const void *pin_of(const struct inspector *in)
+{
+    int rig;
+    return pins_selected(in->core, &rig);
+}
+
+static bool set_pin(struct inspector *in, int which, double number, struct error *error)
+{
+    int rig;
+    struct pin pin = *pins_selected(in->core, &rig);
+    number_put(&pin_rows[which], &pin, number);
+    return pins_set(in->core->document, rig, &pin, error);
+}
+
+void inspector_pins(struct inspector *in)
+{
+    static const struct number_home home = {.of = pin_of, .set = set_pin};
+    struct ui *ui = &in->ui;
+    struct core *core = in->core;
+    const int count = pins_count(core->document);
+    if (count == 0)
+        ui_paragraph(ui, "Drag a character's surface on the stage to pin it; on tails and chains, hold Ctrl.",
+                     theme()->text_dim);
+
+    struct pin_place place = PINS_START;
+    int selected = 0, row = 0, owner;
+    for (const struct pin *pin; core->pin.any && (pin = pins_next(core->document, &place)); row++) {
+        if (pin->id == core->pin.id) selected = row;
+    }
+    const int first = inspector_first_row(count, selected, MAX_PINS);
+    bool removed = false;
+    place = PINS_START;
+    for (row = 0; !removed && row < first + MAX_PINS && pins_next(core->document, &place); row++) {
+        if (row < first) continue;
+        const struct rig *rig = core->document->rigs[place.rig];
+        const struct pin *pin = &rig->pins[place.at];
+        struct rect r = ui_row(ui, UI_ROW), button = {r.x + r.w - r.h, r.y, r.h, r.h};
+        char name[32], remove[32], text[160], left[32] = "";
+        snprintf(name, sizeof name, "pin.%d", row);
+        snprintf(remove, sizeof remove, "pin.%d.remove", row);
+        snprintf(text, sizeof text, "%.6g: %.*s, %s %d", pin->frame, name_fit(rig_title(rig), 60), rig_title(rig),
+                 word_of(rig), pin->point);
+        const struct pin_left *way = evaluation_pin(core->evaluation, core->document, place.rig, place.at);
+        const double *w = way && way->is_found ? way->way : NULL;
+        const double millimetres = w ? 1e3 * sqrt(w[0] * w[0] + w[1] * w[1] + w[2] * w[2]) : NAN;
+        if (isfinite(millimetres)) snprintf(left, sizeof left, "%.1f mm", millimetres);
+        r.w -= r.h + 4;
+        const bool pressed = ui_list_row(ui, r, name, "", 0, core->pin.any && core->pin.id == pin->id);
+        ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 66, r.h}, text, theme()->text);
+        ui_label_right(ui, (struct rect){r.x, r.y, r.w - 4, r.h}, left, theme()->text_dim);
+        ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
+        if (pressed) pins_visit(core, pin);
+        if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin"))
+            removed = core_begin(core, "Delete pin", 0) &&
+                      core_end(core, edit_pin_remove(core->document, place.rig, pin->id, &core->error));
+    }
+    if (!removed) inspector_more(in, count, MAX_PINS, " pins; , and . show more");
+    if (!pins_selected(core, &owner)) return;
+
+    ui_space(ui, 4);
+    for (int field = 0; field < PIN_ROWS && pins_selected(core, &owner); field++) {
+        const struct rig *pinned = core->document->rigs[owner];
+        struct number_row number = pin_rows[field];
+        if (field == ROW_FRAME) {
+            number.lowest = core->document->first_frame;
+            number.highest = document_frame(core->document, pins_last_sample(core->document, pinned));
+        } else if (field == ROW_POINT) {
+            const struct figure *figure = models_figure(core->models, document_rig_number(core->document, owner));
+            number.label = word_of(pinned);
+            number.highest = pinned->kind != RIG_CHARACTER ? bones_joints(core, owner) - 1
+                             : figure                      ? figure->character.vertex_count - 1
+                                                           : 0;
+        }
+        const enum ui_change change = inspector_number(in, &number, &home, field, ui_row(ui, UI_ROW));
+        if (inspector_changed(change)) pins_tell(core, owner);
+    }
 }
