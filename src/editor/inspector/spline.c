@@ -209,22 +209,6 @@ const char *inspector_feel_title(struct inspector *in)
     return in->feel_title;
 }
 
-/// Sets the same lag for each joint in the channel the spline bends, and in the limb's others.
-static bool set_lag(struct inspector *in, double whole)
-{
-    if (!inspector_felt_channel(in)) return true;
-    const int limb = inspector_limb(in), joints = bones_joints(in->core, in->rig);
-    const struct angles angles = {.value = {joints > 1 ? core_round(whole / (joints - 1), 0.1) : 0}};
-    bool done = true;
-    for (int c = 0; c < rig_input_count(in->core->document->rigs[in->rig]) && done; c++) {
-        const bool others = limb == in->rig && rig_point_input(in->core->document->rigs[limb], c) >= 0;
-        const struct channel_place at = {in->rig, c};
-        if (c == in->channel || others)
-            done = edit_angles(in->core->document, at, ANGLE_LAG, &angles, &in->core->error);
-    }
-    return done;
-}
-
 static bool set_felt(struct inspector *in, enum parameter parameter, double value, bool alike)
 {
     return core_set_felt(in->core, inspector_limb(in), parameter, value, alike, &in->core->error);
@@ -234,12 +218,24 @@ static void apply_preset(struct inspector *in, const struct preset *preset)
 {
     const struct spline *spline = core_active_spline(in->core);
     if (!core_begin(in->core, "Choose a feel", 0)) return;
-    const bool good = (spline_mode(spline) != WIGGLY_CUBIC ||
-                       core_set_parameter(in->core, in->core->active, PARAMETER_MODE, WIGGLY_COMPLEX)) &&
-                      set_felt(in, PARAMETER_FREQUENCY, preset->frequency, false) &&
-                      set_felt(in, PARAMETER_DAMPING, preset->damping, true) &&
-                      set_felt(in, PARAMETER_WIND_UP, preset->wind_up, true);
-    core_end(in->core, good && set_lag(in, preset->lag));
+    bool good = (spline_mode(spline) != WIGGLY_CUBIC ||
+                 core_set_parameter(in->core, in->core->active, PARAMETER_MODE, WIGGLY_COMPLEX)) &&
+                set_felt(in, PARAMETER_FREQUENCY, preset->frequency, false) &&
+                set_felt(in, PARAMETER_DAMPING, preset->damping, true) &&
+                set_felt(in, PARAMETER_WIND_UP, preset->wind_up, true);
+
+    // The same lag for each joint in the channel that the spline bends, and in the limb's others.
+    const bool bends = inspector_felt_channel(in);
+    const int limb = inspector_limb(in), joints = bends ? bones_joints(in->core, in->rig) : 0;
+    const int inputs = bends ? rig_input_count(in->core->document->rigs[in->rig]) : 0;
+    const struct angles angles = {.value = {joints > 1 ? core_round(preset->lag / (joints - 1), 0.1) : 0}};
+    for (int c = 0; c < inputs && good; c++) {
+        const bool others = limb == in->rig && rig_point_input(in->core->document->rigs[limb], c) >= 0;
+        const struct channel_place at = {in->rig, c};
+        if (c == in->channel || others)
+            good = edit_angles(in->core->document, at, ANGLE_LAG, &angles, &in->core->error);
+    }
+    core_end(in->core, good);
     core_edited(in->core, in->core->active);
 }
 
@@ -485,29 +481,6 @@ static void build_sentence(struct inspector *in)
     ui_paragraph(&in->ui, text, theme()->text_dim);
 }
 
-/// false if there are no warnings.
-static bool build_warnings(struct inspector *in)
-{
-    const float top = in->ui.y;
-    const struct spline *spline = core_active_spline(in->core);
-    const struct evaluation *evaluation = in->core->evaluation;
-    const int active = in->core->active;
-    char sentence[EVALUATION_SENTENCE];
-    if (evaluation && active < evaluation->count && evaluation_sentence(evaluation, active, sentence))
-        ui_paragraph(&in->ui, sentence, theme()->warning);
-    const struct param *p = spline->parameter;
-    const double beta = spline_mode(spline) == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
-    const double highest = p[PARAMETER_FREQUENCY].value * (1 + beta);
-    const double limit = in->core->document->fps * in->core->document->substeps / 2;
-    const bool poles = spline_mode(spline) != WIGGLY_CUBIC && p[PARAMETER_FREQUENCY].track < 0;
-    if (poles && highest > limit) {
-        char text[128];
-        snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing aliases.", limit);
-        ui_paragraph(&in->ui, text, theme()->warning);
-    }
-    return in->ui.y > top;
-}
-
 /// Rows keep their places for every kind of spline.
 void inspector_feel(struct inspector *in)
 {
@@ -538,9 +511,23 @@ void inspector_feel(struct inspector *in)
         if (!bends && !drives) inspector_idle(in, labels[kind], "–");
         ui->y = top + (drives ? 0 : UI_ROW) + inspector_highest_curve(in, (enum angle_kind)kind);
     }
-    const float end = ui->y + TEXT;
-    if (!build_warnings(in)) build_sentence(in);
-    ui->y = fmaxf(ui->y, end);
+    const float top = ui->y;
+    const struct spline *spline = core_active_spline(in->core);
+    const struct evaluation *evaluation = in->core->evaluation;
+    char text[EVALUATION_SENTENCE];
+    if (evaluation && in->core->active < evaluation->count && evaluation_sentence(evaluation, in->core->active, text))
+        ui_paragraph(ui, text, theme()->warning);
+    const struct param *p = spline->parameter;
+    const double beta = spline_mode(spline) == WIGGLY_COMPLEX ? p[PARAMETER_BANDWIDTH].value : 0;
+    const double highest = p[PARAMETER_FREQUENCY].value * (1 + beta);
+    const double limit = in->core->document->fps * in->core->document->substeps / 2;
+    const bool poles = spline_mode(spline) != WIGGLY_CUBIC && p[PARAMETER_FREQUENCY].track < 0;
+    if (poles && highest > limit) {
+        snprintf(text, sizeof text, "Faster than half the sample rate (%g Hz): the swing aliases.", limit);
+        ui_paragraph(ui, text, theme()->warning);
+    }
+    if (ui->y == top) build_sentence(in);
+    ui->y = fmaxf(ui->y, top + TEXT);
     if (!in->core->more) return;
     const struct rect line = ui_row(ui, UI_ROW), r = {line.x, line.y + 1, line.w, line.h - 2};
     ui_hint(ui, r, "Frequency and damping that explain the knots best (Shift+F); again: the runner-up");
@@ -643,23 +630,10 @@ static bool find_leaders(const struct inspector *in, bool left_out[INSPECTOR_MAX
 
 enum { MAX_MODELS = 16, MODEL_TEXT = 112 }; ///< models offered
 
-/// Adds rows for the characters whose joints the equilibrium can follow; returns how many.
-static int add_models(const struct inspector *in, struct ui_item *items, char texts[][MODEL_TEXT], int *models)
-{
-    int count = 0;
-    for (int r = -1; count < MAX_MODELS && (r = document_next_rig(in->core->document, RIG_MODEL, r)) >= 0;) {
-        if (!bones_character(in->core, r)) continue;
-        snprintf(texts[count], MODEL_TEXT, "A joint of %.*s", name_fit(rig_title(in->core->document->rigs[r]), 80),
-                 rig_title(in->core->document->rigs[r]));
-        items[count] = (struct ui_item){texts[count], texts[count], 0};
-        models[count++] = r;
-    }
-    return count;
-}
-
 static void choose_track(struct inspector *in, const struct dropdown *list)
 {
     struct ui *ui = &in->ui;
+    const struct document *document = in->core->document;
     const struct spline *spline = core_active_spline(in->core);
     enum parameter parameter = (enum parameter)ui->popup.which;
     bool left_out[INSPECTOR_MAX_SPLINES];
@@ -668,7 +642,15 @@ static void choose_track(struct inspector *in, const struct dropdown *list)
     int splines[INSPECTOR_MAX_SPLINES], models[MAX_MODELS], row;
     find_leaders(in, left_out);
     const int count = inspector_spline_items(in, left_out, spline->parameter[parameter].track, items, splines, &row);
-    const int more = parameter == PARAMETER_EQUILIBRIUM ? add_models(in, items + count, texts, models) : 0;
+    int more = 0; // characters whose joints the equilibrium can follow
+    for (int r = -1; parameter == PARAMETER_EQUILIBRIUM && more < MAX_MODELS &&
+                     (r = document_next_rig(document, RIG_MODEL, r)) >= 0;) {
+        if (!bones_character(in->core, r)) continue;
+        const char *title = rig_title(document->rigs[r]);
+        snprintf(texts[more], MODEL_TEXT, "A joint of %.*s", name_fit(title, 80), title);
+        items[count + more] = (struct ui_item){texts[more], texts[more], 0};
+        models[more++] = r;
+    }
     const int picked = ui_popup_list(ui, list->name, items, count + more, row);
     if (picked >= count) {
         bones_follow(in->core, in->core->active, models[picked - count], -1);
@@ -694,28 +676,6 @@ static void build_joint_field(struct inspector *in, const struct joint_motion *m
         bones_pick(in->core, picking ? BONE_SELECTED : BONE_FOLLOWED, active);
 }
 
-static void build_track(struct inspector *in, enum parameter parameter, struct rect r)
-{
-    const struct param *param = &core_active_spline(in->core)->parameter[parameter];
-    const struct rect field = inspector_label(in, r, parameter_rows[parameter].name);
-    if (param->motion) {
-        build_joint_field(in, param->motion, field);
-    } else {
-        inspector_spline_field(in, &track_list, field, (int)parameter, param->track);
-    }
-}
-
-static void open_list(struct inspector *in, enum parameter parameter, bool joints, struct rect r)
-{
-    bool left_out[INSPECTOR_MAX_SPLINES];
-    if (find_leaders(in, left_out) || joints) {
-        ui_popup_open(&in->ui, track_list.name, (int)parameter, r);
-        return;
-    }
-    core_message(in->core, true, "There is no other spline for %.*s to follow.",
-                 name_fit(core_active_spline(in->core)->name, 80), core_active_spline(in->core)->name);
-}
-
 /// The button at the right of a row: follows a spline from a list, or stops following.
 static void build_track_button(struct inspector *in, enum parameter parameter, struct rect r, struct rect row)
 {
@@ -730,9 +690,14 @@ static void build_track_button(struct inspector *in, enum parameter parameter, s
     snprintf(name, sizeof name, "follow.%s", parameter_rows[parameter].name);
     const bool pressed = ui_icon_button(&in->ui, r, name, follows ? UI_ICON_UNFOLLOW : UI_ICON_FOLLOW, false, hint);
     if (pressed && follows) set_track(in, parameter, param_number(spline_list_present(in->core, active, parameter)));
-    if (pressed && !follows)
-        open_list(in, parameter, joints,
-                  (struct rect){row.x + UI_LABEL + UI_GAP, row.y, row.w - UI_LABEL - UI_GAP, row.h});
+    bool left_out[INSPECTOR_MAX_SPLINES];
+    if (pressed && !follows && (find_leaders(in, left_out) || joints)) {
+        const struct rect field = {row.x + UI_LABEL + UI_GAP, row.y, row.w - UI_LABEL - UI_GAP, row.h};
+        ui_popup_open(&in->ui, track_list.name, (int)parameter, field);
+    } else if (pressed && !follows) {
+        core_message(in->core, true, "There is no other spline for %.*s to follow.",
+                     name_fit(core_active_spline(in->core)->name, 80), core_active_spline(in->core)->name);
+    }
     inspector_offer(in, &track_list);
 }
 
@@ -765,10 +730,14 @@ static void build_number(struct inspector *in, enum parameter parameter)
     const bool follows = param_follows(&spline->parameter[parameter]);
     const bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK && (in->core->more || follows);
     if (may_follow) r.w -= UI_ROW + 2;
+    const struct param *param = &spline->parameter[parameter];
+    const struct rect field = follows ? inspector_label(in, r, parameter_rows[parameter].name) : r;
     if (!follows) {
         build_slider(in, parameter, r);
+    } else if (param->motion) {
+        build_joint_field(in, param->motion, field);
     } else {
-        build_track(in, parameter, r);
+        inspector_spline_field(in, &track_list, field, (int)parameter, param->track);
     }
     struct rect button = {r.x + r.w + 2, r.y, UI_ROW, UI_ROW};
     if (may_follow) build_track_button(in, parameter, button, r);
@@ -778,15 +747,15 @@ static void build_number(struct inspector *in, enum parameter parameter)
         [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
     static const struct number_home home = {.of = followed_gain, .set = set_gain};
     if (followed(in)->motion) {
-        struct param param = *followed(in);
-        struct joint_motion motion = *param.motion;
+        struct param changed = *followed(in);
+        struct joint_motion motion = *changed.motion;
         int of = (int)motion.of;
-        param.motion = &motion;
+        changed.motion = &motion;
         if (inspector_choice(in, "joint's", "Its turn in degrees, or its movement across or up in metres", "joint.of",
                              choices, MOTION_KINDS, &of)) {
             motion.of = (enum motion_of)of;
             if (core_begin(in->core, "Set joint's motion", 0))
-                core_end(in->core, follow_joint(in, &param, &in->core->error));
+                core_end(in->core, follow_joint(in, &changed, &in->core->error));
         }
     }
     if (followed(in)->motion) inspector_numbers(in, gain_rows, 1, &home);
