@@ -268,23 +268,7 @@ static void change_point(struct inspector *in, const struct angle_view *view, en
     change_angles(in, view->kind, change, rows[view->kind].undo, handle->name, &next);
 }
 
-/// The point to remove: under a right click, or focused when Del is pressed; −1: none.
-static int removed_point(const struct inspector *in, const struct angle_view *view)
-{
-    const struct event *event = in->ui.event;
-    const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS &&
-                     (event->key == KEY_DELETE || event->key == KEY_BACKSPACE);
-    const bool click = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
-                       event->button == BUTTON_RIGHT && ui_hovered(&in->ui, view->box);
-    for (int i = 0; i < view->angles->count; i++) {
-        const struct ui_handle *handle = &view->handles[i];
-        if (key && in->ui.focus == ui_id(&in->ui, handle->name)) return i;
-        if (click && maths_hypotf(event->x - handle->x, event->y - handle->y) < REACH) return i;
-    }
-    return -1;
-}
-
-/// Adds and removes points. A press on a point focuses it for arrow keys and Del.
+/// A double-click adds a point; a right click or Del on a focused one removes it. A press on a point focuses it for arrow keys and Del.
 static void take_event(struct inspector *in, const struct angle_view *view)
 {
     struct ui *ui = &in->ui;
@@ -292,7 +276,16 @@ static void take_event(struct inspector *in, const struct angle_view *view)
     const bool press = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS && event->button == BUTTON_LEFT;
     if (press && is_held(view, ui)) ui->focus = ui->held;
     if (ui->used) return;
-    const int removed = removed_point(in, view);
+    const bool key = event->kind == EVENT_KEY && event->action == ACTION_PRESS &&
+                     (event->key == KEY_DELETE || event->key == KEY_BACKSPACE);
+    const bool click = event->kind == EVENT_BUTTON && event->action == ACTION_PRESS &&
+                       event->button == BUTTON_RIGHT && ui_hovered(ui, view->box);
+    int removed = -1;
+    for (int i = 0; i < view->angles->count && removed < 0; i++) {
+        const struct ui_handle *handle = &view->handles[i];
+        if (key && ui->focus == ui_id(ui, handle->name)) removed = i;
+        if (click && maths_hypotf(event->x - handle->x, event->y - handle->y) < REACH) removed = i;
+    }
     const bool adds = press && event->clicks == 2 && ui_hovered(ui, view->box);
     if (removed < 0 && !adds) return;
     ui->used = true;
@@ -323,36 +316,6 @@ static int joint_at(const struct angle_view *view, float x)
     return (int)fminf(fmaxf(joint, 0), (float)last);
 }
 
-/// Puts all joints between the last pointer position and this one on a line.
-static void draw_to(struct inspector *in, const struct angle_view *view)
-{
-    const struct ui_handle *handle = view->handles;
-    const int from = joint_at(view, in->drawn_x), to = joint_at(view, handle->x), way = to >= from ? 1 : -1;
-    for (int n = from;; n += way) {
-        const float share = to == from ? 1 : (float)(n - from) / (float)(to - from);
-        const float y = in->drawn_y + share * (handle->y - in->drawn_y);
-        in->drawn.value[n] = angle_at(view, y);
-        if (n == to) break;
-    }
-    in->drawn_x = handle->x;
-    in->drawn_y = handle->y;
-    in->joint[view->kind] = to;
-}
-
-/// ← → select a joint, ↑ ↓ change its angle.
-static void nudge(struct inspector *in, const struct angle_view *view)
-{
-    const struct ui_handle *handle = view->handles;
-    const int last = view->angles->count - 1, next = view->selected + handle->step_x;
-    in->joint[view->kind] = next < 0 ? 0 : next > last ? last : next;
-    if (handle->step_y == 0) return;
-    struct angles angles = *view->angles;
-    char what[NAME];
-    snprintf(what, NAME, "%s.joint.%d", rows[view->kind].name, view->selected);
-    angles.value[view->selected] += handle->step_y * rows[view->kind].step;
-    change_angles(in, view->kind, UI_NUDGE, rows[view->kind].undo, what, &angles);
-}
-
 static void build_each(struct inspector *in, struct angle_view *view)
 {
     struct ui *ui = &in->ui;
@@ -367,12 +330,29 @@ static void build_each(struct inspector *in, struct angle_view *view)
         in->drawn_x = view->handles->x = event->x;
         in->drawn_y = view->handles->y = event->y;
     }
+    const struct ui_handle *handle = view->handles;
     const enum ui_change change = ui_handles(ui, view->box, view->handles, 1, &which);
     if (is_held(view, ui)) ui->focus = ui->held; // arrow keys then move the pressed point
-    if (change == UI_NUDGE) {
-        nudge(in, view);
-    } else if (change != UI_NONE) {
-        if (change == UI_DRAG) draw_to(in, view);
+    if (change == UI_NUDGE) {                    // ← → select a joint, ↑ ↓ change its angle
+        const int last = view->angles->count - 1, next = view->selected + handle->step_x;
+        in->joint[view->kind] = next < 0 ? 0 : next > last ? last : next;
+        if (handle->step_y == 0) return;
+        struct angles angles = *view->angles;
+        char what[NAME];
+        snprintf(what, NAME, "%s.joint.%d", rows[view->kind].name, view->selected);
+        angles.value[view->selected] += handle->step_y * rows[view->kind].step;
+        change_angles(in, view->kind, UI_NUDGE, rows[view->kind].undo, what, &angles);
+    } else if (change == UI_DRAG) { // puts all joints between the last position of the pointer and this one on a line
+        const int from = joint_at(view, in->drawn_x), to = joint_at(view, handle->x), way = to >= from ? 1 : -1;
+        for (int n = from; n != to + way; n += way) {
+            const float share = to == from ? 1 : (float)(n - from) / (float)(to - from);
+            in->drawn.value[n] = angle_at(view, in->drawn_y + share * (handle->y - in->drawn_y));
+        }
+        in->drawn_x = handle->x;
+        in->drawn_y = handle->y;
+        in->joint[view->kind] = to;
+    }
+    if (change != UI_NONE && change != UI_NUDGE) {
         change_angles(in, view->kind, change, rows[view->kind].undo, view->names[0], &in->drawn);
     }
 }

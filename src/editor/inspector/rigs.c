@@ -269,22 +269,6 @@ static const struct {
 
 static const char rename_line[] = "tail.rename";
 
-static void build_name(struct inspector *in)
-{
-    const struct rig *rig = inspector_shown(in);
-    struct rect r = inspector_labelled(in, "name");
-    if (!ui_line_is_open(&in->ui, rename_line)) {
-        struct rect field = {r.x, r.y + 2, r.w, r.h - 4};
-        ui_hint(&in->ui, field, "Click to rename");
-        if (ui_button(&in->ui, field, "tail.name", rig_title(rig), false))
-            ui_line_begin(&in->ui, rename_line, rig_title(rig));
-    } else if (ui_line(&in->ui, r, rename_line) == UI_LINE_DONE) {
-        if (!core_begin(in->core, rig->kind == RIG_TAIL ? "Rename tail" : "Rename chain", 0)) return;
-        const char *name = in->ui.text.bytes;
-        core_end(in->core, edit_rig_name(in->core->document, in->rig, name, &in->core->error));
-    }
-}
-
 enum { ROW_X, ROW_JOINTS = ROW_X + 3, ROW_LENGTH, ROW_TURN };
 
 static const struct number_row tail_rows[] = {
@@ -534,25 +518,6 @@ void inspector_mirror(struct inspector *in, int unused)
     in->rig = in->core->document->rig_count - 1;
 }
 
-static void build_chain(struct inspector *in)
-{
-    const struct chain *chain = &inspector_shown(in)->chain;
-    build_end(in, &ends[0], chain->from);
-    build_end(in, &ends[1], chain->to);
-    inspector_numbers(in, &tail_rows[ROW_TURN], 1, &of_shown);
-
-    struct rig changed = *inspector_shown(in);
-    const struct rect r = inspector_labelled(in, "mirror");
-    ui_hint(&in->ui, r, "Bend to the other side, as a left ear does to a right one");
-    if (ui_toggle(&in->ui, r, "chain.mirror", &changed.chain.mirror) && core_begin(in->core, "Mirror chain", 0))
-        core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
-    if (bones_mirrorable(in->core, in->rig) != in->rig) return;
-    const struct rect row = ui_row(&in->ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
-    ui_hint(&in->ui, button,
-            "Add the mirrored chain, bent by the same splines; you can choose others for its channels");
-    if (ui_button(&in->ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
-}
-
 /// These rows may change channels and rigs, so each looks up the shown rig again.
 void inspector_tail(struct inspector *in)
 {
@@ -580,13 +545,37 @@ void inspector_tail(struct inspector *in)
     if (is_tail) inspector_angles(in, ANGLE_REST);
     build_channel(in);
     ui_space(ui, 4);
-    build_name(in);
+
+    const struct rect named = inspector_labelled(in, "name");
+    const struct rig *rig = inspector_shown(in);
+    if (!ui_line_is_open(ui, rename_line)) {
+        const struct rect field = {named.x, named.y + 2, named.w, named.h - 4};
+        ui_hint(ui, field, "Click to rename");
+        if (ui_button(ui, field, "tail.name", rig_title(rig), false)) ui_line_begin(ui, rename_line, rig_title(rig));
+    } else if (ui_line(ui, named, rename_line) == UI_LINE_DONE &&
+               core_begin(in->core, is_tail ? "Rename tail" : "Rename chain", 0)) {
+        core_end(in->core, edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->error));
+    }
     if (is_tail) {
         inspector_numbers(in, &tail_rows[ROW_JOINTS], 1, &joints);
         inspector_numbers(in, &tail_rows[ROW_LENGTH], 1, &of_shown);
         for (int k = 0; k < 3; k++) build_coordinate(in, &inspector_shown(in)->tail, k);
     } else {
-        build_chain(in);
+        build_end(in, &ends[0], inspector_shown(in)->chain.from);
+        build_end(in, &ends[1], inspector_shown(in)->chain.to);
+        inspector_numbers(in, &tail_rows[ROW_TURN], 1, &of_shown);
+
+        struct rig changed = *inspector_shown(in);
+        const struct rect r = inspector_labelled(in, "mirror");
+        ui_hint(ui, r, "Bend to the other side, as a left ear does to a right one");
+        if (ui_toggle(ui, r, "chain.mirror", &changed.chain.mirror) && core_begin(in->core, "Mirror chain", 0))
+            core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
+    }
+    if (!is_tail && bones_mirrorable(in->core, in->rig) == in->rig) {
+        const struct rect row = ui_row(ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
+        ui_hint(ui, button,
+                "Add the mirrored chain, bent by the same splines; you can choose others for its channels");
+        if (ui_button(ui, button, "chain.twin", "Mirror to other side", false)) inspector_mirror(in, 0);
     }
 
     // The next drag of a body may be recorded.
@@ -748,31 +737,6 @@ static const struct number_row floor_rows[] = {
      TYPED(-INSPECTOR_NO_LIMIT, INSPECTOR_NO_LIMIT), .step = 0.01, .decimals = 3},
 };
 
-/// The floor switch and its height.
-static void build_floor(struct inspector *in, const struct character_rig *rig)
-{
-    static const struct ui_choice choices[] = {{"off", "Off"}, {"on", "On"}};
-    static const struct number_home home = {.rig = shown_character};
-    const int owner = characters_rig(in->core);
-    int on = rig->has_floor;
-    if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", choices, 2, &on)) {
-        struct rig changed = *in->core->document->rigs[owner];
-        changed.character.has_floor = on;
-        if (on) changed.character.floor = rig->position[1];
-        if (core_begin(in->core, on ? "Set floor" : "Remove floor", 0))
-            core_end(in->core, edit_rig_set(in->core->document, owner, &changed, &in->core->error));
-        return;
-    }
-    if (!rig->has_floor) return;
-    inspector_numbers(in, floor_rows, 1, &home);
-    const struct floor_left *left = evaluation_floor(in->core->evaluation, owner);
-    if (!left || left->depth < 1e-4) return;
-    char text[120];
-    snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
-             left->depth, document_frame(in->core->document, left->sample));
-    ui_paragraph(&in->ui, text, theme()->text_dim);
-}
-
 /// Brush modes of one kind side by side. None is marked if the brush has another kind.
 static void build_modes(struct inspector *in, const char *name, const char *hint, enum brush_mode first,
                         const struct ui_choice *choices, int count)
@@ -839,6 +803,8 @@ void inspector_character(struct inspector *in)
 {
     static const struct ui_choice maps[] = {{"off", "Off"}, {"x", "x"}, {"y", "y"}, {"z", "z"}};
     static const struct ui_choice pairs[] = {{"off", "Off"}, {"on", "Beside it"}};
+    static const struct ui_choice switches[] = {{"off", "Off"}, {"on", "On"}};
+    static const struct number_home home = {.rig = shown_character};
     struct character_view *view = &in->core->characters;
     inspector_find_rig(in); // a row may have removed one
     const struct character_rig *rig = document_character(in->core->document, view->character);
@@ -847,6 +813,7 @@ void inspector_character(struct inspector *in)
     if (free_coordinates(in, rig, items) > 0 && in->core->document->spline_count > 0)
         inspector_dropdown(in, &add_list, ui_row(&in->ui, UI_ROW), 0, "Add a channel", 0);
     ui_space(&in->ui, 4);
+    const int owner = characters_rig(in->core);
     if (view->drive < rig->drive_count) {
         inspector_spline_field(in, &spline_list, inspector_labelled(in, "spline"), 0,
                                rig->drives[view->drive].spline);
@@ -862,7 +829,25 @@ void inspector_character(struct inspector *in)
             ui_paragraph(&in->ui, text, theme()->text_dim);
         }
     }
-    build_floor(in, rig);
+
+    int floor = rig->has_floor;
+    if (inspector_choice(in, "floor", "Keep the whole character above a height", "floor", switches, 2, &floor)) {
+        struct rig changed = *in->core->document->rigs[owner];
+        changed.character.has_floor = floor;
+        if (floor) changed.character.floor = rig->position[1];
+        if (core_begin(in->core, floor ? "Set floor" : "Remove floor", 0))
+            core_end(in->core, edit_rig_set(in->core->document, owner, &changed, &in->core->error));
+    } else if (rig->has_floor) {
+        inspector_numbers(in, floor_rows, 1, &home);
+        const struct floor_left *left = evaluation_floor(in->core->evaluation, owner);
+        char text[120];
+        if (left && left->depth >= 1e-4) {
+            snprintf(text, sizeof text, "Up to %.3g m below it, deepest at frame %.6g: knots and pins come first.",
+                     left->depth, document_frame(in->core->document, left->sample));
+            ui_paragraph(&in->ui, text, theme()->text_dim);
+        }
+    }
+
     int map = view->mapped ? 1 + view->axis : 0, pair = view->compare;
     if (inspector_choice(in, "phases", "Colour each point by its phase along x, y or z", "phases", maps, 4, &map)) {
         view->mapped = map > 0;
