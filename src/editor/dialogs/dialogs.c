@@ -234,32 +234,28 @@ static bool stem_of(const char *folder, const char *path, char stem[PATH_LIMIT])
     return true;
 }
 
-/// Names the file after the scene, or else after the character, but never like that character's own file.
-static void name_export(char path[PATH_LIMIT], const struct core *core)
-{
-    const struct document *document = core->document;
-    char scene[PATH_LIMIT], own[PATH_LIMIT];
-    const int model = document_find_rig(document, RIG_MODEL, 0);
-    const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model]->model.model, own);
-    const char *like = core->path[0] ? core->path : has_model ? own : "untitled";
-    snprintf(path, PATH_LIMIT, "%.*s", PATH_LIMIT - STEM_MORE, like);
-    if (path_has_end(path, ".json")) path[strlen(path) - strlen(".json")] = '\0';
-    if (has_model && (like == own || (stem_of(NULL, core->path, scene) && strcmp(scene, own) == 0)))
-        strcat(path, "-animated");
-}
-
 void dialogs_export(struct dialogs *dialogs, const struct core *core)
 {
     struct exporting *exporting = &dialogs->exporting;
     struct export_memory *memory = &exporting->memory;
     const struct dialog_files *files = &dialogs->dialog.files;
+    const struct document *document = core->document;
     if (files->format_count == 0) return;
     const int last = format_by_ending(files, memory->path);
     if (last >= 0) exporting->format = last;
     const bool same = core->path[0] ? strcmp(memory->scene, core->path) == 0 : exporting->serial == core->serial;
     if (!same || !memory->path[0]) { // keeps the last format
+        // Named after the scene, or else after the character, but never like that character's own file.
+        char scene[PATH_LIMIT], own[PATH_LIMIT];
+        const int model = document_find_rig(document, RIG_MODEL, 0);
+        const bool has_model = model >= 0 && stem_of(document->folder, document->rigs[model]->model.model, own);
+        const char *like = core->path[0] ? core->path : has_model ? own : "untitled";
+        char *path = memory->path;
+        snprintf(path, PATH_LIMIT, "%.*s", PATH_LIMIT - STEM_MORE, like);
+        if (path_has_end(path, ".json")) path[strlen(path) - strlen(".json")] = '\0';
+        if (has_model && (like == own || (stem_of(NULL, core->path, scene) && strcmp(scene, own) == 0)))
+            strcat(path, "-animated");
         snprintf(memory->scene, sizeof memory->scene, "%s", core->path);
-        name_export(memory->path, core);
         choose_format(dialogs, exporting->format);
         memory->wish.part = false;
         memory->wish.clip[0] = '\0';
@@ -269,7 +265,6 @@ void dialogs_export(struct dialogs *dialogs, const struct core *core)
     exporting->typed = 0;
     exporting->done = exporting->total = 0;
     struct export_wish *wish = &memory->wish;
-    const struct document *document = core->document;
     if (!wish->part || wish->first < document->first_frame || wish->last > document->last_frame) {
         wish->part = false;
         wish->first = document->first_frame;
@@ -394,43 +389,11 @@ static struct rect second(struct ui *ui, struct rect first, const char *word)
 
 static const float PAIR_WIDTH = 2 * NUMBER_WIDTH + 16 + 2 * UI_GAP;
 
-static void build_frames(struct dialogs *dialogs, const struct document *document, struct rect *row)
-{
-    struct export_wish *wish = &dialogs->exporting.memory.wish;
-    const double first = document->first_frame, last = document->last_frame;
-    struct rect r = labelled(&dialogs->dialog.ui, row, PAIR_WIDTH, "frames");
-    r.w = NUMBER_WIDTH;
-    bool changed = build_number(
-        dialogs, r, (struct ui_number){.name = "export.first", .lowest = first, .highest = wish->last}, &wish->first);
-    changed |=
-        build_number(dialogs, second(&dialogs->dialog.ui, r, "to"),
-                     (struct ui_number){.name = "export.last", .lowest = wish->first, .highest = last}, &wish->last);
-    if (changed) wish->part = wish->first > first || wish->last < last;
-}
-
-static void build_size(struct dialogs *dialogs, const struct export_format *format, struct rect *row)
-{
-    struct export_wish *wish = &dialogs->exporting.memory.wish;
-    struct rect r = labelled(&dialogs->dialog.ui, row, PAIR_WIDTH, "size");
-    double width = wish->width > 0 ? wish->width : format->width;
-    double height = wish->height > 0 ? wish->height : format->height;
-    r.w = NUMBER_WIDTH;
-    bool changed = build_number(
-        dialogs, r, (struct ui_number){.name = "export.width", .lowest = 16, .highest = MAX_SIDE}, &width);
-    changed |= build_number(dialogs, second(&dialogs->dialog.ui, r, "×"),
-                            (struct ui_number){.name = "export.height", .lowest = 16, .highest = MAX_SIDE}, &height);
-    if (!changed) return;
-    wish->width = (int)width;
-    wish->height = (int)height;
-}
-
 static bool is_offered(const struct rig *rig, unsigned choices)
 {
     if (choices & CHOICE_JOINTS) return rig->kind == RIG_TAIL || rig->kind == RIG_MODEL;
     return rig->kind != RIG_CHAIN; // exported with its character
 }
-
-static const char *label_of(const struct rig *rig) { return rig->name ? rig->name : rig_word(rig->kind); }
 
 /// The next rig to export; 0 for all after the last, where the format allows that.
 static void next_rig(struct export_wish *wish, const struct document *document, unsigned choices)
@@ -455,7 +418,8 @@ static const char *chosen_rig(const struct document *document, const struct expo
     *offered = 0;
     for (int i = 0; i < document->rig_count; i++) {
         if (!is_offered(document->rigs[i], choices)) continue;
-        if (document->rigs[i]->id == wish->rig) label = label_of(document->rigs[i]);
+        if (document->rigs[i]->id == wish->rig)
+            label = document->rigs[i]->name ? document->rigs[i]->name : rig_word(document->rigs[i]->kind);
         (*offered)++;
     }
     return label;
@@ -488,27 +452,44 @@ static void build_toggle(struct ui *ui, struct rect *row, const char *name, cons
 /// Has the same number of rows for every format, so that nothing jumps.
 static void build_choices(struct dialogs *dialogs, const struct document *document)
 {
-    struct export_memory *memory = &dialogs->exporting.memory;
+    struct export_wish *wish = &dialogs->exporting.memory.wish;
     struct ui *ui = &dialogs->dialog.ui;
     const struct export_format *format = format_of(dialogs);
     const bool narrow = ui->area.w < 480; // one choice a row
     struct rect rows[CHOICE_ROWS + 2];
     for (int i = 0; i < CHOICE_ROWS + 2 * narrow; i++) rows[i] = ui_row(ui, UI_ROW);
-    build_frames(dialogs, document, &rows[0]);
+
+    const double start = document->first_frame, end = document->last_frame;
+    struct rect pair = labelled(ui, &rows[0], PAIR_WIDTH, "frames");
+    pair.w = NUMBER_WIDTH;
+    const struct ui_number first = {.name = "export.first", .lowest = start, .highest = wish->last};
+    bool changed = build_number(dialogs, pair, first, &wish->first);
+    const struct ui_number last = {.name = "export.last", .lowest = wish->first, .highest = end};
+    changed |= build_number(dialogs, second(ui, pair, "to"), last, &wish->last);
+    if (changed) wish->part = wish->first > start || wish->last < end;
     if (format->choices & CHOICE_KEYS) {
-        double keys = memory->wish.keys > 0 ? memory->wish.keys : document->substeps;
+        double keys = wish->keys > 0 ? wish->keys : document->substeps;
         const struct rect r = labelled(ui, &rows[narrow ? CHOICE_ROWS : 0], NUMBER_WIDTH, "keys a frame");
         const struct ui_number number = {.name = "export.keys", .lowest = 1, .highest = SCENE_MAX_SUBSTEPS};
-        if (build_number(dialogs, r, number, &keys)) memory->wish.keys = (int)keys;
+        if (build_number(dialogs, r, number, &keys)) wish->keys = (int)keys;
     }
-    if (format->choices & CHOICE_SIZE) build_size(dialogs, format, &rows[1]);
+    if (format->choices & CHOICE_SIZE) {
+        double width = wish->width > 0 ? wish->width : format->width;
+        double height = wish->height > 0 ? wish->height : format->height;
+        pair = labelled(ui, &rows[1], PAIR_WIDTH, "size");
+        pair.w = NUMBER_WIDTH;
+        const struct ui_number across = {.name = "export.width", .lowest = 16, .highest = MAX_SIDE};
+        const struct ui_number up = {.name = "export.height", .lowest = 16, .highest = MAX_SIDE};
+        changed = build_number(dialogs, pair, across, &width);
+        changed |= build_number(dialogs, second(ui, pair, "×"), up, &height);
+        if (changed) wish->width = (int)width, wish->height = (int)height;
+    }
     if (format->choices & CHOICE_CLIP) {
         const struct rect r = labelled(ui, &rows[1], PAIR_WIDTH, "clip");
-        build_text(dialogs, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, clip_field, memory->wish.clip,
-                   sizeof memory->wish.clip);
+        build_text(dialogs, (struct rect){r.x, r.y + 2, r.w, r.h - 4}, clip_field, wish->clip, sizeof wish->clip);
         const int rig = document_next_rig(document, RIG_MODEL, -1);
         const char *usual = rig >= 0 ? document->rigs[rig]->model.clip : NULL; // of an imported character
-        if (!memory->wish.clip[0] && ui->focus != ui_id(ui, clip_field))
+        if (!wish->clip[0] && ui->focus != ui_id(ui, clip_field))
             ui_label(ui, (struct rect){r.x + 8, r.y, r.w - 16, r.h}, usual ? usual : "as the scene",
                      theme()->text_dim);
     }
@@ -517,14 +498,13 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
 
     struct rect *row = &rows[2];
     const bool morphs = document_find_rig(document, RIG_CHARACTER, 0) >= 0;
-    if (format->choices & CHOICE_CUBIC)
-        build_toggle(ui, row, "export.cubic", "keys with tangents", &memory->wish.is_cubic);
+    if (format->choices & CHOICE_CUBIC) build_toggle(ui, row, "export.cubic", "keys with tangents", &wish->is_cubic);
     if ((format->choices & CHOICE_CUBIC) && document_find_rig(document, RIG_CHAIN, 0) >= 0)
-        build_toggle(ui, row, "export.clips", "all clips", &memory->wish.all_clips);
+        build_toggle(ui, row, "export.clips", "all clips", &wish->all_clips);
     if ((format->choices & CHOICE_SIGNED) && morphs)
-        build_toggle(ui, row, "export.signed", "signed morph targets", &memory->wish.is_signed);
+        build_toggle(ui, row, "export.signed", "signed morph targets", &wish->is_signed);
     if (format->choices & CHOICE_ALPHA)
-        build_toggle(ui, row, "export.transparent", "transparent", &memory->wish.transparent);
+        build_toggle(ui, row, "export.transparent", "transparent", &wish->transparent);
 }
 
 static void build_formats(struct dialogs *dialogs, float room)
@@ -641,28 +621,10 @@ static bool is_question(const struct dialog *dialog)
     return dialog->kind >= DIALOG_UNSAVED && dialog->kind <= DIALOG_ASK;
 }
 
-static void list_folder(struct dialog *dialog, const char *folder)
-{
-    if (dialog->name_count >= 0 && strcmp(folder, dialog->listed) == 0) return;
-    snprintf(dialog->listed, sizeof dialog->listed, "%s", folder);
-    dialog->name_count = 0;
-    if (!dialog->files.list) return;
-    int count = dialog->files.list(dialog->files.user, *folder ? folder : ".", dialog->names, DIALOG_MAX_NAMES);
-    dialog->name_count = count > 0 ? count : 0;
-}
-
 static bool begins(const struct dialog *dialog, const char *name)
 {
     const char *typed = path_name(dialog->ui.text.bytes);
     return strncmp(name, typed, strlen(typed)) == 0;
-}
-
-/// Pass 0 takes names that begin with the text, pass 1 those that hold it elsewhere.
-static bool fits(const struct dialog *dialog, const struct ui_filter *filter, const char *name, int pass)
-{
-    const enum fit fit = ui_filter_fit(filter, name);
-    if (dialog->kind == DIALOG_ADD && path_has_end(name, ".json")) return false;
-    return fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0);
 }
 
 /// Lists a new folder and picks the names that match the text after it. Matching recent files come first unless a folder is typed.
@@ -672,7 +634,13 @@ static void dialog_match(struct dialog *dialog)
     struct ui_filter filter = {{0}};
     const char *name = path_name(dialog->ui.text.bytes);
     snprintf(folder, sizeof folder, "%.*s", (int)(name - dialog->ui.text.bytes), dialog->ui.text.bytes);
-    list_folder(dialog, folder);
+    if (dialog->name_count < 0 || strcmp(folder, dialog->listed) != 0) {
+        const struct dialog_files *files = &dialog->files;
+        const char *at = *folder ? folder : ".";
+        snprintf(dialog->listed, sizeof dialog->listed, "%s", folder);
+        const int count = files->list ? files->list(files->user, at, dialog->names, DIALOG_MAX_NAMES) : 0;
+        dialog->name_count = count > 0 ? count : 0;
+    }
     dialog->match_count = 0;
     dialog->choice = -1;
     // A fully selected name is about to be replaced, so everything matches.
@@ -682,10 +650,13 @@ static void dialog_match(struct dialog *dialog)
         if (ui_filter_fit(&filter, path_name(dialog->recent[i].path)) >= FIT_INSIDE)
             dialog->match[dialog->match_count++] = DIALOG_MAX_NAMES + i;
     }
-    for (int i = 0; i < 2 * dialog->name_count; i++) {
-        const int at = i % dialog->name_count;
-        if (fits(dialog, &filter, dialog->names[at], i / dialog->name_count))
-            dialog->match[dialog->match_count++] = at;
+    for (int pass = 0; pass < 2; pass++) { // names that begin with the text, then those that hold it elsewhere
+        for (int at = 0; at < dialog->name_count; at++) {
+            const char *candidate = dialog->names[at];
+            const enum fit fit = ui_filter_fit(&filter, candidate);
+            if (dialog->kind == DIALOG_ADD && path_has_end(candidate, ".json")) continue;
+            if (fit >= FIT_INSIDE && (fit == FIT_START) == (pass == 0)) dialog->match[dialog->match_count++] = at;
+        }
     }
 }
 
@@ -872,20 +843,6 @@ static bool path_key(struct dialogs *dialogs, struct core *core, int key)
     }
 }
 
-/// A recent file's name, with its folder to the right.
-static void label_recent(struct ui *ui, struct rect r, const struct dialog_recent *recent)
-{
-    char folder[PATH_LIMIT];
-    const char *slash = strrchr(recent->path, '/');
-    int length = !slash ? 0 : slash > recent->path ? (int)(slash - recent->path) : 1;
-    snprintf(folder, sizeof folder, "%.*s", length, recent->path);
-    float half = floorf(r.w * 0.45f);
-    ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, path_name(recent->path),
-             recent->missing ? theme()->text_dim : theme()->text);
-    ui_label_right(ui, (struct rect){r.x + half + UI_GAP, r.y, r.w - half - UI_GAP - 6, r.h},
-                   recent->missing ? "no longer exists" : folder, theme()->text_dim);
-}
-
 static void build_list(struct dialogs *dialogs, struct core *core)
 {
     struct dialog *dialog = &dialogs->dialog;
@@ -909,7 +866,17 @@ static void build_list(struct dialogs *dialogs, struct core *core)
             const char *text = recent ? "" : dialog->names[dialog->match[match]];
             snprintf(name, sizeof name, "dialog.match.%d", match);
             if (ui_list_row(ui, r, name, text, 0, match == dialog->choice)) taken = match;
-            if (recent) label_recent(ui, r, recent);
+            if (recent) { // its name, with its folder to the right
+                const char *slash = strrchr(recent->path, '/');
+                const int length = !slash ? 0 : slash > recent->path ? (int)(slash - recent->path) : 1;
+                const float half = floorf(r.w * 0.45f);
+                char folder[PATH_LIMIT];
+                snprintf(folder, sizeof folder, "%.*s", length, recent->path);
+                ui_label(ui, (struct rect){r.x + 6, r.y, half - 6, r.h}, path_name(recent->path),
+                         recent->missing ? theme()->text_dim : theme()->text);
+                ui_label_right(ui, (struct rect){r.x + half + UI_GAP, r.y, r.w - half - UI_GAP - 6, r.h},
+                               recent->missing ? "no longer exists" : folder, theme()->text_dim);
+            }
         }
         if (row == 0 && dialog->match_count == 0)
             ui_label(ui, (struct rect){r.x + 6, r.y, r.w - 12, r.h}, "Nothing matches.", theme()->text_dim);
@@ -918,15 +885,6 @@ static void build_list(struct dialogs *dialogs, struct core *core)
     bool direct = taken >= 0 && dialog_recent_of(dialog, taken); // one click opens a recent file
     bool done = taken >= 0 && !confirmed && dialog_take(dialog, taken);
     if (confirmed || (done && direct)) confirm(dialogs, core);
-}
-
-static bool dialog_exists(const struct dialog *dialog)
-{
-    const char *name = path_name(dialog->ui.text.bytes);
-    for (int m = 0; m < dialog->match_count; m++) {
-        if (!dialog_recent_of(dialog, m) && strcmp(dialog->names[dialog->match[m]], name) == 0) return true;
-    }
-    return false;
 }
 
 static void build_path(struct dialogs *dialogs, struct core *core)
@@ -945,7 +903,11 @@ static void build_path(struct dialogs *dialogs, struct core *core)
     }
     ui_space(ui, 8);
     if (dialog->files.list) build_list(dialogs, core);
-    const char *note = saving && dialog_exists(dialog) ? "This replaces an existing file." : "";
+    const char *note = "", *typed = path_name(ui->text.bytes);
+    for (int m = 0; saving && m < dialog->match_count; m++) {
+        if (!dialog_recent_of(dialog, m) && strcmp(dialog->names[dialog->match[m]], typed) == 0)
+            note = "This replaces an existing file.";
+    }
     if (dialog->match_count > 0 && dialog_recent_of(dialog, 0))
         note = "Recent files come first. Type a path or choose one; Tab completes.";
     if (!note[0] && dialog->files.list) note = "Tab completes, arrow keys choose.";
