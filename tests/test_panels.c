@@ -104,8 +104,9 @@ static void check_dialogs(struct session *f)
 {
     const struct request quit = {.kind = REQUEST_QUIT};
     struct core *core = &f->editor->core;
-    assert_true(core_begin(core, "Change start", 0));
-    assert_true(core_end(core, core_set_parameter(core, 0, PARAMETER_START, WIGGLY_REST)));
+    assert_true(core_step(core, "Change start", 0));
+    assert_true(core_set_parameter(core, 0, PARAMETER_START, WIGGLY_REST));
+    core_close(core);
     for (int kind = 0; kind < 4; kind++) {
         if (kind == 0) dialog_open(f->editor->dialogs, DIALOG_OPEN, "");
         if (kind == 1) dialogs_save_as(f->editor->dialogs, &f->editor->core);

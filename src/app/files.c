@@ -484,9 +484,9 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return true;
     case REQUEST_ADD: {
         editor_let_go(app->table.editor);
-        core_begin(core, "Add character", 0);
+        core_step(core, "Add character", 0);
         const bool added = import_add(app->table.document, request->path, core->active, error);
-        core_end(core, added);
+        if (!added) history_restart(app->table.history);
         editor_refresh(app->table.editor);
         if (added) editor_show_last(app->table.editor);
         return added;

@@ -85,6 +85,7 @@ void editor_open(struct editor *editor, const struct editor_world *world)
 void editor_settle(struct editor *editor)
 {
     struct core *core = &editor->core;
+    core_close(core);
     if (editor->seen.serial != core->serial) open_panels(editor);
     inspector_show_clicked(editor->inspector);
     if (editor->seen.active == core->active_id) return;

@@ -67,8 +67,8 @@ void bones_choose_clip(struct core *core, int model, const char *clip, enum clip
 {
     const struct imported *character = bones_character(core, model);
     const int first = core->document->first_frame, last = core->document->last_frame;
-    if (!character || !core_begin(core, repeat == REPEAT_BY_CLIP ? "Choose clip" : "Loop clip", 0)) return;
-    core_end(core, import_choose_clip(core->document, model, &character->gltf, clip, repeat, &core->error));
+    if (!character || !core_step(core, repeat == REPEAT_BY_CLIP ? "Choose clip" : "Loop clip", 0)) return;
+    if (!import_choose_clip(core->document, model, &character->gltf, clip, repeat, &core->error)) return;
     core->refit_curves = core->document->first_frame != first || core->document->last_frame != last;
 }
 
@@ -77,15 +77,14 @@ void bones_make_chain(struct core *core, int follow)
     int model, rig;
     const int node = bones_selected(core, &model);
     const bool has_splines = core->document->spline_count > 0;
-    if (history_is_open(core->history)) return;
     if (node < 0) {
         core_message(core, false, "Click a bone of an imported character first.");
         return;
     }
     const struct chain_wish wish = {
         .model = model, .from = bones_character(core, model)->gltf.nodes[node].name, .follows = follow};
-    core_begin(core, follow ? "Make chain that follows" : "Make chain", 0);
-    if (!core_end(core, chain_make(core->document, core->models, &wish, &rig, &core->error))) return;
+    if (!core_step(core, follow ? "Make chain that follows" : "Make chain", 0)) return;
+    if (!chain_make(core->document, core->models, &wish, &rig, &core->error)) return;
     core_activate(core, rig_input(core->document->rigs[rig], 0));
     core->limb = core->document->rigs[rig]->id;
     core->refit_curves = !has_splines;
@@ -159,19 +158,17 @@ static enum motion_of motion_along(enum axis axis)
 }
 
 /// Makes the chains' channels bend by the displacement alone, because the followed joint already carries them.
-static bool bend_by_the_rest(struct core *core, int spline, int model)
+static void bend_by_the_rest(struct core *core, int spline, int model)
 {
     const struct document *document = core->document;
-    bool done = true;
     for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
         for (int c = 0; c < document->rigs[r]->chain.channel_count; c++) {
             struct channel changed = document->rigs[r]->chain.channels[c];
             if (changed.spline != spline) continue;
             changed.of = PART_DISPLACEMENT;
-            done &= edit_channel(core->document, (struct channel_place){r, c}, &changed, &core->error);
+            edit_channel(core->document, (struct channel_place){r, c}, &changed, &core->error);
         }
     }
-    return done;
 }
 
 void bones_follow(struct core *core, int spline, int model, int node)
@@ -179,7 +176,7 @@ void bones_follow(struct core *core, int spline, int model, int node)
     const struct document *document = core->document;
     const struct param *old = &document->splines[spline]->parameter[PARAMETER_EQUILIBRIUM];
     const struct imported *character = bones_character(core, model);
-    if (!character || history_is_open(core->history)) return;
+    if (!character) return;
     const struct channel *channel = NULL;
     const struct rig *bent = bent_by(document, spline, model, &channel), *rig = document->rigs[model];
     struct joint_motion motion = {.model = rig->name ? rig->name : rig->model.model, .of = MOTION_TURN, .gain = 1};
@@ -199,9 +196,9 @@ void bones_follow(struct core *core, int spline, int model, int node)
     if (node < 0 && !bent && bones_below(character, -1, &node, 1) == 0) return;
     if (node >= 0) motion.joint = character->gltf.nodes[node].name;
     const bool is_new = !old->motion;
-    core_begin(core, "Follow joint", 0);
+    if (!core_step(core, "Follow joint", 0)) return;
     const bool done = edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
-    core_end(core, done && (!is_new || bend_by_the_rest(core, spline, model)));
+    if (done && is_new) bend_by_the_rest(core, spline, model);
 }
 
 /// The names of a chain's ends after one of them moves to `node`; false with an error.
@@ -243,7 +240,7 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
     const struct imported *character = model >= 0 ? bones_character(core, model) : NULL;
     struct error error = {0};
     char *ends[2];
-    if (!character || history_is_open(core->history)) return;
+    if (!character) return;
     if (!find_ends(character, &contents.chain, first, node, ends, &error)) {
         core_message(core, true, "%s", error.text);
         return;
@@ -251,11 +248,11 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
     char *old = need_text(contents.chain.to);
     contents.chain.from = ends[0];
     contents.chain.to = ends[1];
-    core_begin(core, "Set chain's bones", 0);
-    const bool done =
-        edit_rig_set(core->document, chain, &contents, &core->error) && follow_end(core, contents.name, old, ends[1]);
+    const bool done = core_step(core, "Set chain's bones", 0) &&
+                      edit_rig_set(core->document, chain, &contents, &core->error) &&
+                      follow_end(core, contents.name, old, ends[1]);
     free(old);
-    if (!core_end(core, done)) return;
+    if (!done) return;
     const struct rig *rig = core->document->rigs[chain];
     core_message(core, false, "%.*s goes from %.*s to %.*s.", name_fit(rig_title(rig), 80), rig_title(rig),
                  name_fit(rig->chain.from, 100), rig->chain.from, name_fit(rig->chain.to, 100), rig->chain.to);
@@ -300,8 +297,7 @@ void bones_make_twin(struct core *core, int chain)
     twin.chain.to = to;
     twin.chain.mirror = !twin.chain.mirror;
     twin.chain.turn = -twin.chain.turn;
-    if (!core_begin(core, "Mirror chain", 0)) return;
-    if (!core_end(core, edit_rig_add(core->document, &twin, &core->error))) return;
+    if (!core_step(core, "Mirror chain", 0) || !edit_rig_add(core->document, &twin, &core->error)) return;
     core_message(core, false, "Made the chain %s, mirrored, by the same splines.",
                  rig_title(core->document->rigs[core->document->rig_count - 1]));
 }

@@ -80,6 +80,5 @@ void characters_clean_paint(struct core *core, int unused)
         core_message(core, false, "There is no paint to remove.");
         return;
     }
-    if (!core_begin(core, "Remove paint", 0)) return;
-    core_end(core, characters_blank_paint(core, figure));
+    if (core_step(core, "Remove paint", 0)) characters_blank_paint(core, figure);
 }

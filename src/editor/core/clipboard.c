@@ -17,7 +17,6 @@ static void say_count(struct core *core, const char *what, int count)
 /// Collects the selected knots in core's originals, which no drag is using; returns how many.
 static int collect(struct core *core)
 {
-    if (history_is_open(core->history)) return 0;
     core_collect(core, false);
     if (core->originals.count == 0) core_message(core, false, "No knots are selected.");
     return core->originals.count;
@@ -60,17 +59,14 @@ static bool insert(struct core *core, int spline, const struct knot *knot, doubl
     return core_put_knot(core, spline, &copy);
 }
 
-/// Closes the step and selects the knots inserted from `first_id` on; not `good`: reverts it.
-static bool end_insertion(struct core *core, unsigned first_id, bool good)
+/// Selects the knots inserted from `first_id` on.
+static void select_from(struct core *core, unsigned first_id)
 {
-    struct document *document = core->document;
-    if (!core_end(core, good)) return false;
     selection_clear(&core->selection);
     pins_clear(core);
-    for (unsigned id = first_id; id < document->next_id; id++) selection_set(&core->selection, id, true);
+    for (unsigned id = first_id; id < core->document->next_id; id++) selection_set(&core->selection, id, true);
     selected_settle(core);
     core_edited(core, -1);
-    return true;
 }
 
 /// The spline a listed knot goes to: the one it names, else the active one.
@@ -86,7 +82,7 @@ void core_paste_knots(struct core *core, const char *text)
     const struct document *document = core->document;
     struct knot_list list;
     struct error error;
-    if (!core_active_spline(core) || history_is_open(core->history)) return;
+    if (!core_active_spline(core) || history_is_open(core->history)) return; // pasted text may come during a drag
     if (!text || !text[strspn(text, " \t\r\n")]) {
         core_message(core, false, "The clipboard has no text.");
         return;
@@ -100,10 +96,11 @@ void core_paste_knots(struct core *core, const char *text)
     bool good = true;
     for (int k = 1; k < list.count; k++) first = fmin(first, list.knots[k].frame);
     const double shift = round(core_frame(core)) - first;
-    core_begin(core, list.count == 1 ? "Paste knot" : "Paste knots", 0);
+    core_step(core, list.count == 1 ? "Paste knot" : "Paste knots", 0);
     for (int k = 0; k < list.count && good; k++)
         good = insert(core, target_of(core, &list, k), &list.knots[k], shift);
-    if (end_insertion(core, first_id, good)) say_count(core, "Pasted", list.count);
+    if (good) select_from(core, first_id);
+    if (good) say_count(core, "Pasted", list.count);
     knot_list_free(&list);
 }
 
@@ -156,11 +153,12 @@ void core_duplicate_knots(struct core *core)
     const unsigned first_id = document->next_id;
     const int end = copies_end(originals, document, shift);
     const bool longer = end > document->last_frame;
-    core_begin(core, count == 1 ? "Duplicate knot" : "Duplicate knots", 0);
+    if (!core_step(core, count == 1 ? "Duplicate knot" : "Duplicate knots", 0)) return;
     bool good = !longer || edit_range(document, document->first_frame, end, RANGE_REFUSE, &core->error);
     for (int i = 0; i < count && good; i++)
         good = insert(core, originals->list[i].spline, &originals->list[i].knot, shift);
-    if (!end_insertion(core, first_id, good)) return;
+    if (!good) return;
+    select_from(core, first_id);
     say_count(core, "Duplicated", count);
     if (!longer) return;
     core_message(core, false, "Duplicated %d knot%s; the scene now ends on frame %d.", count, count == 1 ? "" : "s",

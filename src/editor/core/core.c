@@ -29,23 +29,29 @@ void core_edited(struct core *core, int spline)
     if (spline >= 0 && edited->count < CORE_MAX_EDITED) edited->spline[edited->count++] = spline;
 }
 
-bool core_begin(struct core *core, const char *label, uint64_t merge)
+bool core_step(struct core *core, const char *label, uint64_t merge)
 {
+    core_close(core);
     if (history_is_open(core->history)) return false;
     history_begin(core->history, label, merge);
+    core->step_ends = true;
     core->error = (struct error){0};
     core->message = (struct message){0};
     core_keep_phases(core);
     return true;
 }
 
-bool core_end(struct core *core, bool done)
+void core_close(struct core *core)
 {
-    if (done) core_keep_following(core);
-    if (!done) history_restart(core->history);
+    if (!core->step_ends) return;
+    core->step_ends = false;
+    if (core->error.kind == ERROR_NONE) {
+        core_keep_following(core);
+    } else {
+        history_restart(core->history);
+    }
     history_end(core->history);
     core_settle(core);
-    return done;
 }
 
 void core_settle(struct core *core)

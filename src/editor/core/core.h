@@ -11,12 +11,12 @@ void core_open(struct core *core);
 void core_set_path(struct core *core, const char *path);
 /// Notes an edit of a spline, or of its selected knots if it is -1.
 void core_edited(struct core *core, int spline);
-/// Opens an undo step and clears the last message; `merge` as in history_begin(). Failing edits write core->error. false while another step
-/// is open, because a drag's step must not be mixed with others.
-bool core_begin(struct core *core, const char *label, uint64_t merge);
-/// Closes the step, or reverts it if not `done`. Returns `done`.
-bool core_end(struct core *core, bool done);
-/// Call after edits: the editor follows the document, and core->error goes to the status line.
+/// Opens the undo step for the edits that follow, and clears the last message; `merge` as in history_begin(). The end of the event closes it.
+/// An edit that fails writes core->error, and all of the step is reverted. false while a drag's step is open, because others must not mix with it.
+bool core_step(struct core *core, const char *label, uint64_t merge);
+/// Closes the step of this event, if any. editor_settle() calls it; a drag's step stays open.
+void core_close(struct core *core);
+/// Call after edits in a drag: the editor follows the document, and core->error goes to the status line.
 void core_settle(struct core *core);
 /// Notes the phases that an open step keeps; call it when the step opens.
 void core_keep_phases(struct core *core);

@@ -30,7 +30,7 @@ void drag_start_moving(struct core *core)
     struct drag *drag = &core->drag;
     if (drag->moved) return;
     drag->moved = true;
-    if (drag->label) core_begin(core, drag->label, 0);
+    if (drag->label && core_step(core, drag->label, 0)) core->step_ends = false;
 }
 
 void drag_restart(const struct core *core)

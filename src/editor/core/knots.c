@@ -31,8 +31,8 @@ static void insert_at(struct core *core, const struct knot *knot)
     int sample = document_sample(document, knot->frame);
     int at = spline_find_knot(document, core_active_spline(core), sample);
     if (at < 0) {
-        if (!core_begin(core, knot->has_phase ? "Insert pose" : "Insert knot", 0)) return;
-        if (!core_end(core, core_put_knot(core, core->active, knot))) return;
+        if (!core_step(core, knot->has_phase ? "Insert pose" : "Insert knot", 0)) return;
+        if (!core_put_knot(core, core->active, knot)) return;
         at = spline_find_knot(document, core_active_spline(core), sample);
     }
     if (at < 0) return;
@@ -104,7 +104,7 @@ void core_set_hold(struct core *core, int holds)
         return;
     }
     if (all) holds = HOLDS_VALUE;
-    if (!core_begin(core, labels[holds], 0)) return;
+    if (!core_step(core, labels[holds], 0)) return;
     core_collect(core, false);
     for (int i = 0; i < core->originals.count; i++) {
         const struct original *original = &core->originals.list[i];
@@ -115,7 +115,6 @@ void core_set_hold(struct core *core, int holds)
         core_hold(core->document->splines[original->spline], &knot, why);
         core_put_knot(core, original->spline, &knot);
     }
-    core_end(core, true);
     core_edited(core, -1);
     if (holds == HOLDS_STILL)
         core_message(core, false, "The motion comes to rest at the equilibrium. Shift+P brings the value back.");
@@ -135,7 +134,7 @@ void core_toggle_settles(struct core *core, int unused)
         if (selected_count(core) > 0) core_message(core, false, "A still knot has no value to settle at.");
         return;
     }
-    if (!core_begin(core, all ? "Settle off" : "Settle here", 0)) return;
+    if (!core_step(core, all ? "Settle off" : "Settle here", 0)) return;
     core_collect(core, false);
     for (int i = 0; i < core->originals.count; i++) {
         const struct original *original = &core->originals.list[i];
@@ -144,20 +143,18 @@ void core_toggle_settles(struct core *core, int unused)
         knot.settles = !all;
         core_put_knot(core, original->spline, &knot);
     }
-    core_end(core, true);
     core_edited(core, -1);
 }
 
 void core_remove_knots(struct core *core, const char *label)
 {
     const struct originals *originals = &core->originals;
-    if (!core_begin(core, label, 0)) return;
+    if (!core_step(core, label, 0)) return;
     core_collect(core, false);
     for (int i = originals->count - 1; i >= 0; i--) {
         const struct original *original = &originals->list[i];
         edit_knot_remove(core->document, original->spline, original->knot.id, &core->error);
     }
-    core_end(core, true);
     selection_clear(&core->selection);
 }
 

@@ -45,8 +45,8 @@ static void nudge_lag(struct core *core, double degrees)
     }
     const struct channel_place at = {rig, channel};
     const uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(rig * 4096 + channel);
-    if (!core_begin(core, "Change lag", core_merge_key(core, kind))) return;
-    core_end(core, core_set_lag(core, core_limb(core), at, &lag, &core->error));
+    if (core_step(core, "Change lag", core_merge_key(core, kind)))
+        core_set_lag(core, core_limb(core), at, &lag, &core->error);
 }
 
 /// Of the largest value.
@@ -108,8 +108,8 @@ static void nudge_one(struct core *core, const struct spline *spline, enum param
         most = fmax(core_slider_end(core->document, spline, parameter), before->value);
     param.value = fmin(fmax(param.value, parameter_rows[parameter].minimum), most);
     if (param.value == before->value) return;
-    if (!core_begin(core, "Change parameter", core_merge_key(core, NUDGE_PARAMETER + parameter))) return;
-    core_end(core, core_set_felt(core, core_limb(core), parameter, param.value, false, &core->error));
+    if (core_step(core, "Change parameter", core_merge_key(core, NUDGE_PARAMETER + parameter)))
+        core_set_felt(core, core_limb(core), parameter, param.value, false, &core->error);
 }
 
 void core_nudge_parameter(struct core *core, int direction)
@@ -129,9 +129,8 @@ void core_cycle_choice(struct core *core, int parameter)
     const struct spline *spline = core_active_spline(core);
     if (!spline) return;
     double next = spline->parameter[parameter].value + 1;
-    if (!core_begin(core, row->undo, 0)) return;
-    core_end(core,
-             core_set_parameter(core, core->active, (enum parameter)parameter, next <= row->maximum ? next : 0));
+    if (core_step(core, row->undo, 0))
+        core_set_parameter(core, core->active, (enum parameter)parameter, next <= row->maximum ? next : 0);
 }
 
 void core_toggle_pose_to_pose(struct core *core, int unused)
@@ -140,8 +139,8 @@ void core_toggle_pose_to_pose(struct core *core, int unused)
     const struct spline *spline = core_active_spline(core);
     if (!spline) return;
     const bool settles = !spline_settles(spline);
-    if (!core_begin(core, settles ? "Pose to pose" : "Settle off", 0)) return;
-    core_end(core, edit_spline_settles(core->document, core->active, settles, &core->error));
+    if (!core_step(core, settles ? "Pose to pose" : "Settle off", 0)) return;
+    edit_spline_settles(core->document, core->active, settles, &core->error);
     core_edited(core, core->active);
 }
 
@@ -195,7 +194,7 @@ void core_find_frequency(struct core *core, int unused)
 {
     (void)unused;
     const struct spline *spline = core_active_spline(core);
-    if (!spline || history_is_open(core->history)) return;
+    if (!spline) return;
     const char *reason = obstacle(spline);
     wiggly_explanation found[2];
     const int count = reason ? 0 : explain(core, spline, found);
@@ -204,10 +203,10 @@ void core_find_frequency(struct core *core, int unused)
         return;
     }
     const int active = core->active, chosen = count == 2 && is_set(spline, &found[0]) ? 1 : 0;
-    core_begin(core, "Find frequency", 0);
-    const bool good = core_set_parameter(core, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) &&
-                      core_set_parameter(core, active, PARAMETER_DAMPING, damping_of(&found[chosen]));
-    if (!core_end(core, good)) return;
+    if (!core_step(core, "Find frequency", 0) ||
+        !core_set_parameter(core, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) ||
+        !core_set_parameter(core, active, PARAMETER_DAMPING, damping_of(&found[chosen])))
+        return;
     core_edited(core, core->active);
     const char *which = chosen ? "Runner-up" : "Best";
     const double hz = found[chosen].frequency, damping = found[chosen].damping;

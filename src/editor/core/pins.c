@@ -96,8 +96,7 @@ bool pins_put(struct core *core, int rig, int point, double frame, const double 
 void pins_put_here(struct core *core, int rig, int point, const double to[3])
 {
     const double frame = pins_frame_here(core, rig);
-    if (!core_begin(core, "Pin", 0)) return;
-    if (!core_end(core, pins_put(core, rig, point, frame, to))) return;
+    if (!core_step(core, "Pin", 0) || !pins_put(core, rig, point, frame, to)) return;
     core_message(core, false, "Pinned at frame %.6g. Drag the marker, or type its place in the section Pins.", frame);
     core->playback.playing = false;
     playback_seek(core, frame);
@@ -116,8 +115,8 @@ void pins_nudge(struct core *core, const double by[3])
     if (!pin) return;
     struct pin moved = *pin;
     for (int k = 0; k < 3; k++) moved.to[k] += by[k];
-    if (!core_begin(core, "Nudge pin", merge_key(pin, NUDGE_PLACE))) return;
-    if (core_end(core, pins_set(core->document, rig, &moved, &core->error))) pins_tell(core, rig);
+    if (!core_step(core, "Nudge pin", merge_key(pin, NUDGE_PLACE))) return;
+    if (pins_set(core->document, rig, &moved, &core->error)) pins_tell(core, rig);
 }
 
 void pins_retime(struct core *core, int frames)
@@ -133,8 +132,8 @@ void pins_retime(struct core *core, int frames)
         sample = document_sample(document, moved.frame);
         if (sample < 0 || sample > pins_last_sample(document, document->rigs[rig])) return;
     } while (pins_find(document, document->rigs[rig], pin->point, sample) >= 0);
-    if (!core_begin(core, "Move pin in time", merge_key(pin, NUDGE_FRAME))) return;
-    if (!core_end(core, pins_set(core->document, rig, &moved, &core->error))) return;
+    if (!core_step(core, "Move pin in time", merge_key(pin, NUDGE_FRAME))) return;
+    if (!pins_set(core->document, rig, &moved, &core->error)) return;
     playback_seek(core, moved.frame);
     pins_tell(core, rig);
 }
@@ -143,8 +142,8 @@ void pins_delete(struct core *core)
 {
     int rig;
     const struct pin *pin = pins_selected(core, &rig);
-    if (!pin || !core_begin(core, "Delete pin", 0)) return;
-    if (core_end(core, edit_pin_remove(core->document, rig, pin->id, &core->error))) pins_clear(core);
+    if (!pin || !core_step(core, "Delete pin", 0)) return;
+    if (edit_pin_remove(core->document, rig, pin->id, &core->error)) pins_clear(core);
 }
 
 /// Orders by frame, then id.

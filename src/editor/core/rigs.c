@@ -37,9 +37,6 @@ bool rigs_have_knots(const struct document *document)
     return s < document->spline_count;
 }
 
-/// Closes the step and refits the camera.
-static void finish(struct core *core, bool done) { core->refit_stage = core_end(core, done); }
-
 /// A rig's x and width.
 static double place_of(const struct core *core, int rig, double *width)
 {
@@ -82,7 +79,7 @@ void rigs_add_tail(struct core *core)
 {
     struct document *document = core->document;
     const double place = free_place(core, ROOM);
-    if (!core_begin(core, "Add tail", 0)) return;
+    if (!core_step(core, "Add tail", 0)) return;
     const int spline = spline_to_use(core);
     bool done = spline >= 0 && edit_tail_add(document, -1, spline, &core->error);
     if (done) {
@@ -90,7 +87,7 @@ void rigs_add_tail(struct core *core)
         added.tail.position[0] = param_number(place);
         done = edit_rig_set(document, document->rig_count - 1, &added, &core->error);
     }
-    finish(core, done);
+    core->refit_stage = done;
     if (done) core_activate(core, spline);
 }
 
@@ -115,7 +112,7 @@ void rigs_copy(struct core *core, int rig)
 {
     struct document *document = core->document;
     double width;
-    if (rig < 0 || rig >= document->rig_count || history_is_open(core->history)) return;
+    if (rig < 0 || rig >= document->rig_count) return;
     struct rig copy = *document->rigs[rig];
     place_of(core, rig, &width);
     const double place = free_place(core, width);
@@ -134,11 +131,11 @@ void rigs_copy(struct core *core, int rig)
         core_message(core, false, "A chain is copied with its character: copy that.");
         return;
     }
-    core_begin(core, "Add one more", 0);
+    if (!core_step(core, "Add one more", 0)) return;
     bool done = copy.kind == RIG_TAIL ? edit_tail_add(document, rig, core->active, &core->error)
                                       : edit_rig_add(document, &copy, &core->error);
     if (done && copy.kind == RIG_MODEL) done = copy_chains(core, rig, document->rigs[document->rig_count - 1]->name);
-    finish(core, done);
+    core->refit_stage = done;
 }
 
 /// What goes with a rig: its chains, and splines that move nothing else.
@@ -226,13 +223,11 @@ static bool remove_splines(struct core *core, const struct removal *removal)
 static void remove_rig(struct core *core, int rig, bool with_splines)
 {
     struct removal removal;
-    if (rig < 0 || rig >= core->document->rig_count || history_is_open(core->history)) return;
+    if (rig < 0 || rig >= core->document->rig_count) return;
+    if (!core_step(core, with_splines ? "Remove with splines" : "Remove", 0)) return;
     survey(&removal, core->document, rig);
-    core_begin(core, with_splines ? "Remove with splines" : "Remove", 0);
-    const bool done =
-        let_go(core, &removal) && remove_rigs(core, &removal) && (!with_splines || remove_splines(core, &removal));
+    if (let_go(core, &removal) && remove_rigs(core, &removal) && with_splines) remove_splines(core, &removal);
     forget(&removal);
-    core_end(core, done);
 }
 
 static void answer_removal(void *dialogs, struct core *core, int answer)

@@ -62,7 +62,7 @@ static void change_knots(struct core *core, const struct knot_change *change)
 {
     const struct document *document = core->document;
     const uint64_t merge = change->kind ? core_merge_key(core, change->kind) : 0;
-    if (selected_count(core) == 0 || !core_begin(core, change->label, merge)) return;
+    if (selected_count(core) == 0 || !core_step(core, change->label, merge)) return;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         const struct knot *before = knot_at(document, at);
         if (before->still) continue;
@@ -77,7 +77,6 @@ static void change_knots(struct core *core, const struct knot_change *change)
         knot.stiffness = fmin(fmax(knot.stiffness * change->stiffness, 1e-3), 1e9);
         core_put_knot(core, at.spline, &knot);
     }
-    core_end(core, true);
     core_edited(core, -1);
 }
 

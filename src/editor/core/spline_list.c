@@ -80,23 +80,20 @@ void spline_list_add(struct core *core)
     struct document *document = core->document;
     const double frame = round(core_frame(core));
     const struct knot first = {.frame = fmax(document->first_frame, fmin(frame, document->last_frame))};
-    if (!core_begin(core, "Add spline", 0)) return;
-    if (!core_end(core, edit_spline_add(document, -1, NULL, &first, &core->error))) return;
-    core_activate(core, document->spline_count - 1);
+    if (core_step(core, "Add spline", 0) && edit_spline_add(document, -1, NULL, &first, &core->error))
+        core_activate(core, document->spline_count - 1);
 }
 
 void spline_list_copy(struct core *core)
 {
-    if (!core_active_spline(core) || !core_begin(core, "Duplicate spline", 0)) return;
-    if (core_end(core, edit_spline_copy(core->document, core->active, &core->error)))
-        core_activate(core, core->active + 1);
+    if (!core_active_spline(core) || !core_step(core, "Duplicate spline", 0)) return;
+    if (edit_spline_copy(core->document, core->active, &core->error)) core_activate(core, core->active + 1);
 }
 
 void spline_list_move(struct core *core, int spline, int to)
 {
     if (to == spline || to < 0 || to >= core->document->spline_count) return;
-    if (!core_begin(core, "Reorder splines", 0)) return;
-    core_end(core, edit_spline_move(core->document, spline, to, &core->error));
+    if (core_step(core, "Reorder splines", 0)) edit_spline_move(core->document, spline, to, &core->error);
 }
 
 double spline_list_present(const struct core *core, int spline, enum parameter parameter)
@@ -148,13 +145,14 @@ static void remove_active(void *dialogs, struct core *core, int answer)
 {
     (void)dialogs;
     (void)answer;
-    if (!core_active_spline(core) || !core_begin(core, "Delete spline", 0)) return;
+    if (!core_active_spline(core) || !core_step(core, "Delete spline", 0)) return;
     struct reference reference;
     bool good = true;
     while (good && last_reference(core->document, core->active, &reference)) {
         good = release(core, &reference);
     }
-    core_end(core, good && edit_spline_remove(core->document, core->active, &core->error));
+    if (good) edit_spline_remove(core->document, core->active, &core->error);
+    core_refresh(core); // the rest of this event needs an active spline
 }
 
 void spline_list_remove(struct core *core)
@@ -176,8 +174,7 @@ void spline_list_remove(struct core *core)
 
 static void set_fps(struct core *core, double fps, bool keeps_seconds)
 {
-    if (!core_begin(core, "Set frames per second", 0)) return;
-    core_end(core, edit_fps(core->document, fps, keeps_seconds, &core->error));
+    if (core_step(core, "Set frames per second", 0)) edit_fps(core->document, fps, keeps_seconds, &core->error);
 }
 
 static void answer_fps(void *dialogs, struct core *core, int answer)
@@ -209,8 +206,7 @@ void spline_list_fps(struct core *core, double fps)
 
 static void set_range(struct core *core, int first, int last, enum range_fit fit)
 {
-    if (!core_begin(core, "Set range", 0)) return;
-    core_end(core, edit_range(core->document, first, last, fit, &core->error));
+    if (core_step(core, "Set range", 0)) edit_range(core->document, first, last, fit, &core->error);
 }
 
 static int count_outside(const struct document *document, int first, int last)

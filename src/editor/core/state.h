@@ -382,6 +382,7 @@ struct core {
     struct message message;
     struct status status;
     struct error error;       ///< of the last failed edit, until core_settle()
+    bool step_ends;           ///< an undo step is open and ends with this event; a drag's goes on
     bool unkept;              ///< unsaved work has no recovery file
     bool unshown;             ///< the status line must be redrawn
     struct question question; ///< to ask next; no answers: none

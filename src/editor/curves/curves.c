@@ -851,10 +851,9 @@ static void press_warning(void *room, struct core *core, const struct hover *hov
     (void)event;
     char text[FIX_TEXT + 8];
     core_activate(core, warning.spline);
-    if (!core_active_spline(core) || !core_begin(core, cures[warning.kind].label, 0)) return;
+    if (!core_active_spline(core) || !core_step(core, cures[warning.kind].label, 0)) return;
     const bool good = fix.remedy && remedy_apply(fix.remedy, core->document, &warning, fix.text, &core->error);
     snprintf(text, sizeof text, "Done: %s.", fix.text);
-    core_end(core, good);
     if (good || !fix.remedy) core_message(core, false, "%s", good ? text : NO_REMEDY);
 }
 

@@ -241,7 +241,6 @@ void curves_nudge(const struct curves *curves, struct core *core, double frames,
     struct moving moving = {curves, core, frames, up, 0.01 * fabs(up)};
     enum room room = ROOM_FREE;
     char why[STOPPED_SIZE] = "";
-    if (history_is_open(core->history)) return;
     core_collect(core, false);
     // jump over knots in the way
     while (frames != 0 && (room = originals_room(core, moved_knot, &moving, why)) == ROOM_OCCUPIED)
@@ -250,9 +249,8 @@ void curves_nudge(const struct curves *curves, struct core *core, double frames,
     if (room == ROOM_OUTSIDE) core_stopped(core, why);
     if (core->originals.count == 0 || (moving.frames == 0 && up == 0)) return;
     if (room == ROOM_FREE) why[0] = 0;
-    core_begin(core, "Nudge knots", core_merge_key(core, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE));
+    if (!core_step(core, "Nudge knots", core_merge_key(core, frames != 0 ? NUDGE_FRAMES : NUDGE_VALUE))) return;
     originals_put(core, moved_knot, &moving, why);
-    core_end(core, true);
     if (*why) core_stopped(core, why);
     core->nudged_seconds = GHOST_SECONDS;
     core_edited(core, -1);

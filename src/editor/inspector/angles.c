@@ -33,8 +33,7 @@ static bool set_angles(struct inspector *in, enum angle_kind kind, const struct 
 static void change_angles(struct inspector *in, enum angle_kind kind, enum ui_change change, const char *label,
                           const char *what, const struct angles *angles)
 {
-    if (inspector_begin(in, change, label, what))
-        inspector_end(in, change, set_angles(in, kind, angles, &in->core->error));
+    if (inspector_step(in, change, label, what)) set_angles(in, kind, angles, &in->core->error);
 }
 
 /// Factor that extends a slider's ends to include its angle; constant during a drag.

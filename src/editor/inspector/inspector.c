@@ -228,7 +228,12 @@ bool inspector_event(struct inspector *in, const struct event *event)
     ui_begin_event(ui, area, event);
     build_panel(in, area);
     bool used = ui_end(ui);
-    if (was_dragging && !ui->held && history_is_open(in->core->history)) history_end(in->core->history);
+    const bool is_open = history_is_open(in->core->history);
+    if (was_dragging && !ui->held) in->core->step_ends = is_open;
+    if (inspector_is_dragging(in) && is_open && !in->core->step_ends) {
+        core_keep_following(in->core);
+        core_settle(in->core);
+    }
     if (ui->complaint[0]) {
         core_message(in->core, true, "%s", ui->complaint);
         ui->complaint[0] = '\0';
@@ -261,7 +266,8 @@ void inspector_show(struct inspector *in, bool covered)
 
 void inspector_let_go(struct inspector *in)
 {
-    if (inspector_is_dragging(in) && history_is_open(in->core->history)) history_end(in->core->history);
+    if (inspector_is_dragging(in) && history_is_open(in->core->history)) in->core->step_ends = true;
+    core_close(in->core);
     ui_release(&in->ui);
 }
 
@@ -289,35 +295,27 @@ bool inspector_target(struct inspector *in, const char *name, float *x, float *y
 
 bool inspector_changed(enum ui_change change) { return change == UI_DROP || change == UI_SET || change == UI_NUDGE; }
 
-bool inspector_begin(struct inspector *in, enum ui_change change, const char *label, const char *what)
+bool inspector_step(struct inspector *in, enum ui_change change, const char *label, const char *what)
 {
-    struct history *history = in->core->history;
+    struct core *core = in->core;
     switch (change) {
     case UI_NONE:
         return false;
     case UI_DRAG:
-        in->core->error = (struct error){0};
-        if (!core_begin(in->core, label, 0)) history_restart(history);
+        core->error = (struct error){0};
+        if (!core_step(core, label, 0)) history_restart(core->history);
+        core->step_ends = false;
         return true;
     case UI_CANCEL:
     case UI_DROP:
-        if (history_is_open(history)) core_end(in->core, change == UI_DROP);
+        if (history_is_open(core->history) && change == UI_CANCEL) history_restart(core->history);
+        core->step_ends = history_is_open(core->history);
         return false;
     case UI_NUDGE:
     case UI_SET:
-        return core_begin(in->core, label, change == UI_NUDGE ? core_merge_key(in->core, ui_id(&in->ui, what)) : 0);
+        return core_step(core, label, change == UI_NUDGE ? core_merge_key(core, ui_id(&in->ui, what)) : 0);
     }
     return false;
-}
-
-void inspector_end(struct inspector *in, enum ui_change change, bool done)
-{
-    if (change == UI_DRAG) {
-        core_keep_following(in->core);
-        core_settle(in->core);
-    } else {
-        core_end(in->core, done);
-    }
 }
 
 double number_at(const struct number_row *row, const void *of)
@@ -367,19 +365,16 @@ static void change_number(struct inspector *in, const struct number_row *row, co
 {
     const bool is_first = change == UI_DRAG && !history_is_open(in->core->history);
     in->change = change;
-    if (!inspector_begin(in, change, row->undo, row->name)) return;
+    if (!inspector_step(in, change, row->undo, row->name)) return;
     if (is_first) in->dragged = get_number(in, row, home, which);
     if (change != UI_DRAG) {
-        inspector_end(in, change, set_number(in, row, home, which, value, &in->core->error));
-        return;
-    }
-    if (set_number(in, row, home, which, value, NULL)) {
+        set_number(in, row, home, which, value, &in->core->error);
+    } else if (set_number(in, row, home, which, value, NULL)) {
         in->dragged = value;
     } else { // stop at the last possible value
         history_restart(in->core->history);
         set_number(in, row, home, which, in->dragged, NULL);
     }
-    inspector_end(in, change, true);
 }
 
 enum ui_change inspector_number(struct inspector *in, const struct number_row *row, const struct number_home *home,
@@ -529,8 +524,8 @@ static bool set_scene(struct inspector *in, int which, double number, struct err
     if (which == ROW_RATE) spline_list_fps(in->core, number);
     if (which == ROW_FIRST) spline_list_range(in->core, whole, document->last_frame);
     if (which == ROW_LAST) spline_list_range(in->core, document->first_frame, whole);
-    if (which == ROW_SUBSTEPS && core_begin(in->core, "Set substeps", 0))
-        core_end(in->core, edit_substeps(in->core->document, whole, &in->core->error));
+    if (which == ROW_SUBSTEPS && core_step(in->core, "Set substeps", 0))
+        edit_substeps(in->core->document, whole, &in->core->error);
     return true;
 }
 
@@ -1002,8 +997,8 @@ void inspector_pins(struct inspector *in)
         ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
         if (pressed) pins_visit(core, pin);
         if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin"))
-            removed = core_begin(core, "Delete pin", 0) &&
-                      core_end(core, edit_pin_remove(core->document, place.rig, pin->id, &core->error));
+            removed = core_step(core, "Delete pin", 0) &&
+                      edit_pin_remove(core->document, place.rig, pin->id, &core->error);
     }
     if (!removed) inspector_more(in, count, MAX_PINS, " pins; , and . show more");
     if (!pins_selected(core, &owner)) return;

@@ -457,13 +457,12 @@ static void build_inset(struct inspector *in, const struct pole_setting *setting
     int which = 0, count = setting->kind == FILTER_TWO_COMPLEX ? HANDLES : 1;
     if (in->ui.pass == UI_PASS_DRAW) poles_draw_inset(view, setting, inset, in->ui.list);
     enum ui_change change = ui_handles(&in->ui, row, handles, count, &which);
-    if (change == UI_NONE || !inspector_begin(in, change, "Move poles", handles[which].name)) return;
+    if (change == UI_NONE || !inspector_step(in, change, "Move poles", handles[which].name)) return;
     const struct pole_setting wanted = moved_to(in, *setting, inset, which, change, &handles[which]);
     const bool centre = which == HANDLE_CENTRE;
-    inspector_end(in, change,
-                  (!centre || set_pole(in, PARAMETER_FREQUENCY, rounded(wanted.hz, 100))) &&
-                      set_pole(in, PARAMETER_DAMPING, rounded(wanted.damping, 1000)) &&
-                      (centre || set_pole(in, PARAMETER_BANDWIDTH, rounded(wanted.bandwidth, 1000))));
+    if (centre) set_pole(in, PARAMETER_FREQUENCY, rounded(wanted.hz, 100));
+    set_pole(in, PARAMETER_DAMPING, rounded(wanted.damping, 1000));
+    if (!centre) set_pole(in, PARAMETER_BANDWIDTH, rounded(wanted.bandwidth, 1000));
 }
 
 void inspector_poles(struct inspector *in)

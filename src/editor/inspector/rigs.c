@@ -300,8 +300,8 @@ static void follow(struct inspector *in, int k, struct param param)
 {
     struct rig changed = *inspector_shown(in);
     changed.tail.position[k] = param;
-    if (core_begin(in->core, param.track < 0 ? "Stop following" : "Follow spline", 0))
-        core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
+    if (core_step(in->core, param.track < 0 ? "Stop following" : "Follow spline", 0))
+        edit_rig_set(in->core->document, in->rig, &changed, &in->core->error);
 }
 
 static void choose_place(struct inspector *in, const struct dropdown *list)
@@ -363,8 +363,7 @@ static void choose_channel(struct inspector *in, int channel)
 /// In its own undo step.
 static bool put_channel(struct inspector *in, const char *label, const struct channel *channel)
 {
-    return core_begin(in->core, label, 0) &&
-           core_end(in->core, edit_channel(in->core->document, place_of(in), channel, &in->core->error));
+    return core_step(in->core, label, 0) && edit_channel(in->core->document, place_of(in), channel, &in->core->error);
 }
 
 /// A gain still at its default becomes the new axis's default.
@@ -471,13 +470,11 @@ static void build_channel(struct inspector *in)
     struct error *error = &in->core->error;
     const int rig = in->rig, spline = in->core->active;
     const int pressed = inspector_icons(in, inspector_labelled(in, "channel"), buttons, chosen_channel(in) ? 2 : 1);
-    if (pressed >= 0 && core_begin(in->core, pressed == 0 ? "Add channel" : "Delete channel", 0)) {
-        const bool done = pressed == 0
-                              ? edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error)
-                              : edit_channel_remove(in->core->document, place_of(in), error);
-        if (core_end(in->core, done) && pressed == 0)
-            in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
-    }
+    if (pressed == 0 && core_step(in->core, "Add channel", 0) &&
+        edit_channel_add(in->core->document, rig, spline, AXIS_SIDE, PART_TOTAL, error))
+        in->channel = rig_input_count(in->core->document->rigs[rig]) - 1;
+    if (pressed == 1 && core_step(in->core, "Delete channel", 0))
+        edit_channel_remove(in->core->document, place_of(in), error);
 
     const struct channel *channel = chosen_channel(in);
     if (!channel) return;
@@ -553,8 +550,8 @@ void inspector_tail(struct inspector *in)
         ui_hint(ui, field, "Click to rename");
         if (ui_button(ui, field, "tail.name", rig_title(rig), false)) ui_line_begin(ui, rename_line, rig_title(rig));
     } else if (ui_line(ui, named, rename_line) == UI_LINE_DONE &&
-               core_begin(in->core, is_tail ? "Rename tail" : "Rename chain", 0)) {
-        core_end(in->core, edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->error));
+               core_step(in->core, is_tail ? "Rename tail" : "Rename chain", 0)) {
+        edit_rig_name(in->core->document, in->rig, ui->text.bytes, &in->core->error);
     }
     if (is_tail) {
         inspector_numbers(in, &tail_rows[ROW_JOINTS], 1, &joints);
@@ -568,8 +565,8 @@ void inspector_tail(struct inspector *in)
         struct rig changed = *inspector_shown(in);
         const struct rect r = inspector_labelled(in, "mirror");
         ui_hint(ui, r, "Bend to the other side, as a left ear does to a right one");
-        if (ui_toggle(ui, r, "chain.mirror", &changed.chain.mirror) && core_begin(in->core, "Mirror chain", 0))
-            core_end(in->core, edit_rig_set(in->core->document, in->rig, &changed, &in->core->error));
+        if (ui_toggle(ui, r, "chain.mirror", &changed.chain.mirror) && core_step(in->core, "Mirror chain", 0))
+            edit_rig_set(in->core->document, in->rig, &changed, &in->core->error);
     }
     if (!is_tail && bones_mirrorable(in->core, in->rig) == in->rig) {
         const struct rect row = ui_row(ui, UI_ROW), button = {row.x, row.y + 2, row.w, row.h - 4};
@@ -622,8 +619,8 @@ static void build_drives(struct inspector *in, const struct character_rig *rig)
         if (ui_list_row(ui, r, name, text, color, k == in->core->characters.drive)) choose_drive(in, k);
         if (!ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this channel")) continue;
         const int owner = characters_rig(in->core);
-        if (core_begin(in->core, "Remove channel", 0))
-            core_end(in->core, edit_drive_remove(in->core->document, owner, k, &in->core->error));
+        if (core_step(in->core, "Remove channel", 0))
+            edit_drive_remove(in->core->document, owner, k, &in->core->error);
         return;
     }
 }
@@ -691,8 +688,8 @@ static void choose_spline(struct inspector *in, const struct dropdown *list)
 {
     struct drive next = characters_selected(in->core)->drives[in->core->characters.drive];
     next.spline = inspector_spline_list(in, list, next.spline);
-    if (next.spline < 0 || !core_begin(in->core, "Set spline", 0)) return;
-    if (core_end(in->core, set_drive(in, &next, &in->core->error))) choose_drive(in, in->core->characters.drive);
+    if (next.spline < 0 || !core_step(in->core, "Set spline", 0)) return;
+    if (set_drive(in, &next, &in->core->error)) choose_drive(in, in->core->characters.drive);
 }
 
 static const struct dropdown spline_list = {"drive.splines", "The spline that drives this channel", choose_spline};
@@ -722,8 +719,7 @@ static void add_coordinate(struct inspector *in, const struct dropdown *list)
     char *name = need_text(items[picked].name);
     const struct drive drive = {
         .name = name, .spline = in->core->active >= 0 ? in->core->active : 0, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-    if (core_begin(in->core, "Add channel", 0))
-        core_end(in->core, edit_drive(in->core->document, owner, -1, &drive, &in->core->error));
+    if (core_step(in->core, "Add channel", 0)) edit_drive(in->core->document, owner, -1, &drive, &in->core->error);
     free(name);
 }
 
@@ -835,8 +831,8 @@ void inspector_character(struct inspector *in)
         struct rig changed = *in->core->document->rigs[owner];
         changed.character.has_floor = floor;
         if (floor) changed.character.floor = rig->position[1];
-        if (core_begin(in->core, floor ? "Set floor" : "Remove floor", 0))
-            core_end(in->core, edit_rig_set(in->core->document, owner, &changed, &in->core->error));
+        if (core_step(in->core, floor ? "Set floor" : "Remove floor", 0))
+            edit_rig_set(in->core->document, owner, &changed, &in->core->error);
     } else if (rig->has_floor) {
         inspector_numbers(in, floor_rows, 1, &home);
         const struct floor_left *left = evaluation_floor(in->core->evaluation, owner);

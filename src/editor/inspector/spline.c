@@ -22,8 +22,7 @@ static const char hex_line[] = "color.hex";
 
 static void set_color(struct inspector *in, int spline, int color)
 {
-    if (core_begin(in->core, "Set colour", 0))
-        core_end(in->core, edit_spline_color(in->core->document, spline, color, &in->core->error));
+    if (core_step(in->core, "Set colour", 0)) edit_spline_color(in->core->document, spline, color, &in->core->error);
 }
 
 static void build_palette(struct inspector *in, const struct dropdown *list)
@@ -94,8 +93,8 @@ static bool build_row(struct inspector *in, int s, struct rect r)
     const float right = core->more ? 2 * INSPECTOR_ICON : KIND;
     struct rect label = {r.x + SWATCH, r.y, r.w - SWATCH - right, r.h};
     if (active && ui_line_is_open(ui, rename_line)) {
-        if (ui_line(ui, label, rename_line) == UI_LINE_DONE && core_begin(core, "Rename spline", 0))
-            core_end(core, edit_spline_name(core->document, s, ui->text.bytes, &core->error));
+        if (ui_line(ui, label, rename_line) == UI_LINE_DONE && core_step(core, "Rename spline", 0))
+            edit_spline_name(core->document, s, ui->text.bytes, &core->error);
     } else {
         ui_hint(ui, label, "Click to edit (PgUp, PgDn), M for another kind, F2 to rename, drag to reorder");
         enum ui_row_event event = ui_sort_row(ui, r, label, name, spline->name, active);
@@ -217,7 +216,7 @@ static bool set_felt(struct inspector *in, enum parameter parameter, double valu
 static void apply_preset(struct inspector *in, const struct preset *preset)
 {
     const struct spline *spline = core_active_spline(in->core);
-    if (!core_begin(in->core, "Choose a feel", 0)) return;
+    if (!core_step(in->core, "Choose a feel", 0)) return;
     bool good = (spline_mode(spline) != WIGGLY_CUBIC ||
                  core_set_parameter(in->core, in->core->active, PARAMETER_MODE, WIGGLY_COMPLEX)) &&
                 set_felt(in, PARAMETER_FREQUENCY, preset->frequency, false) &&
@@ -235,7 +234,6 @@ static void apply_preset(struct inspector *in, const struct preset *preset)
         if (c == in->channel || others)
             good = edit_angles(in->core->document, at, ANGLE_LAG, &angles, &in->core->error);
     }
-    core_end(in->core, good);
     core_edited(in->core, in->core->active);
 }
 
@@ -554,8 +552,8 @@ static bool put_parameter(struct inspector *in, int parameter, double number, st
 /// In its own undo step.
 static void set_parameter(struct inspector *in, enum parameter parameter, double number)
 {
-    if (core_begin(in->core, parameter_rows[parameter].undo, 0))
-        core_end(in->core, put_parameter(in, (int)parameter, number, &in->core->error));
+    if (core_step(in->core, parameter_rows[parameter].undo, 0))
+        put_parameter(in, (int)parameter, number, &in->core->error);
 }
 
 static void build_slider(struct inspector *in, enum parameter parameter, struct rect r)
@@ -612,9 +610,8 @@ static const struct dropdown joint_list = {"joint", "The joint it follows throug
 
 static void set_track(struct inspector *in, enum parameter parameter, struct param param)
 {
-    const char *label = param_follows(&param) ? "Follow spline" : "Stop following";
-    if (!core_begin(in->core, label, 0)) return;
-    core_end(in->core, edit_parameter(in->core->document, in->core->active, parameter, &param, &in->core->error));
+    if (core_step(in->core, param_follows(&param) ? "Follow spline" : "Stop following", 0))
+        edit_parameter(in->core->document, in->core->active, parameter, &param, &in->core->error);
 }
 
 /// Marks splines the active one cannot follow without a cycle; true if any is left.
@@ -754,8 +751,7 @@ static void build_number(struct inspector *in, enum parameter parameter)
         if (inspector_choice(in, "joint's", "Its turn in degrees, or its movement across or up in metres", "joint.of",
                              choices, MOTION_KINDS, &of)) {
             motion.of = (enum motion_of)of;
-            if (core_begin(in->core, "Set joint's motion", 0))
-                core_end(in->core, follow_joint(in, &changed, &in->core->error));
+            if (core_step(in->core, "Set joint's motion", 0)) follow_joint(in, &changed, &in->core->error);
         }
     }
     if (followed(in)->motion) inspector_numbers(in, gain_rows, 1, &home);
@@ -836,10 +832,9 @@ static void roll(struct inspector *in, const struct spline *spline)
     const long long seed = (long long)spline->parameter[PARAMETER_SEED].value;
     const bool is_new = spline->parameter[PARAMETER_VARIATION].value == 0;
     const int active = in->core->active;
-    if (!core_begin(in->core, "Roll variation", 0)) return;
+    if (!core_step(in->core, "Roll variation", 0)) return;
     core_set_parameter(in->core, active, PARAMETER_SEED, (double)((seed * 7 + 1) % 1000 % most));
     if (is_new) core_set_parameter(in->core, active, PARAMETER_VARIATION, FRESH_VARIATION);
-    core_end(in->core, true);
     core_edited(in->core, in->core->active);
 }
 

@@ -122,11 +122,9 @@ int inspector_bone_list(struct inspector *in, const struct dropdown *list, int m
 
 /// Whether a change is finished, not a step of a drag.
 bool inspector_changed(enum ui_change change);
-/// Starts an undo step for a change. A drag is one step, redone from the original at each movement; Esc reverts it. A run of nudges of
-/// `what` with the same selection is one step too. true if you should edit now and call inspector_end() after.
-bool inspector_begin(struct inspector *in, enum ui_change change, const char *label, const char *what);
-/// Not `done`: reverts the edits.
-void inspector_end(struct inspector *in, enum ui_change change, bool done);
+/// core_step() for a change. A drag is one step, redone from the original at each movement; Esc reverts it. A run of nudges of `what` with
+/// the same selection is one step too. true if you should edit now.
+bool inspector_step(struct inspector *in, enum ui_change change, const char *label, const char *what);
 
 /// Where a table's numbers are stored: the struct of number `which`, and the edit that replaces it.
 struct number_home {
