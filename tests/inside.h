@@ -5,7 +5,6 @@
 #include "near.h"
 
 #include "editor/core/core.h"
-#include "editor/core/selection.h"
 #include "editor/curves/curves.h"
 #include "editor/curves/state.h"
 #include "editor/dialogs/dialogs.h"

@@ -2,7 +2,7 @@
 #include "panel_session.h"
 
 #include "beast.h"
-#include "editor/core/bones.h"
+#include "editor/core/rigs.h"
 #include "folder.h"
 
 /// The beast on the stage at rest, with a chain in its left ear. The pointer is where it does nothing.

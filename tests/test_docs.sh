@@ -207,7 +207,7 @@ docs/app.md~from 75 % to 300 %~src/app/state.h~UI_SCALE_LEAST 0.75
 docs/app.md~from 75 % to 300 %~src/app/state.h~UI_SCALE_MOST 3.0
 docs/app.md~four knots~include/wiggly/more.h~WIGGLY_FEWEST_EXPLAINED 4
 docs/keys.md~75 … 300 %~src/app/state.h~UI_SCALE_MOST 3.0
-docs/keys.md~0.1 … 4×~src/editor/core/playback.c~{0.1, 0.25, 0.5, 1, 2, 4}
+docs/keys.md~0.1 … 4×~src/editor/core/view.c~{0.1, 0.25, 0.5, 1, 2, 4}
 docs/keys.md~by 1 % of the view~src/editor/stage/overlays.c~NUDGE = 0.01;
 docs/keys.md~1 % of the visible values~src/editor/curves/knots.c~0.01 * hundredths * core->visible
 docs/characters.md~the lowest twentieth of the height~src/commands/simulate.c~pin below a height (1/20 of the mesh)

@@ -3,7 +3,7 @@
 #include "panel_session.h"
 
 #include "beast.h"
-#include "editor/core/bones.h"
+#include "editor/core/rigs.h"
 #include "folder.h"
 #include "shown.h"
 

@@ -2,7 +2,8 @@
 #include "panel_session.h"
 #include "shown.h"
 
-#include "editor/core/pins.h"
+#include "editor/core/rigs.h"
+#include "editor/core/view.h"
 #include "scene/pins.h"
 
 static const char tail[] =

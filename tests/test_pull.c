@@ -2,6 +2,7 @@
 #include "blind.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
+#include "editor/core/view.h"
 #include "shown.h"
 
 enum { STEPS = 2, SETTLE = 7 };

@@ -2,7 +2,7 @@
 #include "gltf_builder.h"
 #include "panel_session.h"
 
-#include "editor/core/bones.h"
+#include "editor/core/rigs.h"
 #include "editor/stage/state.h"
 
 /// The joints of the rig, parents first. A triangle follows each that has a `size`; two skins share them all.

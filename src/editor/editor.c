@@ -3,6 +3,7 @@
 #include "base/need.h"
 #include "editor/commands.h"
 #include "editor/core/core.h"
+#include "editor/core/view.h"
 #include "editor/curves/curves.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"

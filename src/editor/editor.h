@@ -3,6 +3,7 @@
 #define EDITOR_EDITOR_H
 
 #include "editor/core/core.h"
+#include "editor/core/view.h"
 #include "editor/dialogs/dialogs.h"
 #include "ui/tooltip.h"
 

@@ -3,6 +3,7 @@
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
 #include "editor/core/knots.h"
+#include "editor/core/view.h"
 #include "editor/curves/curves.h"
 #include "editor/dialogs/dialogs.h"
 #include "editor/editor.h"

@@ -1,6 +1,7 @@
 /// The keyboard: the command of a key or character, and keys that act while they are held.
 #include "editor/commands.h"
 #include "editor/core/core.h"
+#include "editor/core/view.h"
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "scene/parameter.h"

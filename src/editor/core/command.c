@@ -1,10 +1,7 @@
 /// The needs of commands, and the names of their keys.
 #include "editor/core/command.h"
-#include "editor/core/bones.h"
-#include "editor/core/characters.h"
 #include "editor/core/core.h"
-#include "editor/core/pins.h"
-#include "editor/core/selection.h"
+#include "editor/core/rigs.h"
 #include <stdio.h>
 
 const char *const about_titles[ABOUT_COUNT] = {

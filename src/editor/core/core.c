@@ -1,15 +1,79 @@
-/// State and edits that all panels share.
+/// The state that all panels share: opening a document, undo steps, messages, the active spline, and the selected knots.
 #include "editor/core/core.h"
 #include "base/file.h"
+#include "base/hash.h"
 #include "base/names.h"
-#include "editor/core/selection.h"
+#include "base/need.h"
+#include "editor/core/view.h"
 #include "maths/maths.h"
+#include "scene/warnings.h"
+#include "ui/theme.h"
 #include <ctype.h>
+#include <limits.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/// The first active spline: the first that moves something, with its rig as the limb, else the first; -1 if none.
+static int first_spline(struct core *core)
+{
+    const struct document *document = core->document;
+    core->limb = 0;
+    for (int kind = 0; kind < RIG_KINDS; kind++) {
+        for (int r = -1; (r = document_next_rig(document, (enum rig_kind)kind, r)) >= 0;) {
+            if (rig_input_count(document->rigs[r]) == 0) continue;
+            core->limb = document->rigs[r]->id;
+            return rig_input(document->rigs[r], 0);
+        }
+    }
+    return document->spline_count > 0 ? 0 : -1;
+}
+
+void core_open(struct core *core)
+{
+    const struct document *document = core->document;
+    take_keep(core, false);
+    selection_clear(&core->selection);
+    selection_clear(&core->hidden);
+    selection_clear(&core->solo);
+    core->drag = (struct drag){0};
+    core->hover = (struct hover){0};
+    core->edited = (struct edited){0};
+    core->look = LOOK_WIGGLY;
+    core->brush.on = false;
+    core->bone.any = false;
+    core->pin.any = false;
+    core->pick = (struct bone_pick){0};
+    memset(core->recent, 0, sizeof core->recent);
+    core->active = first_spline(core);
+    core->active_id = core->active >= 0 ? document->splines[core->active]->id : 0;
+    core->held_key = 0;
+    core->space_down = false;
+    core->message = (struct message){0};
+    core->serial = document->serial;
+    core_set_path(core, document->path ? document->path : "");
+
+    const struct character_rig *character = document_character(document, 0);
+    const int phases = character ? character->phases : -1;
+    core->characters = (struct character_view){.mapped = phases >= 0, .axis = phases >= 0 ? phases : 1};
+
+    // Scenes that loop, have a clip or a description play. Auto-key is on if a body is animated.
+    core->seen_first = document->first_frame;
+    core->seen_substeps = document->substeps;
+    core->playback = (struct playback){
+        .looping = true, .speed = 1, .playing = document->about != NULL, .range = {-INFINITY, INFINITY}};
+    for (int s = 0; s < document->spline_count; s++)
+        core->playback.playing |= spline_start(document->splines[s]) == WIGGLY_LOOP;
+    core->auto_key = false;
+    for (int r = 0; r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        core->playback.playing |= rig->kind == RIG_MODEL && rig->model.clip;
+        for (int k = 0; k < 3 && rig->kind == RIG_TAIL; k++) core->auto_key |= rig->tail.position[k].track >= 0;
+    }
+    if (core->still) core->playback.playing = false;
+}
 
 static const double MESSAGE_SECONDS = 5;
 
@@ -37,7 +101,20 @@ bool core_step(struct core *core, const char *label, uint64_t merge)
     core->step_ends = true;
     core->error = (struct error){0};
     core->message = (struct message){0};
-    core_keep_phases(core);
+
+    // The phases that core_keep_following() gives back.
+    const struct document *document = core->document;
+    core->pressed.count = 0;
+    if (!core->keep || !evaluation_is_of(core->evaluation, document)) return true;
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct spline *spline = document->splines[s];
+        for (int k = 0; k < spline->knot_count && spline_winds_up(document, s); k++) {
+            struct knot knot = spline->knots[k];
+            if (knot_holds(&knot) != HOLDS_VALUE) continue;
+            knot.phase = evaluation_at(core->evaluation, s, document_sample(document, knot.frame)).im;
+            originals_add(&core->pressed, s, &knot);
+        }
+    }
     return true;
 }
 
@@ -94,11 +171,33 @@ struct knot core_knot_at(const struct document *document, int spline, int sample
 
 void core_refresh(struct core *core)
 {
-    if (core->serial != core->document->serial) {
+    const struct document *document = core->document;
+    const struct spline *active = core_active_spline(core);
+    if (core->serial != document->serial) {
         core_open(core);
-    } else {
-        spline_list_refresh(core);
+        return;
     }
+
+    const bool same = core->evaluation && core->evaluation->count == document->spline_count;
+    if (!same || !active || active->id != core->active_id) {
+        int found = document_find_spline_id(document, core->active_id);
+        if (found < 0) {
+            const int last = document->spline_count - 1;
+            found = core->active > last ? last : core->active < 0 && last >= 0 ? 0 : core->active;
+            core->active_id = found >= 0 ? document->splines[found]->id : 0;
+            selection_clear(&core->selection);
+        }
+        core->active = found;
+        core->hover = (struct hover){0};
+    }
+
+    const double frame = core->seen_first + core->playback.position / core->seen_substeps;
+    const bool moved = core->seen_first != document->first_frame || core->seen_substeps != document->substeps;
+    if (moved) core->playback.position = (frame - document->first_frame) * document->substeps;
+    core->playback.position = fmax(0, fmin(core->playback.position, document_samples(document) - 1));
+    core->seen_first = document->first_frame;
+    core->seen_substeps = document->substeps;
+    core->pick = (struct bone_pick){0};
 }
 
 /// If undo removed the active spline, the previously active one becomes active.
@@ -227,84 +326,6 @@ void core_choose(struct core *core, int spline)
     core_activate(core, spline);
 }
 
-void core_flip(struct core *core, int which)
-{
-    const struct {
-        bool *on;
-        const char *said[2]; ///< messages for off and on
-    } switches[] = {
-        [SWITCH_SNAP] = {&core->no_snap,
-                         {"Snapping on: hold Ctrl to place knots between frames.",
-                          "Snapping off: hold Ctrl to snap to frames."}},
-        [SWITCH_AUTO_KEY] = {&core->auto_key,
-                             {"Auto-key off: dragging a body moves it for the whole shot.",
-                              "Auto-key on: dragging a body sets knots at the playhead."}},
-        [SWITCH_KEEP] = {&core->keep,
-                         {"Keep off: what follows an edit swings on from it.",
-                          "Keep on: the next free knot becomes a pose, and nothing changes beyond it."}},
-        [SWITCH_LOOP] = {&core->playback.looping, {"Playback stops at the end.", "Playback loops."}},
-        [SWITCH_ONION] = {&core->overlays.onion,
-                          {"Onion skin off.", "Onion skin on: the pose at the knots around the playhead (O)."}},
-        [SWITCH_TRAIL] = {&core->overlays.trail,
-                          {"Motion arc off.",
-                           "Motion arc on: the path of the tip or liveliest point, one mark per frame (Shift+O)."}},
-        [SWITCH_SHEET] = {&core->curves.sheet,
-                          {"Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F7)."}},
-        [SWITCH_PHASE] = {&core->curves.phase,
-                          {"Phase curve off.", "Phase curve on: a quarter of a swing behind the curve."}},
-        [SWITCH_MORE] = {&core->more,
-                         {"The inspector shows the main sections (F9).", "The inspector shows all sections (F9)."}},
-        [SWITCH_SECONDS] = {&core->curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},
-        [SWITCH_NORMALISE] = {&core->curves.normalise,
-                              {"All curves share one axis again.",
-                               "Normalised: every curve is as high as the active one. The axis shows the active "
-                               "curve's values."}},
-        [SWITCH_GHOST] = {&core->overlays.ghost,
-                          {"Ghost off.", "Ghost on: the pose at the knot that is dragged or nudged (F4)."}},
-        [SWITCH_ORIGINAL] = {&core->overlays.original,
-                             {"Original off.", "Original on: beside the character, its clip without the chains."}},
-        [SWITCH_RECORD] = {&core->record_armed, {"Recording is off.", "The next drag of the body is recorded."}},
-        [SWITCH_PHASE_MAP] = {&core->characters.mapped,
-                              {"Phase map off.", "Phase map on: the colour of a point is its phase."}},
-        [SWITCH_TWIN] = {&core->characters.compare,
-                         {"Stiff twin off.", "Stiff twin on: beside the character, one that moves without phases."}},
-    };
-    bool *on = switches[which].on;
-    *on = !*on;
-    core->refit_curves |= which == SWITCH_NORMALISE;
-    core->refit_stage |= which == SWITCH_TWIN || which == SWITCH_ORIGINAL;
-    core_message(core, false, "%s", switches[which].said[*on]);
-}
-
-void core_set_look(struct core *core, enum look look)
-{
-    static const char *const texts[] = {
-        [LOOK_WIGGLY] = "Wiggly: one spline, each joint with its own phase",
-        [LOOK_STIFF] = "Stiff: the same spline without lag",
-        [LOOK_CUBIC] = "Cubic: the same knots as a classical spline",
-    };
-    core->look = look;
-    core_message(core, false, "%s", texts[look]);
-}
-
-void core_turn_look(struct core *core, int unused)
-{
-    static const enum look next[] = {
-        [LOOK_WIGGLY] = LOOK_STIFF, [LOOK_STIFF] = LOOK_CUBIC, [LOOK_CUBIC] = LOOK_WIGGLY};
-    (void)unused;
-    core_set_look(core, next[core->look]);
-}
-
-double core_frame(const struct core *core)
-{
-    return core->document->first_frame + core->playback.position / core->document->substeps;
-}
-
-double core_position(const struct document *document, double frame)
-{
-    return (frame - document->first_frame) * document->substeps;
-}
-
 double core_round(double value, double resolution)
 {
     if (!isfinite(resolution)) return value;
@@ -312,4 +333,324 @@ double core_round(double value, double resolution)
     double power = maths_power_of_ten(abs(exponent));
     double rounded = exponent < 0 ? round(value * power) / power : round(value / power) * power;
     return isfinite(rounded) && fabs(value) < 1e15 * resolution ? rounded : value;
+}
+
+uint32_t spline_list_color(const struct document *document, int spline)
+{
+    if (spline < 0 || spline >= document->spline_count) return theme()->spline[0];
+    int color = document->splines[spline]->color;
+    return color < 0 ? theme()->spline[spline % THEME_SPLINE_COLORS] : theme_spline((uint32_t)color);
+}
+
+bool spline_list_shows(const struct core *core, int spline)
+{
+    const struct document *document = core->document;
+    if (spline < 0 || spline >= document->spline_count) return false;
+    const unsigned id = document->splines[spline]->id;
+    int solo = 0;
+    while (solo < document->spline_count && !selection_has(&core->solo, document->splines[solo]->id)) solo++;
+    return solo < document->spline_count ? selection_has(&core->solo, id) : !selection_has(&core->hidden, id);
+}
+
+void spline_list_flip(struct core *core, struct selection *set, int spline)
+{
+    const unsigned id = core->document->splines[spline]->id;
+    selection_set(set, id, !selection_has(set, id));
+    core->visibility++;
+}
+
+const struct spline *spline_list_seen(const struct core *core)
+{
+    return spline_list_shows(core, core->active) ? core_active_spline(core) : NULL;
+}
+
+// --- the selected knots: one bit per id, so that lookups are cheap in drags of thousands
+
+bool selection_has(const struct selection *selection, unsigned id)
+{
+    return id < selection->capacity && (selection->bits[id / 64] >> (id % 64) & 1u);
+}
+
+/// Ids are consecutive, so this reserves some more.
+static void selection_reserve(struct selection *selection, unsigned end)
+{
+    if (end <= selection->capacity) return;
+    const unsigned capacity = (end / 512 + 2) * 512;
+    selection->bits = need_more(selection->bits, capacity / 64, sizeof *selection->bits);
+    memset((char *)selection->bits + selection->capacity / 8, 0, (capacity - selection->capacity) / 8);
+    selection->capacity = capacity;
+}
+
+void selection_set(struct selection *selection, unsigned id, bool selected)
+{
+    if (selected) selection_reserve(selection, id + 1);
+    if (id >= selection->capacity) return;
+    uint64_t bit = UINT64_C(1) << (id % 64);
+    if (selected) {
+        selection->bits[id / 64] |= bit;
+    } else {
+        selection->bits[id / 64] &= ~bit;
+    }
+}
+
+void selection_clear(struct selection *selection)
+{
+    if (selection->bits) memset(selection->bits, 0, selection->capacity / 8);
+}
+
+void selection_drop_from(struct selection *selection, unsigned id)
+{
+    for (; id < selection->capacity; id++) selection_set(selection, id, false);
+}
+
+int selection_count(const struct selection *selection, const struct spline *spline)
+{
+    int count = 0;
+    for (int k = 0; spline && k < spline->knot_count; k++) count += selection_has(selection, spline->knots[k].id);
+    return count;
+}
+
+int selection_single(const struct selection *selection, const struct spline *spline)
+{
+    int found = -1;
+    for (int k = 0; spline && k < spline->knot_count; k++) {
+        if (!selection_has(selection, spline->knots[k].id)) continue;
+        if (found >= 0) return -1;
+        found = k;
+    }
+    return found;
+}
+
+void selection_copy(struct selection *to, const struct selection *from)
+{
+    selection_reserve(to, from->capacity);
+    selection_clear(to);
+    if (from->bits) memcpy(to->bits, from->bits, from->capacity / 8);
+}
+
+/// Hidden knots are not edited, except the active spline's.
+static bool is_edited(const struct core *core, int spline)
+{
+    return spline == core->active || spline_list_shows(core, spline);
+}
+
+bool selected_next(const struct core *core, struct knot_place *at)
+{
+    if (at->spline < 0) *at = (struct knot_place){0, -1};
+    for (; at->spline < core->document->spline_count; at->spline++, at->knot = -1) {
+        const struct spline *spline = core->document->splines[at->spline];
+        bool open = at->knot >= 0 || is_edited(core, at->spline);
+        while (open && ++at->knot < spline->knot_count) {
+            if (selection_has(&core->selection, spline->knots[at->knot].id)) return true;
+        }
+    }
+    return false;
+}
+
+int selected_count(const struct core *core)
+{
+    int count = 0;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) count++;
+    return count;
+}
+
+void selected_settle(struct core *core)
+{
+    struct knot_place first = SELECTED_START;
+    if (selection_count(&core->selection, core_active_spline(core)) > 0) return;
+    if (selected_next(core, &first)) core_turn_to(core, first.spline);
+}
+
+void originals_add(struct originals *originals, int spline, const struct knot *knot)
+{
+    if (originals->count == originals->capacity) {
+        originals->capacity = 2 * originals->capacity + 64;
+        originals->list = need_more(originals->list, (size_t)originals->capacity, sizeof *originals->list);
+    }
+    originals->list[originals->count++] = (struct original){.spline = spline, .knot = *knot};
+}
+
+void core_collect(struct core *core, bool later)
+{
+    struct originals *originals = &core->originals;
+    originals->count = 0;
+    for (int s = 0; s < core->document->spline_count; s++) {
+        const struct spline *spline = core->document->splines[s];
+        bool begun = false;
+        if (!is_edited(core, s)) continue;
+        for (int k = 0; k < spline->knot_count; k++) {
+            bool selected = selection_has(&core->selection, spline->knots[k].id);
+            begun |= selected;
+            if (!selected && !(later && begun)) continue;
+            originals_add(originals, s, &spline->knots[k]);
+            originals->list[originals->count - 1].value = core_knot_value(core, s, &spline->knots[k]);
+        }
+    }
+}
+
+/// The original of a spline's knot at a sample, or NULL. They are sorted.
+static const struct original *find_original(const struct originals *originals, const struct document *document,
+                                            int spline, int sample)
+{
+    int low = 0, high = originals->count;
+    while (low < high) {
+        const int middle = (low + high) / 2;
+        const struct original *at = &originals->list[middle];
+        const int there = document_sample(document, at->knot.frame);
+        if (at->spline == spline && there == sample) return at;
+        if (at->spline < spline || (at->spline == spline && there < sample)) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return NULL;
+}
+
+enum room originals_room(const struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE])
+{
+    const struct document *document = core->document;
+    const struct originals *originals = &core->originals;
+    enum room room = ROOM_FREE;
+    double stopped = 0;
+    for (int i = 0, before = 0; i < originals->count && room != ROOM_OUTSIDE; i++) {
+        const struct original *original = &originals->list[i];
+        const struct spline *spline = document->splines[original->spline];
+        const double frame = rule(how, original).frame;
+        const int sample = document_sample(document, frame);
+        const bool meets = i > 0 && originals->list[i - 1].spline == original->spline && sample == before;
+        const bool outside = sample < 0 || sample > document_last_knot_sample(document, spline);
+        const bool taken = spline_find_knot(document, spline, sample) >= 0 &&
+                           !find_original(originals, document, original->spline, sample);
+        if (room == ROOM_FREE) stopped = frame;
+        if (meets || taken) room = ROOM_OCCUPIED;
+        if (outside) room = ROOM_OUTSIDE;
+        before = sample;
+    }
+    if (room == ROOM_OUTSIDE) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
+    if (room == ROOM_OCCUPIED) snprintf(why, STOPPED_SIZE, "a knot would land on another on frame %g", stopped);
+    return room;
+}
+
+/// Whether a rule reverses the knots' order.
+static bool are_reversed(const struct originals *originals, knot_rule *rule, const void *how)
+{
+    const struct original *list = originals->list;
+    for (int i = 1; i < originals->count; i++) {
+        if (list[i].spline == list[i - 1].spline) return rule(how, &list[i]).frame < rule(how, &list[i - 1]).frame;
+    }
+    return false;
+}
+
+/// To avoid collisions, knots moving right go first, the last one first. If the order is reversed, all are removed before.
+bool originals_put(struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE])
+{
+    const struct originals *originals = &core->originals;
+    const bool reversed = are_reversed(originals, rule, how);
+    bool done = true;
+    for (int i = 0; i < 2 * originals->count && done; i++) {
+        const bool first = i < originals->count;
+        const int at = first ? originals->count - 1 - i : i - originals->count;
+        const struct original *original = &originals->list[at];
+        struct knot knot = rule(how, original);
+        if (reversed && first) {
+            done = edit_knot_remove(core->document, original->spline, knot.id, &core->error);
+        } else if (reversed || first == (knot.frame > original->knot.frame)) {
+            core_hold(core->document->splines[original->spline], &knot, why);
+            done =
+                (reversed ? edit_knot_insert : edit_knot_set)(core->document, original->spline, &knot, &core->error);
+        }
+    }
+    return done;
+}
+
+uint64_t core_merge_key(const struct core *core, uint64_t kind)
+{
+    uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
+    key = hash_bytes(key, &core->active, sizeof core->active);
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        unsigned id = knot_at(core->document, at)->id;
+        key = hash_bytes(key, &id, sizeof id);
+    }
+    return key ? key : 1;
+}
+
+// --- keeping what follows an edit: a spline that winds up and whose knots an open step has changed gets a pose at the next free knot, so that from
+// there on it is what it was (docs/mathematics.md, Wind-up). The rule compares the knots with those before the step, so any number of edits, in any
+// order, gives the same. Settling knots move the equilibrium of all that follows, which no pose can keep.
+
+/// The phase of a knot of spline `old` when the step began; NULL if it is not known, or was not free.
+static const double *phase_of(const struct core *core, int old, const struct knot *knot)
+{
+    const struct document *document = history_before(core->history);
+    const struct original *at = find_original(&core->pressed, document, old, document_sample(document, knot->frame));
+    return at && at->knot.id == knot->id ? &at->knot.phase : NULL;
+}
+
+/// Whether a curve through either knot is the same: they are equal, or one is the other with the phase it had.
+static bool is_same_knot(const struct core *core, int old, const struct knot *was, const struct knot *is)
+{
+    if (was->id != is->id || was->frame != is->frame || was->still != is->still || was->settles != is->settles)
+        return false;
+    if (is->still || was->value != is->value) return is->still;
+    if (is->has_phase && !was->has_phase) {
+        const double *phase = phase_of(core, old, was);
+        return phase && is->phase == *phase;
+    }
+    if (was->has_phase || is->has_phase) return was->has_phase && is->has_phase && was->phase == is->phase;
+    return was->has_slope == is->has_slope &&
+           (!is->has_slope || (was->slope == is->slope && was->stiffness == is->stiffness));
+}
+
+/// Makes a free knot of a spline, `old` before the step, a pose with the phase it had.
+static void keep_phase(struct core *core, int old, int of, const struct knot *knot)
+{
+    const double *phase = knot_holds(knot) == HOLDS_VALUE ? phase_of(core, old, knot) : NULL;
+    struct knot pose = *knot;
+    if (!phase) return;
+    pose.has_phase = true;
+    pose.phase = *phase;
+    pose.has_slope = false; // its phase has it
+    core_put_knot(core, of, &pose);
+}
+
+/// Goes through the knots before and after the step in order of time, in a loop twice. The first knot after a change that stayed is held. In a loop
+/// that had no pose the phase of the first knot comes from the whole round, so that knot is held, too.
+static void keep_spline(struct core *core, int old, int of)
+{
+    const struct document *document = core->document, *earlier = history_before(core->history);
+    const struct spline *before = earlier->splines[old];
+    const bool loops = spline_start(document->splines[of]) == WIGGLY_LOOP;
+    bool changes = false, changed = false, is_free = loops;
+    for (int k = 0; k < before->knot_count; k++) is_free &= knot_holds(&before->knots[k]) == HOLDS_VALUE;
+    for (int round = 0; round < (loops ? 2 : 1); round++) {
+        for (int b = 0, a = 0; b < before->knot_count || a < document->splines[of]->knot_count;) {
+            const struct spline *after = document->splines[of];
+            const struct knot *was = b < before->knot_count ? &before->knots[b] : NULL;
+            const struct knot *is = a < after->knot_count ? &after->knots[a] : NULL;
+            const int then = was ? document_sample(earlier, was->frame) : INT_MAX;
+            const int now = is ? document_sample(document, is->frame) : INT_MAX;
+            const bool stayed = then == now && is_same_knot(core, old, was, is);
+            b += then <= now;
+            a += now <= then;
+            if (stayed) {
+                if (changed || (changes && is_free && a == 1)) keep_phase(core, old, of, is);
+                changed = false;
+            } else if (!(then <= now && was->settles) && !(now <= then && is->settles)) {
+                changes = changed = true;
+            }
+        }
+    }
+}
+
+void core_keep_following(struct core *core)
+{
+    const struct document *document = core->document, *before = history_before(core->history);
+    const bool swings = core->drag.owner && core->mods & MOD_ALT;
+    if (!core->keep || swings || core->pressed.count == 0) return;
+    for (int s = 0; s < document->spline_count; s++) {
+        const int old = document_find_spline_id(before, document->splines[s]->id);
+        if (old < 0 || before->splines[old] == document->splines[s] || !spline_winds_up(document, s)) continue;
+        keep_spline(core, old, s);
+    }
 }

@@ -18,8 +18,6 @@ bool core_step(struct core *core, const char *label, uint64_t merge);
 void core_close(struct core *core);
 /// Call after edits in a drag: the editor follows the document, and core->error goes to the status line.
 void core_settle(struct core *core);
-/// Notes the phases that an open step keeps; call it when the step opens.
-void core_keep_phases(struct core *core);
 /// Call after edits in an open step: of each spline that winds up and whose knots have changed, the next free knot becomes a pose with the phase
 /// it had when the step began. So nothing changes beyond it. Not in a drag with Alt held, or if that is switched off.
 void core_keep_following(struct core *core);
@@ -31,7 +29,7 @@ double core_parameter_at(const struct core *core, const struct spline *spline, e
 bool core_put_knot(struct core *core, int spline, const struct knot *knot);
 /// The knot at a sample, or a new one with id 0.
 struct knot core_knot_at(const struct document *document, int spline, int sample);
-/// Call after undo, redo and a new document: see editor_refresh().
+/// Call after edits, undo, redo and a new document: keeps the active spline and the playhead's frame. See editor_refresh().
 void core_refresh(struct core *core);
 /// Undoes (-1) or redoes (1) a step.
 void core_undo(struct core *core, int direction);
@@ -59,89 +57,8 @@ void core_activate(struct core *core, int spline);
 void core_choose(struct core *core, int spline);
 /// Activates a spline and keeps the selection.
 void core_turn_to(struct core *core, int spline);
-/// Keeps the scene as "before", solved once; or forgets it (0).
-void take_keep(struct core *core, int keep);
-/// Whether it is shown: K is held, and no edit is open. And whether on the stage, too: its rigs and samples are those of now.
-bool take_is_shown(const struct core *core);
-bool take_is_posed(const struct core *core);
-/// What a spline or rig was before: the spline's index there, or -1; the rig, or NULL.
-int take_spline(const struct core *core, int spline);
-const struct rig *take_rig(const struct core *core, int rig);
-/// Says why K does not show it.
-void take_explain(struct core *core);
-/// The switches of core_flip().
-enum core_switch {
-    SWITCH_SNAP,
-    SWITCH_AUTO_KEY,
-    SWITCH_KEEP,
-    SWITCH_LOOP,
-    SWITCH_ONION,
-    SWITCH_TRAIL,
-    SWITCH_GHOST,
-    SWITCH_ORIGINAL,
-    SWITCH_SHEET,
-    SWITCH_PHASE,
-    SWITCH_MORE,
-    SWITCH_SECONDS,
-    SWITCH_NORMALISE,
-    SWITCH_RECORD,
-    SWITCH_PHASE_MAP,
-    SWITCH_TWIN
-};
-/// Flips a switch and shows a message.
-void core_flip(struct core *core, int which);
-/// Chooses the look and shows a message.
-void core_set_look(struct core *core, enum look look);
-void core_turn_look(struct core *core, int unused);
-/// The frame at the playhead, fractional.
-double core_frame(const struct core *core);
-/// A frame as a fractional sample.
-double core_position(const struct document *document, double frame);
 /// Rounds to the power of ten at or below `resolution` (> 0), so that dragged values have no meaningless decimals in files.
 double core_round(double value, double resolution);
-/// The topmost panel at a point.
-enum panel core_panel_at(const struct core *core, float x, float y);
-/// Sets the stage's share of the height and the inspector's width.
-void core_set_panels(struct core *core, double stage_share, double inspector_width);
-/// Lays out all panels in the window.
-void core_layout(struct core *core);
-/// How near the pointer must be to something that a mouse hits within `pixels`.
-float core_reach(const struct core *core, float pixels);
-/// The divider at a point, or DIVIDER_NONE.
-enum divider core_divider_at(const struct core *core, float x, float y);
-void core_divider_move(struct core *core, enum divider divider, float x, float y);
-
-/// Starts or stops presenting (F5).
-void presenter_toggle(struct core *core, int argument);
-/// Tab shows or hides all panels; true if used.
-bool presenter_event(struct core *core, const struct event *event);
-/// Slides panels; `busy`: visible ones stay.
-void presenter_advance(struct core *core, double dt, bool busy);
-bool presenter_is_sliding(const struct core *core);
-
-void playback_toggle(struct core *core);
-/// Advances by `dt` seconds of real time. Counts scene frames that were skipped.
-void playback_advance(struct core *core, double dt);
-/// Stops at a frame.
-void playback_seek(struct core *core, double frame);
-/// Stops at the next whole frame in a direction.
-void playback_step(struct core *core, int direction);
-/// Stops at an end of the range.
-void playback_end(struct core *core, int direction);
-/// Goes to the next faster (1) or slower (-1) speed between 0.1 and 4; 0: real time.
-void playback_change_speed(struct core *core, int direction);
-
-/// First and last played frame: the chosen range within the scene, or the whole scene.
-void playback_range(const struct core *core, double range[2]);
-/// Whether less than the whole scene is played.
-bool playback_is_part(const struct core *core);
-/// Sets the played range; an empty or complete one means the whole scene.
-void playback_choose(struct core *core, double first, double last);
-/// Shows the played range in a message.
-void playback_say_range(struct core *core);
-/// Sets the range's start (0) or end (1) to the playhead.
-void playback_mark(struct core *core, int end);
-
 /// A spline's colour 0xRRGGBBAA: its own or the theme's.
 uint32_t spline_list_color(const struct document *document, int spline);
 /// Whether the curves show a spline: a solo one if any is, else one that is not hidden.
@@ -150,20 +67,55 @@ bool spline_list_shows(const struct core *core, int spline);
 void spline_list_flip(struct core *core, struct selection *set, int spline);
 /// The active spline if the curves show it, else NULL.
 const struct spline *spline_list_seen(const struct core *core);
-/// Call after an edit, undo or redo: keeps the active spline and the playhead's frame.
-void spline_list_refresh(struct core *core);
-/// Appends a spline with a knot at the playhead and activates it.
-void spline_list_add(struct core *core);
-/// Inserts a copy after the active spline and activates it.
-void spline_list_copy(struct core *core);
-void spline_list_move(struct core *core, int spline, int to);
-/// Value of a track at the playhead, within the parameter's limits.
-double spline_list_present(const struct core *core, int spline, enum parameter parameter);
-/// Deletes the active spline; asks if something follows it.
-void spline_list_remove(struct core *core);
-/// Sets the frame rate; asks whether knots keep their frames or seconds.
-void spline_list_fps(struct core *core, double fps);
-/// Sets the range; asks whether to move or delete knots outside.
-void spline_list_range(struct core *core, int first, int last);
+
+/// A set of ids: selected knots, or splines.
+bool selection_has(const struct selection *selection, unsigned id);
+void selection_set(struct selection *selection, unsigned id, bool selected);
+void selection_clear(struct selection *selection);
+/// Removes ids from `id` on, which will be reused.
+void selection_drop_from(struct selection *selection, unsigned id);
+int selection_count(const struct selection *selection, const struct spline *spline);
+/// Index of the spline's only selected knot, or -1.
+int selection_single(const struct selection *selection, const struct spline *spline);
+void selection_copy(struct selection *to, const struct selection *from);
+
+#define SELECTED_START                                                                                               \
+    (struct knot_place) { -1, -1 }
+
+static inline const struct knot *knot_at(const struct document *document, struct knot_place at)
+{
+    return &document->splines[at.spline]->knots[at.knot];
+}
+
+/// Goes to the next selected knot, by spline and sample; false after the last.
+bool selected_next(const struct core *core, struct knot_place *at);
+int selected_count(const struct core *core);
+/// If only another spline's knots are selected, activates that spline.
+void selected_settle(struct core *core);
+
+void originals_add(struct originals *originals, int spline, const struct knot *knot);
+/// Collects the selected knots in `originals`; `later`: also all knots after each spline's first one.
+void core_collect(struct core *core, bool later);
+
+/// Computes an original's new knot.
+typedef struct knot knot_rule(const void *how, const struct original *original);
+
+enum room { ROOM_FREE, ROOM_OCCUPIED, ROOM_OUTSIDE };
+
+/// Whether the knots fit where a rule, which keeps or reverses their order, puts them: in range, on different frames, and off other knots.
+/// If not, `why` says "a knot would leave the range" or the like. The document must be as when they were collected.
+enum room originals_room(const struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE]);
+/// Moves the knots, which must fit. `why` says which one a limit holds, core->error why it failed. Edits.
+bool originals_put(struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE]);
+
+/// A merge key for history_begin() that makes equal nudges of the same knots one undo step.
+uint64_t core_merge_key(const struct core *core, uint64_t kind);
+
+/// What a knot holds: a value, a pose (value and phase), or stillness.
+enum holds { HOLDS_VALUE, HOLDS_POSE, HOLDS_STILL };
+static inline enum holds knot_holds(const struct knot *knot)
+{
+    return knot->still ? HOLDS_STILL : knot->has_phase ? HOLDS_POSE : HOLDS_VALUE;
+}
 
 #endif

@@ -1,8 +1,7 @@
 /// A drag of the pointer: distance, undo step, and calls to its owner.
 #include "editor/core/drag.h"
 #include "editor/core/core.h"
-#include "editor/core/pins.h"
-#include "editor/core/selection.h"
+#include "editor/core/rigs.h"
 #include "maths/maths.h"
 #include <math.h>
 

@@ -1,21 +1,13 @@
-/// Inserts, deletes and selects knots.
+/// Edits of knots: inserting, deleting, copying, what they hold, their slopes; and selecting them.
 #include "editor/core/knots.h"
-#include "base/hash.h"
+#include "base/need.h"
 #include "editor/core/core.h"
-#include "editor/core/pins.h"
-#include "editor/core/selection.h"
+#include "editor/core/rigs.h"
+#include "editor/core/view.h"
+#include "scene/knots.h"
 #include <math.h>
-
-uint64_t core_merge_key(const struct core *core, uint64_t kind)
-{
-    uint64_t key = hash_bytes(HASH_START, &kind, sizeof kind);
-    key = hash_bytes(key, &core->active, sizeof core->active);
-    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
-        unsigned id = knot_at(core->document, at)->id;
-        key = hash_bytes(key, &id, sizeof id);
-    }
-    return key ? key : 1;
-}
+#include <stdlib.h>
+#include <string.h>
 
 static void select_only(struct core *core, unsigned id)
 {
@@ -231,8 +223,279 @@ const struct knot *core_extend_selection(struct core *core, int direction)
     return &spline->knots[next];
 }
 
-void core_activate_neighbour(struct core *core, int direction)
+// --- slopes: on, off, flat, Catmull-Rom, turned and stiffened by keys
+
+/// Kinds for core_merge_key(), different from nudge.c's.
+enum nudge_kind { NUDGE_SLOPE = 50, NUDGE_STIFFNESS };
+
+static const double FIRM = 1000; ///< default stiffness, 1/s
+static const double TURN = 0.05,
+                    FIRMER = 1.25; ///< per key press: of the visible values, a second; factor on the stiffness
+static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
+
+/// The curve's slope at a knot, in values a second.
+static double slope_at(const struct core *core, int spline, const struct knot *knot)
 {
-    int count = core->document->spline_count;
-    if (count > 0) core_choose(core, ((core->active + direction) % count + count) % count);
+    int sample = document_sample(core->document, knot->frame);
+    double slope = evaluation_slope(core->evaluation, core->document, spline, sample);
+    return isfinite(slope) ? slope : 0;
+}
+
+/// Computes a knot's slope, in values a second.
+typedef double slope_rule(const struct core *core, struct knot_place at);
+
+static double flat(const struct core *core, struct knot_place at)
+{
+    (void)core;
+    (void)at;
+    return 0;
+}
+
+/// Catmull-Rom: the slope of the chord between both neighbours; at an end, to the only neighbour. A loop wraps around.
+static double catmull_rom(const struct core *core, struct knot_place at)
+{
+    const struct document *document = core->document;
+    const struct spline *spline = document->splines[at.spline];
+    const struct knot *knots = spline->knots;
+    int count = spline->knot_count, k = at.knot;
+    bool loop = spline_start(spline) == WIGGLY_LOOP && count > 1;
+    double period = document->last_frame - document->first_frame;
+    int before = k > 0 ? k - 1 : loop ? count - 1 : 0, after = k + 1 < count ? k + 1 : loop ? 0 : count - 1;
+    double frames = knots[after].frame - knots[before].frame;
+    if (loop && (k == 0 || k == count - 1)) frames += period;
+    if (loop && count == 2) return 0; /* the same knot on both sides */
+    const double rise =
+        core_knot_value(core, at.spline, &knots[after]) - core_knot_value(core, at.spline, &knots[before]);
+    return frames > 0 ? rise / frames * document->fps : 0;
+}
+
+/// A change of every selected knot in one step.
+struct knot_change {
+    const char *label;
+    uint64_t kind;    ///< for merging; 0: never
+    bool on;          ///< turns missing slopes on, or all off
+    slope_rule *rule; ///< or NULL
+    double slope;     ///< added
+    double stiffness; ///< multiplied
+};
+
+static void change_knots(struct core *core, const struct knot_change *change)
+{
+    const struct document *document = core->document;
+    const uint64_t merge = change->kind ? core_merge_key(core, change->kind) : 0;
+    if (selected_count(core) == 0 || !core_step(core, change->label, merge)) return;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        const struct knot *before = knot_at(document, at);
+        if (before->still) continue;
+        const bool fresh = change->on && !before->has_slope;
+        struct knot knot = *before;
+        if (fresh) knot.slope = slope_at(core, at.spline, before);
+        if (!(before->stiffness > 0)) knot.stiffness = FIRM;
+        knot.has_slope = change->on;
+        if (change->rule) knot.slope = change->rule(core, at);
+        if (change->rule || change->slope != 0 || fresh)
+            knot.slope = core_round(knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
+        knot.stiffness = fmin(fmax(knot.stiffness * change->stiffness, 1e-3), 1e9);
+        core_put_knot(core, at.spline, &knot);
+    }
+    core_edited(core, -1);
+}
+
+void slopes_turn(struct core *core, int direction)
+{
+    struct knot_change change = {.label = "Change slope",
+                                 .kind = NUDGE_SLOPE,
+                                 .on = true,
+                                 .slope = TURN * direction * core->visible,
+                                 .stiffness = 1};
+    change_knots(core, &change);
+}
+
+void slopes_stiffen(struct core *core, int direction)
+{
+    struct knot_change change = {.label = "Change stiffness",
+                                 .kind = NUDGE_STIFFNESS,
+                                 .on = true,
+                                 .stiffness = direction > 0 ? FIRMER : 1 / FIRMER};
+    change_knots(core, &change);
+}
+
+/// Still knots do not count, because they cannot have slopes.
+static bool all_sloped(const struct core *core)
+{
+    bool all = true;
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        const struct knot *knot = knot_at(core->document, at);
+        all &= knot->has_slope || knot->still;
+    }
+    return all;
+}
+
+void slopes_set(struct core *core, int how)
+{
+    const bool off = how == SLOPES_TOGGLE && all_sloped(core);
+    const struct knot_change changes[] = {
+        [SLOPES_TOGGLE] = {.label = off ? "Slope off" : "Slope on", .on = !off, .stiffness = 1},
+        [SLOPES_FLAT] = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1},
+        [SLOPES_SMOOTH] = {.label = "Slope smooth", .on = true, .rule = catmull_rom, .stiffness = 1},
+    };
+    change_knots(core, &changes[how]);
+}
+
+// --- copying, cutting, pasting and duplicating
+
+static void say_count(struct core *core, const char *what, int count)
+{
+    core_message(core, false, "%s %d knot%s.", what, count, count == 1 ? "" : "s");
+}
+
+/// Collects the selected knots in core's originals, which no drag is using; returns how many.
+static int collect(struct core *core)
+{
+    core_collect(core, false);
+    if (core->originals.count == 0) core_message(core, false, "No knots are selected.");
+    return core->originals.count;
+}
+
+/// The originals as text. Knots of a single spline leave out its name, so that they can be pasted into any.
+static char *print_originals(const struct originals *originals, const struct document *document)
+{
+    const size_t count = (size_t)originals->count;
+    const bool mixed = originals->list[0].spline != originals->list[count - 1].spline;
+    struct knot_list list = {need(count, sizeof *list.knots), need(count, sizeof *list.splines), originals->count};
+    for (size_t i = 0; i < count; i++) {
+        list.knots[i] = originals->list[i].knot;
+        list.splines[i] = mixed ? document->splines[originals->list[i].spline]->name : NULL;
+    }
+    char *text = knots_print(&list);
+    free(list.knots);
+    free(list.splines); // the document owns the names
+    return text;
+}
+
+bool core_copy_knots(struct core *core, bool cut)
+{
+    int count = collect(core);
+    if (count == 0) return false;
+    char *text = print_originals(&core->originals, core->document);
+    free(core->clipboard);
+    core->clipboard = text;
+    if (cut) core_remove_knots(core, count == 1 ? "Cut knot" : "Cut knots");
+    say_count(core, cut ? "Cut" : "Copied", count);
+    return true;
+}
+
+/// Inserts a shifted copy of a knot in the open step.
+static bool insert(struct core *core, int spline, const struct knot *knot, double shift)
+{
+    struct knot copy = *knot;
+    copy.id = 0;
+    copy.frame += shift;
+    return core_put_knot(core, spline, &copy);
+}
+
+/// Selects the knots inserted from `first_id` on.
+static void select_from(struct core *core, unsigned first_id)
+{
+    selection_clear(&core->selection);
+    pins_clear(core);
+    for (unsigned id = first_id; id < core->document->next_id; id++) selection_set(&core->selection, id, true);
+    selected_settle(core);
+    core_edited(core, -1);
+}
+
+/// The spline a listed knot goes to: the one it names, else the active one.
+static int target_of(const struct core *core, const struct knot_list *list, int k)
+{
+    const char *name = list->splines ? list->splines[k] : NULL;
+    const int found = name ? document_find_spline(core->document, name) : -1;
+    return found >= 0 ? found : core->active;
+}
+
+void core_paste_knots(struct core *core, const char *text)
+{
+    const struct document *document = core->document;
+    struct knot_list list;
+    struct error error;
+    if (!core_active_spline(core) || history_is_open(core->history)) return; // pasted text may come during a drag
+    if (!text || !text[strspn(text, " \t\r\n")]) {
+        core_message(core, false, "The clipboard has no text.");
+        return;
+    }
+    if (!knots_parse("clipboard", text, &list, &error)) {
+        core_message(core, true, "%s", error.text);
+        return;
+    }
+    const unsigned first_id = document->next_id;
+    double first = list.knots[0].frame;
+    bool good = true;
+    for (int k = 1; k < list.count; k++) first = fmin(first, list.knots[k].frame);
+    const double shift = round(core_frame(core)) - first;
+    core_step(core, list.count == 1 ? "Paste knot" : "Paste knots", 0);
+    for (int k = 0; k < list.count && good; k++)
+        good = insert(core, target_of(core, &list, k), &list.knots[k], shift);
+    if (good) select_from(core, first_id);
+    if (good) say_count(core, "Pasted", list.count);
+    knot_list_free(&list);
+}
+
+static bool has_room(const struct originals *originals, const struct document *document, double shift)
+{
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[i];
+        const int sample = document_sample(document, original->knot.frame + shift);
+        if (spline_find_knot(document, document->splines[original->spline], sample) >= 0) return false;
+    }
+    return true;
+}
+
+/// Shift of the copies in frames: as far behind the last original as that is behind the one before, or further until all have room.
+static double copies_shift(const struct originals *originals, const struct document *document)
+{
+    double first = INFINITY, last = -INFINITY, before = -INFINITY;
+    for (int i = 0; i < originals->count; i++) {
+        const double frame = originals->list[i].knot.frame;
+        first = fmin(first, frame);
+        if (frame > last) before = last;
+        if (frame < last) before = fmax(before, frame);
+        last = fmax(last, frame);
+    }
+    const double step = isfinite(before) ? last - before : 1;
+    double shift = round(last - first + fmax(step, 1));
+    while (!has_room(originals, document, shift)) shift++;
+    return shift;
+}
+
+/// The last frame the scene needs for the copies. A loop's last sample is its first one.
+static int copies_end(const struct originals *originals, const struct document *document, double shift)
+{
+    double end = document->last_frame;
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[i];
+        const bool loops = spline_start(document->splines[original->spline]) == WIGGLY_LOOP;
+        end = fmax(end, original->knot.frame + shift + (loops ? 1.0 / document->substeps : 0));
+    }
+    return (int)fmin(ceil(end), SCENE_MAX_FRAME);
+}
+
+void core_duplicate_knots(struct core *core)
+{
+    struct document *document = core->document;
+    const struct originals *originals = &core->originals;
+    const int count = collect(core);
+    if (count == 0) return;
+    const double shift = copies_shift(originals, document);
+    const unsigned first_id = document->next_id;
+    const int end = copies_end(originals, document, shift);
+    const bool longer = end > document->last_frame;
+    if (!core_step(core, count == 1 ? "Duplicate knot" : "Duplicate knots", 0)) return;
+    bool good = !longer || edit_range(document, document->first_frame, end, RANGE_REFUSE, &core->error);
+    for (int i = 0; i < count && good; i++)
+        good = insert(core, originals->list[i].spline, &originals->list[i].knot, shift);
+    if (!good) return;
+    select_from(core, first_id);
+    say_count(core, "Duplicated", count);
+    if (!longer) return;
+    core_message(core, false, "Duplicated %d knot%s; the scene now ends on frame %d.", count, count == 1 ? "" : "s",
+                 end);
 }

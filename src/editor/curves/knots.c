@@ -2,7 +2,7 @@
 #include "editor/core/knots.h"
 #include "editor/core/command.h"
 #include "editor/core/core.h"
-#include "editor/core/selection.h"
+#include "editor/core/view.h"
 #include "editor/curves/state.h"
 #include "maths/maths.h"
 #include "ui/font.h"

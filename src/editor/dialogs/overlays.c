@@ -3,6 +3,7 @@
 #include "editor/core/command.h"
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
+#include "editor/core/view.h"
 #include "editor/dialogs/state.h"
 #include "maths/maths.h"
 #include "ui/font.h"

@@ -1,9 +1,10 @@
 /// Angles in the inspector. One angle for all joints is a slider. Several are a slider that scales them and a curve below it: a ramp with
 /// draggable points, or one angle per joint, drawn by dragging.
 #include "base/error.h"
-#include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "editor/core/knots.h"
+#include "editor/core/rigs.h"
+#include "editor/core/splines.h"
+#include "editor/core/view.h"
 #include "editor/inspector/state.h"
 #include "maths/maths.h"
 #include <math.h>

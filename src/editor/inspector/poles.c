@@ -1,6 +1,7 @@
 /// The poles of the active spline: the filter's frequency response, the settling time of a spline, and the section that shows and drags them.
 #include "editor/inspector/poles.h"
 #include "editor/core/core.h"
+#include "editor/core/view.h"
 #include "editor/inspector/state.h"
 #include "maths/maths.h"
 #include "ui/font.h"

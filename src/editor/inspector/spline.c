@@ -1,9 +1,9 @@
 /// The sections on splines: their list, and the active one's feel, parameters and what they follow.
 #include "base/names.h"
-#include "editor/core/bones.h"
 #include "editor/core/core.h"
-#include "editor/core/knots.h"
-#include "editor/core/selection.h"
+#include "editor/core/rigs.h"
+#include "editor/core/splines.h"
+#include "editor/core/view.h"
 #include "editor/inspector/inspector.h"
 #include "editor/inspector/state.h"
 #include "scene/order.h"

@@ -8,6 +8,7 @@
 #include "base/need.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
+#include "editor/core/view.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"

@@ -1,11 +1,11 @@
 /// Soft characters on the stage: posing, the legend of their phases, their floors, and the brush.
 /// It works like an airbrush: a stroke adds flow × time to every vertex under it.
-#include "editor/core/characters.h"
 #include "base/error.h"
 #include "base/hash.h"
 #include "base/names.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
+#include "editor/core/rigs.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"

@@ -10,11 +10,10 @@
 /// So the least change of x that reaches the target is taken, and a direction in which the point hardly moves gives way. On a
 /// curved way there the change still stays within twice what the best direction needs.
 #include "base/names.h"
-#include "editor/core/bones.h"
 #include "editor/core/core.h"
 #include "editor/core/drag.h"
-#include "editor/core/pins.h"
-#include "editor/core/selection.h"
+#include "editor/core/rigs.h"
+#include "editor/core/view.h"
 #include "editor/stage/stage.h"
 #include "editor/stage/state.h"
 #include "maths/maths.h"

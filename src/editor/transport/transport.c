@@ -2,6 +2,7 @@
 #include "editor/transport/transport.h"
 #include "editor/core/core.h"
 #include "editor/core/rigs.h"
+#include "editor/core/view.h"
 #include "ui/font.h"
 #include "ui/theme.h"
 #include <math.h>

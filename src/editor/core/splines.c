@@ -1,0 +1,467 @@
+/// Edits of splines: their list, timing and parameters, and the frequency that explains their knots.
+#include "editor/core/splines.h"
+#include "base/names.h"
+#include "base/need.h"
+#include "editor/core/core.h"
+#include "editor/core/rigs.h"
+#include "editor/core/view.h"
+#include "scene/order.h"
+#include "scene/warnings.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+void core_activate_neighbour(struct core *core, int direction)
+{
+    int count = core->document->spline_count;
+    if (count > 0) core_choose(core, ((core->active + direction) % count + count) % count);
+}
+
+void spline_list_add(struct core *core)
+{
+    struct document *document = core->document;
+    const double frame = round(core_frame(core));
+    const struct knot first = {.frame = fmax(document->first_frame, fmin(frame, document->last_frame))};
+    if (core_step(core, "Add spline", 0) && edit_spline_add(document, -1, NULL, &first, &core->error))
+        core_activate(core, document->spline_count - 1);
+}
+
+void spline_list_copy(struct core *core)
+{
+    if (!core_active_spline(core) || !core_step(core, "Duplicate spline", 0)) return;
+    if (edit_spline_copy(core->document, core->active, &core->error)) core_activate(core, core->active + 1);
+}
+
+void spline_list_move(struct core *core, int spline, int to)
+{
+    if (to == spline || to < 0 || to >= core->document->spline_count) return;
+    if (core_step(core, "Reorder splines", 0)) edit_spline_move(core->document, spline, to, &core->error);
+}
+
+double spline_list_present(const struct core *core, int spline, enum parameter parameter)
+{
+    const struct spline *follower = core->document->splines[spline];
+    const struct param *param = &follower->parameter[parameter];
+    wiggly_value v = evaluation_at(core->evaluation, param->motion ? spline : param->track, core->playback.position);
+    double now = param->motion ? v.y : v.y + v.re, value = isfinite(now) ? now : parameter_rows[parameter].standard;
+    return parameter_clamped(parameter, spline_mode(follower), value);
+}
+
+/// Finds the last reference to a spline. Removing the last one first keeps the others' indices valid. false: none.
+static bool last_reference(const struct document *document, int spline, struct reference *last)
+{
+    bool found = false;
+    for (struct reference reference = {0}; reference_next(document, &reference);) {
+        if (reference.spline != spline) continue;
+        found = true;
+        *last = reference;
+    }
+    return found;
+}
+
+/// Stops something from following the active spline.
+static bool release(struct core *core, const struct reference *reference)
+{
+    struct document *document = core->document;
+    const int owner = reference->owner, which = reference->which;
+    const wiggly_value now = evaluation_at(core->evaluation, core->active, core->playback.position);
+    switch (reference->kind) {
+    case REFERENCE_TRACK: {
+        const enum parameter parameter = (enum parameter)which;
+        return core_set_parameter(core, owner, parameter, spline_list_present(core, owner, parameter));
+    }
+    case REFERENCE_POSITION: {
+        struct rig changed = *document->rigs[owner];
+        changed.tail.position[which] = param_number(now.y + now.re);
+        return edit_rig_set(document, owner, &changed, &core->error);
+    }
+    case REFERENCE_CHANNEL:
+        return edit_channel_remove(document, (struct channel_place){owner, which}, &core->error);
+    case REFERENCE_DRIVE:
+        return edit_drive_remove(document, owner, which, &core->error);
+    }
+    return false;
+}
+
+static void remove_active(void *dialogs, struct core *core, int answer)
+{
+    (void)dialogs;
+    (void)answer;
+    if (!core_active_spline(core) || !core_step(core, "Delete spline", 0)) return;
+    struct reference reference;
+    bool good = true;
+    while (good && last_reference(core->document, core->active, &reference)) {
+        good = release(core, &reference);
+    }
+    if (good) edit_spline_remove(core->document, core->active, &core->error);
+    core_refresh(core); // the rest of this event needs an active spline
+}
+
+void spline_list_remove(struct core *core)
+{
+    static const struct answer answers[] = {{"dialog.delete", "Delete", 'D'}, {"dialog.cancel", "Cancel", 'C'}};
+    const struct spline *active = core_active_spline(core);
+    if (!active) return;
+    const int count = reference_count(core->document, core->active);
+    if (count == 0) {
+        remove_active(NULL, core, 0);
+        return;
+    }
+    struct question *question = core_ask(core, answers, 2, remove_active);
+    snprintf(question->title, sizeof question->title, "%.*s is used in %d place%s", name_fit(active->name, 200),
+             active->name, count, count == 1 ? "" : "s");
+    snprintf(question->note, sizeof question->note,
+             "Parameters that follow it keep their value at the playhead. Channels that it drives are deleted.");
+}
+
+static void set_fps(struct core *core, double fps, bool keeps_seconds)
+{
+    if (core_step(core, "Set frames per second", 0)) edit_fps(core->document, fps, keeps_seconds, &core->error);
+}
+
+static void answer_fps(void *dialogs, struct core *core, int answer)
+{
+    (void)dialogs;
+    set_fps(core, core->subject.fps, answer == 1);
+}
+
+void spline_list_fps(struct core *core, double fps)
+{
+    static const struct answer answers[] = {{"dialog.frames", "Keep frames", 'F'},
+                                            {"dialog.seconds", "Keep seconds", 'S'},
+                                            {"dialog.cancel", "Cancel", 'C'}};
+    const double before = core->document->fps;
+    if (fps == before) return;
+    if (!rigs_have_knots(core->document) || !(fps > 0 && fps <= SCENE_MAX_FPS)) {
+        set_fps(core, fps, false);
+        return;
+    }
+    struct question *question = core_ask(core, answers, 3, answer_fps);
+    core->subject.fps = fps;
+    snprintf(question->title, sizeof question->title, "%g frames per second instead of %g", fps, before);
+    snprintf(
+        question->note, sizeof question->note,
+        "Keep frames: knots stay on their frames, and everything plays %s. Keep seconds: knots and range move to "
+        "new frames and the timing stays.",
+        fps > before ? "faster" : "slower");
+}
+
+static void set_range(struct core *core, int first, int last, enum range_fit fit)
+{
+    if (core_step(core, "Set range", 0)) edit_range(core->document, first, last, fit, &core->error);
+}
+
+static int count_outside(const struct document *document, int first, int last)
+{
+    struct document moved = *document;
+    int count = 0;
+    moved.first_frame = first;
+    moved.last_frame = last;
+    for (int s = 0; s < document->spline_count; s++) {
+        const struct spline *spline = document->splines[s];
+        int end = document_last_knot_sample(&moved, spline);
+        for (int k = 0; k < spline->knot_count; k++) {
+            int sample = document_sample(&moved, spline->knots[k].frame);
+            count += sample < 0 || sample > end;
+        }
+    }
+    return count;
+}
+
+static void answer_range(void *dialogs, struct core *core, int answer)
+{
+    (void)dialogs;
+    set_range(core, core->subject.first, core->subject.last, answer == 0 ? RANGE_MOVE : RANGE_TRIM);
+}
+
+void spline_list_range(struct core *core, int first, int last)
+{
+    static const struct answer answers[] = {
+        {"dialog.move", "Move", 'M'}, {"dialog.trim", "Trim", 'T'}, {"dialog.cancel", "Cancel", 'C'}};
+    const bool possible = last >= first && last <= SCENE_MAX_FRAME && first >= -SCENE_MAX_FRAME &&
+                          (long long)last - first <= document_longest(core->document);
+    const int count = possible ? count_outside(core->document, first, last) : 0;
+    if (count == 0) {
+        set_range(core, first, last, RANGE_REFUSE);
+        return;
+    }
+    struct question *question = core_ask(core, answers, 3, answer_range);
+    core->subject.first = first;
+    core->subject.last = last;
+    snprintf(question->title, sizeof question->title, "%d knot%s would fall outside frames %d to %d", count,
+             count == 1 ? "" : "s", first, last);
+    snprintf(question->note, sizeof question->note,
+             "Move shifts them to the nearest free frames inside. Trim deletes them.");
+}
+
+// --- the limb that Feel acts on: its splines' frequency, damping and wind-up and its channels' lag change together
+
+int core_limb(const struct core *core)
+{
+    const struct document *document = core->document;
+    for (int r = 0; core->limb != 0 && r < document->rig_count; r++) {
+        if (document->rigs[r]->id == core->limb) return rig_is_moved(document->rigs[r], core->active) ? r : -1;
+    }
+    return -1;
+}
+
+double core_in_step(double other, double before, double now)
+{
+    if (before == 0) return other == 0 ? now : other;
+    return round(other * (now / before) * 1e6) / 1e6;
+}
+
+/// Whether a parameter of another spline changes with the active one's.
+static bool is_felt(const struct document *document, int limb, int spline, enum parameter parameter)
+{
+    return (parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING || parameter == PARAMETER_WIND_UP) &&
+           limb >= 0 && rig_is_moved(document->rigs[limb], spline) &&
+           spline_uses(document->splines[spline], parameter, false);
+}
+
+bool core_set_felt(struct core *core, int limb, enum parameter parameter, double value, bool alike,
+                   struct error *error)
+{
+    struct document *document = core->document;
+    const struct param before = core_active_spline(core)->parameter[parameter];
+    bool done = true;
+    for (int s = 0; s < document->spline_count && done; s++) {
+        const struct spline *spline = document->splines[s];
+        const bool is_active = s == core->active;
+        if (param_follows(&spline->parameter[parameter]) || (!is_active && !is_felt(document, limb, s, parameter)))
+            continue;
+        double next = value;
+        if (!is_active && !alike && !param_follows(&before))
+            next = core_in_step(spline->parameter[parameter].value, before.value, value);
+        const struct param param = param_number(parameter_clamped(parameter, spline_mode(spline), next));
+        done = edit_parameter(document, s, parameter, &param, error);
+    }
+    return done;
+}
+
+bool core_set_lag(struct core *core, int limb, struct channel_place at, const struct angles *lag, struct error *error)
+{
+    struct document *document = core->document;
+    int count;
+    const double before = angles_largest(&rig_channels(document->rigs[at.rig], &count)[at.channel].lag);
+    bool done = edit_angles(document, at, ANGLE_LAG, lag, error);
+    for (int c = 0; c < count && limb == at.rig && done; c++) {
+        struct angles other = rig_channels(document->rigs[limb], &count)[c].lag;
+        if (c == at.channel || rig_point_input(document->rigs[limb], c) < 0) continue;
+        angles_scale(&other, core_in_step(angles_largest(&other), before, angles_largest(lag)));
+        done = edit_angles(document, (struct channel_place){limb, c}, ANGLE_LAG, &other, error);
+    }
+    return done;
+}
+
+// --- parameters by keys, and finding the frequency
+
+enum { NUDGE_PARAMETER = 100 }; ///< kind for core_merge_key()
+
+const struct channel *core_active_channel(const struct core *core, int *rig, int *channel)
+{
+    const struct channel *first = NULL;
+    const int limb = core_limb(core);
+    for (int r = core->document->rig_count - 1; r >= 0; r--) {
+        int count;
+        const struct channel *channels = rig_channels(core->document->rigs[r], &count);
+        for (int c = count - 1; c >= 0; c--) {
+            const struct channel *candidate = &channels[c];
+            const bool suits = first && first->spline == core->active;
+            if (suits && (candidate->spline != core->active || (*rig == limb && r != limb))) continue;
+            first = candidate;
+            *rig = r;
+            *channel = c;
+        }
+    }
+    return first;
+}
+
+static void nudge_lag(struct core *core, double degrees)
+{
+    int rig = -1, channel = -1;
+    const struct channel *active = core_active_channel(core, &rig, &channel);
+    if (!active) {
+        core_message(core, false, "This scene has no tail to lag.");
+        return;
+    }
+    struct angles lag = active->lag;
+    const int joints = bones_joints(core, rig);
+    for (int i = 0; i < angles_count(&lag); i++) {
+        double behind = lag.form == ANGLES_ONE ? 1 : lag.form == ANGLES_EACH ? i : lag.ramp[i].at * (joints - 1);
+        angles_set_number(&lag, i, angles_number(&lag, i) + behind * degrees);
+    }
+    const struct channel_place at = {rig, channel};
+    const uint64_t kind = NUDGE_PARAMETER + PARAMETER_COUNT + (uint64_t)(rig * 4096 + channel);
+    if (core_step(core, "Change lag", core_merge_key(core, kind)))
+        core_set_lag(core, core_limb(core), at, &lag, &core->error);
+}
+
+/// Of the largest value.
+static const double FRESH_ROOM = 0.15;
+
+double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    double most = fmin(row->usual, parameter_maximum(parameter, spline_mode(spline)));
+    return row->is_frequency ? fmin(most, document->fps * document->substeps / 2) : most;
+}
+
+double core_fresh_limit(const struct spline *spline, enum parameter parameter)
+{
+    const bool is_high = parameter == PARAMETER_HIGH;
+    double edge = 0, largest = -1;
+    for (int k = 0; k < spline->knot_count; k++) {
+        const double value = spline->knots[k].value;
+        if (spline->knots[k].still) continue;
+        if (largest < 0 || (is_high ? value > edge : value < edge)) edge = value;
+        largest = fmax(largest, fabs(value));
+    }
+    const double room = largest > 0 ? FRESH_ROOM * largest : 1;
+    return is_high ? ceil(100 * (edge + room) - 1e-6) / 100 : floor(100 * (edge - room) + 1e-6) / 100;
+}
+
+/// Shows why a parameter has no effect now; false if it has one.
+static bool say_idle(struct core *core, const struct spline *spline, enum parameter parameter)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (parameter == PARAMETER_CALM && !spline_uses_calm(core->document, core->active)) {
+        core_message(core, false, "Calm is for whole curves: drag the wind-up to its right end first.");
+        return true;
+    }
+    if (parameter == PARAMETER_CALM || row->modes >> spline_mode(spline) & 1) return false;
+    if (spline_mode(spline) == WIGGLY_CUBIC) {
+        core_message(core, false, "A cubic does not swing. Press M to change the kind.");
+    } else {
+        core_message(core, false, "Only a %s spline has a %s. Press M to change the kind.",
+                     row->modes & IN_COMPLEX ? "wiggly" : "spring", row->name);
+    }
+    return true;
+}
+
+static void nudge_one(struct core *core, const struct spline *spline, enum parameter parameter, double step)
+{
+    if (say_idle(core, spline, parameter)) return;
+    const struct param *before = &spline->parameter[parameter];
+    if (before->track >= 0) {
+        core_message(core, false, "The %s follows the spline \"%.*s\".", parameter_rows[parameter].name,
+                     name_fit(core->document->splines[before->track]->name, 60),
+                     core->document->splines[before->track]->name);
+        return;
+    }
+    struct param param = *before;
+    param.value = round((param.value + step) * 1e6) / 1e6; /* 0.30000000000000004 is no number to save */
+    double most = parameter_maximum(parameter, spline_mode(spline));
+    if (parameter_rows[parameter].usual > 0)
+        most = fmax(core_slider_end(core->document, spline, parameter), before->value);
+    param.value = fmin(fmax(param.value, parameter_rows[parameter].minimum), most);
+    if (param.value == before->value) return;
+    if (core_step(core, "Change parameter", core_merge_key(core, NUDGE_PARAMETER + parameter)))
+        core_set_felt(core, core_limb(core), parameter, param.value, false, &core->error);
+}
+
+void core_nudge_parameter(struct core *core, int direction)
+{
+    const struct spline *spline = core_active_spline(core);
+    if (core->held_key == 0) return;
+    core->held_used = true;
+    if (core->held_key == 'L') nudge_lag(core, 0.5 * direction);
+    enum parameter parameter = parameter_of_letter(core->held_key);
+    if (!spline || parameter == PARAMETER_COUNT) return;
+    nudge_one(core, spline, parameter, parameter_rows[parameter].step * direction);
+}
+
+void core_cycle_choice(struct core *core, int parameter)
+{
+    const struct parameter_row *row = &parameter_rows[parameter];
+    const struct spline *spline = core_active_spline(core);
+    if (!spline) return;
+    double next = spline->parameter[parameter].value + 1;
+    if (core_step(core, row->undo, 0))
+        core_set_parameter(core, core->active, (enum parameter)parameter, next <= row->maximum ? next : 0);
+}
+
+void core_toggle_pose_to_pose(struct core *core, int unused)
+{
+    (void)unused;
+    const struct spline *spline = core_active_spline(core);
+    if (!spline) return;
+    const bool settles = !spline_settles(spline);
+    if (!core_step(core, settles ? "Pose to pose" : "Settle off", 0)) return;
+    edit_spline_settles(core->document, core->active, settles, &core->error);
+    core_edited(core, core->active);
+}
+
+/// Why it cannot be done, or NULL.
+static const char *obstacle(const struct spline *spline)
+{
+    const struct param *p = spline->parameter;
+    if (spline_mode(spline) == WIGGLY_CUBIC) return "A cubic does not swing. Press M to change the kind.";
+    if (p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0)
+        return "Frequency or damping follows another spline. Give it a number first.";
+    if (spline->knot_count < WIGGLY_FEWEST_EXPLAINED) return "Four knots or more are needed to find a frequency.";
+    return NULL;
+}
+
+/// Finds explanations of the knots; returns how many.
+static int explain(const struct core *core, const struct spline *spline, wiggly_explanation found[2])
+{
+    const struct evaluation *evaluation = core->evaluation;
+    wiggly_desc desc = wiggly_default_desc();
+    wiggly_knot *knots = need((size_t)spline->knot_count, sizeof *knots);
+    for (int k = 0; k < spline->knot_count; k++) {
+        const int sample = document_sample(core->document, spline->knots[k].frame);
+        const struct knot *knot = &spline->knots[k];
+        knots[k] = (wiggly_knot){.sample = sample, .value = knot->value, .still = knot->still};
+    }
+    desc.samples = document_samples(core->document);
+    desc.step = document_step(core->document);
+    desc.mode = spline_mode(spline);
+    desc.knots = knots;
+    desc.knot_count = spline->knot_count;
+    desc.equilibrium.value = spline->parameter[PARAMETER_EQUILIBRIUM].value;
+    if (param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) && evaluation && core->active < evaluation->count)
+        desc.equilibrium.track = evaluation->curves[core->active].y;
+    const int count = wiggly_explain(&desc, found);
+    free(knots);
+    return count;
+}
+
+/// Rounded as in files.
+static double frequency_of(const wiggly_explanation *found) { return round(found->frequency * 100) / 100; }
+
+static double damping_of(const wiggly_explanation *found) { return round(found->damping * 1000) / 1000; }
+
+static bool is_set(const struct spline *spline, const wiggly_explanation *found)
+{
+    return spline->parameter[PARAMETER_FREQUENCY].value == frequency_of(found) &&
+           spline->parameter[PARAMETER_DAMPING].value == damping_of(found);
+}
+
+void core_find_frequency(struct core *core, int unused)
+{
+    (void)unused;
+    const struct spline *spline = core_active_spline(core);
+    if (!spline) return;
+    const char *reason = obstacle(spline);
+    wiggly_explanation found[2];
+    const int count = reason ? 0 : explain(core, spline, found);
+    if (count <= 0) {
+        core_message(core, false, "%s", reason ? reason : "These knots do not swing: no frequency explains them.");
+        return;
+    }
+    const int active = core->active, chosen = count == 2 && is_set(spline, &found[0]) ? 1 : 0;
+    if (!core_step(core, "Find frequency", 0) ||
+        !core_set_parameter(core, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) ||
+        !core_set_parameter(core, active, PARAMETER_DAMPING, damping_of(&found[chosen])))
+        return;
+    core_edited(core, core->active);
+    const char *which = chosen ? "Runner-up" : "Best";
+    const double hz = found[chosen].frequency, damping = found[chosen].damping;
+    if (count == 1) {
+        core_message(core, false, "%s: %.2f Hz, damping %.3g. There is no runner-up.", which, hz, damping);
+    } else {
+        core_message(core, false, "%s: %.2f Hz, damping %.3g. Shift+F again for the %s: %.2f Hz.", which, hz, damping,
+                     chosen ? "best" : "runner-up", found[1 - chosen].frequency);
+    }
+}

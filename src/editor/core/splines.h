@@ -1,0 +1,53 @@
+/// Edits of splines: their list, timing and parameters.
+#ifndef EDITOR_CORE_SPLINES_H
+#define EDITOR_CORE_SPLINES_H
+
+#include "editor/core/state.h"
+
+/// Activates the next (1) or previous (-1) spline, cyclically.
+void core_activate_neighbour(struct core *core, int direction);
+
+/// Appends a spline with a knot at the playhead and activates it.
+void spline_list_add(struct core *core);
+/// Inserts a copy after the active spline and activates it.
+void spline_list_copy(struct core *core);
+void spline_list_move(struct core *core, int spline, int to);
+/// Value of a track at the playhead, within the parameter's limits.
+double spline_list_present(const struct core *core, int spline, enum parameter parameter);
+/// Deletes the active spline; asks if something follows it.
+void spline_list_remove(struct core *core);
+/// Sets the frame rate; asks whether knots keep their frames or seconds.
+void spline_list_fps(struct core *core, double fps);
+/// Sets the range; asks whether to move or delete knots outside.
+void spline_list_range(struct core *core, int first, int last);
+
+/// Sets the frequency and damping that explain the knots best, or second best if those are set already.
+void core_find_frequency(struct core *core, int unused);
+
+/// The rig that Feel acts on as a whole: the one chosen last, while the active spline bends or drives it; -1: the active spline alone.
+int core_limb(const struct core *core);
+/// Sets a parameter of the active spline. Frequency, damping and wind-up also change for the limb's (-1: none) other splines that use
+/// them: to the same value if `alike`, else by core_in_step(). What follows a spline still does. Edits.
+bool core_set_felt(struct core *core, int limb, enum parameter parameter, double value, bool alike,
+                   struct error *error);
+/// Sets a channel's lag, and scales those of the limb's other channels that bend. Edits.
+bool core_set_lag(struct core *core, int limb, struct channel_place at, const struct angles *lag,
+                  struct error *error);
+/// A number changed by the factor that took another from `before` to `now`. From 0 there is none: a 0 becomes `now`, others stay.
+double core_in_step(double other, double before, double now);
+
+/// The channel the active spline moves, of the limb if possible, else the first channel of all; NULL if there are none.
+const struct channel *core_active_channel(const struct core *core, int *rig, int *channel);
+/// End of a parameter's slider; 0: none.
+double core_slider_end(const struct document *document, const struct spline *spline, enum parameter parameter);
+/// Initial value of a limit: a little beyond the knots.
+double core_fresh_limit(const struct spline *spline, enum parameter parameter);
+/// Steps the parameter whose letter is held, or with L the lag.
+void core_nudge_parameter(struct core *core, int direction);
+/// Goes to the next choice of a parameter, cyclically.
+void core_cycle_choice(struct core *core, int parameter);
+
+/// Lets the active spline's motion settle at all of its knots, or if it does, at none.
+void core_toggle_pose_to_pose(struct core *core, int unused);
+
+#endif

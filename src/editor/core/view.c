@@ -1,0 +1,447 @@
+/// What is shown: where the panels are, what time it is, and the switches of how the scene looks.
+#include "editor/core/view.h"
+#include "editor/core/core.h"
+#include "ui/theme.h"
+#include <math.h>
+#include <string.h>
+
+// --- layout: stage above curves at the left, inspector at the right, in upright windows at the bottom; status line below
+
+static const float RULER_HEIGHT = 22, AXIS_WIDTH = 52, LABEL_WIDTH = 76, DIVIDER_REACH = 4;
+static const float MIN_STAGE = 120, MIN_CURVES = 140, MIN_LEFT = 480, MIN_INSPECTOR = 240, MAX_INSPECTOR = 480;
+static const float UPRIGHT = 800; ///< narrower windows that are higher than wide have the inspector at the bottom
+static const float WHOLE = 800;   ///< inspector_width that would take all of their height
+
+static float clamped(float value, float lo, float hi) { return fmaxf(lo, fminf(value, hi)); }
+
+static float eased(float share) { return share * share * (3 - 2 * share); }
+
+/// Offsets sliding panels, and gives the stage the window.
+static void presenter_arrange(const struct presenter *presenter, struct layout *l)
+{
+    const float across = l->upright ? 0 : roundf((1 - eased(presenter->side)) * l->inspector.w);
+    const float down = roundf((1 - eased(presenter->below)) * (l->window.h - l->curves.y));
+    l->inspector.x += across;
+    l->curves.w += across;
+    l->ruler.w += across;
+    l->plot.w += across;
+    l->sheet.w += across;
+    l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
+    struct rect *const lower[] = {&l->curves, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
+    l->stage = presenter->shares || l->upright ? l->open : l->window; // upright, nothing of it would be left
+    for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
+    if (l->upright) l->inspector.y += down;
+}
+
+void core_layout(struct core *core)
+{
+    struct layout *l = &core->layout;
+    const float all = fmaxf(l->window.h - THEME_STATUS_HEIGHT, 2);
+    const bool upright = l->window.w < UPRIGHT && l->window.h > l->window.w;
+    l->upright = upright;
+    const float most = upright ? MAX_INSPECTOR : fminf(MAX_INSPECTOR, fmaxf(l->window.w - MIN_LEFT, 0));
+    const float size = clamped(l->inspector_width, MIN_INSPECTOR, most);
+    const float below = upright ? roundf(all * size / WHOLE) : 0, height = all - below;
+    const float right = upright ? 0 : size, left = fmaxf(l->window.w - right, 1);
+    float stage = roundf(clamped(height * l->stage_share, MIN_STAGE, fmaxf(height - MIN_CURVES, 1)));
+    l->stage = (struct rect){0, 0, left, stage};
+    l->curves = (struct rect){0, stage, left, fmaxf(height - stage, 1)};
+    l->inspector = upright ? (struct rect){0, height, left, below} : (struct rect){left, 0, right, height};
+    l->status = (struct rect){0, all, l->window.w, THEME_STATUS_HEIGHT};
+    float width = fmaxf(left - AXIS_WIDTH - LABEL_WIDTH, 16);
+    float sheet = fminf(l->sheet_height, fmaxf(l->curves.h - RULER_HEIGHT - 17, 0));
+    float plot = fmaxf(l->curves.h - RULER_HEIGHT - 1 - sheet, 16);
+    l->ruler = (struct rect){AXIS_WIDTH, stage + 1, width, RULER_HEIGHT};
+    l->sheet = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT, width, sheet};
+    l->plot = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT + sheet, width, plot};
+    l->value_axis = (struct rect){0, l->plot.y, AXIS_WIDTH, plot};
+    l->open = l->stage;
+    if (core->presenter.on) presenter_arrange(&core->presenter, l);
+}
+
+void core_set_panels(struct core *core, double stage_share, double inspector_width)
+{
+    core->layout.stage_share = (float)fmin(fmax(stage_share, 0), 1);
+    core->layout.inspector_width = (float)fmin(fmax(inspector_width, 0), 1e4);
+    core_layout(core);
+}
+
+enum panel core_panel_at(const struct core *core, float x, float y)
+{
+    const struct layout *l = &core->layout;
+    if (rect_contains(l->inspector, x, y)) return PANEL_INSPECTOR;
+    if (rect_contains(l->status, x, y)) return PANEL_STATUS;
+    if (rect_contains(l->curves, x, y)) return PANEL_CURVES;
+    return rect_contains(l->stage, x, y) ? PANEL_STAGE : PANEL_NONE;
+}
+
+float core_reach(const struct core *core, float pixels) { return core->finger ? 1.75f * pixels : pixels; }
+
+enum divider core_divider_at(const struct core *core, float x, float y)
+{
+    const struct layout *l = &core->layout;
+    if (core->presenter.on) return DIVIDER_NONE;
+    const float reach = core_reach(core, DIVIDER_REACH), off = l->upright ? y - l->inspector.y : x - l->inspector.x;
+    if (y < l->status.y && fabsf(off) < reach) return l->upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR;
+    if (x < l->curves.w && fabsf(y - l->curves.y) < reach) return DIVIDER_STAGE;
+    return DIVIDER_NONE;
+}
+
+void core_divider_move(struct core *core, enum divider divider, float x, float y)
+{
+    struct layout *l = &core->layout;
+    const float height = fmaxf(l->curves.y + l->curves.h, 1);
+    const float across = divider == DIVIDER_BELOW ? WHOLE * (1 - y / fmaxf(l->status.y, 1)) : l->window.w - x;
+    if (divider == DIVIDER_STAGE) {
+        l->stage_share = clamped(y, MIN_STAGE, fmaxf(height - MIN_CURVES, 1)) / height;
+    } else {
+        l->inspector_width = roundf(clamped(across, MIN_INSPECTOR, MAX_INSPECTOR));
+    }
+    core_layout(core);
+}
+
+static const double SLIDE = 0.18; ///< seconds
+static const float NEAR = 14;     ///< logical pixels from an edge that call its panel
+
+static bool is_wanted(const struct core *core, enum panel panel)
+{
+    const struct layout *l = &core->layout;
+    const float x = core->pointer_x, y = core->pointer_y;
+    const enum panel at = core_panel_at(core, x, y);
+    if (core->presenter.pinned) return true;
+    if (!core->presenter.pointed) return false;
+    if (panel == PANEL_INSPECTOR && !l->upright) return at == PANEL_INSPECTOR || x > l->window.w - NEAR;
+    return at == PANEL_CURVES || at == PANEL_STATUS || (l->upright && at == PANEL_INSPECTOR) ||
+           y > l->window.h - NEAR;
+}
+
+void presenter_toggle(struct core *core, int argument)
+{
+    (void)argument;
+    core->presenter = (struct presenter){.on = !core->presenter.on, .side = 1, .below = 1};
+    core_layout(core);
+}
+
+bool presenter_event(struct core *core, const struct event *event)
+{
+    struct presenter *presenter = &core->presenter;
+    if (event->kind == EVENT_POINTER) presenter->pointed = true;
+    if (!presenter->on || event->action != ACTION_PRESS) return false;
+    if (event->kind == EVENT_BUTTON)
+        return presenter_is_sliding(core); // a finger that calls the panels aims at nothing
+    if (event->kind != EVENT_KEY || event->key != KEY_TAB || event->mods) return false;
+    presenter->pinned = !presenter->pinned;
+    presenter->shares |= presenter->pinned;
+    presenter->pointed = false; // else the hover would stay
+    return true;
+}
+
+/// Moves a share towards 0 or 1.
+static void slide(float *share, bool in, double dt)
+{
+    const float by = (float)(dt / SLIDE);
+    *share = in ? fminf(*share + by, 1) : fmaxf(*share - by, 0);
+}
+
+void presenter_advance(struct core *core, double dt, bool busy)
+{
+    struct presenter *presenter = &core->presenter;
+    if (!presenter->on) return;
+    if (!busy && !core->drag.owner) {
+        presenter->side_wanted = is_wanted(core, PANEL_INSPECTOR);
+        presenter->below_wanted = is_wanted(core, PANEL_CURVES);
+    }
+    if (!presenter_is_sliding(core)) return;
+    slide(&presenter->side, presenter->side_wanted, dt);
+    slide(&presenter->below, presenter->below_wanted, dt);
+    presenter->shares &= presenter->pinned || presenter->side > 0 || presenter->below > 0;
+    core_layout(core);
+}
+
+bool presenter_is_sliding(const struct core *core)
+{
+    const struct presenter *p = &core->presenter;
+    return p->on && (p->side != (float)p->side_wanted || p->below != (float)p->below_wanted);
+}
+
+// --- playback: the played range is never saved
+
+double core_frame(const struct core *core)
+{
+    return core->document->first_frame + core->playback.position / core->document->substeps;
+}
+
+double core_position(const struct document *document, double frame)
+{
+    return (frame - document->first_frame) * document->substeps;
+}
+
+void playback_range(const struct core *core, double range[2])
+{
+    const struct document *document = core->document;
+    const double *part = core->playback.range;
+    range[0] = fmax(part[0], document->first_frame);
+    range[1] = fmin(part[1], document->last_frame);
+    if (range[0] < range[1]) return;
+    range[0] = document->first_frame; // the range lies outside the scene
+    range[1] = document->last_frame;
+}
+
+bool playback_is_part(const struct core *core)
+{
+    double range[2];
+    playback_range(core, range);
+    return range[0] > core->document->first_frame || range[1] < core->document->last_frame;
+}
+
+void playback_choose(struct core *core, double first, double last)
+{
+    double *range = core->playback.range;
+    range[0] = first;
+    range[1] = last;
+    if (first < last && playback_is_part(core)) return;
+    range[0] = -INFINITY;
+    range[1] = INFINITY;
+}
+
+void playback_say_range(struct core *core)
+{
+    double range[2];
+    playback_range(core, range);
+    bool part = playback_is_part(core);
+    core_message(core, false, part ? "Playing frames %.0f to %.0f." : "Playing the whole scene.", range[0], range[1]);
+}
+
+void playback_mark(struct core *core, int end)
+{
+    const struct document *document = core->document;
+    double range[2], frame = round(core_frame(core));
+    playback_range(core, range);
+    range[end] = frame;
+    if (range[0] >= range[1]) range[1 - end] = end ? document->first_frame : document->last_frame;
+    playback_choose(core, range[0], range[1]);
+    playback_say_range(core);
+}
+
+static const double REFRESH = 60; ///< frames per second a display shows at least
+
+static const double speeds[] = {0.1, 0.25, 0.5, 1, 2, 4};
+
+enum { SPEEDS = sizeof speeds / sizeof speeds[0] };
+
+static double last_position(const struct document *document) { return fmax(document_samples(document) - 1, 0); }
+
+static void go_to(struct core *core, double position)
+{
+    core->playback.position = fmin(fmax(position, 0), last_position(core->document));
+}
+
+/// The played range in samples.
+static void range_positions(const struct core *core, double range[2])
+{
+    playback_range(core, range);
+    for (int end = 0; end < 2; end++) range[end] = core_position(core->document, range[end]);
+}
+
+void playback_toggle(struct core *core)
+{
+    struct playback *playback = &core->playback;
+    double range[2];
+    playback->playing = !playback->playing;
+    if (!playback->playing) return;
+    range_positions(core, range);
+    playback->dropped = 0;
+    bool at_end = !playback->looping && playback->position >= range[1];
+    if (at_end || playback->position < range[0] || playback->position > range[1]) playback->position = range[0];
+}
+
+/// Whole frames between two positions that were not shown, beyond those a display cannot show at this speed.
+static long frames_dropped(const struct document *document, double from, double to, double speed)
+{
+    const double rounding = 1e-6; // a sum of steps may end just before its frame
+    double passed = floor(to / document->substeps + rounding) - floor(from / document->substeps + rounding);
+    double expected = fmax(1, ceil(document->fps * speed / REFRESH));
+    return passed > expected ? (long)(passed - expected) : 0;
+}
+
+void playback_advance(struct core *core, double dt)
+{
+    struct playback *playback = &core->playback;
+    const struct document *document = core->document;
+    double range[2], from = playback->position;
+    if (!playback->playing) {
+        go_to(core, from); /* an edit may have shortened the scene */
+        return;
+    }
+    range_positions(core, range);
+    double to = from + dt * document->fps * document->substeps * playback->speed;
+    playback->dropped += frames_dropped(document, from, to, playback->speed);
+    playback->position = fmax(to, range[0]);
+    if (to < range[1]) return;
+    if (playback->looping && range[1] > range[0]) {
+        playback->position = range[0] + fmod(to - range[0], range[1] - range[0]);
+    } else {
+        playback->position = range[1];
+        playback->playing = playback->looping;
+    }
+}
+
+void playback_seek(struct core *core, double frame)
+{
+    core->playback.playing = false;
+    go_to(core, core_position(core->document, frame));
+}
+
+void playback_step(struct core *core, int direction)
+{
+    double frame = core_frame(core);
+    playback_seek(core, direction > 0 ? floor(frame + 1e-6) + 1 : ceil(frame - 1e-6) - 1);
+}
+
+void playback_end(struct core *core, int direction)
+{
+    playback_seek(core, direction > 0 ? core->document->last_frame : core->document->first_frame);
+}
+
+void playback_change_speed(struct core *core, int direction)
+{
+    double *speed = &core->playback.speed;
+    int at = 0;
+    while (at < SPEEDS - 1 && speeds[at] < *speed) at++;
+    at += direction;
+    *speed = direction == 0 ? 1 : speeds[at < 0 ? 0 : at >= SPEEDS ? SPEEDS - 1 : at];
+    core_message(core, false, *speed == 1 ? "Playback in real time." : "Playback at %g× speed.", *speed);
+}
+
+// --- switches and looks
+
+void core_flip(struct core *core, int which)
+{
+    const struct {
+        bool *on;
+        const char *said[2]; ///< messages for off and on
+    } switches[] = {
+        [SWITCH_SNAP] = {&core->no_snap,
+                         {"Snapping on: hold Ctrl to place knots between frames.",
+                          "Snapping off: hold Ctrl to snap to frames."}},
+        [SWITCH_AUTO_KEY] = {&core->auto_key,
+                             {"Auto-key off: dragging a body moves it for the whole shot.",
+                              "Auto-key on: dragging a body sets knots at the playhead."}},
+        [SWITCH_KEEP] = {&core->keep,
+                         {"Keep off: what follows an edit swings on from it.",
+                          "Keep on: the next free knot becomes a pose, and nothing changes beyond it."}},
+        [SWITCH_LOOP] = {&core->playback.looping, {"Playback stops at the end.", "Playback loops."}},
+        [SWITCH_ONION] = {&core->overlays.onion,
+                          {"Onion skin off.", "Onion skin on: the pose at the knots around the playhead (O)."}},
+        [SWITCH_TRAIL] = {&core->overlays.trail,
+                          {"Motion arc off.",
+                           "Motion arc on: the path of the tip or liveliest point, one mark per frame (Shift+O)."}},
+        [SWITCH_SHEET] = {&core->curves.sheet,
+                          {"Dope sheet off.", "Dope sheet on: drag the marks in time, or a box around them (F7)."}},
+        [SWITCH_PHASE] = {&core->curves.phase,
+                          {"Phase curve off.", "Phase curve on: a quarter of a swing behind the curve."}},
+        [SWITCH_MORE] = {&core->more,
+                         {"The inspector shows the main sections (F9).", "The inspector shows all sections (F9)."}},
+        [SWITCH_SECONDS] = {&core->curves.seconds, {"The ruler shows frames.", "The ruler shows seconds."}},
+        [SWITCH_NORMALISE] = {&core->curves.normalise,
+                              {"All curves share one axis again.",
+                               "Normalised: every curve is as high as the active one. The axis shows the active "
+                               "curve's values."}},
+        [SWITCH_GHOST] = {&core->overlays.ghost,
+                          {"Ghost off.", "Ghost on: the pose at the knot that is dragged or nudged (F4)."}},
+        [SWITCH_ORIGINAL] = {&core->overlays.original,
+                             {"Original off.", "Original on: beside the character, its clip without the chains."}},
+        [SWITCH_RECORD] = {&core->record_armed, {"Recording is off.", "The next drag of the body is recorded."}},
+        [SWITCH_PHASE_MAP] = {&core->characters.mapped,
+                              {"Phase map off.", "Phase map on: the colour of a point is its phase."}},
+        [SWITCH_TWIN] = {&core->characters.compare,
+                         {"Stiff twin off.", "Stiff twin on: beside the character, one that moves without phases."}},
+    };
+    bool *on = switches[which].on;
+    *on = !*on;
+    core->refit_curves |= which == SWITCH_NORMALISE;
+    core->refit_stage |= which == SWITCH_TWIN || which == SWITCH_ORIGINAL;
+    core_message(core, false, "%s", switches[which].said[*on]);
+}
+
+void core_set_look(struct core *core, enum look look)
+{
+    static const char *const texts[] = {
+        [LOOK_WIGGLY] = "Wiggly: one spline, each joint with its own phase",
+        [LOOK_STIFF] = "Stiff: the same spline without lag",
+        [LOOK_CUBIC] = "Cubic: the same knots as a classical spline",
+    };
+    core->look = look;
+    core_message(core, false, "%s", texts[look]);
+}
+
+void core_turn_look(struct core *core, int unused)
+{
+    static const enum look next[] = {
+        [LOOK_WIGGLY] = LOOK_STIFF, [LOOK_STIFF] = LOOK_CUBIC, [LOOK_CUBIC] = LOOK_WIGGLY};
+    (void)unused;
+    core_set_look(core, next[core->look]);
+}
+
+// --- the scene as it was kept (Shift+K), to compare with (hold K)
+
+void take_keep(struct core *core, int keep)
+{
+    struct take *take = &core->take;
+    evaluation_free(&take->evaluation);
+    document_destroy(take->document);
+    *take = (struct take){.look = core->look};
+    core_message(core, false, keep ? "Kept as before. Hold K to see it." : "Before is forgotten.");
+    if (!keep) return;
+    take->document = document_copy(core->document);
+    if (core->evaluation) take->evaluation.solver = core->evaluation->solver;
+    if (core->evaluation) take->evaluation.models = core->evaluation->models;
+    evaluation_update(&take->evaluation, take->document, core->look == LOOK_CUBIC);
+}
+
+bool take_is_shown(const struct core *core)
+{
+    return core->take.document && core->held_key == 'K' && !core->drag.owner && !history_is_open(core->history);
+}
+
+/// Whether a rig is posed as before: its bones are the same ones.
+static bool take_has(const struct rig *now, const struct rig *before)
+{
+    if (now->id != before->id || now->kind != before->kind) return false;
+    if (now->kind == RIG_CHARACTER) return strcmp(now->character.model, before->character.model) == 0;
+    return now->kind != RIG_TAIL || now->tail.joints == before->tail.joints;
+}
+
+bool take_is_posed(const struct core *core)
+{
+    const struct document *now = core->document, *before = core->take.document;
+    if (!take_is_shown(core) || now->rig_count != before->rig_count) return false;
+    if (now->first_frame != before->first_frame || now->substeps != before->substeps) return false;
+    int r = 0;
+    while (r < now->rig_count && take_has(now->rigs[r], before->rigs[r])) r++;
+    return r == now->rig_count && (!core->models || models_suit(core->models, before));
+}
+
+int take_spline(const struct core *core, int spline)
+{
+    const struct take *take = &core->take;
+    return take->document ? document_find_spline_id(take->document, core->document->splines[spline]->id) : -1;
+}
+
+const struct rig *take_rig(const struct core *core, int rig)
+{
+    const struct document *before = core->take.document;
+    for (int r = 0; before && r < before->rig_count; r++) {
+        if (take_has(core->document->rigs[rig], before->rigs[r])) return before->rigs[r];
+    }
+    return NULL;
+}
+
+void take_explain(struct core *core)
+{
+    if (!core->take.document) {
+        core_message(core, false, "Nothing is kept yet: Shift+K keeps the scene as before.");
+    } else if (take_is_shown(core) && !take_is_posed(core)) {
+        core_message(core, false, "Only the curves show before: the rigs or frames have changed since.");
+    }
+}
