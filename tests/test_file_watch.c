@@ -7,6 +7,7 @@
 #include "shown.h"
 #include <fcntl.h>
 #include <sys/stat.h>
+#include <time.h>
 #include <unistd.h>
 
 static const char theirs[] =
