@@ -67,9 +67,11 @@ TEST(found_before)
     } found[] = {
         {302, 958}, // a loop whose damping falls from 7.7 to 0: of the light jets the squared matrix kept nothing
         {77001,
-         55105},     // no damping, no calm, knots at half periods: the band had no digit left, the chain hardly one
-        {21, 7748},  // a wind-up over frequencies that jump: the pushes lost digits in a difference of variances
-        {23, 6116},  // the same, and the difference was nothing but rounding
+         55105},    // no damping, no calm, knots at half periods: the band had no digit left, the chain hardly one
+        {21, 7748}, // a wind-up over frequencies that jump: the pushes lost digits in a difference of variances
+        {23, 6116}, // the same, and the difference was nothing but rounding
+        {24,
+         19482}, // a loop that winds up about a resonance: what one round keeps of a phase was rounded as the resonance is
         {28, 14307}, // a loop overdamped a hundred million times: the pull of a step was lost beside its brake
     };
     for (size_t i = 0; i < sizeof found / sizeof *found; i++) {

@@ -26,6 +26,7 @@ static const double turn_of_period = 6.28318530717958647692;
 typedef struct goal {
     cplx w;
     bool is_whole; ///< both parts are known
+    double swung;  ///< Im u, which Im w comes on top of
     double slope, pull;
 } goal;
 
@@ -59,6 +60,7 @@ static double slope_of(const problem *p, const wiggly_knot *knot)
 static goal goal_of(const wiggly_solver *solver, const problem *p, const wiggly_knot *knot)
 {
     goal to = {.w.re = problem_knot_re(p, knot), .is_whole = problem_is_whole(p, knot)};
+    to.swung = p->response.im ? p->response.im[knot->sample] : 0;
     if (to.is_whole) to.w.im = problem_knot_im(p, knot);
     if (to.is_whole || !knot->has_slope) return to;
     const poles at = poles_here(solver, p, knot->sample);
@@ -216,23 +218,22 @@ static cplx mean_of(const wind_gap *g, cplx w)
     return cplx_sub(cplx_mul(g->coast[0], w), cplx_scale(1 / g->row, cplx_mul(g->both, cplx_mul(g->coast[1], w))));
 }
 
-/// The same w at a sample where the phase is free, with the digits that it would have at a pose there: so a free knot can become one and what
+/// The same w at a knot where the phase is free, with the digits that it would have at a pose there: so a free knot can become one and what
 /// follows does not change by a bit.
-static cplx as_posed(const problem *p, int sample, cplx w)
+static cplx as_posed(const goal *to, cplx w)
 {
-    const double u = p->response.im ? p->response.im[sample] : 0;
-    for (int n = 0; n < 2 && u != 0; n++) w.im = (w.im + u) - u;
+    for (int n = 0; n < 2 && to->swung != 0; n++) w.im = (w.im + to->swung) - to->swung;
     return w;
 }
 
-/// What rounding may do to Im w at the end of a gap where nothing gives it, `before` having been its error at the beginning: the passes of a
-/// gap are sums of that many terms, and the mean is a difference of two.
+/// What rounding may do to Im w at the end of a gap where nothing gives it, `before` having been w's error at the beginning: the passes of a gap
+/// are sums of that many terms, and the mean is a difference of two.
 static double error_at_end(const wind_gap *g, cplx w, double before, const goal *to)
 {
     if (to->is_whole) return 0;
     const double unit = 32 * DBL_EPSILON * (g->end - g->from + 8), share = cplx_size(g->both) / g->row;
     const double size = cplx_size(g->coast[0]) + share * cplx_size(g->coast[1]);
-    return cplx_size(mean_of(g, (cplx){before, 0})) + unit * size * cplx_size(w);
+    return cplx_size(mean_of(g, (cplx){before, 0})) + unit * size * cplx_size(w) + DBL_EPSILON * fabs(to->swung);
 }
 
 /// w at the end of a gap, from w at its beginning.
@@ -247,7 +248,7 @@ static cplx arrive(const wiggly_solver *solver, const problem *p, const wind_gap
         const double pull = g->knot * to->pull * pole.im;
         there.im = (mean.im + pull * (pole.re * to->w.re - to->slope)) / (1 + pull * pole.im);
     }
-    return as_posed(p, sample_of(p, g->end), there);
+    return as_posed(to, there);
 }
 
 /// Fills `count` samples after one by the free motion.
@@ -372,17 +373,21 @@ static cplx start_of(const wiggly_solver *solver, const problem *p)
     const double turn = at.centre * ((next - knot->sample) * p->desc->step), turn4 = turn * turn * (turn * turn);
     const double fade = fade_of(&at) * turn4 / (1 + turn4);
     const cplx swings = {to.w.re, (-at.decay * to.w.re - to.slope) / at.centre * fade};
-    return fade > 0 ? as_posed(p, knot->sample, swings) : to.w;
+    return fade > 0 ? as_posed(&to, swings) : to.w;
 }
+
+/// How far Re w at knots may be off: by u there.
+static double error_at_knots(const problem *p) { return p->response.error < INFINITY ? p->response.error : 0; }
 
 /// Im w after going once round a loop, or what is left of w there if all knots ask for 0; and its error.
 static double go_round(const wiggly_solver *solver, const problem *p, cplx w, bool asks, double *error)
 {
+    const double given = asks ? error_at_knots(p) : 0;
     *error = 0;
     for (int n = 0; n < p->desc->knot_count; n++) {
         goal to = goal_of(solver, p, knot_of(solver, p, n + 1));
-        if (!asks) to.w = (cplx){0, 0}, to.slope = 0;
-        *error = error_at_end(&solver->wind.gap[n], w, *error, &to);
+        if (!asks) to.w = (cplx){0, 0}, to.swung = to.slope = 0;
+        *error = error_at_end(&solver->wind.gap[n], w, *error + given, &to);
         w = arrive(solver, p, &solver->wind.gap[n], w, &to);
     }
     return w.im;
@@ -398,7 +403,7 @@ static cplx close_round(const wiggly_solver *solver, const problem *p, double *e
     const double b = go_round(solver, p, (cplx){0, 1}, false, &of_b);
     const double whole = (1 - b) * (1 - b) + 1e-4 * b * b, turn = a * (1 - b) / whole;
     *error = (of_a * fabs(1 - b) + of_b * (fabs(a) + 2 * fabs(turn) * (fabs(1 - b) + 1e-4 * fabs(b)))) / whole;
-    return as_posed(p, p->earliest, (cplx){to.w.re, turn});
+    return as_posed(&to, (cplx){to.w.re, turn});
 }
 
 void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *curve, minimum *result)
@@ -423,7 +428,7 @@ void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *c
         const wind_gap *g = &solver->wind.gap[n];
         const goal to = goal_of(solver, p, knot_of(solver, p, n + c.skipped));
         const cplx end = loops && n + 1 == c.gaps ? first : arrive(solver, p, g, w, &to);
-        off = error_at_end(g, w, off, &to);
+        off = error_at_end(g, w, off + error_at_knots(p), &to);
         result->error = fmax(result->error, fmax(off, fill_gap(solver, p, g, w, end, re, im)));
         w = end;
     }
