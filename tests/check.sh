@@ -22,11 +22,11 @@ holds() { # <what> <command>...
 
 not() { ! "$@"; } # <command>...
 
-# Whether groups of npm/fetched.txt are in a folder; else says why not. A package that is another one than the list names is a failed case.
+# Whether groups of tools/npm/fetched.txt are in a folder; else says why not. A package that is another one than the list names is a failed case.
 npm_has() { # <folder> <group>...
     local status=0
-    timeout 180 npm/fetch.sh "$@" 2>"$scratch/fetch" || status=$?
-    [ $status -ne 3 ] || ok "npm sends what npm/fetched.txt names" 1
+    timeout 180 tools/npm/fetch.sh "$@" 2>"$scratch/fetch" || status=$?
+    [ $status -ne 3 ] || ok "npm sends what tools/npm/fetched.txt names" 1
     [ $status -eq 0 ] || echo "skip - $(tail -n 1 "$scratch/fetch")"
     return $status
 }

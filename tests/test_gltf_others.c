@@ -130,7 +130,8 @@ static bool fetch_profiles(char *folder, size_t size)
     char command[1024];
     snprintf(folder, size, "%s/gltf-others/node_modules/@webxr-input-profiles/assets/dist/profiles",
              build ? build : "build");
-    snprintf(command, sizeof command, "timeout 60 npm/fetch.sh '%s/gltf-others' profiles", build ? build : "build");
+    snprintf(command, sizeof command, "timeout 60 tools/npm/fetch.sh '%s/gltf-others' profiles",
+             build ? build : "build");
     const int status = system(command);
     assert_false(WIFEXITED(status) && WEXITSTATUS(status) == 3); // another package
     return there(folder, "there are no models of @webxr-input-profiles/assets");

@@ -24,7 +24,7 @@ expect 0 "require() finds it" node -e "process.chdir('$scratch'); require('modul
 
 command -v npm >/dev/null || { echo "skip - npm is not installed"; exit $cases_failed; }
 npm_has "$place/types" types || exit $cases_failed
-cp npm/fetch.sh "$scratch" && sed 's/sha512-\(.\)\(.\)/sha512-\2\1/' npm/fetched.txt >"$scratch/fetched.txt"
+cp tools/npm/fetch.sh "$scratch" && sed 's/sha512-\(.\)\(.\)/sha512-\2\1/' tools/npm/fetched.txt >"$scratch/fetched.txt"
 expect 3 "another package than the list names is refused" "$scratch/fetch.sh" "$scratch/other" types
 says "with both hashes" "expected sha512-lj" "$err"
 for how in "mts node16 node16" "cts node16 node16" "ts esnext bundler"; do
@@ -47,8 +47,8 @@ cp npm/compare.mjs "$examples"
 expect 0 "from one value to another it is Motion's spring and react-spring's; those of others are measured beside it" bash -c "cd '$examples' && node compare.mjs"
 holds "and the page has all of them, with their sizes" [ -n "$out" -a -z "$(cut -d'|' -f2,6 <<<"$out" | grep -vxFf <(cut -d'|' -f2,6 npm/README.md))" ]
 expect 0 "the examples are bundled" bash -c "cd '$examples' && node node_modules/esbuild/bin/$(node -p 'require("./npm/examples/package.json").scripts.start.replace(/--servedir=./, "--log-level=warning")')"
-holds "of the versions that npm/fetched.txt names" node -e '
-    const named = require("fs").readFileSync("npm/fetched.txt", "utf8"), { dependencies } = require("./npm/examples/package.json")
+holds "of the versions that tools/npm/fetched.txt names" node -e '
+    const named = require("fs").readFileSync("tools/npm/fetched.txt", "utf8"), { dependencies } = require("./npm/examples/package.json")
     process.exit(+!Object.entries(dependencies).every(([name, version]) => name === "wiggly" || named.includes(`${name} ${version} `)))'
 
 PYTHONPATH=tests/web python3 -c 'import sys, chromium; sys.exit(not chromium.find())' || { echo "skip - chromium is not installed"; exit $cases_failed; }

@@ -22,7 +22,7 @@ cmp -s "$folder/package-lock.json" "$folder/fetched.json" && exit 0
 said=$(cd "$folder" && npm ci --ignore-scripts --legacy-peer-deps --no-audit --no-fund 2>&1) && exec cp "$folder/package-lock.json" "$folder/fetched.json"
 case $said in
 *EINTEGRITY*)
-    echo "npm sent another package than npm/fetched.txt names: expected $(echo "$said" | grep -o 'sha512-.*' | head -n 1)" >&2
+    echo "npm sent another package than tools/npm/fetched.txt names: expected $(echo "$said" | grep -o 'sha512-.*' | head -n 1)" >&2
     exit 3 ;;
 esac
 echo "npm could not fetch $*: $(echo "$said" | head -n 1)" >&2
