@@ -9,10 +9,13 @@
 // wind-up that begins in mid-motion, D is for the rest of its speed.
 
 /**
- * Numbers of a state, one property after the other: o, its next move, q, q′, Re w, Im w, what the pushes add at the next key, and the real
- * and imaginary part of w′ − p w, which is not 0 where a wind-up goes on in mid-motion.
+ * Numbers of a state, one property after the other: o, its next move, q, q′, then the real and imaginary parts of w, of what the pushes add
+ * to w at the next key, and of w′ − p w, which is not 0 where a wind-up goes on in mid-motion.
  */
-export const members = 9
+export const members = 10
+
+/** How these count in the value and in the speed, and how much of its move o has made. */
+export const weight = { value: new Float64Array(members).fill(1, 0, 1), speed: new Float64Array(members), moved: 0 }
 
 /**
  * What a spring is made of.
@@ -31,29 +34,33 @@ export function springLaw(frequency, damping, bandwidth, windUp, count, least, i
   }
 }
 
-/** A free swing after t seconds: what is left of q and of q′, the speeds of both, and the factor e^{pt} of w. */
-function swing({ d, k, decay, turn, root }, t, out) {
-  const fall = Math.exp(-decay * t)
-  let x = fall, y = 0, cosine = fall, sine = fall * t // the last two: of rt with the decay, the sine over r
-  if (turn > 0) {
-    cosine = x = fall * Math.cos(turn * t)
-    y = fall * Math.sin(turn * t)
-    sine = y / turn
-  } else if (root > 0) {
-    const apart = Math.expm1(-2 * root * t)
-    cosine = fall * (1 + apart / 2)
-    sine = (fall * -apart) / (2 * root)
-  }
-  out[0] = cosine + d * sine
-  out[1] = sine
-  out[2] = -k * sine
-  out[3] = cosine - d * sine
-  out[4] = x
-  out[5] = y
-  return out
+/** Makes the weights of a real number, as they are, those of a complex one that is also multiplied by x + iy, which swings by the pole. */
+function setTurned({ decay, turn }, m, x, y) {
+  const { value, speed } = weight, z = value[m], slope = speed[m]
+  value[m] = x * z
+  value[m + 1] = -y * z
+  speed[m] = (-decay * x - turn * y) * z + x * slope
+  speed[m + 1] = (decay * y - turn * x) * z - y * slope
 }
 
-const free = new Float64Array(6)
+/** Sets the weights for t seconds of free swing. */
+function setFree(law, t) {
+  const { d, k, decay, turn, root } = law, { value, speed } = weight, fall = Math.exp(-decay * t)
+  const x = fall * Math.cos(turn * t), y = fall * Math.sin(turn * t)
+  let cosine = x, sine = y / turn // of rt with the decay, the sine over r
+  if (turn === 0) {
+    const apart = Math.expm1(-2 * root * t)
+    cosine = fall * (1 + apart / 2)
+    sine = root > 0 ? (fall * -apart) / (2 * root) : fall * t
+  }
+  value[2] = cosine + d * sine
+  value[3] = sine
+  speed[2] = -k * sine
+  speed[3] = cosine - d * sine
+  value[4] = 1
+  speed[4] = 0
+  setTurned(law, 4, x, y)
+}
 
 /** How o moves. */
 const smooth = (t) => (t > 0 ? t * t * t * (10 + t * (6 * t - 15)) : 0)
@@ -72,15 +79,14 @@ function makeRows(law, n, h) {
   for (let i = last - 1; i >= first; i--) {
     following = tau
     tau = (twice / 2) * psi - before
-    const q = variance * (i === first ? Math.min(1, off + 0.5) : 1), after = psi
+    const q = variance * (i === first ? Math.min(1, off + 0.5) : 1)
     knot += q * psi * psi
     both += q * psi * tau
     end += q * tau * tau
     push[2 * i] = q * psi
     push[2 * i + 1] = q * tau
     variance *= fall
-    psi = twice * psi - before
-    before = after
+    ;[psi, before] = [twice * psi - before, psi]
   }
 
   // Free motion, also where the window begins between two samples.
@@ -93,8 +99,7 @@ function makeRows(law, n, h) {
       if (i === last) break
       const young = twice * z - old + ofPsi * push[2 * i] + ofTau * push[2 * i + 1]
       rows[at + 1] = i > 0 ? (young - old) / (2 * h) : 0
-      old = z
-      z = young
+      ;[old, z] = [z, young]
     }
   }
   const turned = nu > 0 ? Math.sin(nu) / law.apart : h
@@ -104,14 +109,15 @@ function makeRows(law, n, h) {
   rows[C] = rows[D + 1] = 1
 
   // o is linear between samples; q′ jumps against its bends.
-  const [stay, go, pull, slow] = swing(law, h, free)
+  setFree(law, h)
+  const [, , stay, go] = weight.value, [, , pull, slow] = weight.speed
   let q = 0, speed = 0, slope = 0, place = 0
   for (let i = 0, at = moved; i <= last; i++, at += row) {
     rows[at] = place + q
     rows[at + 1] = speed + slope
-    const to = smooth((i + 1 - last + n) / n), rise = (to - place) / h, jumped = speed - (rise - slope), were = q
-    q = stay * were + go * jumped
-    speed = pull * were + slow * jumped
+    const to = smooth((i + 1 - last + n) / n), rise = (to - place) / h, jumped = speed - (rise - slope)
+    speed = pull * q + slow * jumped
+    q = stay * q + go * jumped
     place = to
     slope = rise
   }
@@ -120,26 +126,18 @@ function makeRows(law, n, h) {
 
 /** The wind-up table of a gap. A few are kept; those of long gaps are all the same. */
 function tableOf(law, span) {
-  const { tables } = law, key = Math.min(span, law.windUp)
-  for (const table of tables) if (table.key === key) return table
+  const { tables, windUp, count } = law, seconds = Math.min(span, windUp)
+  for (const table of tables) if (table.seconds === seconds) return table
   if (tables.length === 16) tables.shift()
-  let n = law.count, h = law.windUp / n
-  if (!(span - law.windUp > 1e-9 * law.windUp)) {
-    n = Math.max(law.least, Math.ceil(span / h - 1e-9))
-    h = span / n
-  }
-  const rows = makeRows(law, n, h)
+  const n = span > (1 + 1e-9) * windUp ? count : Math.max(law.least, Math.ceil(seconds / (windUp / count) - 1e-9)), h = seconds / n, rows = makeRows(law, n, h)
   if (law.isRefined) { // the error is of second order: that of half the step is a quarter
     const half = makeRows(law, 2 * n, h / 2)
     for (let i = 0; i < rows.length; i++) rows[i] = (4 * half[2 * i - (i % row)] - rows[i]) / 3
   }
-  const table = { key, h, last: Math.ceil(n - 1e-9), rows }
+  const table = { seconds, h, last: rows.length / row - 1, rows }
   tables.push(table)
   return table
 }
-
-/** Where the numbers of a state count: for the value, for the speed; then those of the pushes for Im w and its speed, and how much of its move o has made. */
-export const weight = { value: new Float64Array(members), speed: new Float64Array(members), pushed: 0, pushedSpeed: 0, moved: 0 }
 
 /** A cubic from a row to the next: value and speed to the weights of a number. */
 function setBetween(rows, at, u, h, m) {
@@ -149,45 +147,23 @@ function setBetween(rows, at, u, h, m) {
   weight.speed[m] = (slope + u * (2 * square + u * 3 * cube)) / h
 }
 
-/** Such a cubic times what is left of w, for both of its parts. */
-function setTurning(rows, at, u, h, first) {
-  const { value, speed } = weight
-  setBetween(rows, at, u, h, 6)
-  const z = value[6], slope = speed[6]
-  for (let m = 0; m < 2; m++) {
-    speed[first + m] = speed[4 + m] * z + value[4 + m] * slope
-    value[first + m] = value[4 + m] * z
-  }
-}
-
 /** Sets the weights for t seconds after a key; `span` seconds lie between that and the next one (Infinity: there is none). */
 export function setWeights(law, t, span) {
-  const { decay, turn } = law, { value, speed } = weight, table = t > span - law.windUp * (1 + 1 / law.count) ? tableOf(law, span) : null
-  const at = table ? (t - span) / table.h + table.last : -1
-  swing(law, t, free)
-  const x = free[4], y = free[5]
-  value[0] = 1
-  value[2] = free[0]
-  value[3] = free[1]
-  speed[2] = free[2]
-  speed[3] = free[3]
-  value[4] = x
-  value[5] = -y
-  speed[4] = -decay * x - turn * y
-  speed[5] = decay * y - turn * x
-  value[1] = speed[1] = weight.pushed = weight.pushedSpeed = weight.moved = 0
+  const { value, speed } = weight, table = span < Infinity ? tableOf(law, span) : null, at = table ? (t - span) / table.h + table.last : -1
+  value[1] = speed[1] = weight.moved = 0
   for (let m = 6; m < members; m++) value[m] = speed[m] = 0
+  setFree(law, t)
+  if (t === Infinity) value.fill(0, 1), speed.fill(0)
   if (!(at >= 0)) return
-  const { h, last, rows } = table, i = Math.min(last - 1, Math.floor(at)), u = at - i
-  setTurning(rows, row * i + D, u, h, 7)
-  setTurning(rows, row * i + C, u, h, 4)
+  const { h, last, rows } = table, i = Math.min(last - 1, Math.floor(at)), u = at - i, fall = Math.exp(law.decay * (span - t)), angle = law.turn * (t - span)
+  const x = value[4], y = -value[5]
   setBetween(rows, row * i + moved, u, h, 1)
+  setBetween(rows, row * i + C, u, h, 4)
+  setTurned(law, 4, x, y)
   setBetween(rows, row * i + R, u, h, 6)
-  const rest = Math.exp(decay * (span - t)), cosine = rest * Math.cos(turn * (t - span)), sine = rest * Math.sin(turn * (t - span)), z = value[6], slope = speed[6]
-  value[6] = cosine * z
-  speed[6] = cosine * slope - (decay * cosine + turn * sine) * z
-  weight.pushed = sine * z
-  weight.pushedSpeed = sine * slope - (decay * sine - turn * cosine) * z
+  setTurned(law, 6, fall * Math.cos(angle), fall * Math.sin(angle))
+  setBetween(rows, row * i + D, u, h, 8)
+  setTurned(law, 8, x, y)
   weight.moved = smooth(1 + (t - span) / Math.min(span, law.windUp))
 }
 
@@ -199,15 +175,15 @@ export function setWeights(law, t, span) {
  * @param {boolean} settles whether o moves there
  */
 export function solveGap(law, state, span, values, settles) {
-  const { rows, last } = tableOf(law, span), end = row * last, next = []
-  const [fromQ, fromV, speedQ, speedV, x, y] = swing(law, span, free)
+  const { rows, last } = tableOf(law, span), end = row * last, next = [], { value, speed } = weight
+  setFree(law, span)
   for (let i = 0, at = 0; i < values.length; i++, at += members) {
-    const o = state[at], q = state[at + 2], v = state[at + 3], re = state[at + 4], im = state[at + 5]
-    const rests = settles ? values[i] : o, move = rests - o, to = fromQ * q + fromV * v + move * (rows[end + moved] - 1)
-    const comes = rows[end + C] * re + rows[end + D] * state[at + 7], turned = rows[end + C] * im + rows[end + D] * state[at + 8], arrives = x * comes - y * turned, wanted = values[i] - rests - to
+    const [o, , q, v, re, im, , , more, moreIm] = state.slice(at, at + members), rests = settles ? values[i] : o, move = rests - o
+    const to = value[2] * q + value[3] * v + move * (rows[end + moved] - 1), wanted = values[i] - rests - to
+    const comes = rows[end + C] * re + rows[end + D] * more, turned = rows[end + C] * im + rows[end + D] * moreIm
     state[at + 1] = move
-    state[at + 6] = wanted - arrives
-    next.push(rests, 0, to, speedQ * q + speedV * v + move * rows[end + moved + 1], wanted, y * comes + x * turned, 0, 0, 0)
+    state[at + 6] = wanted - (value[4] * comes + value[5] * turned)
+    next.push(rests, 0, to, speed[2] * q + speed[3] * v + move * rows[end + moved + 1], wanted, value[4] * turned - value[5] * comes, 0, 0, 0, 0)
   }
   return next
 }

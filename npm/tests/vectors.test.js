@@ -16,7 +16,7 @@ function* totals({ fps = 24, substeps = 1, frames }, { frequency, damping = 0, b
   const rate = fps * substeps, count = Math.max(1, (wind_up / frequency) * rate), law = springLaw(frequency, damping, bandwidth, count / rate, count, 1, false)
   const keys = knots.map(({ frame, value, settles = false }) => ({ sample: Math.floor((frame - frames[0]) * substeps + 0.5), value, settles })).sort((a, b) => a.sample - b.sample)
   const [first] = keys, o = first.settles ? first.value : 0, rests = start === 'rest' && first.sample > 1
-  const states = [rests ? new Array(members).fill(0) : [o, 0, 0, 0, first.value - o, 0, 0, 0, 0]], samples = [rests ? 0 : first.sample]
+  const states = [rests ? new Array(members).fill(0) : [o, 0, 0, 0, first.value - o, 0, 0, 0, 0, 0]], samples = [rests ? 0 : first.sample]
   for (const { sample, value, settles } of rests ? keys : keys.slice(1)) {
     states.push(solveGap(law, states.at(-1), (sample - samples.at(-1)) / rate, [value], settles))
     samples.push(sample)
