@@ -35,17 +35,15 @@ export type Options<V extends Value = number> = Changes & {
     | ({ from: V; keys: Keys<V> } & Without<'to'>)
   )
 
-type Filled<V, Out> = V extends number ? V : Out
-
 export interface Spring<V extends number | number[] = number> {
   /** Seconds until it has settled; Infinity without damping. */
   readonly duration: number
   /** The value at a time in seconds. An `out` receives the values of several properties. */
   at(time: number): V
-  at<Out extends { [i: number]: number }>(time: number, out: Out): Filled<V, Out>
+  at<Out extends { [i: number]: number }>(time: number, out: Out): V extends number ? V : Out
   /** The speed there, per second. */
   velocity(time: number): V
-  velocity<Out extends { [i: number]: number }>(time: number, out: Out): Filled<V, Out>
+  velocity<Out extends { [i: number]: number }>(time: number, out: Out): V extends number ? V : Out
   /** A new spring whose time 0 is `time` of this one. It goes on with the same value and speed, to a value or through keys after 0. */
   retarget(time: number, to: V extends number ? number | Keys<number> : Numbers | Keys<Numbers>, changes?: Changes): Spring<V>
   /**

@@ -9,23 +9,22 @@ import { fail } from './options.js'
  * @param edges between which the curve is smooth
  */
 function trace(read, natural, edges, error) {
-  let from = edges[0], [x, v] = read(from)
-  const list = [from, x, v], most = (natural > 0 ? 1 : 0.02) * error // the halves of a smooth curve are off by a 16th of the whole
+  const list = [edges[0], ...read(edges[0])], most = (natural > 0 ? 1 : 0.02) * error // the halves of a smooth curve are off by a 16th of the whole
 
-  /** Halves a cubic until its middle shows that the halves are near enough. */
-  function add(a, x, v, b, y, w) {
-    const h = (b - a) / 2, middle = a + h, [z, s] = read(middle)
+  /** Goes on to a time, value and speed: halves the cubic until its middle shows that the halves are near enough. */
+  function add(b, y, w) {
+    const [a, x, v] = list.slice(-3), h = (b - a) / 2, middle = a + h, [z, s] = read(middle)
     const off = Math.abs(z - (x + y) / 2 - (h * (v - w)) / 4) + 6 * Math.abs(h * (s + (v + w) / 4) - 0.75 * (y - x))
-    if (off > most && a < middle && middle < b) add(a, x, v, middle, z, s), add(middle, z, s, b, y, w)
+    if (off > most && a < middle && middle < b) add(middle, z, s), add(b, y, w)
     else list.push(middle, z, s, b, y, w)
     if (list.length > 3e6) fail(RangeError, 'linear: it swings too often for one easing until it has settled')
   }
 
+  let from = edges[0]
   for (const edge of edges) {
     for (let left = edge > from ? Math.ceil(((edge - from) * natural) / Math.PI) || 1 : 0; left > 0; left--) {
-      const to = left > 1 ? from + (edge - from) / left : edge, [y, w] = read(to)
-      add(from, x, v, to, y, w)
-      ;[from, x, v] = [to, y, w]
+      from = left > 1 ? from + (edge - from) / left : edge
+      add(from, ...read(from))
     }
   }
   return list

@@ -46,8 +46,11 @@ export function readSettles(settles = true, count) {
   return list
 }
 
-const feels = [['frequency', 'damping'], ['stiffness', 'damping', 'mass'], ['bounce', 'duration']]
-const feelNames = [...new Set(feels.flat())]
+/** Three ways to say how a spring feels: of each number the usual one, the least and the most. */
+const byFrequency = { frequency: [2, 1e-3, 1e4], damping: [0.3, 0, 100] }
+const byStiffness = { stiffness: [undefined, 1e-9], damping: [undefined, 0], mass: [1, 1e-9] }
+const byBounce = { bounce: [0.3, -1, 1], duration: [0.8, 0.01, 10] }
+const feelNames = [...new Set([byFrequency, byStiffness, byBounce].flatMap(Object.keys))]
 
 /** Options that retarget() may change. */
 export const changeable = [...feelNames, 'windUp', 'settles', 'rest', 'rate']
@@ -57,42 +60,34 @@ export function checkNames(options, known) {
   for (const name of Object.keys(options)) if (!known.includes(name)) fail(TypeError, `${name}: no such option; there are ${known.join(', ')}`)
 }
 
-/** Frequency and damping ratio, of whichever of the three ways to say them. */
-function readFeel(options) {
-  const given = feelNames.filter((name) => options[name] !== undefined)
-  if (!feels.some((names) => given.every((name) => names.includes(name)))) fail(TypeError, `${given.join(', ')}: cannot be mixed; give frequency and damping, or stiffness, damping and mass, or bounce and duration`)
-  if (given.includes('stiffness') || given.includes('mass')) {
-    const stiffness = number('stiffness', options.stiffness, 1e-9), mass = number('mass', options.mass ?? 1, 1e-9)
-    const natural = Math.sqrt(stiffness / mass)
-    return [natural / (2 * Math.PI), number('damping', options.damping, 0) / (2 * natural * mass)]
-  }
-  if (given.includes('bounce') || given.includes('duration')) return feelOfBounce(number('bounce', options.bounce ?? 0.3, -1, 1), number('duration', options.duration ?? 0.8, 0.01, 10))
-  return [number('frequency', options.frequency ?? 2, 1e-3, 1e4), number('damping', options.damping ?? 0.3, 0, 100)]
+function feelOfStiffness(stiffness, damping, mass) {
+  const natural = Math.sqrt(stiffness / mass)
+  return [natural / (2 * Math.PI), damping / (2 * natural * mass)]
 }
 
 /** As Motion has it: at the end of `duration` a thousandth is left, of the envelope or, where nothing swings, of the critically damped spring. */
 function feelOfBounce(bounce, duration) {
   const left = 1e-3, critical = 9.23341347645159, damping = bounce < 0 ? 1 / Math.max(1 + bounce, 0.05) : Math.max(1 - bounce, 0.05)
   const root = Math.sqrt(Math.abs(damping * damping - 1))
-  let angle = critical
-  if (damping < 1) angle = Math.log(damping / root / left) / damping
-  else if (damping > 1) {
+  let angle = damping < 1 ? Math.log(damping / root / left) / damping : critical
+  if (damping > 1) {
     const slow = damping - root, fast = damping + root, goal = 2 * root * left
     for (let i = 0; i < 20; i++) angle += (fast * Math.exp(-slow * angle) - slow * Math.exp(-fast * angle) - goal) / (Math.exp(-slow * angle) - Math.exp(-fast * angle))
   }
   return [angle / duration / (2 * Math.PI), damping]
 }
 
-/** Samples of half a period, and of a wind-up that is shorter, which keep the curve within 1e-4 of its range. */
-const enough = 40
-
 /** What a spring is made of. */
 export function readLaw(options) {
-  const [frequency, damping] = readFeel(options), windUp = number('windUp', options.windUp ?? 0.5, 0.01, 100), seconds = windUp / frequency
-  let count = Math.max(enough, Math.ceil(2 * enough * windUp)), least = enough
+  const given = feelNames.filter((name) => options[name] !== undefined), way = [byFrequency, byStiffness, byBounce].find((names) => given.every((name) => name in names))
+  if (!way) fail(TypeError, `${given.join(', ')}: cannot be mixed; give frequency and damping, or stiffness, damping and mass, or bounce and duration`)
+  const said = Object.entries(way).map(([name, [usual, low, high]]) => number(name, options[name] ?? usual, low, high))
+  const [frequency, damping] = way === byFrequency ? said : way === byStiffness ? feelOfStiffness(...said) : feelOfBounce(...said)
+  const windUp = number('windUp', options.windUp ?? 0.5, 0.01, 100), seconds = windUp / frequency
+  let least = 40, count = Math.max(least, Math.ceil(80 * windUp)) // samples that keep the curve within 1e-4 of its range
   if (options.rate !== undefined) {
     const rate = number('rate', options.rate, Math.ceil(count / seconds), Math.floor(1e6 / seconds))
-    least = Math.ceil((enough * rate * seconds) / count)
+    least = Math.ceil((least * rate * seconds) / count)
     count = Math.ceil(rate * seconds)
   }
   const law = springLaw(frequency, damping, 0.1, seconds, count, least, true)

@@ -33,5 +33,3 @@ many.retarget(0.2, [[0.5, 3]])
 spring({ from: 0, to: 1, tension: 170 })
 // @ts-expect-error: two ways at once
 spring({ from: 0, to: 1, stiffness: 170, damping: 26, bounce: 0.2 })
-
-export { value, easing, next, values, filled, easings, moved, loose, any, pair, single }
