@@ -3,7 +3,7 @@ import { animated, useSpring } from '@react-spring/web'
 import { Player } from '@remotion/player'
 import { animate } from 'motion'
 import { createRoot } from 'react-dom/client'
-import { useCurrentFrame, useVideoConfig } from 'remotion'
+import { useCurrentFrame } from 'remotion'
 import * as THREE from 'three'
 import { spring } from 'wiggly'
 
@@ -31,11 +31,15 @@ const pages = {
 
   motion: () => animate('#box', { x: [0, 60] }, { duration: s.duration, ease }),
 
-  'react-spring': () => createRoot(main).render(<Sprung />),
+  'react-spring'() {
+    const Box = () => <animated.div id="box" style={useSpring({ from: { x: 0 }, to: { x: 60 }, config: { duration: 1000 * s.duration, easing: ease } })} />
+    createRoot(main).render(<Box />)
+  },
 
   remotion() {
-    const size = { fps: 60, durationInFrames: Math.ceil(60 * s.duration), compositionWidth: 400, compositionHeight: 100 }
-    createRoot(main).render(<Player component={Scene} {...size} autoPlay initiallyMuted moveToBeginningWhenEnded={false} acknowledgeRemotionLicense />)
+    const fps = 60, size = { fps, durationInFrames: Math.ceil(fps * s.duration), compositionWidth: 400, compositionHeight: 100 }
+    const Box = () => <div id="box" style={{ translate: `${s.at(useCurrentFrame() / fps)}px` }} />
+    createRoot(main).render(<Player component={Box} {...size} autoPlay initiallyMuted moveToBeginningWhenEnded={false} acknowledgeRemotionLicense />)
   },
 
   three() {
@@ -54,16 +58,6 @@ const pages = {
       renderer.render(scene, camera)
     })
   },
-}
-
-function Sprung() {
-  const { x } = useSpring({ from: { x: 0 }, to: { x: 60 }, config: { duration: 1000 * s.duration, easing: ease } })
-  return <animated.div id="box" style={{ x }} />
-}
-
-function Scene() {
-  const { fps } = useVideoConfig()
-  return <div id="box" style={{ translate: `${s.at(useCurrentFrame() / fps)}px` }} />
 }
 
 pages[location.search.slice(1) || 'waapi']()

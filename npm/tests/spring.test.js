@@ -1,5 +1,6 @@
 // What the package promises; WIGGLY_NPM is its folder.
 import assert from 'node:assert/strict'
+import { once } from 'node:events'
 import { createRequire } from 'node:module'
 import { test } from 'node:test'
 import { Worker } from 'node:worker_threads'
@@ -11,6 +12,8 @@ const example = { keys: [[0, 0], [0.4, 1], [1.2, 0.3]], frequency: 2, damping: 0
 const near = (actual, expected, error, what) => {
   if (!(Math.abs(actual - expected) <= error)) assert.fail(`${typeof what === 'string' ? what : JSON.stringify(what)}: ${actual}, expected ${expected}`)
 }
+
+const between = (from, to, count) => Array.from({ length: count + 1 }, (_, i) => from + (i / count) * (to - from))
 
 /** Springs of every kind, always the same ones. */
 function* springs(count) {
@@ -47,8 +50,7 @@ test('moves without a jump of value or speed, and little where a key moves a lit
   for (const options of [example, ...springs(40)]) for (const settles of [true, false]) {
     const s = spring({ ...options, settles }), begin = options.keys[0][0], end = options.keys.at(-1)[0] + 1, dt = 1e-5
     let fastest = 0, jump = 0, off = 0
-    for (let i = 1; i < 3000; i++) {
-      const t = begin + (i / 3000) * (end - begin)
+    for (const t of between(begin, end, 3000).slice(1, -1)) {
       const change = (s.at(t + dt) - s.at(t - dt)) / (2 * dt)
       fastest = Math.max(fastest, Math.abs(change))
       off = Math.max(off, Math.abs(change - s.velocity(t)))
@@ -62,7 +64,7 @@ test('has samples enough for 1e-4 of the range', () => {
   for (const options of springs(60)) for (const changes of [{}, { windUp: 0.1 }, { windUp: 3 }, { settles: false, velocity: 0 }]) {
     const s = spring({ ...options, velocity: 0, ...changes }), { frequency, keys } = options
     const exact = spring({ ...options, velocity: 0, ...changes, rate: 800 * frequency * Math.max(1, 0.5 / (changes.windUp ?? 0.5)) })
-    const begin = keys[0][0], end = keys.at(-1)[0] + 1 / frequency, times = Array.from({ length: 500 }, (_, i) => begin + (i / 500) * (end - begin)), right = times.map((time) => exact.at(time))
+    const times = between(keys[0][0], keys.at(-1)[0] + 1 / frequency, 500), right = times.map((time) => exact.at(time))
     const range = Math.max(...right) - Math.min(...right)
     times.forEach((time, i) => near(s.at(time), right[i], 1e-4 * range, [options, changes, time]))
   }
@@ -86,12 +88,9 @@ test('a key that is appended changes nothing up to its wind-up', () => {
   for (const options of springs(60)) {
     const s = spring(options), last = options.keys.at(-1)[0], reach = 0.5 / options.frequency, next = [last + 1.5 * reach, 7]
     const longer = spring({ ...options, keys: [...options.keys, next] }), from = options.keys[0][0]
-    for (let i = 0; i <= 200; i++) {
-      const time = from + (i / 200) * (next[0] - reach - from) - 1e-9
-      assert.equal(longer.at(time), s.at(time))
-    }
+    for (const time of between(from - 1e-9, next[0] - reach - 1e-9, 200)) assert.equal(longer.at(time), s.at(time))
     const now = last + 0.3 * reach, retargeted = s.retarget(now, [[next[0] - now, 7]])
-    for (let i = 0; i <= 100; i++) near(retargeted.at((i / 50) * reach), longer.at(now + (i / 50) * reach), 1e-9 * (100 + Math.abs(options.velocity) * reach), options)
+    for (const time of between(0, 2 * reach, 100)) near(retargeted.at(time), longer.at(now + time), 1e-9 * (100 + Math.abs(options.velocity) * reach), options)
   }
 })
 
@@ -126,16 +125,12 @@ test('retargets in each frame without running away', () => {
 })
 
 test('several properties are as many springs', () => {
-  const columns = [[0, 5, 2], [1, -1, 0], [3, 3, 3]], times = [0, 0.37, 1]
+  const columns = [[0, 5, 2], [1, -1, 0], [3, 3, 3]], times = [0, 0.37, 1], out = new Float64Array(3)
   const all = spring({ keys: times.map((time, i) => [time, columns.map((values) => values[i])]), velocity: [1, 2, 3] })
-  const out = new Float64Array(3)
   assert.equal(all.at(0.5, out), out)
-  columns.forEach((values, i) => {
-    const one = spring({ keys: times.map((time, n) => [time, values[n]]), velocity: i + 1 })
-    assert.equal(out[i], one.at(0.5))
-    assert.equal(all.velocity(0.5)[i], one.velocity(0.5))
-    assert.ok(all.duration >= one.duration)
-  })
+  const ones = columns.map((values, i) => spring({ keys: times.map((time, n) => [time, values[n]]), velocity: i + 1 }))
+  assert.deepEqual([[...out], all.velocity(0.5)], [ones.map((one) => one.at(0.5)), ones.map((one) => one.velocity(0.5))])
+  assert.equal(all.duration, Math.max(...ones.map((one) => one.duration)))
 })
 
 test('works behind proxies, unbound, with keys that change later, without WebAssembly, in workers and by require()', async () => {
@@ -143,11 +138,8 @@ test('works behind proxies, unbound, with keys that change later, without WebAss
   keys[1][1] = 5
   assert.deepEqual([behind.at(1), behind.retarget(0.5, 2).at(0), behind.linear(), at(1), retarget(0.5, 2).at(0), { ...s }.duration], [1, s.at(0.5), s.linear(), 1, s.at(0.5), s.duration])
   assert.equal(createRequire(import.meta.url)(folder).spring(example).linear(), spring(example).linear())
-  const told = await new Promise((done, failed) => {
-    const code = 'delete globalThis.WebAssembly; import(process.env.WIGGLY_NPM + "/index.js").then(({ spring }) => require("node:worker_threads").parentPort.postMessage(spring({ keys: [[0, 0], [1, 1]] }).at(0.9)))'
-    new Worker(code, { eval: true }).on('message', done).on('error', failed)
-  })
-  assert.equal(told, s.at(0.9))
+  const code = 'delete globalThis.WebAssembly; import(process.env.WIGGLY_NPM + "/index.js").then(({ spring }) => require("node:worker_threads").parentPort.postMessage(spring({ keys: [[0, 0], [1, 1]] }).at(0.9)))'
+  assert.deepEqual(await once(new Worker(code, { eval: true }), 'message'), [s.at(0.9)])
 })
 
 test('8,000 s of keys, read from end to end and back, take little memory', () => {
@@ -221,7 +213,5 @@ test('refuses with one sentence', () => {
     [() => spring(example).linear(0.01, [0, NaN]), RangeError, 'linear: range[1]: expected a finite number, got NaN'],
     [() => spring(example).linear(0.01, [1, 1]), RangeError, 'linear: range: expected two different numbers, got 1 twice'],
     [() => spring({ ...example, damping: 0 }).linear(), RangeError, 'linear: without damping there is no end'],
-  ]) {
-    assert.throws(run, (error) => (error instanceof Kind && error.message === `spring: ${sentence}`) || assert.fail(String(error)))
-  }
+  ]) assert.throws(run, { name: Kind.name, message: `spring: ${sentence}` })
 })

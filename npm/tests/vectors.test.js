@@ -29,7 +29,6 @@ function* totals({ fps = 24, substeps = 1, frames }, { frequency, damping = 0, b
 }
 
 let met = 0
-
 for (const name of readdirSync(folder).filter((name) => /^(wind|settles)_.*json$/.test(name))) {
   const scene = JSON.parse(readFileSync(new URL(name, folder)))
   const table = readFileSync(new URL(name.replace('.json', '.csv'), folder), 'utf8').trim().split('\n').slice(1).map((row) => row.split(',').map(Number))
