@@ -30,8 +30,9 @@ void beam_open(struct beam *beam, const int cells[3], double edge, struct materi
 {
     *beam = (struct beam){0};
     make_cubes(beam, cells, edge);
-    assert_true(body_create(&beam->body, (const double(*)[3])beam->rest, beam->nodes, (const int(*)[4])beam->tet,
-                            NULL, beam->tets, material, 1000));
+    const struct body_mesh mesh = {(const double(*)[3])beam->rest, beam->nodes, (const int(*)[4])beam->tet, NULL,
+                                   beam->tets};
+    assert_true(body_create(&beam->body, &mesh, material, 1000));
     for (int i = 0; i < beam->nodes; i++) {
         if (clamped && beam->rest[i][0] < 1e-9) beam->body.pinned[i] = true;
     }

@@ -116,7 +116,7 @@ TEST_WITH(folder_make, folder_remove, pictures_of_a_width)
         snprintf(path, sizeof path, "%s", folder_path("a.png"));
         assert_int_equal(png_write(path, width, 1, pixels, &error), width <= MOST);
         if (width > MOST) says(&error, "expected a picture of 1 to 16384 pixels a side, got 16385 × 1");
-        png_encode(store, path, width, 1, 4, pixels, PNG_FAST);
+        png_encode(store, path, &(struct png_picture){width, 1, 4, pixels}, PNG_FAST);
         if (!gltf_read(folder_path("a.gltf"), &model, &error)) fail_msg("%s", error.text);
         assert_int_equal(model.image_count, width <= MOST);
         if (width <= MOST) assert_int_equal(model.images[0].width, width);

@@ -136,8 +136,8 @@ static int low_vertex(const struct opened *opened, int sample, double at[3])
     for (int v = 0; v < models_figure(opened->models, 0)->character.vertex_count; v++) {
         const struct pin pin = {.frame = sample, .point = v};
         pin_pull c[2];
-        assert_true(
-            source.find(source.context, &opened->evaluation, opened->document, 0, &pin, splines, 2, c, &found));
+        const struct pin_query query = {0, &pin, splines, 2};
+        assert_true(source.find(source.context, &opened->evaluation, opened->document, &query, c, &found));
         const double moves = hypot(c[0][1][0], c[0][1][1]);
         if (moves < 0.05 || (lowest >= 0 && found.at[1] >= at[1])) continue;
         lowest = v;

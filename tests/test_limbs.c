@@ -209,7 +209,8 @@ TEST(pins_hold_what_is_drawn)
         for (int joint = 0; joint < tail->joints; joint += 5) {
             const struct pin pin = {.frame = f, .point = joint};
             struct pin_point point;
-            assert_true(source.find(NULL, &scene.evaluation, scene.document, 0, &pin, NULL, 0, NULL, &point));
+            const struct pin_query query = {.pin = &pin};
+            assert_true(source.find(NULL, &scene.evaluation, scene.document, &query, NULL, &point));
             for (int k = 0; k < 3; k++) assert_near(point.at[k], (double)pose->matrix[joint + 1][12 + k], 1e-5);
         }
     }

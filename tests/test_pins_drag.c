@@ -35,8 +35,8 @@ static void open_drag(struct stand *stand, const struct drag *drag)
     const struct model_source source = models_source(stand->opened.models);
     struct pin pin = {.frame = drag->frame, .point = drag->point};
     struct pin_point at;
-    assert_true(source.find(source.context, &stand->opened.evaluation, stand->opened.document, drag->rig, &pin, NULL,
-                            0, NULL, &at));
+    const struct pin_query query = {.rig = drag->rig, .pin = &pin};
+    assert_true(source.find(source.context, &stand->opened.evaluation, stand->opened.document, &query, NULL, &at));
     memcpy(stand->from, at.at, sizeof stand->from);
     stand->size = at.size;
     struct history *history = history_create(stand->opened.document);
@@ -153,8 +153,8 @@ static void move_within_reach(struct stand *stand, const struct drag *drag, doub
         evaluation->curves[s].re[sample] += most * (2.0 * rand() / RAND_MAX - 1);
         evaluation->curves[s].im[sample] += most * (2.0 * rand() / RAND_MAX - 1);
     }
-    assert_true(
-        source.find(source.context, evaluation, document, drag->rig, pin_of(stand, drag), NULL, 0, NULL, &at));
+    const struct pin_query query = {.rig = drag->rig, .pin = pin_of(stand, drag)};
+    assert_true(source.find(source.context, evaluation, document, &query, NULL, &at));
     memcpy(pin_of(stand, drag)->to, at.at, sizeof at.at);
 }
 

@@ -70,8 +70,8 @@ static struct pin_point find(struct stand *stand, int rig, int point, double fra
     struct pin pin = {.frame = frame, .point = point};
     int splines[64];
     for (int s = 0; s < document->spline_count; s++) splines[s] = s;
-    assert_true(source.find(source.context, &stand->opened.evaluation, document, rig, &pin, splines,
-                            document->spline_count, c, &found));
+    const struct pin_query query = {rig, &pin, splines, document->spline_count};
+    assert_true(source.find(source.context, &stand->opened.evaluation, document, &query, c, &found));
     return found;
 }
 

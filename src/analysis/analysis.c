@@ -265,7 +265,7 @@ static void find_swinging(struct analysis *a, struct work *w)
         double complex z[TIME_SERIES_MAX];
         count = w->pole_count < w->plan->modes ? w->pole_count : w->plan->modes;
         for (int k = 0; k < count; k++) z[k] = w->poles[k].z;
-        time_series_create(&series, w->lapack, w->gram, frames, w->plan->first, z, count);
+        series = time_series_create(w->lapack, w->gram, frames, w->plan->first, z, count);
         int cancelled = count - 1;
         while (cancelled >= 0 && series.part[cancelled] <= cancelling * w->power) cancelled--;
         if (cancelled < 0 || count == 1) break;

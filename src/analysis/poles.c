@@ -40,19 +40,21 @@ static double trend(int windows, bool linear, int j)
     return linear ? (j - middle) / sqrt(windows * (windows * (double)windows - 1) / 12) : 1 / sqrt(windows);
 }
 
-/// Removes what is constant or linear in the window's start j: C −= B G Bᵀ, where row i of B is the trend over j, delayed by i
-/// frames. `room` holds 2 L n numbers.
-static void remove_trend(const struct lapack *lapack, const double *gram, int n, int length, bool linear,
-                         double *room, double *c)
+/// Removes what is constant, then what is linear in the window's start j: C −= B G Bᵀ, where row i of B is the trend over j, delayed by
+/// i frames. `room` holds 2 L n numbers.
+static void remove_trends(const struct lapack *lapack, const double *gram, int n, int length, double *room, double *c)
 {
     int windows = n - length + 1;
     double *b = room, *bg = room + (size_t)length * (size_t)n;
-    memset(b, 0, (size_t)length * (size_t)n * sizeof *b);
-    for (int i = 0; i < length; i++) {
-        for (int j = 0; j < windows; j++) b[(size_t)i * (size_t)n + (size_t)(i + j)] = trend(windows, linear, j);
+    for (int linear = 0; linear < 2; linear++) {
+        memset(b, 0, (size_t)length * (size_t)n * sizeof *b);
+        for (int i = 0; i < length; i++) {
+            for (int j = 0; j < windows; j++) b[(size_t)i * (size_t)n + (size_t)(i + j)] = trend(windows, linear, j);
+        }
+        lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, length, n, n, 1, b, n, gram, n, 0, bg, n);
+        lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, length, length, n, -1, bg, n, b, n, 1, c,
+                      length);
     }
-    lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_PLAIN, length, n, n, 1, b, n, gram, n, 0, bg, n);
-    lapack->dgemm(LAPACK_ROWS_FIRST, BLAS_PLAIN, BLAS_TRANSPOSED, length, length, n, -1, bg, n, b, n, 1, c, length);
 }
 
 /// Entry (i, k) of U_r. LAPACK stores columns first, eigenvalues ascending.
@@ -146,14 +148,13 @@ int subspace_poles(const struct lapack *lapack, const double *gram, int frames, 
         }
     }
     for (int i = 0; i < length; i++) whole += c[i * length + i];
-    remove_trend(lapack, gram, frames, length, false, room, c);
-    remove_trend(lapack, gram, frames, length, true, room, c);
+    remove_trends(lapack, gram, frames, length, room, c);
     memcpy(room, c, size * sizeof *c);
     bool good = lapack->dsyevd(LAPACK_COLUMNS_FIRST, 'N', 'L', length, room, length, values) == 0;
     if (good && values[length - 1] <= least_swing * whole) {
         count = 0;
     } else if (good) {
-        // Restores what remove_trend() removed of white noise of this power per window and frame, so that it is white again.
+        // Restores what remove_trends() removed of white noise of this power per window and frame, so that it is white again.
         const double noise = fmax(values[length / 2], 0);
         for (int d = 0; d < length; d++) {
             double removed = 0;
@@ -371,20 +372,20 @@ static double solve_shapes(struct fit *f)
     return explained;
 }
 
-void time_series_create(struct time_series *c, const struct lapack *lapack, const double *gram, int frames, int first,
-                        const double complex *poles, int count)
+struct time_series time_series_create(const struct lapack *lapack, const double *gram, int frames, int first,
+                                      const double complex *poles, int count)
 {
     size_t n = (size_t)frames, d = 2 * (size_t)count;
-    struct fit fit = {.series = c, .lapack = lapack, .gram = gram, .first = first};
-    *c = (struct time_series){.frames = frames, .count = count};
-    memcpy(c->pole, poles, (size_t)count * sizeof *poles);
-    c->rows = need(d * n, sizeof *c->rows);
-    c->weights = need(d * n, sizeof *c->weights);
+    struct time_series c = {.frames = frames, .count = count};
+    struct fit fit = {.series = &c, .lapack = lapack, .gram = gram, .first = first};
+    memcpy(c.pole, poles, (size_t)count * sizeof *poles);
+    c.rows = need(d * n, sizeof *c.rows);
+    c.weights = need(d * n, sizeof *c.weights);
     fit.pull = need(d * n, sizeof *fit.pull);
     fit.band = need((2 * d + 1) * d * n, sizeof *fit.band);
     basis_create(&fit.basis, frames, (int)d);
     for (int k = 0; k < count; k++) {
-        double *re = c->rows + 2 * (size_t)k * n, *im = re + n;
+        double *re = c.rows + 2 * (size_t)k * n, *im = re + n;
         exponentials_fill(poles[k], frames, re);
         for (int t = 0; t < first; t++) re[t] = im[t] = 0;
     }
@@ -398,13 +399,14 @@ void time_series_create(struct time_series *c, const struct lapack *lapack, cons
         if (fabs(explained - before) < settled * power) break;
     }
     for (size_t k = 0; k < (size_t)count; k++) {
-        const double *re = c->rows + 2 * k * n, *im = re + n, *m = fit.metric + 2 * k * (d + 1), *below = m + d;
+        const double *re = c.rows + 2 * k * n, *im = re + n, *m = fit.metric + 2 * k * (d + 1), *below = m + d;
         for (size_t i = 0; i < n; i++)
-            c->part[k] += re[i] * re[i] * m[0] + 2 * re[i] * im[i] * m[1] + im[i] * im[i] * below[1];
+            c.part[k] += re[i] * re[i] * m[0] + 2 * re[i] * im[i] * m[1] + im[i] * im[i] * below[1];
     }
     basis_free(&fit.basis);
     free(fit.pull);
     free(fit.band);
+    return c;
 }
 
 void time_series_free(struct time_series *c)

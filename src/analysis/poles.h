@@ -45,8 +45,8 @@ struct time_series {
 
 /// Fits time series to `count` poles. `gram` is G = S Sᵀ of a motion about its middle. A time series oscillates at its pole and deviates
 /// only as the motion requires, for example under a force. The first shapes come from the undriven frames, those from `first` on.
-void time_series_create(struct time_series *series, const struct lapack *lapack, const double *gram, int frames,
-                        int first, const double complex *poles, int count);
+struct time_series time_series_create(const struct lapack *lapack, const double *gram, int frames, int first,
+                                      const double complex *poles, int count);
 void time_series_free(struct time_series *series);
 
 #endif

@@ -61,10 +61,10 @@ static bool fail_too_large(const char *path, size_t limit, struct error *error)
     return fail(error, ERROR_INPUT, "%s: expected at most %zu MiB, got a larger file", path, limit >> 20);
 }
 
-/// Reads to the end, or one byte past the limit. The caller owns `*data` in any case.
-static bool read_to_end(int file, const char *path, size_t limit, char **data, size_t capacity, size_t *size,
-                        struct error *error)
+/// Reads to the end, or one byte past the limit; `*size` is what to expect. The caller owns `*data` in any case.
+static bool read_to_end(int file, const char *path, size_t limit, char **data, size_t *size, struct error *error)
 {
+    size_t capacity = *size;
     *size = 0;
     *data = malloc(capacity + 1);
     while (*data && *size <= limit) {
@@ -95,8 +95,8 @@ bool file_read(const char *path, size_t limit, char **data, size_t *size, struct
     if ((size_t)status.st_size > limit) {
         fail_too_large(path, limit, error);
     } else {
-        size_t capacity = status.st_size > 0 ? (size_t)status.st_size + 1 : READ_BLOCK;
-        done = read_to_end(file, path, limit, data, capacity, size, error);
+        *size = status.st_size > 0 ? (size_t)status.st_size + 1 : READ_BLOCK;
+        done = read_to_end(file, path, limit, data, size, error);
     }
     close(file);
     if (!done) {

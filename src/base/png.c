@@ -16,12 +16,13 @@
 #include <stb/stb_image_write.h>
 #pragma GCC diagnostic pop
 
-void png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user, int width, int height,
-                int channels, const unsigned char *pixels, enum png_effort effort)
+void png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user, const struct png_picture *p,
+                enum png_effort effort)
 {
     int size;
     stbi_write_png_compression_level = (int)effort;
-    unsigned char *png = stbi_write_png_to_mem(pixels, channels * width, width, height, channels, &size);
+    unsigned char *png =
+        stbi_write_png_to_mem(p->pixels, p->channels * p->width, p->width, p->height, p->channels, &size);
     store(user, png, (size_t)size);
     free(png);
 }
@@ -46,6 +47,6 @@ bool png_write(const char *path, int width, int height, const unsigned char *rgb
                     width, height);
     }
     struct sink sink = {.path = path, .error = error};
-    png_encode(store, &sink, width, height, 4, rgba, PNG_FAST);
+    png_encode(store, &sink, &(struct png_picture){width, height, 4, rgba}, PNG_FAST);
     return sink.written;
 }

@@ -12,9 +12,14 @@ bool png_write(const char *path, int width, int height, const unsigned char *rgb
 /// How hard to search for repetitions.
 enum png_effort { PNG_FAST = 5, PNG_SMALL = 8 };
 
-/// Hands a whole PNG of pixels with `channels` bytes each over to `store`, once.
-void png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user, int width, int height,
-                int channels, const unsigned char *pixels, enum png_effort effort);
+struct png_picture {
+    int width, height, channels; ///< a byte per channel
+    const unsigned char *pixels;
+};
+
+/// Hands a whole PNG over to `store`, once.
+void png_encode(void (*store)(void *user, const void *bytes, size_t size), void *user,
+                const struct png_picture *picture, enum png_effort effort);
 
 // The transfer function of sRGB (IEC 61966-2-1), a channel of 0 … 1 at a time.
 

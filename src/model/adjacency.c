@@ -79,17 +79,17 @@ static int compare_vertices(const void *a, const void *b)
     return *p < *q ? -1 : *p > *q;
 }
 
-void adjacency_create(struct adjacency *adjacency, struct pool *pool, const float (*position)[3],
-                      const float (*normal)[3], int vertex_count, const uint32_t *indices, int index_count)
+struct adjacency adjacency_create(struct pool *pool, const float (*position)[3], const float (*normal)[3],
+                                  int vertex_count, const uint32_t *indices, int index_count)
 {
     const size_t room = (size_t)vertex_count + 1;
     struct pool work = {0};
-    *adjacency = (struct adjacency){0};
+    struct adjacency adjacency = {0};
     struct spot *spots = pool_take(&work, room, sizeof *spots);
     int *fill = pool_take(&work, room, sizeof *fill);
     const struct edges edges = {indices, index_count, spots, pool_take(&work, room, sizeof *edges.twin),
                                 vertex_count};
-    adjacency->first = pool_take(pool, room, sizeof *adjacency->first);
+    adjacency.first = pool_take(pool, room, sizeof *adjacency.first);
     spots_sort(position, vertex_count, spots);
     for (int i = 0, end; i < vertex_count; i = end) {
         const struct spot *first = &spots[i];
@@ -102,26 +102,27 @@ void adjacency_create(struct adjacency *adjacency, struct pool *pool, const floa
             edges.twin[spots[n].vertex] = spots[next].vertex;
         }
     }
-    add_edges(adjacency, &edges, fill);
-    for (int i = 0; i < vertex_count; i++) adjacency->first[i + 1] = adjacency->first[i] + fill[i];
-    memcpy(fill, adjacency->first, (size_t)vertex_count * sizeof *fill);
-    adjacency->other = pool_take(pool, (size_t)adjacency->first[vertex_count], sizeof *adjacency->other);
-    add_edges(adjacency, &edges, fill);
+    add_edges(&adjacency, &edges, fill);
+    for (int i = 0; i < vertex_count; i++) adjacency.first[i + 1] = adjacency.first[i] + fill[i];
+    memcpy(fill, adjacency.first, (size_t)vertex_count * sizeof *fill);
+    adjacency.other = pool_take(pool, (size_t)adjacency.first[vertex_count], sizeof *adjacency.other);
+    add_edges(&adjacency, &edges, fill);
 
     // Sort each vertex's neighbours and remove duplicates (most edges are in two triangles).
     int kept = 0;
     for (int i = 0; i < vertex_count; i++) {
-        const int begin = adjacency->first[i], end = adjacency->first[i + 1];
-        uint32_t *list = adjacency->other + begin;
+        const int begin = adjacency.first[i], end = adjacency.first[i + 1];
+        uint32_t *list = adjacency.other + begin;
         qsort(list, (size_t)(end - begin), sizeof *list, compare_vertices);
-        adjacency->first[i] = kept;
+        adjacency.first[i] = kept;
         for (int n = 0; n < end - begin; n++) {
             if (n > 0 && list[n] == list[n - 1]) continue;
-            adjacency->other[kept++] = list[n];
+            adjacency.other[kept++] = list[n];
         }
     }
-    adjacency->first[vertex_count] = kept;
+    adjacency.first[vertex_count] = kept;
     pool_free(&work);
+    return adjacency;
 }
 
 // --- triangles across edges: an edge a → b is b → a there

@@ -15,8 +15,8 @@ struct adjacency {
 };
 
 /// Its memory is the pool's.
-void adjacency_create(struct adjacency *adjacency, struct pool *pool, const float (*position)[3],
-                      const float (*normal)[3], int vertex_count, const uint32_t *indices, int index_count);
+struct adjacency adjacency_create(struct pool *pool, const float (*position)[3], const float (*normal)[3],
+                                  int vertex_count, const uint32_t *indices, int index_count);
 
 /// A vertex, by its place.
 struct spot {

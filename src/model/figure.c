@@ -263,8 +263,8 @@ void figure_derive(struct figure *figure)
     figure->largest = pool_take(pool, coordinates, sizeof *figure->largest);
     figure->coarse = pool_take(pool, (size_t)c->index_count, sizeof *figure->coarse);
     figure->coarse_from = pool_take(pool, (size_t)c->index_count / 3, sizeof *figure->coarse_from);
-    adjacency_create(&figure->edges, pool, (const float(*)[3])c->position, (const float(*)[3])c->normal,
-                     c->vertex_count, c->indices, c->index_count);
+    figure->edges = adjacency_create(pool, (const float(*)[3])c->position, (const float(*)[3])c->normal,
+                                     c->vertex_count, c->indices, c->index_count);
     glm_vec3_fill(figure->lo, INFINITY);
     glm_vec3_fill(figure->hi, -INFINITY);
     for (int i = 0; i < c->vertex_count; i++) {

@@ -62,18 +62,19 @@ static void find_pull(const struct character_rig *rig, const struct figure *figu
     }
 }
 
-static bool character_find(const struct posing *posing, int rig, double sample, int which, const int *splines,
-                           int count, pin_pull *c, struct pin_point *point)
+static bool character_find(const struct posing *posing, const struct pin_query *query, pin_pull *c,
+                           struct pin_point *point)
 {
-    const struct character_rig *character = &posing->document->rigs[rig]->character;
-    const struct figure *figure = figure_of(posing, rig);
+    const struct character_rig *character = &posing->document->rigs[query->rig]->character;
+    const struct figure *figure = figure_of(posing, query->rig);
+    const int vertex = query->pin->point;
     wiggly_value values[RIG_MAX_INPUTS];
-    if (!figure || which >= figure->character.vertex_count) return false;
-    posing_values(posing, rig, sample, NULL, values);
+    if (!figure || vertex >= figure->character.vertex_count) return false;
+    posing_values(posing, query->rig, document_sample(posing->document, query->pin->frame), NULL, values);
     *point = (struct pin_point){.is_linear = true};
     for (int k = 0; k < 3; k++) {
         point->size = maths_hypot(point->size, (double)(figure->hi[k] - figure->lo[k]));
-        point->at[k] = character->position[k] + (double)figure->character.position[which][k];
+        point->at[k] = character->position[k] + (double)figure->character.position[vertex][k];
     }
     point->at[1] -= (double)figure->lo[1];
     for (int d = 0; d < character->drive_count; d++) {
@@ -82,14 +83,14 @@ static bool character_find(const struct posing *posing, int rig, double sample, 
         pin_pull moves = {{0}};
         if (coordinate < 0) continue;
         drive_turn(&character->drives[d], turn);
-        add_product(&figure->character.coordinates[coordinate], which, turn, moves);
+        add_product(&figure->character.coordinates[coordinate], vertex, turn, moves);
         const double y[2] = {character->drives[d].amplitude * values[d].y, 0};
         pin_pull rests = {{0}};
-        add_product(&figure->character.coordinates[coordinate], which, y, rests);
+        add_product(&figure->character.coordinates[coordinate], vertex, y, rests);
         for (int k = 0; k < 3; k++)
             point->at[k] += rests[k][0] + moves[k][0] * values[d].re - moves[k][1] * values[d].im;
     }
-    for (int i = 0; i < count; i++) find_pull(character, figure, which, splines[i], c[i]);
+    for (int i = 0; i < query->count; i++) find_pull(character, figure, vertex, query->splines[i], c[i]);
     return true;
 }
 
@@ -196,8 +197,9 @@ static void find_ranges(const double *x, int blocks, double *const range[2], dou
 }
 
 static void find_driven(const struct coordinate *coordinate, const struct drive *drive, const wiggly_curve *curve,
-                        int samples, int blocks, double **room, struct driven *driven)
+                        int samples, double **room, struct driven *driven)
 {
+    const int blocks = low_point_samples(samples) / BLOCK;
     *driven = (struct driven){.coordinate = coordinate,
                               .re = take_room(room, BLOCK * blocks),
                               .im = take_room(room, BLOCK * blocks),
@@ -303,8 +305,7 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
         const int coordinate = figure_find(figure, character->drives[d].name);
         if (coordinate < 0) continue;
         find_driven(&figure->character.coordinates[coordinate], &character->drives[d],
-                    &posing->evaluation->curves[character->drives[d].spline], samples, blocks, &room,
-                    &driven[count++]);
+                    &posing->evaluation->curves[character->drives[d].spline], samples, &room, &driven[count++]);
     }
     for (int i = 0; i < BLOCK * blocks; i++) found.height[i] = ceiling, found.vertex[i] = -1;
     for (int b = 0; b < blocks; b++) found.highest[b] = ceiling;

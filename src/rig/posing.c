@@ -80,13 +80,12 @@ double pinning_square(const pin_pull c)
     return sum;
 }
 
-static bool source_find(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
-                        const struct pin *pin, const int *splines, int count, pin_pull *c, struct pin_point *point)
+static bool source_find(void *context, const struct evaluation *evaluation, const struct document *document,
+                        const struct pin_query *query, pin_pull *c, struct pin_point *point)
 {
     const struct posing posing = {.document = document, .evaluation = evaluation, .models = context};
-    if (count > 0) memset(c, 0, (size_t)count * sizeof *c);
-    const struct pinning_functions *pins = posing_kinds[document->rigs[rig]->kind]->pins;
-    return pins->find(&posing, rig, document_sample(document, pin->frame), pin->point, splines, count, c, point);
+    if (query->count > 0) memset(c, 0, (size_t)query->count * sizeof *c);
+    return posing_kinds[document->rigs[query->rig]->kind]->pins->find(&posing, query, c, point);
 }
 
 static void source_weigh(void *context, const struct document *document, int rig, const int *splines, int count,

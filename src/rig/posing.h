@@ -98,10 +98,9 @@ void pose_character(const struct character_rig *rig, const struct figure *figure
 
 // --- private to src/rig: how each kind of rig is posed
 
-/// How points of a rig are found and moved, like model_source.find() and weigh(). `posing` uses the paper's look; `sample` is a pin's.
+/// How points of a rig are found and moved, like model_source.find() and weigh(). `posing` uses the paper's look.
 struct pinning_functions {
-    bool (*find)(const struct posing *posing, int rig, double sample, int which, const int *splines, int count,
-                 pin_pull *c, struct pin_point *point);
+    bool (*find)(const struct posing *posing, const struct pin_query *query, pin_pull *c, struct pin_point *point);
     void (*weigh)(const struct posing *posing, int rig, const int *splines, int count, double *weights);
 };
 

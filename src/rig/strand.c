@@ -462,7 +462,7 @@ static const double SLACK = 1e-6; ///< of the length
 
 /// How splines move the end of a path's joint by bending a strand.
 static void add_bends(const struct path *path, int joint, const struct strand *strand, const wiggly_value *values,
-                      const int *splines, int count, pin_pull *c)
+                      const struct pin_query *query, pin_pull *c)
 {
     for (int i = 0, n = 0; i <= path->first + joint && n < strand->joints; i++) {
         const struct path_node *node = &path->nodes[i];
@@ -475,8 +475,8 @@ static void add_bends(const struct path *path, int joint, const struct strand *s
         }
         for (int h = 0; h < strand->channel_count; h++) {
             const struct channel *channel = &strand->channels[h];
-            for (int s = 0; s < count && axis_bends(channel->axis); s++) {
-                if (splines[s] == channel->spline)
+            for (int s = 0; s < query->count && axis_bends(channel->axis); s++) {
+                if (query->splines[s] == channel->spline)
                     pinning_add_channel(channel, n, strand->joints, way[channel->axis], c[s]);
             }
         }
@@ -484,24 +484,25 @@ static void add_bends(const struct path *path, int joint, const struct strand *s
     }
 }
 
-static bool strand_find_pin(const struct posing *posing, int rig, double sample, int which, const int *splines,
-                            int count, pin_pull *c, struct pin_point *point)
+static bool strand_find_pin(const struct posing *posing, const struct pin_query *query, pin_pull *c,
+                            struct pin_point *point)
 {
     const struct document *document = posing->document;
-    const int body = rig_body(document, rig);
+    const double sample = document_sample(document, query->pin->frame);
+    const int rig = query->rig, body = rig_body(document, rig), joint = query->pin->point;
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;
     struct path path;
-    if (!path_find(posing, rig, sample, NULL, &path) || which >= path.count - path.first) return false;
+    if (!path_find(posing, rig, sample, NULL, &path) || joint >= path.count - path.first) return false;
     const double length = path_length(&path, path.count - path.first);
-    *point = (struct pin_point){.size = length, .slack = SLACK * length, .reach = path_length(&path, which + 1)};
-    memcpy(point->at, path_end(&path, which), sizeof point->at);
+    *point = (struct pin_point){.size = length, .slack = SLACK * length, .reach = path_length(&path, joint + 1)};
+    memcpy(point->at, path_end(&path, joint), sizeof point->at);
     memcpy(point->base, path.nodes[path.first].at, sizeof point->base);
-    path_arms(&path, which);
-    for (int r = 0; count > 0 && r < document->rig_count; r++) {
+    path_arms(&path, joint);
+    for (int r = 0; query->count > 0 && r < document->rig_count; r++) {
         if (!strand_find(posing, body, r, &strand)) continue;
         posing_values(posing, r, sample, NULL, values);
-        add_bends(&path, which, &strand, values, splines, count, c);
+        add_bends(&path, joint, &strand, values, query, c);
         if (r != body) continue;
 
         // The motion of a tail's base, and how the body's stretch moves it; pinning_add_channel() takes percent for degrees.
@@ -510,11 +511,11 @@ static bool strand_find_pin(const struct posing *posing, int rig, double sample,
         const struct limbs limbs = tail_base(posing, rig, 0, values, NULL, way);
         limbs_base_slope((double)limbs.stretch, tail->length / (double)FOX_TAIL_LENGTH, way);
         for (int k = 0; k < 3; k++) way[k] *= 1.8 / 3.14159265358979323846;
-        for (int s = 0; s < count; s++) {
-            for (int k = 0; k < 3; k++) c[s][k][0] += tail->position[k].track == splines[s];
+        for (int s = 0; s < query->count; s++) {
+            for (int k = 0; k < 3; k++) c[s][k][0] += tail->position[k].track == query->splines[s];
             for (int i = 0; i < tail->channel_count; i++) {
                 const struct channel *channel = &tail->channels[i];
-                if (channel->spline == splines[s] && channel->axis == AXIS_STRETCH)
+                if (channel->spline == query->splines[s] && channel->axis == AXIS_STRETCH)
                     pinning_add_channel(channel, 1, 1, way, c[s]);
             }
         }
@@ -534,7 +535,7 @@ static void strand_weigh(const struct posing *posing, int rig, const int *spline
         path_arms(&path, n);
         for (int i = 0; i < count; i++) {
             pin_pull c[1] = {{{0}}};
-            add_bends(&path, n, &strand, values, &splines[i], 1, c);
+            add_bends(&path, n, &strand, values, &(struct pin_query){.splines = &splines[i], .count = 1}, c);
             weights[i] += pinning_square(c[0]) / strand.joints;
         }
     }

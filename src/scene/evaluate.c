@@ -275,9 +275,9 @@ static void pinned_resize(struct evaluation *evaluation, const struct document *
     pinned->left = pool_take(pool, pins, sizeof *pinned->left);
     pinned->which = pool_take(pool, count, sizeof *pinned->which);
     pinned->order = pool_take(pool, count, sizeof *pinned->order);
-    pinned->placed = pool_take(pool, count, sizeof *pinned->placed);
+    pinned->placed = pool_take(pool, 2 * count, sizeof *pinned->placed);
     pinned->was = pool_take(pool, count, sizeof *pinned->was);
-    pinned->bases = pool_take(pool, count, sizeof *pinned->bases);
+    pinned->bases = pinned->placed + count;
     pinned->weight = pool_take(pool, count, sizeof *pinned->weight);
     pinned->members = pool_take(pool, group, sizeof *pinned->members);
     pinned->descs = pool_take(pool, group, sizeof *pinned->descs);
@@ -354,8 +354,7 @@ static bool pinned_begin(struct evaluation *evaluation, const struct document *d
     pinned->served = serves;
     pinned->version = evaluation->models.version;
     hold_rigs(pinned, document->rigs, serves ? document->rig_count : 0);
-    if (!serves || !pin_groups_order(document, pinned->which, storage->order, pinned->placed, pinned->bases,
-                                     pinned->order, &cycle))
+    if (!serves || !pin_groups_order(document, pinned->which, storage->order, pinned->placed, pinned->order, &cycle))
         return false;
     for (int s = 0; s < count; s++) pinned->placed[s] = false;
     return true;
@@ -366,8 +365,8 @@ static bool find_point(const struct pinned *pinned, int rig, const struct pin *p
                        struct pin_point *point)
 {
     const struct model_source *source = &pinned->evaluation->models;
-    return source->find(source->context, pinned->evaluation, pinned->document, rig, pin, pinned->members,
-                        c ? pinned->count : 0, c, point);
+    const struct pin_query query = {rig, pin, pinned->members, c ? pinned->count : 0};
+    return source->find(source->context, pinned->evaluation, pinned->document, &query, c, point);
 }
 
 /// Solves the group with or without its pins, and publishes the curves for finding points.
@@ -598,14 +597,12 @@ static bool find_low(struct pinned *pinned, int rig)
 /// Writes bound `b`: the lowest vertex at a sample must be at `height` or above. Returns the size of its rig.
 static double put_bound(struct pinned *pinned, int b, int rig, int sample, double height)
 {
-    const struct model_source *source = &pinned->evaluation->models;
     struct floors *floors = &pinned->floors;
     wiggly_bound *bound = &floors->bounds[b];
     double(*c)[2] = floors->c + b * pinned->count;
     const struct pin pin = {.frame = document_frame(pinned->document, sample), .point = floors->low[sample].vertex};
     struct pin_point point = {.size = 1};
-    source->find(source->context, pinned->evaluation, pinned->document, rig, &pin, pinned->members, pinned->count,
-                 pinned->c, &point);
+    find_point(pinned, rig, &pin, pinned->c, &point);
     *bound = (wiggly_bound){.sample = sample, .c = (const double(*)[2])c, .least = height - point.at[1]};
     for (int i = 0; i < pinned->count; i++) {
         const wiggly_curve *curve = &pinned->curves[i];

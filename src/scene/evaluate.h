@@ -42,13 +42,21 @@ static inline int low_point_samples(int samples)
 
 enum { LOW_POINT_ROOM = 3 * (CHARACTER_MAX_DRIVES + 1) }; ///< numbers needed for finding them, per such sample
 
+/// A pin of a rig, and the splines whose pulls on its point are wanted.
+struct pin_query {
+    int rig;
+    const struct pin *pin;
+    const int *splines;
+    int count;
+};
+
 /// What the solver needs to know about models: places of pinned points and floors, how splines move them, and how joints move in clips.
 /// Implemented by a higher layer (rig/posing.h).
 struct model_source {
-    /// Finds a pin's point as the splines are in `evaluation`, and how `count` splines move it from there (`c` may be NULL if
+    /// Finds a pin's point as the splines are in `evaluation`, and how the splines asked for move it from there (`c` may be NULL if
     /// there are none). false: its model is missing, or has no such point. NULL: pins are ignored.
-    bool (*find)(void *context, const struct evaluation *evaluation, const struct document *document, int rig,
-                 const struct pin *pin, const int *splines, int count, pin_pull *c, struct pin_point *point);
+    bool (*find)(void *context, const struct evaluation *evaluation, const struct document *document,
+                 const struct pin_query *query, pin_pull *c, struct pin_point *point);
     /// Adds to each spline's weight the mean of |c|² over the surface of a rig at rest.
     void (*weigh)(void *context, const struct document *document, int rig, const int *splines, int count,
                   double *weights);

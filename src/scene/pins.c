@@ -163,7 +163,7 @@ bool pins_check_order(const struct document *document, struct pin_trouble *troub
     *trouble = (struct pin_trouble){.pin = -1};
     if (scene_order(document, (struct order_space){order + count, next}, tracked, &tracks)) {
         pin_groups_find(document, group);
-        good = pin_groups_order(document, group, tracked, placed, placed + count, order, &cycle);
+        good = pin_groups_order(document, group, tracked, placed, order, &cycle);
         if (good) {
             good = check_work(document, group, trouble);
         } else {
@@ -267,11 +267,11 @@ static bool is_group_ready(struct ordering *o, int which)
     return true;
 }
 
-bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed,
-                      bool *bases, int *order, struct pin_cycle *cycle)
+bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed, int *order,
+                      struct pin_cycle *cycle)
 {
     const int count = document->spline_count;
-    struct ordering o = {.document = document, .group = group, .placed = placed, .bases = bases};
+    struct ordering o = {.document = document, .group = group, .placed = placed, .bases = placed + count};
     for (int s = 0; s < count; s++) placed[s] = false;
     while (o.count < count) {
         const int before = o.count;

@@ -47,10 +47,10 @@ struct pin_cycle {
 };
 
 /// Writes all splines to `order`, each after those that it follows, groups in a row; `tracked` is scene_order()'s. A group also comes after
-/// the other splines that move its rigs, for example what they stand on, unless these follow it in turn. `placed` and `bases` have one
-/// element per spline. false with the cycle if there is one.
-bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed,
-                      bool *bases, int *order, struct pin_cycle *cycle);
+/// the other splines that move its rigs, for example what they stand on, unless these follow it in turn. `placed` has two
+/// elements per spline. false with the cycle if there is one.
+bool pin_groups_order(const struct document *document, const int *group, const int *tracked, bool *placed, int *order,
+                      struct pin_cycle *cycle);
 
 /// Marks the splines outside a group that move its pinned rigs.
 void pin_groups_find_bases(const struct document *document, const int *group, int which, bool *bases);

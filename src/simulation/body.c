@@ -422,11 +422,10 @@ int conjugate_solve(struct conjugate *c, const struct blocks *a, const double (*
 
 // --- the body
 
-bool body_create(struct body *body, const double (*rest)[3], int node_count, const int (*tets)[4],
-                 const double *fraction, int element_count, struct material material, double density)
+bool body_create(struct body *body, const struct body_mesh *mesh, struct material material, double density)
 {
-    *body = (struct body){.node_count = node_count, .element_count = element_count, .material = material};
-    size_t nodes = (size_t)node_count, elements = (size_t)element_count;
+    *body = (struct body){.node_count = mesh->node_count, .element_count = mesh->element_count, .material = material};
+    size_t nodes = (size_t)mesh->node_count, elements = (size_t)mesh->element_count;
     bool good = true;
     body->rest = pool_take(&body->pool, nodes + 1, sizeof *body->rest);
     body->mass = pool_take(&body->pool, nodes + 1, sizeof *body->mass);
@@ -440,11 +439,11 @@ bool body_create(struct body *body, const double (*rest)[3], int node_count, con
     scratch->p = pool_take(&body->pool, nodes, sizeof *scratch->p);
     scratch->q = pool_take(&body->pool, nodes, sizeof *scratch->q);
     scratch->inverse = pool_take(&body->pool, nodes, sizeof *scratch->inverse);
-    memcpy(body->rest, rest, nodes * sizeof *rest);
-    for (int e = 0; good && e < element_count; e++) {
+    memcpy(body->rest, mesh->rest, nodes * sizeof *mesh->rest);
+    for (int e = 0; good && e < mesh->element_count; e++) {
         struct element *element = &body->elements[e];
-        good = element_init(element, tets[e], rest, fraction ? fraction[e] : 1);
-        for (int a = 0; good && a < 4; a++) body->mass[tets[e][a]] += density * element->volume / 4;
+        good = element_init(element, mesh->tets[e], mesh->rest, mesh->fraction ? mesh->fraction[e] : 1);
+        for (int a = 0; good && a < 4; a++) body->mass[mesh->tets[e][a]] += density * element->volume / 4;
     }
     if (!good) {
         body_free(body);
@@ -463,7 +462,7 @@ bool body_create(struct body *body, const double (*rest)[3], int node_count, con
     for (size_t i = 0; i < all; i++) {
         if (i == 0 || pairs[i] != pairs[i - 1]) pairs[kept++] = pairs[i];
     }
-    blocks->rows = node_count;
+    blocks->rows = mesh->node_count;
     blocks->start = pool_take(&body->pool, nodes + 1, sizeof *blocks->start);
     blocks->column = pool_take(&body->pool, kept + 1, sizeof *blocks->column);
     blocks->block = pool_take(&body->pool, kept + 1, sizeof *blocks->block);

@@ -111,10 +111,17 @@ struct body {
     struct conjugate scratch; ///< for systems of that size
 };
 
-/// The body of `element_count` tetrahedra, tets[e] naming four nodes. `fraction` says how much of each is filled, or is
-/// NULL (all); density in kg/m³. False where an element is flat.
-bool body_create(struct body *body, const double (*rest)[3], int node_count, const int (*tets)[4],
-                 const double *fraction, int element_count, struct material material, double density);
+/// Nodes at rest, and tetrahedra: tets[e] names four nodes.
+struct body_mesh {
+    const double (*rest)[3];
+    int node_count;
+    const int (*tets)[4];
+    const double *fraction; ///< how much of each tetrahedron is filled; NULL: all
+    int element_count;
+};
+
+/// Density in kg/m³. False where an element is flat.
+bool body_create(struct body *body, const struct body_mesh *mesh, struct material material, double density);
 void body_free(struct body *body);
 
 /// Once nodes are pinned, before anything below.

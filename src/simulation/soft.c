@@ -327,9 +327,9 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
     const double foot = held->size < 0 ? 0.05 * soft->height : held->size;
     const double layer = held->kind == REGION_FOOT ? soft->bottom + foot : NAN;
     bool good = lattice_create(lattice, surface, options->tets, layer, options->thickness, name, error);
-    if (good &&
-        !body_create(body, (const double(*)[3])lattice->node, lattice->node_count, (const int(*)[4])lattice->tet,
-                     lattice->fraction, lattice->tet_count, material_from(1, options->poisson), options->density))
+    const struct body_mesh mesh = {(const double(*)[3])lattice->node, lattice->node_count,
+                                   (const int(*)[4])lattice->tet, lattice->fraction, lattice->tet_count};
+    if (good && !body_create(body, &mesh, material_from(1, options->poisson), options->density))
         good = fail(error, ERROR_INPUT, "%s: the lattice has a tetrahedron without volume", name);
     good = good && pin_nodes(soft, surface, held, name, error) &&
            softness_apply(&options->softness, lattice, surface, name, body, error);

@@ -187,7 +187,7 @@ static void add_picture(struct output *o)
             memcpy(pixels[y][x], mark ? dark : brass, 3);
         }
     }
-    png_encode(add_png, o, TAG_PIXELS, TAG_PIXELS, 3, &pixels[0][0][0], PNG_SMALL);
+    png_encode(add_png, o, &(struct png_picture){TAG_PIXELS, TAG_PIXELS, 3, &pixels[0][0][0]}, PNG_SMALL);
 }
 
 /// Node 0 is the root, node j + 1 is joint j.
