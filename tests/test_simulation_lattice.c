@@ -65,7 +65,8 @@ struct cut {
 
 static void cut_into(struct cut *cut, int target)
 {
-    assert_done(lattice_create(&cut->lattice, &cut->surface, target, NAN, -1, "test", &error));
+    assert_done(
+        lattice_create(&cut->lattice, &cut->surface, &(struct lattice_options){target, NAN, -1}, "test", &error));
 }
 
 static void cut_sphere(struct cut *cut, int target)
@@ -227,7 +228,7 @@ CUT_TEST(a_needle_is_cut_within_bounds,
     assert_true(cut->lattice.tet_count > 100);
     lattice_free(&cut->lattice);
     add_box(&hair, (const double[3]){0, 0, 0}, (const double[3]){1e-9, 2, 1e-9});
-    assert_false(lattice_create(&cut->lattice, &hair, 3000, NAN, -1, "hair.obj", &error));
+    assert_false(lattice_create(&cut->lattice, &hair, &(struct lattice_options){3000, NAN, -1}, "hair.obj", &error));
     assert_string_equal(error.text, "hair.obj: the mesh is too thin for a lattice of 3000 tetrahedra");
     surface_free(&hair);
 }
@@ -442,14 +443,15 @@ TEST(sheets_need_a_thickness_and_bodies_do_not)
         const struct surface *s = &cut.surface;
         snprintf(offer, sizeof offer, "x: the mesh has no clear inside: --thickness %s makes", sheet->thickness);
         for (int closes = 0; closes < 2; closes++) {
-            const bool good = lattice_create(&cut.lattice, s, 300, NAN, closes ? 0 : -1, "x", &refusal);
+            const bool good =
+                lattice_create(&cut.lattice, s, &(struct lattice_options){300, NAN, closes ? 0 : -1}, "x", &refusal);
             assert_int_equal(good, closes ? sheet->closable : sheet->body);
             if (!good) assert_ptr_equal(strstr(refusal.text, offer), refusal.text);
             if (!good) assert_int_equal(strstr(refusal.text, "--thickness 0 closes") != NULL, sheet->closable);
             lattice_free(&cut.lattice);
         }
         const double thickness = atof(sheet->thickness);
-        assert_done(lattice_create(&cut.lattice, s, 6000, NAN, thickness, "x", &error));
+        assert_done(lattice_create(&cut.lattice, s, &(struct lattice_options){6000, NAN, thickness}, "x", &error));
         struct solid solid = solid_of(s);
         print_message("%s: volume %.3f of the sheet's\n", cut.lattice.repair,
                       filled_volume(&cut.lattice) / (solid.area * thickness));

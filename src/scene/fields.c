@@ -194,8 +194,8 @@ void fields_load(struct reader *reader, const struct value *object, const struct
             json_t *tracks = NULL; // their unknown keys are kept under the coordinate's name
             const bool good = value.json && reader_array(reader, value, 3, "[x, y, z]");
             for (int k = 0; good && k < 3; k++) {
-                reader_param(reader, reader_element(&value, k), range_any, coordinate_name(k), false,
-                             (struct param *)at + k, &tracks);
+                reader_put(&tracks, coordinate_name(k),
+                           reader_param(reader, reader_element(&value, k), range_any, false, (struct param *)at + k));
             }
             reader_put(extra, value.at.key, tracks);
             break;

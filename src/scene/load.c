@@ -55,8 +55,8 @@ static bool load_parameter(struct reader *reader, const struct value *object, st
             reader_array(reader, value, 2, "two numbers, or null for none");
         }
     } else if (row->kind == PARAMETER_TRACK) {
-        reader_param(reader, value, range, parameter_key(parameter), parameter == PARAMETER_EQUILIBRIUM, param,
-                     extra);
+        reader_put(extra, parameter_key(parameter),
+                   reader_param(reader, value, range, parameter == PARAMETER_EQUILIBRIUM, param));
     } else {
         reader_number(reader, value, true, range, &param->value);
     }

@@ -477,17 +477,17 @@ void reader_put(json_t **extra, const char *key, json_t *unknown)
     if (!*extra || json_object_set_new(*extra, key, unknown) != 0) need_failed();
 }
 
-void reader_param(struct reader *reader, struct value value, struct range range, const char *key, bool may_be_motion,
-                  struct param *param, json_t **extra)
+json_t *reader_param(struct reader *reader, struct value value, struct range range, bool may_be_motion,
+                     struct param *param)
 {
     static const char *const known[] = {"spline", NULL};
     if (json_is_number(value.json)) {
         reader_number(reader, value, true, range, &param->value);
-        return;
+        return NULL;
     }
     if (!json_is_object(value.json)) {
         reader_unexpected(reader, value, "a number or {\"spline\": name}");
-        return;
+        return NULL;
     }
     const bool is_motion = json_object_get(value.json, "model") != NULL;
     if (is_motion && json_object_get(value.json, "spline")) {
@@ -500,8 +500,9 @@ void reader_param(struct reader *reader, struct value value, struct range range,
     } else {
         const int track = reader_spline_name(reader, reader_member(&value, "spline"));
         if (track >= 0) *param = param_track(track);
-        reader_put(extra, key, reader_extra(reader, &value, known));
+        return reader_extra(reader, &value, known);
     }
+    return NULL;
 }
 
 json_t *reader_keep(struct reader *reader, json_t *extra)

@@ -150,10 +150,10 @@ json_t *reader_extra(struct reader *reader, const struct value *object, const ch
 /// Puts unknown keys (or NULL) into the object `*extra`, which is made if it is NULL, under a key.
 void reader_put(json_t **extra, const char *key, json_t *unknown);
 
-/// Reads a number in a range, a track, `{"spline": "other"}`, or, if it may be one, the motion of a joint. Unknown keys of a track go into the
-/// object `*extra`, which is made if it is NULL, under `key`.
-void reader_param(struct reader *reader, struct value value, struct range range, const char *key, bool may_be_motion,
-                  struct param *param, json_t **extra);
+/// Reads a number in a range, a track, `{"spline": "other"}`, or, if it may be one, the motion of a joint. Returns unknown keys of a track, for
+/// reader_put().
+json_t *reader_param(struct reader *reader, struct value value, struct range range, bool may_be_motion,
+                     struct param *param);
 
 /// Reads the motion of a joint.
 void motion_load(struct reader *reader, const struct value *object, struct param *param);

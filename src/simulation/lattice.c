@@ -487,28 +487,29 @@ static void build_lattice(struct lattice *lattice, const struct tiling *t, const
     free(index);
 }
 
-bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
-                    double thickness, const char *name, struct error *error)
+bool lattice_create(struct lattice *lattice, const struct surface *surface, const struct lattice_options *options,
+                    const char *name, struct error *error)
 {
     static const double SURE = 0.85, LEAST = 0.65;
     struct solid solid;
     struct tiling tiling = {0};
     *lattice = (struct lattice){0};
-    solid_create(&solid, surface, fmax(0, thickness));
+    solid_create(&solid, surface, fmax(0, options->thickness));
     solid_describe(&solid, lattice->repair);
     const double certainty = solid_volume(&solid) > 0 ? solid_certainty(&solid) : 0, fitting = sqrt(solid.area) / 25;
     bool good =
-        certainty >= (thickness >= 0 ? LEAST : SURE) ||
+        certainty >= (options->thickness >= 0 ? LEAST : SURE) ||
         fail(error, ERROR_INPUT, "%s: the mesh has no clear inside: --thickness %.1g makes it a sheet of %.1g m%s",
              name, fitting, fitting, certainty >= LEAST ? ", --thickness 0 closes its openings" : "");
-    if (good) fit_count(&tiling, &solid, target, layer, &lattice->cell);
+    if (good) fit_count(&tiling, &solid, options->target, options->layer, &lattice->cell);
     if (good && tiling.kept == 0)
-        good = fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name, target);
+        good = fail(error, ERROR_INPUT, "%s: the mesh is too thin for a lattice of %d tetrahedra", name,
+                    options->target);
     if (good) {
         // Where parts overlap, the mesh's volume counts the overlap twice.
         const double thick = sheet_thickness(&solid, &tiling.voxels);
         const bool exact = !solid.open && !tiling.voxels.overlaps && thick == solid.thickness;
-        if (exact) fit_volume(&tiling, &solid, layer, &lattice->cell);
+        if (exact) fit_volume(&tiling, &solid, options->layer, &lattice->cell);
         if (thick > 0)
             snprintf(lattice->repair, sizeof lattice->repair, "a sheet %.3g m thick%s", thick,
                      exact ? "" : ", as thin as so few tetrahedra can be");

@@ -33,11 +33,17 @@ struct lattice {
     char repair[160];    ///< what solid.h repaired in the surface; "": nothing
 };
 
-/// The lattice with about `target` tetrahedra. A layer of nodes lies at the height `layer` unless that is NAN, so that the pinned
-/// region ends there at every resolution. `thickness` above 0 makes the surface a sheet; 0 closes its openings, however large; below 0
-/// only small ones are closed. Errors: no volume, a sheet without thickness. `name` is the surface's, for messages.
-bool lattice_create(struct lattice *lattice, const struct surface *surface, int target, double layer,
-                    double thickness, const char *name, struct error *error);
+struct lattice_options {
+    int target; ///< about so many tetrahedra
+    double
+        layer; ///< height of a layer of nodes, so that the pinned region ends there at every resolution; NAN: anywhere
+    double
+        thickness; ///< above 0 the surface is a sheet; 0 closes its openings, however large; below 0 only small ones
+};
+
+/// Errors: no volume, a sheet without thickness. `name` is the surface's, for messages.
+bool lattice_create(struct lattice *lattice, const struct surface *surface, const struct lattice_options *options,
+                    const char *name, struct error *error);
 void lattice_free(struct lattice *lattice);
 
 /// Spreads a number per vertex to the nodes: the mean of the vertices around each node, elsewhere of the nodes nearby.

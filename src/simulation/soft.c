@@ -326,7 +326,8 @@ bool soft_create(struct soft *soft, const struct surface *surface, const char *n
     soft->height = hi[1] - lo[1];
     const double foot = held->size < 0 ? 0.05 * soft->height : held->size;
     const double layer = held->kind == REGION_FOOT ? soft->bottom + foot : NAN;
-    bool good = lattice_create(lattice, surface, options->tets, layer, options->thickness, name, error);
+    bool good = lattice_create(lattice, surface, &(struct lattice_options){options->tets, layer, options->thickness},
+                               name, error);
     const struct body_mesh mesh = {(const double(*)[3])lattice->node, lattice->node_count,
                                    (const int(*)[4])lattice->tet, lattice->fraction, lattice->tet_count};
     if (good && !body_create(body, &mesh, material_from(1, options->poisson), options->density))

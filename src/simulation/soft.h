@@ -60,7 +60,7 @@ struct shake {
 /// Start from soft_default_options().
 struct soft_options {
     int tets;         ///< about how many tetrahedra
-    double thickness; ///< as lattice_create() takes it
+    double thickness; ///< as in struct lattice_options
     struct region pin;
     struct softness softness;
     const struct shake *shake; ///< what the frequency refers to; NULL: the lowest mode

@@ -15,7 +15,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     static struct body body;
     struct error error = {0};
     if (!body.elements) {
-        fuzz_expect(lattice_create(&lattice, &octahedron, 60, NAN, -1, "octahedron", &error), error.text);
+        fuzz_expect(
+            lattice_create(&lattice, &octahedron, &(struct lattice_options){60, NAN, -1}, "octahedron", &error),
+            error.text);
         body.element_count = lattice.tet_count;
         body.elements = calloc((size_t)lattice.tet_count, sizeof *body.elements);
     }
