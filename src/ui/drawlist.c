@@ -77,20 +77,6 @@ static void commit(struct drawlist *list, struct draw_command *command)
     list->count++;
 }
 
-/// Copies points into the pool; false if it is full.
-static bool add_points(struct drawlist *list, struct draw_command *command, const float *xy, int count)
-{
-    if (count > list->point_capacity - list->point_count) {
-        list->overflow = true;
-        return false;
-    }
-    memcpy(list->points + 2 * (size_t)list->point_count, xy, 2 * (size_t)count * sizeof *xy);
-    command->first = list->point_count;
-    command->count = count;
-    list->point_count += count;
-    return true;
-}
-
 static struct rect bounds_of(const float *xy, int count, float margin)
 {
     float x0 = xy[0], y0 = xy[1], x1 = x0, y1 = y0, sum = 0.0f;
@@ -106,9 +92,19 @@ static struct rect bounds_of(const float *xy, int count, float margin)
     return (struct rect){x0 - margin + sum, y0 - margin, x1 - x0 + 2.0f * margin, y1 - y0 + 2.0f * margin};
 }
 
+/// Copies the command's points into the pool.
 static void add_shape(struct drawlist *list, struct draw_command *command, const float *xy, int count)
 {
-    if (command && add_points(list, command, xy, count)) commit(list, command);
+    if (!command) return;
+    if (count > list->point_capacity - list->point_count) {
+        list->overflow = true;
+        return;
+    }
+    memcpy(list->points + 2 * (size_t)list->point_count, xy, 2 * (size_t)count * sizeof *xy);
+    command->first = list->point_count;
+    command->count = count;
+    list->point_count += count;
+    commit(list, command);
 }
 
 void drawlist_rect(struct drawlist *list, struct rect r, uint32_t color)
@@ -206,37 +202,29 @@ void drawlist_circle(struct drawlist *list, const float middle[2], float radius,
     drawlist_rounded_line(list, around(middle, radius), radius, width, color);
 }
 
-/// Appends `length` bytes of text and a NUL to the pool.
-static void add_text(struct drawlist *list, const struct draw_command *style, const char *text, size_t length,
-                     float width)
+void drawlist_text(struct drawlist *list, float x, float y, enum font font, float size, uint32_t color,
+                   const char *utf8)
 {
+    if (!*utf8) return;
     // Glyphs and rounding to device pixels reach beyond the advance widths.
-    float size = style->width;
-    struct rect bounds = {style->x - 0.3f * size - 1.0f, style->y - 1.3f * size, width + 0.6f * size + 2.0f,
-                          1.8f * size};
-    struct draw_command *command = add(list, DRAW_TEXT, bounds, style->color);
+    const size_t length = strlen(utf8);
+    const float width = font_width(font, size, utf8);
+    const struct rect bounds = {x - 0.3f * size - 1.0f, y - 1.3f * size, width + 0.6f * size + 2.0f, 1.8f * size};
+    struct draw_command *command = add(list, DRAW_TEXT, bounds, color);
     if (!command) return;
     if (length + 1 > (size_t)(list->text_capacity - list->text_count)) {
         list->overflow = true;
         return;
     }
-    command->x = style->x;
-    command->y = style->y;
+    command->x = x;
+    command->y = y;
     command->width = size;
-    command->font = style->font;
+    command->font = font;
     command->first = list->text_count;
     command->count = (int)length;
-    memcpy(list->text + command->first, text, length);
-    list->text[command->first + command->count] = '\0';
+    memcpy(list->text + command->first, utf8, length + 1);
     list->text_count += (int)length + 1;
     commit(list, command);
-}
-
-void drawlist_text(struct drawlist *list, float x, float y, enum font font, float size, uint32_t color,
-                   const char *utf8)
-{
-    const struct draw_command style = {.color = color, .x = x, .y = y, .width = size, .font = font};
-    if (*utf8) add_text(list, &style, utf8, strlen(utf8), font_width(font, size, utf8));
 }
 
 /// Length of the longest prefix at most `width` wide and `limit` bytes long.

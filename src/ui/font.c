@@ -61,25 +61,6 @@ static int slot_of(uint32_t codepoint)
     return '?' - 0x20;
 }
 
-static uint32_t codepoint_of(int slot)
-{
-    for (int i = 0; i < RUN_COUNT; i++) {
-        int length = (int)(runs[i].last - runs[i].first) + 1;
-        if (slot < length) return runs[i].first + (uint32_t)slot;
-        slot -= length;
-    }
-    return 0;
-}
-
-static void read_face(enum font font)
-{
-    struct face *face = &faces[font];
-    int x0, y0, x1, y1;
-    stbtt_InitFont(&face->info, embedded_find(file_names[font])->data, 0);
-    float scale = stbtt_ScaleForMappingEmToPixels(&face->info, 1.0f);
-    face->cap_height = stbtt_GetCodepointBox(&face->info, 'H', &x0, &y0, &x1, &y1) ? (float)y1 * scale : 0.7f;
-}
-
 /// Finds a character in the font, else in the others; glyph 0 (a box) if none has it.
 static struct face_glyph find_glyph(enum font font, uint32_t codepoint)
 {
@@ -97,11 +78,21 @@ static struct face_glyph find_glyph(enum font font, uint32_t codepoint)
 
 void font_init(void)
 {
-    for (int font = 0; font < FONT_COUNT; font++) read_face((enum font)font);
     for (int font = 0; font < FONT_COUNT; font++) {
-        for (int slot = 0; slot < SLOTS; slot++) {
-            struct face_glyph glyph = find_glyph((enum font)font, codepoint_of(slot));
-            faces[font].glyphs[slot] = glyph.index ? glyph : find_glyph((enum font)font, '?');
+        struct face *face = &faces[font];
+        int x0, y0, x1, y1;
+        stbtt_InitFont(&face->info, embedded_find(file_names[font])->data, 0);
+        const float scale = stbtt_ScaleForMappingEmToPixels(&face->info, 1.0f);
+        const bool has = stbtt_GetCodepointBox(&face->info, 'H', &x0, &y0, &x1, &y1);
+        face->cap_height = has ? (float)y1 * scale : 0.7f;
+    }
+    for (int font = 0; font < FONT_COUNT; font++) {
+        struct face_glyph *at = faces[font].glyphs;
+        for (int i = 0; i < RUN_COUNT; i++) {
+            for (uint32_t codepoint = runs[i].first; codepoint <= runs[i].last; codepoint++) {
+                const struct face_glyph glyph = find_glyph((enum font)font, codepoint);
+                *at++ = glyph.index ? glyph : find_glyph((enum font)font, '?');
+            }
         }
     }
 }
@@ -157,22 +148,6 @@ struct typesetter {
     int x, y, row_height;
 };
 
-/// Reserves w × h texels with a gap on all sides, so that filtering never mixes neighbours.
-static void set_type(struct typesetter *setter, int w, int h, struct glyph *glyph)
-{
-    if (setter->x + w + GAP > ATLAS_WIDTH) {
-        setter->x = GAP;
-        setter->y += setter->row_height + GAP;
-        setter->row_height = 0;
-    }
-    glyph->x0 = (unsigned short)setter->x;
-    glyph->y0 = (unsigned short)setter->y;
-    glyph->x1 = (unsigned short)(setter->x + w);
-    glyph->y1 = (unsigned short)(setter->y + h);
-    setter->x += w + GAP;
-    if (h > setter->row_height) setter->row_height = h;
-}
-
 enum { ENTRY_COUNT = FONT_COUNT * SIZE_COUNT * SLOTS };
 
 struct entry {
@@ -193,7 +168,8 @@ static struct entry table_entry(const struct atlas *atlas, int i)
     return entry;
 }
 
-/// Three samples across make a pixel; their filter needs two more columns.
+/// Reserves texels with a gap on all sides, so that filtering never mixes neighbours. Three samples across make a pixel; their filter needs
+/// two more columns.
 static void place_glyph(struct typesetter *setter, struct entry entry)
 {
     struct glyph *glyph = entry.glyph;
@@ -202,8 +178,18 @@ static void place_glyph(struct typesetter *setter, struct entry entry)
                             &y1);
     glyph->advance = entry.source->advance * entry.em;
     if (x1 <= x0 || y1 <= y0) return;
-    int width = x1 - x0 + OVERSAMPLE - 1;
-    set_type(setter, width, y1 - y0, glyph);
+    const int width = x1 - x0 + OVERSAMPLE - 1, height = y1 - y0;
+    if (setter->x + width + GAP > ATLAS_WIDTH) {
+        setter->x = GAP;
+        setter->y += setter->row_height + GAP;
+        setter->row_height = 0;
+    }
+    glyph->x0 = (unsigned short)setter->x;
+    glyph->y0 = (unsigned short)setter->y;
+    glyph->x1 = (unsigned short)(setter->x + width);
+    glyph->y1 = (unsigned short)(setter->y + height);
+    setter->x += width + GAP;
+    if (height > setter->row_height) setter->row_height = height;
     glyph->xoff = (float)x0 / OVERSAMPLE;
     glyph->xoff2 = (float)(x0 + width) / OVERSAMPLE;
     glyph->yoff = (float)y0;
@@ -223,15 +209,6 @@ static void rasterise_glyph(struct atlas *atlas, struct entry entry)
     glyph->xoff2 += shift_x;
 }
 
-/// Light text on dark looks too thin: coverage^0.85, chosen by eye.
-static void thicken(struct atlas *atlas)
-{
-    unsigned char curve[256];
-    for (int i = 0; i < 256; i++) curve[i] = (unsigned char)lroundf(255.0f * powf((float)i / 255.0f, 0.85f));
-    size_t texels = (size_t)atlas->width * (size_t)atlas->height;
-    for (size_t i = 0; i < texels; i++) atlas->coverage[i] = curve[atlas->coverage[i]];
-}
-
 bool atlas_build(float scale, struct atlas *atlas, struct error *error)
 {
     struct typesetter setter = {.x = GAP + 1, .y = GAP + 1};
@@ -246,7 +223,12 @@ bool atlas_build(float scale, struct atlas *atlas, struct error *error)
     atlas->coverage = need_zeroed((size_t)atlas->height, (size_t)atlas->width);
     for (int i = 0; i < ENTRY_COUNT; i++) rasterise_glyph(atlas, table_entry(atlas, i));
     atlas->coverage[0] = 255;
-    thicken(atlas);
+
+    // Light text on dark looks too thin: coverage^0.85, chosen by eye.
+    unsigned char curve[256];
+    for (int i = 0; i < 256; i++) curve[i] = (unsigned char)lroundf(255.0f * powf((float)i / 255.0f, 0.85f));
+    const size_t texels = (size_t)atlas->width * (size_t)atlas->height;
+    for (size_t i = 0; i < texels; i++) atlas->coverage[i] = curve[atlas->coverage[i]];
     return true;
 }
 

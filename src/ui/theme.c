@@ -102,22 +102,16 @@ float theme_contrast(uint32_t a, uint32_t b)
     return (fmaxf(la, lb) + 0.05f) / (fminf(la, lb) + 0.05f);
 }
 
-static uint32_t mix(uint32_t from, uint32_t to, float share)
-{
-    uint32_t color = 0xFFu;
-    for (int shift = 8; shift < 32; shift += 8) {
-        float a = (float)(from >> shift & 0xFFu), b = (float)(to >> shift & 0xFFu);
-        color |= (uint32_t)lroundf(a + (b - a) * share) << shift;
-    }
-    return color;
-}
-
 uint32_t theme_readable(uint32_t color, uint32_t background, float contrast)
 {
     enum { STEPS = 16 };
     uint32_t blended = color;
     for (int i = 1; i <= STEPS && theme_contrast(blended, background) < contrast; i++) {
-        blended = mix(color, theme()->text, (float)i / STEPS);
+        blended = 0xFFu;
+        for (int shift = 8; shift < 32; shift += 8) {
+            const float from = (float)(color >> shift & 0xFFu), to = (float)(theme()->text >> shift & 0xFFu);
+            blended |= (uint32_t)lroundf(from + (to - from) * ((float)i / STEPS)) << shift;
+        }
     }
     return blended;
 }

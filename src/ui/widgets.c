@@ -607,26 +607,6 @@ static const struct icon_part {
     {UI_ICON_EACH, LINE, 2, {5, 5.5f, 5, -5.5f}},
 };
 
-static void draw_icon_part(struct drawlist *list, const struct icon_part *part, float x, float y, uint32_t color)
-{
-    const float *at = part->at;
-    float xy[2 * ICON_POINTS];
-    if (part->shape == DOT || part->shape == RING) {
-        const float radius = at[2] + (part->shape == RING ? ICON_LINE / 2 : 0);
-        const struct rect r = {x + at[0] - radius, y + at[1] - radius, 2 * radius, 2 * radius};
-        if (part->shape == DOT) drawlist_rounded(list, r, radius, color);
-        if (part->shape == RING) drawlist_rounded_line(list, r, radius, ICON_LINE, color);
-        return;
-    }
-    for (int i = 0; i < part->count; i++) {
-        const float angle = 6.2831853f * (at[4] + (at[5] - at[4]) * (float)i / (float)(part->count - 1));
-        const bool is_arc = part->shape == ARC;
-        xy[2 * i] = x + (is_arc ? at[0] + at[2] * maths_cosf(angle) : at[2 * i]);
-        xy[2 * i + 1] = y + (is_arc ? at[1] + at[3] * maths_sinf(angle) : at[2 * i + 1]);
-    }
-    drawlist_line(list, xy, part->count, ICON_LINE, color);
-}
-
 bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon icon, bool lit, const char *hint)
 {
     uint32_t id = ui_id(ui, name);
@@ -636,9 +616,23 @@ bool ui_icon_button(struct ui *ui, struct rect r, const char *name, enum ui_icon
     if (ui->pass == UI_PASS_DRAW) {
         if (hot) drawlist_rounded(ui->list, r, UI_RADIUS, theme()->fill);
         uint32_t color = lit ? theme()->accent : hot || ui->focus == id ? theme()->text : theme()->text_dim;
-        for (size_t i = 0; i < sizeof icon_parts / sizeof *icon_parts; i++)
-            if (icon_parts[i].icon == icon)
-                draw_icon_part(ui->list, &icon_parts[i], roundf(r.x + r.w / 2), roundf(r.y + r.h / 2), color);
+        const float x = roundf(r.x + r.w / 2), y = roundf(r.y + r.h / 2);
+        for (size_t i = 0; i < sizeof icon_parts / sizeof *icon_parts; i++) {
+            const struct icon_part *part = &icon_parts[i];
+            const float *at = part->at, radius = at[2] + (part->shape == RING ? ICON_LINE / 2 : 0);
+            const struct rect round = {x + at[0] - radius, y + at[1] - radius, 2 * radius, 2 * radius};
+            float xy[2 * ICON_POINTS];
+            if (part->icon != icon) continue;
+            for (int k = 0; k < part->count; k++) {
+                const float angle = 6.2831853f * (at[4] + (at[5] - at[4]) * (float)k / (float)(part->count - 1));
+                const bool is_arc = part->shape == ARC;
+                xy[2 * k] = x + (is_arc ? at[0] + at[2] * maths_cosf(angle) : at[2 * k]);
+                xy[2 * k + 1] = y + (is_arc ? at[1] + at[3] * maths_sinf(angle) : at[2 * k + 1]);
+            }
+            if (part->count > 0) drawlist_line(ui->list, xy, part->count, ICON_LINE, color);
+            if (part->shape == DOT) drawlist_rounded(ui->list, round, radius, color);
+            if (part->shape == RING) drawlist_rounded_line(ui->list, round, radius, ICON_LINE, color);
+        }
         ui_focus_ring(ui, id, rect_inset(r, 1));
     }
     return pressed;
