@@ -228,17 +228,6 @@ static double limited(const struct ui_number *number, double value)
     return fmax(number->lowest, fmin(number->highest, value));
 }
 
-static void format_number(const struct ui_number *number, double value, char *text, size_t size)
-{
-    const char *space = number->unit && strcmp(number->unit, "°") != 0 ? " " : "";
-    const char *unit = number->unit ? number->unit : "";
-    if (fabs(value) >= 1e6) {
-        snprintf(text, size, "%.4g%s%s", value, space, unit);
-    } else {
-        snprintf(text, size, "%.*f%s%s", number->decimals, round_decimals(value, number->decimals), space, unit);
-    }
-}
-
 /// "1.5", "1,5" (many keypads type a comma), or "1.5 Hz". Not hexadecimal, not "inf".
 static bool parse_number(const struct ui_number *number, const char *typed, double *value)
 {
@@ -449,8 +438,14 @@ static void paint_value(struct ui *ui, struct rect r, struct rect field, uint32_
         drawlist_rounded_line(ui->list, field, UI_RADIUS, 1.5f, ui->refused ? theme()->error : theme()->accent);
         return;
     }
+    const char *unit = number->unit ? number->unit : "", *space = number->unit && strcmp(unit, "°") != 0 ? " " : "";
     char formatted[64];
-    format_number(number, value, formatted, sizeof formatted);
+    if (fabs(value) >= 1e6) {
+        snprintf(formatted, sizeof formatted, "%.4g%s%s", value, space, unit);
+    } else {
+        snprintf(formatted, sizeof formatted, "%.*f%s%s", number->decimals, round_decimals(value, number->decimals),
+                 space, unit);
+    }
     const char *text = number->shown ? number->shown : formatted;
     if (has_bar(number)) paint_bar(ui, field, number, value, hot, held);
     if (held) {

@@ -12,31 +12,7 @@
 #include <string.h>
 #include <strings.h>
 
-enum { ANSWER_WIDTH = 104 };
-
 enum { QUESTION_UNUSED = -2, QUESTION_OPEN = -1 };
-
-/// Lays out the question; returns the pressed answer, or QUESTION_OPEN.
-static int question_build(struct dialog *dialog)
-{
-    const struct question *question = &dialog->question;
-    struct ui *ui = &dialog->ui;
-    ui_label(ui, ui_row(ui, UI_ROW), question->title, theme()->text);
-    float top = ui->y;
-    bool failed = dialog->error[0] != '\0';
-    ui_paragraph(ui, failed ? dialog->error : question->note, failed ? theme()->error : theme()->text_dim);
-    ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
-    struct rect row = ui_row(ui, 28);
-    const float width = fminf(ANSWER_WIDTH, floorf((row.w + UI_GAP) / (float)question->count) - UI_GAP);
-    int pressed = QUESTION_OPEN;
-    for (int i = 0; i < question->count; i++) {
-        float x = row.x + row.w - (float)(question->count - i) * (width + UI_GAP) + UI_GAP;
-        struct rect r = {x, row.y, width, row.h};
-        const struct answer *answer = &question->answers[i];
-        if (ui_button(ui, r, answer->name, answer->label, i == dialog->choice)) pressed = i;
-    }
-    return pressed;
-}
 
 /// A key's effect: an answer, QUESTION_OPEN if it moved the choice, or QUESTION_UNUSED.
 static int question_key(struct dialog *dialog, int key)
@@ -507,34 +483,6 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
         build_toggle(ui, row, "export.transparent", "transparent", &wish->transparent);
 }
 
-static void build_formats(struct dialogs *dialogs, float room)
-{
-    const struct dialog_files *files = &dialogs->dialog.files;
-    struct exporting *exporting = &dialogs->exporting;
-    struct ui *ui = &dialogs->dialog.ui;
-    const int chosen = exporting->format, fitting = (int)(room / UI_ROW);
-    const int rows = fitting < LEAST_ROWS            ? LEAST_ROWS
-                     : fitting > files->format_count ? files->format_count
-                                                     : fitting;
-    const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
-    int taken = -1;
-    ui_list_fit(&exporting->formats, view.h, (float)files->format_count * UI_ROW);
-    if (ui->focus == ui_id(ui, path_field)) // shows the format being typed
-        ui_list_show(&exporting->formats, (float)chosen * UI_ROW, UI_ROW);
-    ui_list_begin(ui, &exporting->formats, view);
-    for (int f = 0; f < files->format_count; f++) {
-        char name[32];
-        const struct rect r = ui_row(ui, UI_ROW);
-        snprintf(name, sizeof name, "export%s", export_formats[f].ending);
-        if (ui_list_row(ui, r, name, "", 0, f == chosen)) taken = f;
-        ui_label(ui, (struct rect){r.x + 6, r.y, ENDING_WIDTH, r.h}, export_formats[f].ending, theme()->text);
-        ui_label(ui, (struct rect){r.x + 6 + ENDING_WIDTH, r.y, r.w - 12 - ENDING_WIDTH, r.h}, export_formats[f].use,
-                 theme()->text_dim);
-    }
-    ui_list_end(ui);
-    if (taken >= 0) choose_format(dialogs, taken);
-}
-
 static void build_note(struct dialogs *dialogs, const struct document *document)
 {
     const struct dialog *dialog = &dialogs->dialog;
@@ -578,7 +526,9 @@ static void build_note(struct dialogs *dialogs, const struct document *document)
 static void export_build(struct dialogs *dialogs, struct core *core)
 {
     enum { CANCEL_WIDTH = 104, WRITE_WIDTH = 240 };
-    struct export_memory *memory = &dialogs->exporting.memory;
+    struct exporting *exporting = &dialogs->exporting;
+    struct export_memory *memory = &exporting->memory;
+    const struct dialog_files *files = &dialogs->dialog.files;
     struct ui *ui = &dialogs->dialog.ui;
     if (is_running(&dialogs->dialog)) {
         char title[96];
@@ -589,11 +539,31 @@ static void export_build(struct dialogs *dialogs, struct core *core)
         ui_label(ui, ui_row(ui, UI_ROW), "Export the motion", theme()->text);
         ui_space(ui, 4);
         if (build_text(dialogs, ui_row(ui, 28), path_field, memory->path, PATH_LIMIT)) {
-            const int format = format_by_ending(&dialogs->dialog.files, memory->path);
-            if (format >= 0) dialogs->exporting.format = format;
+            const int format = format_by_ending(files, memory->path);
+            if (format >= 0) exporting->format = format;
         }
         ui_space(ui, 8);
-        build_formats(dialogs, core->layout.window.h - FRAME_HEIGHT);
+        const int fitting = (int)((core->layout.window.h - FRAME_HEIGHT) / UI_ROW), most = files->format_count;
+        const int rows = fitting < LEAST_ROWS ? LEAST_ROWS : fitting > most ? most : fitting;
+        const int chosen = exporting->format;
+        const struct rect view = {ui->area.x, ui->y, ui->area.w, (float)rows * UI_ROW};
+        int taken = -1;
+        ui_list_fit(&exporting->formats, view.h, (float)most * UI_ROW);
+        if (ui->focus == ui_id(ui, path_field)) // shows the format being typed
+            ui_list_show(&exporting->formats, (float)chosen * UI_ROW, UI_ROW);
+        ui_list_begin(ui, &exporting->formats, view);
+        for (int f = 0; f < most; f++) {
+            char name[32];
+            const struct rect r = ui_row(ui, UI_ROW);
+            const float left = r.x + 6 + ENDING_WIDTH;
+            snprintf(name, sizeof name, "export%s", export_formats[f].ending);
+            if (ui_list_row(ui, r, name, "", 0, f == chosen)) taken = f;
+            ui_label(ui, (struct rect){r.x + 6, r.y, ENDING_WIDTH, r.h}, export_formats[f].ending, theme()->text);
+            ui_label(ui, (struct rect){left, r.y, r.w - 12 - ENDING_WIDTH, r.h}, export_formats[f].use,
+                     theme()->text_dim);
+        }
+        ui_list_end(ui);
+        if (taken >= 0) choose_format(dialogs, taken);
         ui_space(ui, 8);
         build_choices(dialogs, core->document);
         ui_space(ui, 4);
@@ -607,7 +577,7 @@ static void export_build(struct dialogs *dialogs, struct core *core)
     const struct rect right = {row.x + row.w - width, row.y, width, row.h};
     const float end = running ? row.x + row.w : right.x - UI_GAP;
     const struct rect left = {end - CANCEL_WIDTH, row.y, CANCEL_WIDTH, row.h};
-    with_ending(&dialogs->dialog.files, memory->path, dialogs->exporting.format, full);
+    with_ending(files, memory->path, exporting->format, full);
     snprintf(label, sizeof label, "Write %.48s", path_name(full));
     const bool stopped = ui_button(ui, left, "dialog.cancel", "Cancel", false);
     if (!running && ui_button(ui, right, "dialog.confirm", label, true)) confirm_export(dialogs, core);
@@ -930,7 +900,23 @@ static void build(struct dialogs *dialogs, struct core *core)
     struct ui *ui = &dialog->ui;
     ui_space(ui, 8);
     if (is_question(dialog)) {
-        answer(dialogs, core, question_build(dialog));
+        const struct question *question = &dialog->question;
+        const bool failed = dialog->error[0] != '\0';
+        ui_label(ui, ui_row(ui, UI_ROW), question->title, theme()->text);
+        const float top = ui->y;
+        ui_paragraph(ui, failed ? dialog->error : question->note, failed ? theme()->error : theme()->text_dim);
+        ui_space(ui, fmaxf(8, 40 - (ui->y - top)));
+        const struct rect row = ui_row(ui, 28);
+        const float fitting = floorf((row.w + UI_GAP) / (float)question->count) - UI_GAP;
+        const float width = fminf(BUTTON_WIDTH, fitting);
+        int pressed = QUESTION_OPEN;
+        for (int i = 0; i < question->count; i++) {
+            const float x = row.x + row.w - (float)(question->count - i) * (width + UI_GAP) + UI_GAP;
+            const struct answer *offered = &question->answers[i];
+            const struct rect r = {x, row.y, width, row.h};
+            if (ui_button(ui, r, offered->name, offered->label, i == dialog->choice)) pressed = i;
+        }
+        answer(dialogs, core, pressed);
     } else if (dialog->kind == DIALOG_EXPORT) {
         export_build(dialogs, core);
     } else {

@@ -218,34 +218,6 @@ static void lay_out(struct inspector *in, struct angle_view *view)
     }
 }
 
-/// A ramp is constant outside its points.
-static void draw(const struct inspector *in, const struct angle_view *view)
-{
-    struct drawlist *list = in->ui.list;
-    const bool is_ramp = view->angles->form == ANGLES_RAMP;
-    const int count = view->angles->count;
-    const double zero = view->high / (view->high - view->low);
-    float line[ANGLES_MAX_JOINTS + 2][2];
-    drawlist_rounded(list, view->box, 4, theme()->raised);
-    drawlist_rect(list,
-                  (struct rect){view->plot.x, roundf(view->plot.y + view->plot.h * (float)zero), view->plot.w, 1},
-                  theme()->grid_major);
-    for (int i = 0; i < count; i++) {
-        float *at = line[i + 1];
-        place_angle(view, i, at);
-        const float r = 4,
-                    diamond[4][2] = {{at[0] - r, at[1]}, {at[0], at[1] - r}, {at[0] + r, at[1]}, {at[0], at[1] + r}};
-        if (is_ramp) drawlist_convex(list, diamond[0], 4, theme()->accent);
-        if (!is_ramp) drawlist_rect(list, (struct rect){at[0] - 1.5f, at[1] - 1.5f, 3, 3}, theme()->accent);
-    }
-    line[0][0] = view->plot.x;
-    line[0][1] = line[1][1];
-    line[count + 1][0] = view->plot.x + view->plot.w;
-    line[count + 1][1] = line[count][1];
-    drawlist_line(list, line[is_ramp ? 0 : 1], is_ramp ? count + 2 : count, 1.5f, theme()->accent);
-    if (!is_ramp) drawlist_disc(list, line[view->selected + 1], 3.5f, theme()->accent);
-}
-
 static struct ramp_point point_at(const struct angle_view *view, float x, float y)
 {
     const double at = (double)((x - view->plot.x) / view->plot.w);
@@ -373,8 +345,30 @@ static void build_curve(struct inspector *in, enum angle_kind kind, const struct
     int *joint = &in->joint[kind];
     if (angles->form == ANGLES_EACH && *joint >= angles->count) *joint = angles->count - 1;
     lay_out(in, &view);
-    if (in->ui.pass == UI_PASS_DRAW) draw(in, &view);
-    if (angles->form == ANGLES_RAMP) {
+    const bool is_ramp = angles->form == ANGLES_RAMP;
+    if (in->ui.pass == UI_PASS_DRAW) {
+        struct drawlist *list = in->ui.list;
+        const struct rect *plot = &view.plot;
+        const int count = angles->count;
+        const float zero = roundf(plot->y + plot->h * (float)(view.high / (view.high - view.low)));
+        float line[ANGLES_MAX_JOINTS + 2][2];
+        drawlist_rounded(list, view.box, 4, theme()->raised);
+        drawlist_rect(list, (struct rect){plot->x, zero, plot->w, 1}, theme()->grid_major);
+        for (int i = 0; i < count; i++) {
+            float *at = line[i + 1];
+            place_angle(&view, i, at);
+            const float x = at[0], y = at[1], r = 4, diamond[] = {x - r, y, x, y - r, x + r, y, x, y + r};
+            if (is_ramp) drawlist_convex(list, diamond, 4, theme()->accent);
+            if (!is_ramp) drawlist_rect(list, (struct rect){x - 1.5f, y - 1.5f, 3, 3}, theme()->accent);
+        }
+        line[0][0] = plot->x; // a ramp is constant outside its points
+        line[0][1] = line[1][1];
+        line[count + 1][0] = plot->x + plot->w;
+        line[count + 1][1] = line[count][1];
+        drawlist_line(list, line[is_ramp ? 0 : 1], is_ramp ? count + 2 : count, 1.5f, theme()->accent);
+        if (!is_ramp) drawlist_disc(list, line[view.selected + 1], 3.5f, theme()->accent);
+    }
+    if (is_ramp) {
         int which = 0;
         ui_hint(&in->ui, view.box, "From the first joint to the tip; double-click adds a point");
         const enum ui_change change = ui_handles(&in->ui, view.box, view.handles, view.handle_count, &which);

@@ -187,19 +187,17 @@ static struct settling settle_seen(const wiggly_curve *curve, int from, struct s
     return (struct settling){.kind = SETTLE_SEEN, .seconds = (last - from) * curve->step};
 }
 
-/// Whether a swing above rounding error follows the last knot.
-static bool swings_behind(const wiggly_curve *curve, int last_knot)
-{
-    if (curve->mode == WIGGLY_CUBIC || last_knot < 0 || last_knot + 1 >= curve->samples) return false;
-    double size = maths_hypot(curve->re[last_knot], curve->im[last_knot]) + fabs(curve->re[last_knot + 1]);
-    return size > 1e-9 * fabs(curve->total[last_knot]) && size > 0;
-}
-
 struct settling settle_measure(const struct spline *spline, const wiggly_curve *curve, int last_knot)
 {
     struct settling alone = settle_alone(spline, curve->step);
     bool dies = alone.kind != SETTLE_CUBIC && alone.kind != SETTLE_NEVER;
-    bool open = spline_start(spline) != WIGGLY_LOOP && swings_behind(curve, last_knot);
+    bool open = spline_start(spline) != WIGGLY_LOOP && curve->mode != WIGGLY_CUBIC && last_knot >= 0 &&
+                last_knot + 1 < curve->samples;
+    if (open) { // a swing above rounding error follows the last knot
+        const double *re = curve->re + last_knot;
+        const double size = maths_hypot(re[0], curve->im[last_knot]) + fabs(re[1]);
+        open = size > 1e-9 * fabs(curve->total[last_knot]) && size > 0;
+    }
     return dies && open ? settle_seen(curve, last_knot, alone) : alone;
 }
 
@@ -208,26 +206,7 @@ static const float margin_left = 26, margin_bottom = 15; // of a plot, for its n
 
 static const char *const filter_name[FILTER_KINDS] = {"two-pole real", "four-pole real", "two-pole complex"};
 
-/// Recomputes the responses for a setting with a frequency above 0.
-static void poles_update(struct poles_view *view, const struct pole_setting *setting)
-{
-    const struct pole_setting *old = &view->setting;
-    if (old->kind == setting->kind && old->hz == setting->hz && old->damping == setting->damping &&
-        old->bandwidth == setting->bandwidth && old->step == setting->step)
-        return;
-    view->setting = *setting;
-    view->span = fmin(0.5 / setting->step, 3 * setting->hz);
-    for (int kind = 0; kind < FILTER_KINDS; kind++) {
-        struct filter filter =
-            filter_of((enum filter_kind)kind, setting->hz, setting->damping, setting->bandwidth, setting->step);
-        view->band[kind] = filter_passband(&filter);
-        for (int i = 0; i < POLES_COLUMNS; i++) {
-            double hz = view->span * (2.0 * i / (POLES_COLUMNS - 1) - 1);
-            view->decibels[kind][i] = (float)(filter_decibels(&filter, hz) - view->band[kind].peak);
-        }
-    }
-}
-
+/// Maps frequency and damping ratio to the inset. Values near 0, where damping matters most, are spread out.
 static float poles_x(const struct poles_view *view, struct rect inset, double hz)
 {
     return inset.x + inset.w * (float)(hz / view->reach);
@@ -241,13 +220,6 @@ static float poles_y(const struct poles_view *view, struct rect inset, double da
 static double poles_hz(const struct poles_view *view, struct rect inset, float x)
 {
     return fmax(0, (x - inset.x) / inset.w) * view->reach;
-}
-
-/// Maps frequency and damping ratio to the inset and back. Values near 0, where damping matters most, are spread out.
-static double poles_damping(const struct poles_view *view, struct rect inset, float y)
-{
-    double part = fmax(0, fmin(1, 1 - (y - inset.y) / inset.h));
-    return part * part * view->top;
 }
 
 static void draw_cross(struct drawlist *list, float x, float y, float arm, uint32_t color)
@@ -429,7 +401,8 @@ static struct pole_setting moved_to(const struct inspector *in, struct pole_sett
             setting.bandwidth += side * 0.01 * handle->step_x;
         }
     } else {
-        setting.damping = poles_damping(view, inset, handle->y);
+        const double part = fmax(0, fmin(1, 1 - (handle->y - inset.y) / inset.h));
+        setting.damping = part * part * view->top;
         if (which == HANDLE_CENTRE) {
             setting.hz = poles_hz(view, inset, handle->x);
         } else {
@@ -491,7 +464,21 @@ void inspector_poles(struct inspector *in)
         view->reach = nice[i] * decade;
         view->top = setting.damping > 1 ? 3 : 1;
     }
-    poles_update(view, &setting);
+    const struct pole_setting *old = &view->setting;
+    if (old->kind != setting.kind || old->hz != setting.hz || old->damping != setting.damping ||
+        old->bandwidth != setting.bandwidth || old->step != setting.step) {
+        view->setting = setting;
+        view->span = fmin(0.5 / setting.step, 3 * setting.hz);
+        for (int kind = 0; kind < FILTER_KINDS; kind++) {
+            const struct filter filter =
+                filter_of((enum filter_kind)kind, setting.hz, setting.damping, setting.bandwidth, setting.step);
+            view->band[kind] = filter_passband(&filter);
+            for (int i = 0; i < POLES_COLUMNS; i++) {
+                const double hz = view->span * (2.0 * i / (POLES_COLUMNS - 1) - 1);
+                view->decibels[kind][i] = (float)(filter_decibels(&filter, hz) - view->band[kind].peak);
+            }
+        }
+    }
     ui_space(ui, 4);
     struct rect top = ui_row(ui, CIRCLE);
     struct rect circle = {top.x, top.y, CIRCLE, CIRCLE};

@@ -720,15 +720,28 @@ static const struct number_row gain_rows[] = {
      .step = 0.01, .decimals = 2},
 };
 
-static void build_number(struct inspector *in, enum parameter parameter)
+void inspector_parameter(struct inspector *in, enum parameter parameter)
 {
     const struct spline *spline = core_active_spline(in->core);
+    const struct parameter_row *row = &parameter_rows[parameter];
+    if (!spline_uses(spline, parameter, false)) return;
+    if (row->kind == PARAMETER_CHOICE) {
+        struct ui_choice choices[PARAMETER_MAX_WORDS];
+        int chosen = (int)spline->parameter[parameter].value, count = 0;
+        for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
+        const bool alone = parameter == PARAMETER_MODE;
+        const struct rect field = alone ? ui_row(&in->ui, UI_ROW) : inspector_labelled(in, row->name);
+        ui_hint(&in->ui, field, row->hint);
+        if (ui_segments(&in->ui, field, row->name, choices, count, &chosen)) set_parameter(in, parameter, chosen);
+        return;
+    }
+
     struct rect r = ui_row(&in->ui, UI_ROW);
     const bool follows = param_follows(&spline->parameter[parameter]);
-    const bool may_follow = parameter_rows[parameter].kind == PARAMETER_TRACK && (in->core->more || follows);
+    const bool may_follow = row->kind == PARAMETER_TRACK && (in->core->more || follows);
     if (may_follow) r.w -= UI_ROW + 2;
     const struct param *param = &spline->parameter[parameter];
-    const struct rect field = follows ? inspector_label(in, r, parameter_rows[parameter].name) : r;
+    const struct rect field = follows ? inspector_label(in, r, row->name) : r;
     if (!follows) {
         build_slider(in, parameter, r);
     } else if (param->motion) {
@@ -740,7 +753,7 @@ static void build_number(struct inspector *in, enum parameter parameter)
     if (may_follow) build_track_button(in, parameter, button, r);
     if (!spline->parameter[parameter].motion) return;
 
-    static const struct ui_choice choices[] = {
+    static const struct ui_choice motions[] = {
         [MOTION_TURN] = {"turn", "Turn"}, [MOTION_ACROSS] = {"across", "Across"}, [MOTION_UP] = {"up", "Up"}};
     static const struct number_home home = {.of = followed_gain, .set = set_gain};
     if (followed(in)->motion) {
@@ -749,29 +762,12 @@ static void build_number(struct inspector *in, enum parameter parameter)
         int of = (int)motion.of;
         changed.motion = &motion;
         if (inspector_choice(in, "joint's", "Its turn in degrees, or its movement across or up in metres", "joint.of",
-                             choices, MOTION_KINDS, &of)) {
+                             motions, MOTION_KINDS, &of)) {
             motion.of = (enum motion_of)of;
             if (core_step(in->core, "Set joint's motion", 0)) follow_joint(in, &changed, &in->core->error);
         }
     }
     if (followed(in)->motion) inspector_numbers(in, gain_rows, 1, &home);
-}
-
-void inspector_parameter(struct inspector *in, enum parameter parameter)
-{
-    const struct spline *spline = core_active_spline(in->core);
-    const struct parameter_row *row = &parameter_rows[parameter];
-    if (!spline_uses(spline, parameter, false)) return;
-    if (row->kind != PARAMETER_CHOICE) {
-        build_number(in, parameter);
-        return;
-    }
-    struct ui_choice choices[PARAMETER_MAX_WORDS];
-    int chosen = (int)spline->parameter[parameter].value, count = 0;
-    for (; row->words[count]; count++) choices[count] = (struct ui_choice){row->words[count], row->labels[count]};
-    const struct rect r = parameter == PARAMETER_MODE ? ui_row(&in->ui, UI_ROW) : inspector_labelled(in, row->name);
-    ui_hint(&in->ui, r, row->hint);
-    if (ui_segments(&in->ui, r, row->name, choices, count, &chosen)) set_parameter(in, parameter, chosen);
 }
 
 void inspector_spline(struct inspector *in)
