@@ -43,7 +43,7 @@ static void run_palette(struct editor *e, int argument)
 
 static void run_insert(struct editor *e, int argument)
 {
-    core_insert_on_curve(&e->core, core_frame(&e->core), true, argument);
+    core_insert_on_curve(&e->core, core_frame(&e->core), true, (enum holds)argument);
 }
 
 /// Escape undoes one mode at a time: brush, bone picking, presenting, selected bone, selected pin, selection.
@@ -233,8 +233,8 @@ enum {
 
 const struct command commands[] = {
     GESTURE("Double-click", "Insert a knot at the pointer", KNOTS, ON_CURVES),
-    COMMAND("Insert a knot at the playhead", KNOTS, ON_CURVES, SPLINE, 0, .run = run_insert, 0, {'I', 0}),
-    COMMAND("Insert a pose at the playhead", KNOTS, 0, SPLINE, 0, .run = run_insert, true, {'I', SHIFT}),
+    COMMAND("Insert a knot at the playhead", KNOTS, ON_CURVES, SPLINE, 0, .run = run_insert, HOLDS_VALUE, {'I', 0}),
+    COMMAND("Insert a pose at the playhead", KNOTS, 0, SPLINE, 0, .run = run_insert, HOLDS_POSE, {'I', SHIFT}),
     GESTURE("Drag a knot", "Move it", KNOTS, ON_KNOT),
     GESTURE("Click, Shift+click", "Select a knot, or add it", KNOTS, ON_KNOT),
     GESTURE("Drag on empty", "Select the knots in a box", KNOTS, ON_CURVES),

@@ -51,8 +51,9 @@ void core_insert_knot(struct core *core, double frame, double value, bool snap)
 
 static const char no_phase[] = "Only a wiggly spline has a phase. Press M to change the kind.";
 
-void core_insert_on_curve(struct core *core, double frame, bool snap, bool pose)
+void core_insert_on_curve(struct core *core, double frame, bool snap, enum holds holds)
 {
+    const bool pose = holds == HOLDS_POSE;
     const struct spline *spline = core_active_spline(core);
     if (!spline || !isfinite(frame)) return;
     if (pose && spline_mode(spline) != WIGGLY_COMPLEX) {

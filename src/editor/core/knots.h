@@ -2,12 +2,12 @@
 #ifndef EDITOR_CORE_KNOTS_H
 #define EDITOR_CORE_KNOTS_H
 
-#include "editor/core/state.h"
+#include "editor/core/core.h"
 
 /// Inserts and selects a knot at a frame (whole if `snap`), or selects the one there.
 void core_insert_knot(struct core *core, double frame, double value, bool snap);
-/// Inserts a knot where the curve is, or a pose. Without wind-up, between knots, the curve stays as it is.
-void core_insert_on_curve(struct core *core, double frame, bool snap, bool pose);
+/// Inserts a knot where the curve is: a value, or a pose. Without wind-up, between knots, the curve stays as it is.
+void core_insert_on_curve(struct core *core, double frame, bool snap, enum holds holds);
 /// Deletes the selected knots in a step `label`.
 void core_remove_knots(struct core *core, const char *label);
 /// Deletes the selected pin, else the selected knots.

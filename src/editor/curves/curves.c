@@ -477,7 +477,7 @@ static void press_plot(void *room, struct core *core, const struct hover *hover,
     if (event->clicks == 2 && hover->thing) {
         core_activate(core, hover->spline);
         core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
-                             event->mods & MOD_SHIFT);
+                             event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
     } else if (event->clicks == 2) {
         double value = core_round(curves_value(curves, core, event->y), 0.01 / curves_pixels_per_value(curves, core));
         core_insert_knot(core, curves_frame(curves, core, event->x), value, drag_snaps(core, event->mods));

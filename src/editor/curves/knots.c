@@ -785,7 +785,7 @@ static void press_row(void *room, struct core *core, const struct hover *hover, 
     if (!inside) return;
     if (event->clicks == 2) {
         core_insert_on_curve(core, curves_frame(curves, core, event->x), drag_snaps(core, event->mods),
-                             event->mods & MOD_SHIFT);
+                             event->mods & MOD_SHIFT ? HOLDS_POSE : HOLDS_VALUE);
         return;
     }
     box_begin(curves, core, event);

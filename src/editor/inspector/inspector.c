@@ -888,7 +888,7 @@ void inspector_knot(struct inspector *in)
                               {"knot.insert", "Insert", "Insert a knot on the curve at the playhead (I)", false},
                               {"knot.next", "Next", "Go to the next knot after the playhead (Alt+.)", false},
                               {"knot.all", "All", "Select all knots of the spline (Ctrl+A)", false}});
-        if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, false);
+        if (pressed == 0) core_insert_on_curve(in->core, core_frame(in->core), true, HOLDS_VALUE);
         if (pressed == 1) core_visit_neighbour(in->core, 1);
         if (pressed == 2) core_select_all(in->core, false);
     } else {
