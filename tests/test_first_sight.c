@@ -1,5 +1,6 @@
 /// The inspector at the first start: what an animator needs first, each further section when it is wanted, and More for the rest.
 #include "panel_session.h"
+#include "shown.h"
 
 static void open_first(struct session *s)
 {
@@ -127,4 +128,36 @@ SESSION_TEST(test_a_clicked_tail_is_shown, open_first(s))
     session_click(s, "tail(tail,0.8)"); // bent by this spline, too
     assert_string_equal(core_active_spline(&s->editor->core)->name, "up");
     assert_int_equal(history_done(s->history), done);
+}
+
+/// Where a text is drawn; outside the panel if it is scrolled out of sight.
+static float drawn_at(const struct session *s, const char *words)
+{
+    const struct draw_command *text = shown_text(s->editor, words);
+    return text ? text->y : -1e6f;
+}
+
+/// In the frame in which the panel gets shorter, or a section is asked for, it is drawn where it stays. A section higher than the panel is
+/// shown from its top, also if it is half in sight.
+SESSION_TEST(test_the_first_frame_is_right, panel_open(s, mixed, 1280, 360))
+{
+    struct inspector *inspector = s->editor->inspector;
+    s->editor->core.more = true;
+    session_frame(s);
+    inspector->sections.offset = 1e6f;
+    session_frame(s);
+    for (int unfolded = 0; unfolded < 2; unfolded++) {
+        const char *title = unfolded ? "Tail set-up" : "More";
+        if (unfolded) inspector_unfold(inspector, "section.tail");
+        s->editor->core.more = unfolded;
+        session_frame(s);
+        const float first = drawn_at(s, title);
+        session_frame(s);
+        assert_near(drawn_at(s, title), first, 0);
+        assert_in_range(first, 0, unfolded ? 2 * UI_ROW : 360);
+    }
+    inspector->sections.offset += 100;
+    inspector_unfold(inspector, "section.tail");
+    session_frame(s);
+    assert_in_range(drawn_at(s, "Tail set-up"), 0, 2 * UI_ROW);
 }
