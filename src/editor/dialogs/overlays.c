@@ -22,40 +22,6 @@ struct commands_found {
     int count;
 };
 
-/// Finds matching commands. For the palette those that can run now come first; for F1 all its rows are in the table's order.
-static void commands_find(const struct dialogs *dialogs, const struct core *core, struct commands_found *found)
-{
-    const struct command *commands = dialogs->commands.commands;
-    const int count = dialogs->commands.count;
-    const struct ui_filter *filter = &dialogs->lookup.filter;
-    const bool runs = dialogs->lookup.kind == LOOKUP_PALETTE;
-    const char *missing[NEEDS_COUNT];
-    enum fit fits[COMMANDS_MOST], best = FIT_NOT;
-    for (enum need need = 0; need < NEEDS_COUNT; need++) missing[need] = runs ? need_missing(core, need) : NULL;
-    for (int i = 0; i < count; i++) {
-        const struct command *command = &commands[i];
-        char keys[COMMAND_KEYS];
-        fits[i] = FIT_NOT;
-        if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
-        command_keys(command, keys); // its keys also find it
-        fits[i] = ui_filter_fit(filter, command->name);
-        if (fits[i] < FIT_INSIDE && ui_filter_fit(filter, keys) >= FIT_WORD) fits[i] = FIT_INSIDE;
-        if (fits[i] > best) best = fits[i];
-    }
-
-    found->count = 0;
-    for (enum fit fit = FIT_START; fit >= ui_filter_least(best); fit--) {
-        for (int lacking = 0; lacking < 2; lacking++) {
-            for (int i = 0; i < count; i++) {
-                const char *lacks = missing[commands[i].needs];
-                if (fits[i] != fit || (lacks != NULL) != lacking) continue;
-                found->missing[found->count] = lacks;
-                found->list[found->count++] = &commands[i];
-            }
-        }
-    }
-}
-
 enum {
     PALETTE_WIDTH = 640,
     PALETTE_ROW = 26,
@@ -173,12 +139,40 @@ static struct page keys_page(const struct dialogs *dialogs, const struct command
     return page;
 }
 
-/// Finds the commands and lays out the overlay that is open.
+/// Finds the commands that match, and lays out the overlay that is open. For the palette those that can run now come first; for F1 all its
+/// rows are in the table's order.
 static struct page lookup_page(const struct dialogs *dialogs, const struct core *core, struct commands_found *found)
 {
-    commands_find(dialogs, core, found);
-    return dialogs->lookup.kind == LOOKUP_PALETTE ? palette_page(found, core->layout.window)
-                                                  : keys_page(dialogs, found, core->layout.window);
+    const struct command *commands = dialogs->commands.commands;
+    const int count = dialogs->commands.count;
+    const struct ui_filter *filter = &dialogs->lookup.filter;
+    const bool runs = dialogs->lookup.kind == LOOKUP_PALETTE;
+    const char *missing[NEEDS_COUNT];
+    enum fit fits[COMMANDS_MOST], best = FIT_NOT;
+    for (enum need need = 0; need < NEEDS_COUNT; need++) missing[need] = runs ? need_missing(core, need) : NULL;
+    for (int i = 0; i < count; i++) {
+        const struct command *command = &commands[i];
+        char keys[COMMAND_KEYS];
+        fits[i] = FIT_NOT;
+        if (!command->name || !(runs ? command_runs(command) : command->about != ABOUT_NOTHING)) continue;
+        command_keys(command, keys); // its keys also find it
+        fits[i] = ui_filter_fit(filter, command->name);
+        if (fits[i] < FIT_INSIDE && ui_filter_fit(filter, keys) >= FIT_WORD) fits[i] = FIT_INSIDE;
+        if (fits[i] > best) best = fits[i];
+    }
+
+    found->count = 0;
+    for (enum fit fit = FIT_START; fit >= ui_filter_least(best); fit--) {
+        for (int lacking = 0; lacking < 2; lacking++) {
+            for (int i = 0; i < count; i++) {
+                const char *lacks = missing[commands[i].needs];
+                if (fits[i] != fit || (lacks != NULL) != lacking) continue;
+                found->missing[found->count] = lacks;
+                found->list[found->count++] = &commands[i];
+            }
+        }
+    }
+    return runs ? palette_page(found, core->layout.window) : keys_page(dialogs, found, core->layout.window);
 }
 
 /// Opens it, or closes it if it is open.

@@ -99,21 +99,6 @@ static const char *show_ends(const struct inspector *in, int kind, char text[64]
     return text;
 }
 
-static void build_slider(struct inspector *in, enum angle_kind kind, struct rect r)
-{
-    static const struct number_home home = {
-        .get = get_largest, .set = set_largest, .shown = show_ends, .was = was_largest};
-    const bool several = angles_of(in, (int)kind)->form != ANGLES_ONE;
-    const bool lags = kind == ANGLE_LAG && several; // each joint's own lag may be a few turns
-    const double reach = lags ? 1 : reach_of(in, kind, get_largest(in, (int)kind));
-    struct number_row number = rows[kind];
-    number.unit = unit_of(in, (int)kind);
-    number.minimum *= reach;
-    number.maximum = lags ? 720 : reach * number.maximum;
-    if (several) number.fallback = NAN;
-    inspector_number(in, &number, &home, (int)kind, r);
-}
-
 /// One angle for all that changes the pose least: the mean, or for lags the last one divided evenly.
 static struct angles one_angle(const struct angles *angles, enum angle_kind kind, int joints)
 {
@@ -414,8 +399,20 @@ void inspector_angles(struct inspector *in, enum angle_kind kind)
     const int joints = bones_joints(in->core, in->rig);
     struct rect r = ui_row(&in->ui, UI_ROW), right = {r.x + r.w - SWITCH, r.y, SWITCH, r.h}, left = right;
     left.x -= SWITCH;
-    build_slider(in, kind, in->core->more ? (struct rect){r.x, r.y, left.x - r.x - 2, r.h} : r);
+    static const struct number_home home = {
+        .get = get_largest, .set = set_largest, .shown = show_ends, .was = was_largest};
+    const bool several = angles_of(in, (int)kind)->form != ANGLES_ONE;
+    const bool lags = kind == ANGLE_LAG && several; // each joint's own lag may be a few turns
+    const double reach = lags ? 1 : reach_of(in, kind, get_largest(in, (int)kind));
+    struct number_row number = rows[kind];
+    number.unit = unit_of(in, (int)kind);
+    number.minimum *= reach;
+    number.maximum = lags ? 720 : reach * number.maximum;
+    if (several) number.fallback = NAN;
+    if (in->core->more) r.w = left.x - r.x - 2;
+    inspector_number(in, &number, &home, (int)kind, r);
     if (!in->core->more) return;
+
     const struct angles *angles = angles_of(in, (int)kind);
     struct angles ramp = {.form = ANGLES_RAMP, .count = 2}, each = {.form = ANGLES_EACH, .count = joints};
     for (int n = 0; n < joints; n++)

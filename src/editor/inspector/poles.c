@@ -118,18 +118,6 @@ struct passband filter_passband(const struct filter *filter)
 static const double LEFT = 0.05; ///< of the initial displacement
 enum { MAX_SAMPLES = 100000 };
 
-/// false if a track drives a pole.
-static bool filter_of_spline(const struct spline *spline, double step, struct filter *filter)
-{
-    const struct param *p = spline->parameter;
-    const bool is_complex = spline_mode(spline) == WIGGLY_COMPLEX;
-    if (p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0) return false;
-    if (is_complex && p[PARAMETER_BANDWIDTH].track >= 0) return false;
-    *filter = filter_of(is_complex ? FILTER_TWO_COMPLEX : FILTER_TWO_REAL, p[PARAMETER_FREQUENCY].value,
-                        p[PARAMETER_DAMPING].value, p[PARAMETER_BANDWIDTH].value, step);
-    return true;
-}
-
 /// The sample after which the swing stays within LEFT, of the first `count`, interpolated linearly. Two equal samples count as standstill
 /// half-way between them.
 static double settled_sample(const struct filter *filter, bool is_complex, int count)
@@ -156,35 +144,25 @@ static double settled_sample(const struct filter *filter, bool is_complex, int c
 
 struct settling settle_alone(const struct spline *spline, double step)
 {
-    struct filter filter;
     if (spline_mode(spline) == WIGGLY_CUBIC) return (struct settling){.kind = SETTLE_CUBIC};
-    if (!filter_of_spline(spline, step, &filter)) return (struct settling){.kind = SETTLE_UNKNOWN};
-    if (spline->parameter[PARAMETER_FREQUENCY].value == 0) return (struct settling){.kind = SETTLE_CUBIC};
-    if (spline->parameter[PARAMETER_DAMPING].value == 0) return (struct settling){.kind = SETTLE_NEVER};
+    const struct param *p = spline->parameter;
+    const bool is_complex = spline_mode(spline) == WIGGLY_COMPLEX;
+    if (p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0 ||
+        (is_complex && p[PARAMETER_BANDWIDTH].track >= 0))
+        return (struct settling){.kind = SETTLE_UNKNOWN};
+    const struct filter filter =
+        filter_of(is_complex ? FILTER_TWO_COMPLEX : FILTER_TWO_REAL, p[PARAMETER_FREQUENCY].value,
+                  p[PARAMETER_DAMPING].value, p[PARAMETER_BANDWIDTH].value, step);
+    if (p[PARAMETER_FREQUENCY].value == 0) return (struct settling){.kind = SETTLE_CUBIC};
+    if (p[PARAMETER_DAMPING].value == 0) return (struct settling){.kind = SETTLE_NEVER};
     double rate = fmin(-filter.s[0][0], -filter.s[1][0]); // of the slower pole
     double expected = maths_log(1 / LEFT) / rate;
     if (expected > SETTLE_LIMIT) return (struct settling){.kind = SETTLE_LATE};
     double samples = 3 * expected / step + 8; // a double pole takes 1.6 times as long as its radius suggests
-    bool is_complex = spline_mode(spline) == WIGGLY_COMPLEX;
-    bool envelope = is_complex && spline->parameter[PARAMETER_PASSIVE].value == WIGGLY_OSCILLATOR;
+    bool envelope = is_complex && p[PARAMETER_PASSIVE].value == WIGGLY_OSCILLATOR;
     if (envelope || samples > MAX_SAMPLES) return (struct settling){.kind = SETTLE_ALONE, .seconds = expected};
     double seconds = step * settled_sample(&filter, is_complex, (int)samples);
     return (struct settling){.kind = SETTLE_ALONE, .seconds = seconds};
-}
-
-/// The settling after a sample. `alone` answers if the curve is too long to examine in one frame and still swings at its end.
-static struct settling settle_seen(const wiggly_curve *curve, int from, struct settling alone)
-{
-    int end = (int)fmin(curve->samples, (double)from + MAX_SAMPLES), last = from;
-    double size = maths_hypot(curve->re[from], curve->im[from]),
-           left = maths_hypot(curve->re[end - 1], curve->im[end - 1]);
-    for (int i = from; curve->mode == WIGGLY_REAL && i < end; i++) size = fmax(size, fabs(curve->re[i]));
-    for (int i = from; i < end; i++) {
-        if (maths_hypot(curve->re[i], curve->im[i]) > LEFT * size) last = i + 1;
-    }
-    if (last == end && end < curve->samples) return alone;
-    if (last == end) return (struct settling){.kind = SETTLE_LEFT, .left = left / size};
-    return (struct settling){.kind = SETTLE_SEEN, .seconds = (last - from) * curve->step};
 }
 
 struct settling settle_measure(const struct spline *spline, const wiggly_curve *curve, int last_knot)
@@ -198,7 +176,18 @@ struct settling settle_measure(const struct spline *spline, const wiggly_curve *
         const double size = maths_hypot(re[0], curve->im[last_knot]) + fabs(re[1]);
         open = size > 1e-9 * fabs(curve->total[last_knot]) && size > 0;
     }
-    return dies && open ? settle_seen(curve, last_knot, alone) : alone;
+    if (!dies || !open) return alone;
+    const int end = (int)fmin(curve->samples, (double)last_knot + MAX_SAMPLES);
+    const double left = maths_hypot(curve->re[end - 1], curve->im[end - 1]);
+    double size = maths_hypot(curve->re[last_knot], curve->im[last_knot]);
+    int last = last_knot;
+    for (int i = last_knot; curve->mode == WIGGLY_REAL && i < end; i++) size = fmax(size, fabs(curve->re[i]));
+    for (int i = last_knot; i < end; i++) {
+        if (maths_hypot(curve->re[i], curve->im[i]) > LEFT * size) last = i + 1;
+    }
+    if (last == end && end < curve->samples) return alone; // too long for one frame, and still swinging there
+    if (last == end) return (struct settling){.kind = SETTLE_LEFT, .left = left / size};
+    return (struct settling){.kind = SETTLE_SEEN, .seconds = (last - last_knot) * curve->step};
 }
 
 static const float floor_decibels = -60;
