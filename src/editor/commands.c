@@ -1,4 +1,4 @@
-/// The table of all commands, for keys, F1 and the palette. docs/keys.md lists them.
+/// The table of all commands, for keys, F1 and the palette; and the keyboard. docs/keys.md lists them.
 #include "editor/commands.h"
 #include "editor/core/core.h"
 #include "editor/core/knots.h"
@@ -10,6 +10,7 @@
 #include "editor/editor.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
+#include "scene/parameter.h"
 #include "ui/theme.h"
 #include <math.h>
 
@@ -29,16 +30,26 @@ static void ask_for(struct editor *editor, enum request_kind kind, int number)
     }
 }
 
-static void run_help(struct editor *e, int argument)
-{
-    (void)argument;
-    dialogs_help(e->dialogs, &e->core);
-}
+enum show {
+    SHOW_HELP,
+    SHOW_PALETTE,
+    SHOW_ALL,
+    SHOW_SELECTION,
+    SHOW_WHOLE_STAGE,
+    SHOW_PART_OF_STAGE,
+    SHOW_NEXT_THEME
+};
 
-static void run_palette(struct editor *e, int argument)
+static void run_show(struct editor *e, int what)
 {
-    (void)argument;
-    dialogs_palette(e->dialogs);
+    const bool on_stage = core_panel_at(&e->core, e->core.pointer_x, e->core.pointer_y) == PANEL_STAGE;
+    if (what == SHOW_HELP) dialogs_help(e->dialogs, &e->core);
+    if (what == SHOW_PALETTE) dialogs_palette(e->dialogs);
+    if (what == SHOW_ALL && !on_stage) curves_frame_all(e->curves, &e->core);
+    if (what == SHOW_SELECTION) curves_frame_selection(e->curves, &e->core);
+    if (what == SHOW_WHOLE_STAGE || (what == SHOW_ALL && on_stage)) stage_fit(e->stage, &e->core);
+    if (what == SHOW_PART_OF_STAGE) stage_frame(e->stage, &e->core);
+    if (what == SHOW_NEXT_THEME) theme_use((theme_in_use() + 1) % THEME_COUNT);
 }
 
 static void run_insert(struct editor *e, int argument)
@@ -71,17 +82,6 @@ static void run_hold(struct editor *e, int argument)
     stage_hold_point(e->stage, &e->core);
 }
 
-static void run_frame(struct editor *e, int argument)
-{
-    if (!argument && core_panel_at(&e->core, e->core.pointer_x, e->core.pointer_y) == PANEL_STAGE) {
-        stage_fit(e->stage, &e->core);
-    } else if (argument) {
-        curves_frame_selection(e->curves, &e->core);
-    } else {
-        curves_frame_all(e->curves, &e->core);
-    }
-}
-
 enum clipboard_use { CLIPBOARD_COPY, CLIPBOARD_CUT, CLIPBOARD_PASTE, CLIPBOARD_DUPLICATE };
 
 /// Not while a value is typed: Ctrl+C then copies text.
@@ -102,13 +102,6 @@ static void run_brush(struct editor *e, int argument)
     (void)argument;
     characters_set_brush(&e->core, !e->core.brush.on);
     if (e->core.brush.on) inspector_unfold(e->inspector, "section.character");
-}
-
-static void run_theme(struct editor *e, int argument)
-{
-    (void)e;
-    (void)argument;
-    theme_use((theme_in_use() + 1) % THEME_COUNT);
 }
 
 enum way { WAY_LEFT, WAY_RIGHT, WAY_UP, WAY_DOWN };
@@ -140,18 +133,6 @@ static void run_orbit(struct editor *editor, int way)
 static void run_approach(struct editor *editor, int direction)
 {
     stage_approach(editor->stage, (float)(direction > 0 ? ZOOM : 1 / ZOOM));
-}
-
-static void run_fit_stage(struct editor *editor, int argument)
-{
-    (void)argument;
-    stage_fit(editor->stage, &editor->core);
-}
-
-static void run_frame_stage(struct editor *editor, int argument)
-{
-    (void)argument;
-    stage_frame(editor->stage, &editor->core);
 }
 
 /// One frame or 1 % of the visible values; a pin, 1 % of the view. Shift: ten times, Ctrl: a tenth.
@@ -326,8 +307,8 @@ const struct command commands[] = {
     COMMAND("Zoom out", CURVES, 0, NOTHING, REPEATS, .run = run_zoom, -1, {'-', CTRL}, {KEY_PAGE_DOWN, CTRL}),
     GESTURE("Middle drag", "Pan", CURVES, ON_CURVES),
     GESTURE("Ctrl+arrows", "Pan", CURVES, 0),
-    COMMAND("Show all", CURVES, ON_CURVES, NOTHING, 0, .run = run_frame, 0, {KEY_HOME, 0}),
-    COMMAND("Show the selection", CURVES, 0, SELECTED, 0, .run = run_frame, 1, {KEY_END, 0}),
+    COMMAND("Show all", CURVES, ON_CURVES, NOTHING, 0, .run = run_show, SHOW_ALL, {KEY_HOME, 0}),
+    COMMAND("Show the selection", CURVES, 0, SELECTED, 0, .run = run_show, SHOW_SELECTION, {KEY_END, 0}),
     COMMAND("Normalise: all curves equally high", CURVES, 0, NOTHING, 0, .core = core_flip, SWITCH_NORMALISE,
             {'N', 0}),
     COMMAND("Phase curve", CURVES, 0, SWING, ANY_TIME, .core = core_flip, SWITCH_PHASE, {'V', SHIFT}),
@@ -351,8 +332,9 @@ const struct command commands[] = {
     COMMAND("Zoom in on the stage", STAGE, 0, NOTHING, REPEATS, .run = run_approach, 1, {KEY_PAGE_UP, CTRL_SHIFT}),
     COMMAND("Zoom out on the stage", STAGE, 0, NOTHING, REPEATS, .run = run_approach, -1,
             {KEY_PAGE_DOWN, CTRL_SHIFT}),
-    COMMAND("Show all of the stage", STAGE, ON_STAGE, NOTHING, 0, .run = run_fit_stage, 0, {KEY_HOME, SHIFT}),
-    COMMAND("Show the bone, chain or tail", STAGE, 0, NOTHING, 0, .run = run_frame_stage, 0, {'F', 0}),
+    COMMAND("Show all of the stage", STAGE, ON_STAGE, NOTHING, 0, .run = run_show, SHOW_WHOLE_STAGE,
+            {KEY_HOME, SHIFT}),
+    COMMAND("Show the bone, chain or tail", STAGE, 0, NOTHING, 0, .run = run_show, SHOW_PART_OF_STAGE, {'F', 0}),
     COMMAND("Onion skin", STAGE, ON_STAGE, NOTHING, ANY_TIME, .core = core_flip, SWITCH_ONION, {'O', 0}),
     COMMAND("Original clip beside it", STAGE, 0, MODEL, ANY_TIME, .core = core_flip, SWITCH_ORIGINAL, {'V', ALT}),
     COMMAND("Motion arc", STAGE, 0, NOTHING, ANY_TIME, .core = core_flip, SWITCH_TRAIL, {'O', SHIFT}),
@@ -390,8 +372,9 @@ const struct command commands[] = {
     COMMAND("Copy a link, in a browser", FILE, 0, PAGE, 0, .request = REQUEST_SHARE, 0, {'L', CTRL_SHIFT}),
     COMMAND("Quit", FILE, 0, NO_PAGE, 0, .request = REQUEST_QUIT, 0, {'Q', CTRL}),
 
-    COMMAND("All keys", WINDOW, 0, NOTHING, ANY_TIME | FIRST, .run = run_help, 0, {KEY_F1, 0}),
-    COMMAND("Any command, by typing", WINDOW, 0, NOTHING, FIRST | ANY_TIME, .run = run_palette, 0, {KEY_F3, 0}),
+    COMMAND("All keys", WINDOW, 0, NOTHING, ANY_TIME | FIRST, .run = run_show, SHOW_HELP, {KEY_F1, 0}),
+    COMMAND("Any command, by typing", WINDOW, 0, NOTHING, FIRST | ANY_TIME, .run = run_show, SHOW_PALETTE,
+            {KEY_F3, 0}),
     COMMAND("Present: the stage alone", WINDOW, 0, NOTHING, 0, .core = presenter_toggle, 0, {KEY_F5, 0}),
     GESTURE("Tab", "Panels, while presenting", WINDOW, 0),
     COMMAND("Resize the stage", WINDOW, 0, NOTHING, 0, .run = run_panel, 0, {KEY_F6, 0}),
@@ -402,7 +385,7 @@ const struct command commands[] = {
             {'-', CTRL_SHIFT}),
     COMMAND("Everything at the display's size", WINDOW, 0, NOTHING, 0, .request = REQUEST_UI_SCALE, 0,
             {'0', CTRL_SHIFT}),
-    COMMAND("Light or dark", WINDOW, 0, NOTHING, ANY_TIME, .run = run_theme, 0, {KEY_F10, 0}),
+    COMMAND("Light or dark", WINDOW, 0, NOTHING, ANY_TIME, .run = run_show, SHOW_NEXT_THEME, {KEY_F10, 0}),
     COMMAND("Full screen", WINDOW, 0, NOTHING, ANY_TIME, .request = REQUEST_FULLSCREEN, 0, {KEY_F11, 0}),
     COMMAND("Screenshot", WINDOW, 0, NOTHING, ANY_TIME, .request = REQUEST_SCREENSHOT, 0, {KEY_F12, 0}),
 
@@ -490,4 +473,77 @@ void command_run(struct editor *editor, const struct command *command)
     if (pins) pins_select_neighbour(core, argument);
     const struct knot *knot = command->knot && !pins ? command->knot(core, argument) : NULL;
     if (knot) curves_reveal(editor->curves, core, knot->frame, core_knot_value(core, core->active, knot));
+}
+
+// --- the keyboard: the command of a key or character, and keys that act while they are held
+
+const struct command *keys_command(int key, unsigned mods)
+{
+    for (int i = 0; i < command_count; i++) {
+        for (const struct chord *chord = commands[i].chords; chord->key; chord++) {
+            if (chord->key == key && chord->mods == mods) return &commands[i];
+        }
+    }
+    return NULL;
+}
+
+/// Runs the chord's command, unless it excludes key repeats or drags; true if there is one.
+static bool keys_run(struct editor *editor, int key, unsigned mods, bool repeated)
+{
+    const struct command *command = keys_command(key, mods);
+    const bool busy = history_is_open(editor->core.history);
+    if (command && (command->when & REPEATS || !repeated) && (command->when & ANY_TIME || !busy))
+        command_run(editor, command);
+    return command != NULL;
+}
+
+static unsigned mods_of(const struct event *event) { return event->mods & (MOD_SHIFT | MOD_CTRL | MOD_ALT); }
+
+bool keys_first(struct editor *editor, const struct event *event)
+{
+    if (event->kind != EVENT_KEY || event->action != ACTION_PRESS) return false;
+    const struct command *command = keys_command(event->key, mods_of(event));
+    if (!command || !(command->when & FIRST)) return false;
+    if (!inspector_is_dragging(editor->inspector)) command_run(editor, command);
+    return true;
+}
+
+bool keys_event(struct editor *editor, const struct event *event)
+{
+    const unsigned mods = mods_of(event);
+    struct core *core = &editor->core;
+    const struct press *press = &editor->press;
+    if (event->kind == EVENT_TEXT) // of a key used elsewhere (to close the help, say), it runs no command
+        return !press->used && keys_run(editor, (int)event->codepoint, CHORD_TYPED, press->repeated);
+
+    // Space plays on release, unless it panned.
+    if (event->key == KEY_SPACE && (mods == 0 || event->action == ACTION_RELEASE)) {
+        if (event->action == ACTION_PRESS) {
+            core->space_down = true;
+            core->space_used = false;
+        } else if (event->action == ACTION_RELEASE && core->space_down) {
+            core->space_down = false;
+            if (!core->space_used) playback_toggle(core);
+        }
+        return true;
+    }
+
+    if (event->action == ACTION_RELEASE) {
+        if (event->key != core->held_key) return false;
+        core->held_key = 0;
+        const bool on_stage = core_panel_at(core, core->pointer_x, core->pointer_y) == PANEL_STAGE;
+        return !core->held_used && on_stage && keys_run(editor, event->key, 0, false); // F alone
+    }
+
+    const bool is_held = event->key == 'L' || event->key == 'K' || parameter_of_letter(event->key) != PARAMETER_COUNT;
+    const bool holds = mods == 0 && is_held;
+    if (holds && event->action == ACTION_PRESS) {
+        core->held_key = event->key;
+        core->held_used = false;
+        if (event->key == 'K') take_explain(core);
+    }
+    const bool bound = !holds && keys_run(editor, event->key, mods, event->action == ACTION_REPEAT);
+    editor->press.opened = inspector_ui(editor->inspector)->popup.id != 0;
+    editor->press.used |= bound && mods & MOD_ALT; // some systems still send the key's text
+    return bound;
 }

@@ -1,14 +1,21 @@
-/// The editor's public functions: events, and one frame.
+/// The editor's public functions: events, one frame, and names for places on the screen.
 #include "editor/editor.h"
 #include "base/need.h"
 #include "editor/commands.h"
 #include "editor/core/core.h"
+#include "editor/core/drag.h"
+#include "editor/core/knots.h"
 #include "editor/core/view.h"
 #include "editor/curves/curves.h"
+#include "editor/dialogs/dialogs.h"
 #include "editor/inspector/inspector.h"
 #include "editor/stage/stage.h"
+#include "editor/transport/transport.h"
 #include "ui/theme.h"
+#include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MAX_COMMANDS = 16384, MAX_POINTS = 1 << 18, MAX_TEXT = 1 << 16 };
 
@@ -139,4 +146,359 @@ void editor_show_last(struct editor *editor)
 {
     inspector_show_rig(editor->inspector, editor->core.document->rig_count - 1);
     editor->core.refit_stage = true;
+}
+
+// --- events
+
+static void move_divider(void *room, struct core *core);
+
+static const struct drag_owner divider_drags[] = {
+    [DIVIDER_STAGE] = {.cursor = CURSOR_VERTICAL, .move = move_divider},
+    [DIVIDER_INSPECTOR] = {.cursor = CURSOR_HORIZONTAL, .move = move_divider},
+    [DIVIDER_BELOW] = {.cursor = CURSOR_VERTICAL, .move = move_divider},
+};
+
+static void move_divider(void *room, struct core *core)
+{
+    (void)room;
+    core_divider_move(core, (enum divider)(core->drag.owner - divider_drags), core->drag.x, core->drag.y);
+}
+
+static void editor_press(struct editor *editor, const struct event *event)
+{
+    enum divider divider = core_divider_at(&editor->core, event->x, event->y);
+    const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
+    if (divider != DIVIDER_NONE && event->button == BUTTON_LEFT) {
+        drag_begin(&editor->core, &divider_drags[divider], NULL, NULL, event);
+    } else if (panel == PANEL_CURVES) {
+        curves_press(editor->curves, &editor->core, event);
+    } else if (panel == PANEL_STAGE) {
+        stage_press(editor->stage, &editor->core, event);
+    } else {
+        transport_event(&editor->status, &editor->core, event);
+    }
+}
+
+/// Ends a running edit in the inspector first.
+void editor_leave(struct editor *editor, const struct request *request)
+{
+    inspector_let_go(editor->inspector);
+    dialogs_leave(editor->dialogs, &editor->core, request);
+}
+
+/// For events that no dialog, drag or inspector used.
+static void pass_on(struct editor *editor, const struct event *event)
+{
+    struct request request = {.kind = event->kind == EVENT_CLOSE ? REQUEST_QUIT : REQUEST_OPEN};
+    const enum panel panel = core_panel_at(&editor->core, event->x, event->y);
+    switch (event->kind) {
+    case EVENT_KEY:
+    case EVENT_TEXT:
+        keys_event(editor, event);
+        break;
+    case EVENT_BUTTON:
+        if (event->action == ACTION_PRESS) editor_press(editor, event);
+        break;
+    case EVENT_WHEEL:
+        if (panel == PANEL_CURVES) curves_wheel(editor->curves, &editor->core, event);
+        if (panel == PANEL_STATUS) transport_event(&editor->status, &editor->core, event);
+        if (panel == PANEL_STAGE) stage_wheel(editor->stage, &editor->core, event);
+        break;
+    case EVENT_PASTE:
+        core_paste_knots(&editor->core, event->text);
+        break;
+    case EVENT_CLOSE:
+        editor_leave(editor, &request);
+        break;
+    case EVENT_DROP:
+        snprintf(request.path, sizeof request.path, "%s", event->path ? event->path : "");
+        editor_leave(editor, &request);
+        break;
+    default:
+        break;
+    }
+}
+
+void editor_let_go(struct editor *editor)
+{
+    drag_end(&editor->core, true);
+    inspector_let_go(editor->inspector);
+}
+
+/// Overlays get events first, then a running drag, then the inspector. A text field takes all keys except Ctrl chords and F keys; a focused
+/// slider arrows, Enter and digits; an open dialog all.
+void editor_event(struct editor *editor, const struct event *event)
+{
+    struct core *core = &editor->core;
+    const bool is_key = event->kind == EVENT_KEY, is_button = event->kind == EVENT_BUTTON;
+    const bool has_pointer = event->kind == EVENT_POINTER || is_button || event->kind == EVENT_WHEEL;
+    if (has_pointer) {
+        core->pointer_x = event->x;
+        core->pointer_y = event->y;
+        core->finger = event->finger;
+    }
+    if (has_pointer || is_key) core->mods = event->mods;
+    if ((is_key || is_button) && event->action == ACTION_PRESS && core->message.is_error)
+        core->message = (struct message){.text = ""};
+    if (((is_key || is_button) && event->action != ACTION_RELEASE) || event->kind == EVENT_TEXT ||
+        event->kind == EVENT_WHEEL || event->kind == EVENT_SIZE)
+        tooltip_dismiss(&editor->tooltip);
+    if (event->kind == EVENT_SIZE) editor_resize(editor, event->x, event->y, event->scale);
+    dialogs_note(editor->dialogs, event);
+    if (event->kind == EVENT_TEXT && editor->press.opened) return;
+    bool used = (!dialogs_are_asking(editor->dialogs) && keys_first(editor, event)) ||
+                dialogs_event(editor->dialogs, core, event) || drag_event(core, event) ||
+                (!inspector_ui(editor->inspector)->typing && presenter_event(core, event)) ||
+                (!core->drag.owner && inspector_event(editor->inspector, event));
+    if (event->kind == EVENT_KEY && event->action != ACTION_RELEASE) {
+        editor->press = (struct press){.used = used, .repeated = event->action == ACTION_REPEAT};
+    }
+    if (!used) pass_on(editor, event);
+    const struct command *chosen = dialogs_take_command(editor->dialogs);
+    if (chosen) command_run(editor, chosen);
+    editor_settle(editor);
+
+    // A question or another new overlay ends any drag and releases held keys.
+    if (dialogs_ask(editor->dialogs, core)) inspector_let_go(editor->inspector);
+    if (!dialogs_cover(editor->dialogs)) return;
+    drag_end(core, true);
+    core->held_key = 0;
+    core->space_down = false;
+}
+
+void editor_advance(struct editor *editor, double dt)
+{
+    struct message *message = &editor->core.message;
+    const struct ui *ui = inspector_ui(editor->inspector);
+    const bool busy =
+        ui->typing || inspector_is_dragging(editor->inspector) || ui->popup.id || dialogs_cover(editor->dialogs);
+    editor->press = (struct press){.used = false}; // the text event comes in the same frame
+    if (message->seconds_left > 0) {
+        message->seconds_left -= dt;
+        if (message->seconds_left <= 0) message->text[0] = 0;
+    }
+    presenter_advance(&editor->core, dt, busy);
+    dialogs_advance(editor->dialogs, &editor->core, dt);
+    editor->core.nudged_seconds = fmax(editor->core.nudged_seconds - dt, 0);
+    transport_advance(&editor->core, dt);
+    tooltip_advance(&editor->tooltip, dt);
+    playback_advance(&editor->core, dt);
+    curves_advance(editor->curves, &editor->core, dt);
+    drag_apply(&editor->core, dt);
+    stage_advance(editor->stage, &editor->core, dt);
+    editor_settle(editor);
+}
+
+void editor_pose(struct editor *editor)
+{
+    sheet_update(editor->curves, &editor->core);
+    if (!editor->fitted) {
+        editor->fitted = true;
+        curves_frame_all(editor->curves, &editor->core);
+        stage_fit(editor->stage, &editor->core);
+    }
+    if (editor->core.refit_curves) curves_frame_all(editor->curves, &editor->core);
+    editor->core.refit_curves = false;
+    follow_edits(editor->curves, &editor->core);
+    stage_pose(editor->stage, &editor->core, dialogs_cover(editor->dialogs));
+}
+
+void editor_pose_alone(struct editor *editor, double frame, float width, float height)
+{
+    editor->core.layout.stage = (struct rect){0, 0, width, height};
+    editor->core.plain = true;
+    editor->core.playback.position = core_position(editor->core.document, frame);
+    editor_pose(editor);
+}
+
+static void show_divider(struct editor *editor, enum divider divider)
+{
+    enum { LENGTH = 36, THICKNESS = 3 };
+    struct core *core = &editor->core;
+    const struct rect *curves = &core->layout.curves, *inspector = &core->layout.inspector;
+    const bool across = divider != DIVIDER_INSPECTOR, held = core->drag.owner == &divider_drags[divider];
+    const bool hot = !core->drag.owner && core_divider_at(core, core->pointer_x, core->pointer_y) == divider;
+    const float y = divider == DIVIDER_STAGE ? curves->y : inspector->y;
+    const struct rect line =
+        across ? (struct rect){0, y, curves->w, 1} : (struct rect){inspector->x, 0, 1, inspector->h};
+    const float w = across ? LENGTH : THICKNESS, h = across ? THICKNESS : LENGTH;
+    const struct rect grip = {roundf(line.x + (line.w - w) / 2), roundf(line.y + (line.h - h) / 2), w, h};
+    drawlist_rect(&core->list, line, theme()->border);
+    if (!core->presenter.on)
+        drawlist_rounded(&core->list, grip, THICKNESS / 2.0f,
+                         held  ? theme()->accent
+                         : hot ? theme()->text
+                               : theme()->text_dim);
+}
+
+/// The status line's sentence on what the pointer does or is on; NULL: none.
+static const char *hint_of(const struct editor *editor)
+{
+    static const char *const picks[] = {
+        [BONE_FOLLOWED] = "Click the bone that the equilibrium should follow; Esc cancels",
+        [BONE_FIRST] = "Click the first bone of the chain; Esc cancels",
+        [BONE_LAST] = "Click the last bone of the chain; Esc cancels",
+    };
+    const struct core *core = &editor->core;
+    const struct hover *hover = &core->hover;
+    const char *widget = inspector_ui(editor->inspector)->hint;
+    if (widget || core->drag.hint) return widget ? widget : core->drag.hint;
+    if (core->pick.use != BONE_SELECTED) return picks[core->pick.use];
+    return hover->hint ? hover->hint : hover->thing ? hover->thing->hint : NULL;
+}
+
+void editor_show(struct editor *editor)
+{
+    struct core *core = &editor->core;
+    const bool covered = dialogs_cover(editor->dialogs);
+    const float x = core->pointer_x, y = core->pointer_y;
+    drawlist_clear(&core->list, core->layout.window);
+
+    // Anew in every frame, because things move under the pointer.
+    editor->status.pointer_x = -1;
+    editor->status.hint = NULL;
+    if (!core->drag.owner) {
+        const bool is_beside = covered || core_divider_at(core, x, y) != DIVIDER_NONE;
+        const enum panel panel = is_beside ? PANEL_NONE : core_panel_at(core, x, y);
+        core->hover = (struct hover){.thing = NULL};
+        if (panel == PANEL_CURVES) core->hover = curves_hover(editor->curves, core, x, y);
+        if (panel == PANEL_STAGE) core->hover = stage_hover(editor->stage, core, x, y);
+        if (panel == PANEL_STATUS) editor->status.pointer_x = x, editor->status.pointer_y = y;
+    }
+
+    stage_show(editor->stage, core);
+    dialogs_show_welcome(editor->dialogs, core, stage_figure(editor->stage, core));
+    stage_show_caption(core, dialogs_bottom(editor->dialogs, core));
+
+    // While presenting, only the panels that have not slid away.
+    const struct presenter *presenter = &core->presenter;
+    const bool below = !presenter->on || presenter->below > 0, side = !presenter->on || presenter->side > 0;
+    if (below) curves_show(editor->curves, core);
+    if (below) show_divider(editor, DIVIDER_STAGE); // below the inspector's menus
+    if (side) inspector_show(editor->inspector, covered);
+    if (side) show_divider(editor, core->layout.upright ? DIVIDER_BELOW : DIVIDER_INSPECTOR);
+    if (below) transport_show(&editor->status, core, hint_of(editor));
+
+    dialogs_show_input(editor->dialogs, core);
+    dialogs_show(editor->dialogs, core);
+
+    // The tooltip is for the control under the pointer, else for the focused one.
+    const struct rect cursor = {x, y - 4, 14, 22};
+    const struct ui *ui = inspector_ui(editor->inspector);
+    const struct thing *thing = core->hover.thing;
+    const char *control = thing && thing->is_control ? thing->hint : editor->status.hint;
+    const char *text = ui->hint ? ui->hint : control;
+    const bool is_focus = !text && ui->focus;
+    if (is_focus) text = ui->focus_hint;
+    if (covered || core->drag.owner) text = NULL;
+    tooltip_offer(&editor->tooltip, text, x, y, is_focus ? ui->focus_rect : cursor);
+    tooltip_show(&editor->tooltip, core->layout.window, &core->list);
+    core->unshown = false;
+}
+
+enum mouse_cursor editor_cursor(const struct editor *editor)
+{
+    static const enum mouse_cursor of_widget[] = {
+        [UI_OVER_NOTHING] = CURSOR_ARROW, [UI_OVER_NUMBER] = CURSOR_HORIZONTAL, [UI_OVER_TEXT] = CURSOR_TEXT};
+    enum ui_over over;
+    if (dialogs_over(editor->dialogs, &over)) return of_widget[over];
+    if (editor->core.drag.owner) return editor->core.drag.owner->cursor;
+    enum divider divider = core_divider_at(&editor->core, editor->core.pointer_x, editor->core.pointer_y);
+    if (divider != DIVIDER_NONE) return divider_drags[divider].cursor;
+    over = inspector_ui(editor->inspector)->over;
+    if (over != UI_OVER_NOTHING) return of_widget[over];
+    if (editor->status.hint) return CURSOR_HAND;
+    return editor->core.hover.thing ? editor->core.hover.thing->cursor : CURSOR_ARROW;
+}
+
+// --- names for places on the screen, as replays use them: "knot(sway,2)", "tail(tail,0.9)". They survive layout changes
+
+static bool find_divider(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    const struct layout *l = &core->layout;
+    const bool inspector = strcmp(target->name, "inspector") == 0;
+    (void)room;
+    xy[0] = inspector ? l->inspector.x : l->curves.x + l->curves.w / 2;
+    xy[1] = inspector ? l->inspector.h / 2 : l->curves.y;
+    return inspector || strcmp(target->name, "stage") == 0;
+}
+
+/// Lays out the widgets; the editor ends up unchanged.
+static bool find_widget(void *room, const struct core *core, const struct target *target, float xy[2])
+{
+    struct editor *editor = room;
+    (void)core;
+    return inspector_target(editor->inspector, target->name, &xy[0], &xy[1]) ||
+           transport_target(&editor->status, &editor->core, target->name, &xy[0], &xy[1]);
+}
+
+static const char hidden[] = "neither inspector nor status line shows it";
+
+static const struct thing divider = {.name = "divider",
+                                     .of = OF_ITSELF,
+                                     .find = find_divider,
+                                     .missing = "there is no such divider: expected stage or inspector"},
+                          slider = {.name = "slider", .of = OF_ITSELF, .find = find_widget, .missing = hidden},
+                          widget = {.name = "widget", .of = OF_ITSELF, .find = find_widget, .missing = hidden};
+
+static const struct thing *const editor_things[] = {&divider, &slider, &widget, NULL};
+
+/// Parses kind(name,number,…). Returns the kind's thing in a list, or NULL.
+static const struct thing *parse_target(const struct thing *const *things, const char *text, struct target *target)
+{
+    const size_t kind = strcspn(text, "("), length = strlen(text);
+    while (*things && (strlen((*things)->name) != kind || strncmp((*things)->name, text, kind) != 0)) things++;
+    if (!*things || kind == length || text[length - 1] != ')' || length - kind > sizeof target->name) return NULL;
+    *target = (struct target){.name = ""};
+    memcpy(target->name, text + kind + 1, length - kind - 2);
+    for (int n = (*things)->numbers - 1; n >= 0; n--) {
+        char *comma = strrchr(target->name, ','), *digits = comma ? comma + 1 : target->name, *end;
+        target->number[n] = strtod(digits, &end);
+        if (end == digits || *end || !isfinite(target->number[n])) return NULL;
+        *(comma ? comma : digits) = 0;
+    }
+    return ((*things)->of != OF_NOBODY) == (target->name[0] != 0) ? *things : NULL;
+}
+
+bool editor_target(struct editor *editor, const char *text, float *x, float *y, struct error *error)
+{
+    const struct thing *const *const lists[] = {curves_things, stage_things, editor_things};
+    void *const rooms[] = {editor->curves, editor->stage, editor};
+    const struct document *document = editor->core.document;
+    const struct thing *thing = NULL;
+    struct target target;
+    float xy[2];
+    int list = -1;
+    while (!thing && ++list < 3) thing = parse_target(lists[list], text, &target);
+    if (!thing) return fail(error, ERROR_INPUT, "\"%s\" is no target such as knot(sway,2) or stage(0.5,0.5)", text);
+    const double k = target.number[0];
+    if (thing->of == OF_SPLINE || thing->of == OF_KNOT) {
+        target.spline = document_find_spline(document, target.name);
+        if (target.spline < 0) return fail(error, ERROR_INPUT, "there is no spline \"%s\"", target.name);
+        const struct spline *spline = document->splines[target.spline];
+        if (thing->of == OF_KNOT && !(k >= 0 && k < spline->knot_count))
+            return fail(error, ERROR_INPUT, "the spline \"%s\" has %d knots, no knot %g", spline->name,
+                        spline->knot_count, k);
+        if (thing->of == OF_KNOT) target.knot = &spline->knots[(int)k];
+    }
+    bool found = thing->of != OF_RIG && thing->of != OF_PIN;
+    while (!found && target.rig < document->rig_count) {
+        const struct rig *rig = document->rigs[target.rig];
+        found = strcmp(rig_title(rig), target.name) == 0; // an unnamed character goes by its model
+        if (thing->of == OF_PIN) {
+            found &= k >= 0 && k < rig->pin_count;
+            if (found) target.pin = &rig->pins[(int)k];
+        } else {
+            found &= rig->kind == thing->rig;
+            target.nth += !found && rig->kind == thing->rig;
+        }
+        target.rig += !found;
+    }
+    if (!found && thing->of == OF_PIN)
+        return fail(error, ERROR_INPUT, "there is no pin %g of \"%s\"", k, target.name);
+    if (!found) return fail(error, ERROR_INPUT, "there is no %s \"%s\"", rig_word(thing->rig), target.name);
+    if (!thing->find(rooms[list], &editor->core, &target, xy)) return fail(error, ERROR_INPUT, "%s", thing->missing);
+    *x = xy[0];
+    *y = xy[1];
+    return true;
 }

@@ -11,81 +11,80 @@ const char *const about_titles[ABOUT_COUNT] = {
     [ABOUT_FILE] = "File and edits", [ABOUT_WINDOW] = "Window",       [ABOUT_SCENES] = "Scenes to try",
 };
 
-static bool can_undo(const struct core *core) { return history_done(core->history) > 0; }
-
-static bool can_redo(const struct core *core) { return history_done(core->history) < history_count(core->history); }
-
-static bool has_spline(const struct core *core) { return core_active_spline(core) != NULL; }
-
-static bool has_swing(const struct core *core)
-{
-    return has_spline(core) && spline_mode(core_active_spline(core)) != WIGGLY_CUBIC;
-}
-
-static bool has_knots(const struct core *core)
-{
-    return has_spline(core) && core_active_spline(core)->knot_count > 0;
-}
-
-static bool has_selected(const struct core *core) { return selected_count(core) > 0; }
-
-static bool has_chosen(const struct core *core) { return has_selected(core) || pins_any_selected(core); }
-
-static bool has_bone(const struct core *core)
-{
-    int model;
-    return bones_selected(core, &model) >= 0;
-}
-
-static bool has_rig(const struct core *core) { return core->document->rig_count > 0; }
-
-static bool has_kind(const struct core *core, enum rig_kind kind)
-{
-    return document_find_rig(core->document, kind, 0) >= 0;
-}
-
-static bool has_tail(const struct core *core) { return has_kind(core, RIG_TAIL) || has_kind(core, RIG_CHAIN); }
-
-static bool has_twin(const struct core *core) { return bones_mirrorable(core, 0) >= 0; }
-
-static bool has_body(const struct core *core) { return has_kind(core, RIG_TAIL); }
-
-static bool has_character(const struct core *core) { return has_kind(core, RIG_CHARACTER); }
-
-static bool has_pinnable(const struct core *core) { return has_tail(core) || has_character(core); }
-
-static bool has_model(const struct core *core) { return has_kind(core, RIG_MODEL); }
-
-static bool has_coordinate(const struct core *core) { return characters_coordinate(core) != NULL; }
-
-static bool has_page(const struct core *core) { return core->in_page; }
-
-static bool has_no_page(const struct core *core) { return !core->in_page; }
-
-static const struct {
-    bool (*met)(const struct core *core);
-    const char *missing;
-} needs[] = {
-    [NEEDS_UNDO] = {can_undo, "There is nothing to undo."},
-    [NEEDS_REDO] = {can_redo, "There is nothing to redo."},
-    [NEEDS_SPLINE] = {has_spline, "Add a spline first."},
-    [NEEDS_SWING] = {has_swing, "Choose a spline that swings first: a cubic does not."},
-    [NEEDS_KNOTS] = {has_knots, "Insert a knot first."},
-    [NEEDS_SELECTED] = {has_selected, "Select a knot first."},
-    [NEEDS_CHOSEN] = {has_chosen, "Select a knot or a pin first."},
-    [NEEDS_PIN] = {pins_any_selected, "Select a pin first."},
-    [NEEDS_BONE] = {has_bone, "Click a bone of an imported character first."},
-    [NEEDS_RIG] = {has_rig, "Add a tail or a character first."},
-    [NEEDS_TAIL] = {has_tail, "Add a tail or a chain first."},
-    [NEEDS_TWIN] = {has_twin, "Make a chain of bones with a free other side first (ear_L, ear_R)."},
-    [NEEDS_PINNABLE] = {has_pinnable, "Add a tail, a chain or a soft character first."},
-    [NEEDS_BODY] = {has_body, "Add a tail first."},
-    [NEEDS_CHARACTER] = {has_character, "Add a soft character first."},
-    [NEEDS_MODEL] = {has_model, "Open a character from a file first."},
-    [NEEDS_PAINT] = {has_coordinate, "Select a soft character first."},
-    [NEEDS_PAGE] = {has_page, "Links are for the app in a browser."},
-    [NEEDS_NO_PAGE] = {has_no_page, "Close the page instead: unsaved work is kept."},
+static const char *const missing[] = {
+    [NEEDS_UNDO] = "There is nothing to undo.",
+    [NEEDS_REDO] = "There is nothing to redo.",
+    [NEEDS_SPLINE] = "Add a spline first.",
+    [NEEDS_SWING] = "Choose a spline that swings first: a cubic does not.",
+    [NEEDS_KNOTS] = "Insert a knot first.",
+    [NEEDS_SELECTED] = "Select a knot first.",
+    [NEEDS_CHOSEN] = "Select a knot or a pin first.",
+    [NEEDS_PIN] = "Select a pin first.",
+    [NEEDS_BONE] = "Click a bone of an imported character first.",
+    [NEEDS_RIG] = "Add a tail or a character first.",
+    [NEEDS_TAIL] = "Add a tail or a chain first.",
+    [NEEDS_TWIN] = "Make a chain of bones with a free other side first (ear_L, ear_R).",
+    [NEEDS_PINNABLE] = "Add a tail, a chain or a soft character first.",
+    [NEEDS_BODY] = "Add a tail first.",
+    [NEEDS_CHARACTER] = "Add a soft character first.",
+    [NEEDS_MODEL] = "Open a character from a file first.",
+    [NEEDS_PAINT] = "Select a soft character first.",
+    [NEEDS_PAGE] = "Links are for the app in a browser.",
+    [NEEDS_NO_PAGE] = "Close the page instead: unsaved work is kept.",
 };
+
+static bool is_met(const struct core *core, enum need need)
+{
+    const struct document *document = core->document;
+    const struct spline *spline = core_active_spline(core);
+    const bool has_tail =
+        document_find_rig(document, RIG_TAIL, 0) >= 0 || document_find_rig(document, RIG_CHAIN, 0) >= 0;
+    int model;
+    switch (need) {
+    case NEEDS_UNDO:
+        return history_done(core->history) > 0;
+    case NEEDS_REDO:
+        return history_done(core->history) < history_count(core->history);
+    case NEEDS_SPLINE:
+        return spline;
+    case NEEDS_SWING:
+        return spline && spline_mode(spline) != WIGGLY_CUBIC;
+    case NEEDS_KNOTS:
+        return spline && spline->knot_count > 0;
+    case NEEDS_SELECTED:
+        return selected_count(core) > 0;
+    case NEEDS_CHOSEN:
+        return selected_count(core) > 0 || pins_any_selected(core);
+    case NEEDS_PIN:
+        return pins_any_selected(core);
+    case NEEDS_BONE:
+        return bones_selected(core, &model) >= 0;
+    case NEEDS_RIG:
+        return document->rig_count > 0;
+    case NEEDS_TAIL:
+        return has_tail;
+    case NEEDS_TWIN:
+        return bones_mirrorable(core, 0) >= 0;
+    case NEEDS_PINNABLE:
+        return has_tail || document_find_rig(document, RIG_CHARACTER, 0) >= 0;
+    case NEEDS_BODY:
+        return document_find_rig(document, RIG_TAIL, 0) >= 0;
+    case NEEDS_CHARACTER:
+        return document_find_rig(document, RIG_CHARACTER, 0) >= 0;
+    case NEEDS_MODEL:
+        return document_find_rig(document, RIG_MODEL, 0) >= 0;
+    case NEEDS_PAINT:
+        return characters_coordinate(core);
+    case NEEDS_PAGE:
+        return core->in_page;
+    case NEEDS_NO_PAGE:
+        return !core->in_page;
+    case NEEDS_NOTHING:
+    case NEEDS_COUNT:
+        break;
+    }
+    return true;
+}
 
 bool command_runs(const struct command *command)
 {
@@ -95,7 +94,7 @@ bool command_runs(const struct command *command)
 
 const char *need_missing(const struct core *core, enum need need)
 {
-    return need == NEEDS_NOTHING || needs[need].met(core) ? NULL : needs[need].missing;
+    return is_met(core, need) ? NULL : missing[need];
 }
 
 const char *command_key_name(int key)

@@ -55,16 +55,6 @@ static void move(struct core *core, const struct event *event)
     if (drag->owner->move) drag->owner->move(drag->room, core);
 }
 
-/// Buttons and Esc, the same for all drags.
-static enum drag_answer answer_of_all(const struct drag *drag, const struct event *event)
-{
-    if (event->kind == EVENT_BUTTON) {
-        return event->action == ACTION_RELEASE && event->button == drag->button ? DRAG_KEEP : DRAG_USED;
-    }
-    bool escape = event->kind == EVENT_KEY && event->action == ACTION_PRESS && event->key == KEY_ESCAPE;
-    return escape ? DRAG_TAKE_BACK : DRAG_PASSES;
-}
-
 bool drag_event(struct core *core, const struct event *event)
 {
     struct drag *drag = &core->drag;
@@ -75,7 +65,11 @@ bool drag_event(struct core *core, const struct event *event)
         return true;
     }
     if (drag->owner->event) answer = drag->owner->event(drag->room, core, event);
-    if (answer == DRAG_PASSES) answer = answer_of_all(drag, event);
+    if (answer == DRAG_PASSES && event->kind == EVENT_BUTTON) {
+        answer = event->action == ACTION_RELEASE && event->button == drag->button ? DRAG_KEEP : DRAG_USED;
+    } else if (answer == DRAG_PASSES && event->kind == EVENT_KEY) {
+        answer = event->action == ACTION_PRESS && event->key == KEY_ESCAPE ? DRAG_TAKE_BACK : DRAG_PASSES;
+    }
     if (answer == DRAG_KEEP || answer == DRAG_TAKE_BACK) drag_end(core, answer == DRAG_KEEP);
     return answer != DRAG_PASSES;
 }

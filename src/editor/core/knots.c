@@ -69,18 +69,6 @@ void core_insert_on_curve(struct core *core, double frame, bool snap, enum holds
     insert_at(core, &knot);
 }
 
-/// A knot after changing what it holds. A pose is as seen now; a still knot becomes a value again by the one it had, if it had one.
-static struct knot held(const struct core *core, int spline, const struct knot *knot, enum holds holds)
-{
-    const wiggly_value here = evaluation_at(core->evaluation, spline, document_sample(core->document, knot->frame));
-    struct knot to = *knot;
-    to.still = holds == HOLDS_STILL;
-    if (!to.still && (holds == HOLDS_POSE || isnan(to.value))) to.value = core_knot_value(core, spline, knot);
-    to.has_phase = holds == HOLDS_POSE;
-    to.phase = to.has_phase ? here.im : 0;
-    return to;
-}
-
 void core_set_hold(struct core *core, int holds)
 {
     static const char *const labels[] = {
@@ -100,13 +88,21 @@ void core_set_hold(struct core *core, int holds)
     if (!core_step(core, labels[holds], 0)) return;
     core_collect(core, false);
     for (int i = 0; i < core->originals.count; i++) {
-        const struct original *original = &core->originals.list[i];
-        struct knot knot = held(core, original->spline, &original->knot, (enum holds)holds);
-        if (holds == HOLDS_POSE && spline_mode(core->document->splines[original->spline]) != WIGGLY_COMPLEX) continue;
-        if (holds == HOLDS_POSE && original->knot.has_phase) continue; // already a pose
-        if (holds == HOLDS_STILL) knot.has_slope = false;
-        core_hold(core->document->splines[original->spline], &knot, why);
-        core_put_knot(core, original->spline, &knot);
+        const int of = core->originals.list[i].spline;
+        const struct spline *spline = core->document->splines[of];
+        const struct knot *was = &core->originals.list[i].knot;
+        const int sample = document_sample(core->document, was->frame);
+        struct knot knot = *was;
+        if (holds == HOLDS_POSE && (spline_mode(spline) != WIGGLY_COMPLEX || was->has_phase)) continue;
+
+        // A pose is as seen now. A still knot becomes a value again by the one it had, if it had one.
+        knot.still = holds == HOLDS_STILL;
+        if (!knot.still && (holds == HOLDS_POSE || isnan(was->value))) knot.value = core_knot_value(core, of, was);
+        knot.has_phase = holds == HOLDS_POSE;
+        knot.phase = knot.has_phase ? evaluation_at(core->evaluation, of, sample).im : 0;
+        if (knot.still) knot.has_slope = false;
+        core_hold(spline, &knot, why);
+        core_put_knot(core, of, &knot);
     }
     core_edited(core, -1);
     if (holds == HOLDS_STILL)
@@ -234,14 +230,6 @@ static const double TURN = 0.05,
                     FIRMER = 1.25; ///< per key press: of the visible values, a second; factor on the stiffness
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
 
-/// The curve's slope at a knot, in values a second.
-static double slope_at(const struct core *core, int spline, const struct knot *knot)
-{
-    int sample = document_sample(core->document, knot->frame);
-    double slope = evaluation_slope(core->evaluation, core->document, spline, sample);
-    return isfinite(slope) ? slope : 0;
-}
-
 /// Computes a knot's slope, in values a second.
 typedef double slope_rule(const struct core *core, struct knot_place at);
 
@@ -289,8 +277,10 @@ static void change_knots(struct core *core, const struct knot_change *change)
         const struct knot *before = knot_at(document, at);
         if (before->still) continue;
         const bool fresh = change->on && !before->has_slope;
+        const int sample = document_sample(document, before->frame);
         struct knot knot = *before;
-        if (fresh) knot.slope = slope_at(core, at.spline, before);
+        if (fresh) knot.slope = evaluation_slope(core->evaluation, document, at.spline, sample);
+        if (!isfinite(knot.slope)) knot.slope = 0;
         if (!(before->stiffness > 0)) knot.stiffness = FIRM;
         knot.has_slope = change->on;
         if (change->rule) knot.slope = change->rule(core, at);
@@ -321,20 +311,13 @@ void slopes_stiffen(struct core *core, int direction)
     change_knots(core, &change);
 }
 
-/// Still knots do not count, because they cannot have slopes.
-static bool all_sloped(const struct core *core)
-{
-    bool all = true;
-    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
-        const struct knot *knot = knot_at(core->document, at);
-        all &= knot->has_slope || knot->still;
-    }
-    return all;
-}
-
 void slopes_set(struct core *core, int how)
 {
-    const bool off = how == SLOPES_TOGGLE && all_sloped(core);
+    bool off = true; // of all that have one; still knots cannot
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        const struct knot *knot = knot_at(core->document, at);
+        off &= knot->has_slope || knot->still;
+    }
     const struct knot_change changes[] = {
         [SLOPES_TOGGLE] = {.label = off ? "Slope off" : "Slope on", .on = !off, .stiffness = 1},
         [SLOPES_FLAT] = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1},
@@ -358,36 +341,31 @@ static int collect(struct core *core)
     return core->originals.count;
 }
 
-/// The originals as text. Knots of a single spline leave out its name, so that they can be pasted into any.
-static char *print_originals(const struct originals *originals, const struct document *document)
-{
-    const size_t count = (size_t)originals->count;
-    const bool mixed = originals->list[0].spline != originals->list[count - 1].spline;
-    struct knot_list list = {need(count, sizeof *list.knots), need(count, sizeof *list.splines), originals->count};
-    for (size_t i = 0; i < count; i++) {
-        list.knots[i] = originals->list[i].knot;
-        list.splines[i] = mixed ? document->splines[originals->list[i].spline]->name : NULL;
-    }
-    char *text = knots_print(&list);
-    free(list.knots);
-    free(list.splines); // the document owns the names
-    return text;
-}
-
 bool core_copy_knots(struct core *core, bool cut)
 {
-    int count = collect(core);
+    const int count = collect(core);
     if (count == 0) return false;
-    char *text = print_originals(&core->originals, core->document);
+
+    // Knots of a single spline leave out its name, so that they can be pasted into any.
+    const struct original *originals = core->originals.list;
+    const bool mixed = originals[0].spline != originals[count - 1].spline;
+    struct knot_list list = {need((size_t)count, sizeof *list.knots), need((size_t)count, sizeof *list.splines),
+                             count};
+    for (int i = 0; i < count; i++) {
+        list.knots[i] = originals[i].knot;
+        list.splines[i] = mixed ? core->document->splines[originals[i].spline]->name : NULL;
+    }
     free(core->clipboard);
-    core->clipboard = text;
+    core->clipboard = knots_print(&list);
+    free(list.knots);
+    free(list.splines); // the document owns the names
     if (cut) core_remove_knots(core, count == 1 ? "Cut knot" : "Cut knots");
     say_count(core, cut ? "Cut" : "Copied", count);
     return true;
 }
 
 /// Inserts a shifted copy of a knot in the open step.
-static bool insert(struct core *core, int spline, const struct knot *knot, double shift)
+static bool insert_copy(struct core *core, int spline, const struct knot *knot, double shift)
 {
     struct knot copy = *knot;
     copy.id = 0;
@@ -403,14 +381,6 @@ static void select_from(struct core *core, unsigned first_id)
     for (unsigned id = first_id; id < core->document->next_id; id++) selection_set(&core->selection, id, true);
     selected_settle(core);
     core_edited(core, -1);
-}
-
-/// The spline a listed knot goes to: the one it names, else the active one.
-static int target_of(const struct core *core, const struct knot_list *list, int k)
-{
-    const char *name = list->splines ? list->splines[k] : NULL;
-    const int found = name ? document_find_spline(core->document, name) : -1;
-    return found >= 0 ? found : core->active;
 }
 
 void core_paste_knots(struct core *core, const char *text)
@@ -433,8 +403,11 @@ void core_paste_knots(struct core *core, const char *text)
     for (int k = 1; k < list.count; k++) first = fmin(first, list.knots[k].frame);
     const double shift = round(core_frame(core)) - first;
     core_step(core, list.count == 1 ? "Paste knot" : "Paste knots", 0);
-    for (int k = 0; k < list.count && good; k++)
-        good = insert(core, target_of(core, &list, k), &list.knots[k], shift);
+    for (int k = 0; k < list.count && good; k++) {
+        const char *name = list.splines ? list.splines[k] : NULL;
+        const int named = name ? document_find_spline(document, name) : -1;
+        good = insert_copy(core, named >= 0 ? named : core->active, &list.knots[k], shift);
+    }
     if (good) select_from(core, first_id);
     if (good) say_count(core, "Pasted", list.count);
     knot_list_free(&list);
@@ -467,18 +440,6 @@ static double copies_shift(const struct originals *originals, const struct docum
     return shift;
 }
 
-/// The last frame the scene needs for the copies. A loop's last sample is its first one.
-static int copies_end(const struct originals *originals, const struct document *document, double shift)
-{
-    double end = document->last_frame;
-    for (int i = 0; i < originals->count; i++) {
-        const struct original *original = &originals->list[i];
-        const bool loops = spline_start(document->splines[original->spline]) == WIGGLY_LOOP;
-        end = fmax(end, original->knot.frame + shift + (loops ? 1.0 / document->substeps : 0));
-    }
-    return (int)fmin(ceil(end), SCENE_MAX_FRAME);
-}
-
 void core_duplicate_knots(struct core *core)
 {
     struct document *document = core->document;
@@ -487,12 +448,20 @@ void core_duplicate_knots(struct core *core)
     if (count == 0) return;
     const double shift = copies_shift(originals, document);
     const unsigned first_id = document->next_id;
-    const int end = copies_end(originals, document, shift);
+
+    // The last frame that the scene needs. A loop's last sample is its first one.
+    double most = document->last_frame;
+    for (int i = 0; i < count; i++) {
+        const struct original *original = &originals->list[i];
+        const bool loops = spline_start(document->splines[original->spline]) == WIGGLY_LOOP;
+        most = fmax(most, original->knot.frame + shift + (loops ? 1.0 / document->substeps : 0));
+    }
+    const int end = (int)fmin(ceil(most), SCENE_MAX_FRAME);
     const bool longer = end > document->last_frame;
     if (!core_step(core, count == 1 ? "Duplicate knot" : "Duplicate knots", 0)) return;
     bool good = !longer || edit_range(document, document->first_frame, end, RANGE_REFUSE, &core->error);
     for (int i = 0; i < count && good; i++)
-        good = insert(core, originals->list[i].spline, &originals->list[i].knot, shift);
+        good = insert_copy(core, originals->list[i].spline, &originals->list[i].knot, shift);
     if (!good) return;
     select_from(core, first_id);
     say_count(core, "Duplicated", count);

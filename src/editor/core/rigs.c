@@ -74,22 +74,16 @@ static double free_place(const struct core *core, double wide)
     return isfinite(right) ? core_round(right, 0.01) : 0;
 }
 
-/// The active spline, or a new one with a knot at the playhead; -1 on failure.
-static int spline_to_use(struct core *core)
-{
-    if (core_active_spline(core)) return core->active;
-    const struct knot first = {.frame = round(core_frame(core))};
-    const bool done = edit_spline_add(core->document, -1, NULL, &first, &core->error);
-    return done ? core->document->spline_count - 1 : -1;
-}
-
 void rigs_add_tail(struct core *core)
 {
     struct document *document = core->document;
     const double place = free_place(core, ROOM);
     if (!core_step(core, "Add tail", 0)) return;
-    const int spline = spline_to_use(core);
-    bool done = spline >= 0 && edit_tail_add(document, -1, spline, &core->error);
+    const bool is_new = !core_active_spline(core);
+    const struct knot first = {.frame = round(core_frame(core))};
+    bool done = !is_new || edit_spline_add(document, -1, NULL, &first, &core->error);
+    const int spline = is_new ? document->spline_count - 1 : core->active;
+    done = done && edit_tail_add(document, -1, spline, &core->error);
     if (done) {
         struct rig added = *document->rigs[document->rig_count - 1];
         added.tail.position[0] = param_number(place);
@@ -193,48 +187,36 @@ static int own_splines(const struct document *document, int rig, char *names, si
     return count;
 }
 
-/// Splines that follow a joint of a removed rig keep their value at the playhead.
-static bool let_go(struct core *core, const struct removal *removal)
+static void remove_rig(struct core *core, int rig, bool with_splines)
 {
-    const struct document *document = core->document;
+    struct document *document = core->document;
+    struct error *error = &core->error;
+    struct removal removal;
     bool done = true;
+    if (rig < 0 || rig >= document->rig_count) return;
+    if (!core_step(core, with_splines ? "Remove with splines" : "Remove", 0)) return;
+    survey(&removal, document, rig);
+
+    // Splines that follow a joint of a removed rig keep their value at the playhead.
     for (int s = 0; s < document->spline_count && done; s++) {
         bool follows = false;
-        for (int r = 0; r < document->rig_count; r++) follows |= goes(removal, r) && document_follows(document, s, r);
+        for (int r = 0; r < document->rig_count; r++)
+            follows |= goes(&removal, r) && document_follows(document, s, r);
         if (!follows) continue;
         const double present = spline_list_present(core, s, PARAMETER_EQUILIBRIUM);
         done = core_set_parameter(core, s, PARAMETER_EQUILIBRIUM, core_round(present, 1e-3));
     }
-    return done;
-}
 
-static bool remove_rigs(struct core *core, struct removal *removal)
-{
-    bool done = true;
-    for (int r = core->document->rig_count - 1; r >= 0 && done; r--) {
-        if (r == removal->rig || !goes(removal, r)) continue;
-        done = edit_rig_remove(core->document, r, &core->error);
-        if (r < removal->rig) removal->rig--;
+    // Its chains go first.
+    for (int r = document->rig_count - 1; r >= 0 && done; r--) {
+        if (r == removal.rig || !goes(&removal, r)) continue;
+        done = edit_rig_remove(document, r, error);
+        if (r < removal.rig) removal.rig--;
     }
-    return done && edit_rig_remove(core->document, removal->rig, &core->error);
-}
-
-static bool remove_splines(struct core *core, const struct removal *removal)
-{
-    bool done = true;
-    for (int s = core->document->spline_count - 1; s >= 0 && done; s--) {
-        if (removal->mine[s] && !removal->others[s]) done = edit_spline_remove(core->document, s, &core->error);
+    done = done && edit_rig_remove(document, removal.rig, error);
+    for (int s = document->spline_count - 1; s >= 0 && done && with_splines; s--) {
+        if (removal.mine[s] && !removal.others[s]) done = edit_spline_remove(document, s, error);
     }
-    return done;
-}
-
-static void remove_rig(struct core *core, int rig, bool with_splines)
-{
-    struct removal removal;
-    if (rig < 0 || rig >= core->document->rig_count) return;
-    if (!core_step(core, with_splines ? "Remove with splines" : "Remove", 0)) return;
-    survey(&removal, core->document, rig);
-    if (let_go(core, &removal) && remove_rigs(core, &removal) && with_splines) remove_splines(core, &removal);
     forget(&removal);
 }
 
@@ -290,14 +272,6 @@ const char *bones_title(const struct document *document, int model, const char *
     return title;
 }
 
-static void bones_select(struct core *core, int model, int node)
-{
-    const struct imported *shown = bones_character(core, model);
-    if (!shown) return;
-    core->bone = (struct bone_selection){
-        .any = true, .model = document_rig_number(core->document, model), .file = shown->gltf.id, .node = node};
-}
-
 void bones_clear(struct core *core) { core->bone.any = false; }
 
 int bones_joints(const struct core *core, int rig)
@@ -308,18 +282,6 @@ int bones_joints(const struct core *core, int rig)
     const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     struct chain_bones bones;
     return shown && chain_find(&shown->gltf, bent->chain.from, bent->chain.to, &bones, NULL) ? bones.count : 1;
-}
-
-static void tell(struct core *core, const struct rig *made, int model, bool follows)
-{
-    const char *playing = core->document->rigs[model]->model.clip, *clip = follows && playing ? playing : "";
-    char title[BONES_TITLE];
-    const char *next = !follows ? "Drag it on the stage to set knots."
-                       : *clip  ? "It follows through on the clip "
-                                : "It swings once the character plays a clip.";
-    core_message(core, false, "Made the chain %.*s, from %s to %.*s. %s%.*s%s", name_fit(rig_title(made), 80),
-                 rig_title(made), bones_title(core->document, model, made->chain.from, title),
-                 name_fit(made->chain.to, 80), made->chain.to, next, name_fit(clip, 80), clip, *clip ? "." : "");
 }
 
 void bones_choose_clip(struct core *core, int model, const char *clip, enum clip_repeat repeat)
@@ -344,16 +306,19 @@ void bones_make_chain(struct core *core, int follow)
         .model = model, .from = bones_character(core, model)->gltf.nodes[node].name, .follows = follow};
     if (!core_step(core, follow ? "Make chain that follows" : "Make chain", 0)) return;
     if (!chain_make(core->document, core->models, &wish, &rig, &core->error)) return;
-    core_activate(core, rig_input(core->document->rigs[rig], 0));
-    core->limb = core->document->rigs[rig]->id;
+    const struct rig *made = core->document->rigs[rig];
+    core_activate(core, rig_input(made, 0));
+    core->limb = made->id;
     core->refit_curves = !has_splines;
-    tell(core, core->document->rigs[rig], model, follow);
-}
 
-static bool is_below(const struct gltf *gltf, int node, int top)
-{
-    while (node >= 0 && node != top) node = gltf->nodes[node].parent;
-    return node == top;
+    const char *playing = core->document->rigs[model]->model.clip, *clip = follow && playing ? playing : "";
+    char title[BONES_TITLE];
+    const char *next = !follow ? "Drag it on the stage to set knots."
+                       : *clip ? "It follows through on the clip "
+                               : "It swings once the character plays a clip.";
+    core_message(core, false, "Made the chain %.*s, from %s to %.*s. %s%.*s%s", name_fit(rig_title(made), 80),
+                 rig_title(made), bones_title(core->document, model, made->chain.from, title),
+                 name_fit(made->chain.to, 80), made->chain.to, next, name_fit(clip, 80), clip, *clip ? "." : "");
 }
 
 int bones_below(const struct imported *character, int top, int *nodes, int most)
@@ -361,7 +326,9 @@ int bones_below(const struct imported *character, int top, int *nodes, int most)
     int count = 0;
     for (int b = 0; b < character->skeleton.own && count < most; b++) {
         const int node = character->skeleton.bones[b].node;
-        if (is_below(&character->gltf, node, top)) nodes[count++] = node;
+        int above = node;
+        while (above >= 0 && above != top) above = character->gltf.nodes[above].parent;
+        if (above == top) nodes[count++] = node;
     }
     return count;
 }
@@ -374,7 +341,10 @@ void bones_clicked(struct core *core, int model, int node)
     const struct document *document = core->document;
     core->pick = (struct bone_pick){0};
     if (pick.use == BONE_SELECTED) {
-        bones_select(core, model, node);
+        const struct imported *shown = bones_character(core, model);
+        if (shown)
+            core->bone = (struct bone_selection){
+                .any = true, .model = document_rig_number(document, model), .file = shown->gltf.id, .node = node};
     } else if (pick.use == BONE_FOLLOWED) {
         bones_follow(core, pick.which, model, node);
     } else if (rig_body(document, pick.which) == model) {
@@ -410,26 +380,6 @@ static double gain_for(const struct core *core, int model, const struct chain *c
     return isfinite(gain) && gain > 0 ? core_round(gain, 0.01 * gain) : 1;
 }
 
-/// The motion along a channel's axis.
-static enum motion_of motion_along(enum axis axis)
-{
-    return axis == AXIS_SIDE ? MOTION_ACROSS : axis == AXIS_UP ? MOTION_UP : MOTION_TURN;
-}
-
-/// Makes the chains' channels bend by the displacement alone, because the followed joint already carries them.
-static void bend_by_the_rest(struct core *core, int spline, int model)
-{
-    const struct document *document = core->document;
-    for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
-        for (int c = 0; c < document->rigs[r]->chain.channel_count; c++) {
-            struct channel changed = document->rigs[r]->chain.channels[c];
-            if (changed.spline != spline) continue;
-            changed.of = PART_DISPLACEMENT;
-            edit_channel(core->document, (struct channel_place){r, c}, &changed, &core->error);
-        }
-    }
-}
-
 void bones_follow(struct core *core, int spline, int model, int node)
 {
     const struct document *document = core->document;
@@ -443,7 +393,7 @@ void bones_follow(struct core *core, int spline, int model, int node)
     if (bent) {
         motion.chain = bent->name;
         motion.joint = bent->chain.to;
-        motion.of = motion_along(channel->axis);
+        motion.of = channel->axis == AXIS_SIDE ? MOTION_ACROSS : channel->axis == AXIS_UP ? MOTION_UP : MOTION_TURN;
         if (motion.of != MOTION_TURN) motion.gain = gain_for(core, model, &bent->chain, channel);
     }
     const bool goes_on =
@@ -456,8 +406,17 @@ void bones_follow(struct core *core, int spline, int model, int node)
     if (node >= 0) motion.joint = character->gltf.nodes[node].name;
     const bool is_new = !old->motion;
     if (!core_step(core, "Follow joint", 0)) return;
-    const bool done = edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
-    if (done && is_new) bend_by_the_rest(core, spline, model);
+    if (!edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error) || !is_new) return;
+
+    // The followed joint already carries the chains, so their channels bend by the displacement alone.
+    for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
+        for (int c = 0; c < document->rigs[r]->chain.channel_count; c++) {
+            struct channel changed = document->rigs[r]->chain.channels[c];
+            if (changed.spline != spline) continue;
+            changed.of = PART_DISPLACEMENT;
+            edit_channel(core->document, (struct channel_place){r, c}, &changed, &core->error);
+        }
+    }
 }
 
 /// The names of a chain's ends after one of them moves to `node`; false with an error.
@@ -584,18 +543,6 @@ const struct coordinate *characters_coordinate(const struct core *core)
     return figure ? &figure->character.coordinates[coordinate] : NULL;
 }
 
-/// Shows the phases along the axis of the largest movement, unless another was chosen.
-static void choose_axis(struct core *core, const struct figure *figure, int coordinate)
-{
-    const float *largest = figure->largest[coordinate];
-    int axis = 0;
-    if (core->characters.mapped) return;
-    for (int k = 1; k < 3; k++) {
-        if (largest[k] > largest[axis]) axis = k;
-    }
-    core->characters.axis = axis;
-}
-
 void characters_set_brush(struct core *core, bool on)
 {
     int coordinate;
@@ -606,7 +553,14 @@ void characters_set_brush(struct core *core, bool on)
         core_message(core, false, "This scene has no character to paint.");
         return;
     }
-    choose_axis(core, figure, coordinate);
+
+    // The phases along the axis of the largest movement, unless another was chosen.
+    const float *largest = figure->largest[coordinate];
+    int axis = 0;
+    for (int k = 1; k < 3; k++) {
+        if (largest[k] > largest[axis]) axis = k;
+    }
+    if (!core->characters.mapped) core->characters.axis = axis;
     core_message(core, false, "Drag over the character to paint. Ctrl reverses, Shift smooths, Esc ends.");
 }
 

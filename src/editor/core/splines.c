@@ -47,18 +47,6 @@ double spline_list_present(const struct core *core, int spline, enum parameter p
     return parameter_clamped(parameter, spline_mode(follower), value);
 }
 
-/// Finds the last reference to a spline. Removing the last one first keeps the others' indices valid. false: none.
-static bool last_reference(const struct document *document, int spline, struct reference *last)
-{
-    bool found = false;
-    for (struct reference reference = {0}; reference_next(document, &reference);) {
-        if (reference.spline != spline) continue;
-        found = true;
-        *last = reference;
-    }
-    return found;
-}
-
 /// Stops something from following the active spline.
 static bool release(struct core *core, const struct reference *reference)
 {
@@ -88,10 +76,15 @@ static void remove_active(void *dialogs, struct core *core, int answer)
     (void)dialogs;
     (void)answer;
     if (!core_active_spline(core) || !core_step(core, "Delete spline", 0)) return;
-    struct reference reference;
+
+    // The last reference goes first, so that the others' indices stay valid.
     bool good = true;
-    while (good && last_reference(core->document, core->active, &reference)) {
-        good = release(core, &reference);
+    while (good && reference_count(core->document, core->active) > 0) {
+        struct reference last = {0};
+        for (struct reference reference = {0}; reference_next(core->document, &reference);) {
+            if (reference.spline == core->active) last = reference;
+        }
+        good = release(core, &last);
     }
     if (good) edit_spline_remove(core->document, core->active, &core->error);
     core_refresh(core); // the rest of this event needs an active spline
@@ -211,25 +204,20 @@ double core_in_step(double other, double before, double now)
     return round(other * (now / before) * 1e6) / 1e6;
 }
 
-/// Whether a parameter of another spline changes with the active one's.
-static bool is_felt(const struct document *document, int limb, int spline, enum parameter parameter)
-{
-    return (parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING || parameter == PARAMETER_WIND_UP) &&
-           limb >= 0 && rig_is_moved(document->rigs[limb], spline) &&
-           spline_uses(document->splines[spline], parameter, false);
-}
-
 bool core_set_felt(struct core *core, int limb, enum parameter parameter, double value, bool alike,
                    struct error *error)
 {
     struct document *document = core->document;
     const struct param before = core_active_spline(core)->parameter[parameter];
+    const bool is_shared =
+        parameter == PARAMETER_FREQUENCY || parameter == PARAMETER_DAMPING || parameter == PARAMETER_WIND_UP;
     bool done = true;
     for (int s = 0; s < document->spline_count && done; s++) {
         const struct spline *spline = document->splines[s];
         const bool is_active = s == core->active;
-        if (param_follows(&spline->parameter[parameter]) || (!is_active && !is_felt(document, limb, s, parameter)))
-            continue;
+        const bool changes = is_active || (is_shared && limb >= 0 && rig_is_moved(document->rigs[limb], s) &&
+                                           spline_uses(spline, parameter, false));
+        if (param_follows(&spline->parameter[parameter]) || !changes) continue;
         double next = value;
         if (!is_active && !alike && !param_follows(&before))
             next = core_in_step(spline->parameter[parameter].value, before.value, value);
@@ -339,9 +327,15 @@ static bool say_idle(struct core *core, const struct spline *spline, enum parame
     return true;
 }
 
-static void nudge_one(struct core *core, const struct spline *spline, enum parameter parameter, double step)
+void core_nudge_parameter(struct core *core, int direction)
 {
-    if (say_idle(core, spline, parameter)) return;
+    const struct spline *spline = core_active_spline(core);
+    if (core->held_key == 0) return;
+    core->held_used = true;
+    if (core->held_key == 'L') nudge_lag(core, 0.5 * direction);
+    const enum parameter parameter = parameter_of_letter(core->held_key);
+    if (!spline || parameter == PARAMETER_COUNT || say_idle(core, spline, parameter)) return;
+    const double step = parameter_rows[parameter].step * direction;
     const struct param *before = &spline->parameter[parameter];
     if (before->track >= 0) {
         core_message(core, false, "The %s follows the spline \"%.*s\".", parameter_rows[parameter].name,
@@ -358,17 +352,6 @@ static void nudge_one(struct core *core, const struct spline *spline, enum param
     if (param.value == before->value) return;
     if (core_step(core, "Change parameter", core_merge_key(core, NUDGE_PARAMETER + parameter)))
         core_set_felt(core, core_limb(core), parameter, param.value, false, &core->error);
-}
-
-void core_nudge_parameter(struct core *core, int direction)
-{
-    const struct spline *spline = core_active_spline(core);
-    if (core->held_key == 0) return;
-    core->held_used = true;
-    if (core->held_key == 'L') nudge_lag(core, 0.5 * direction);
-    enum parameter parameter = parameter_of_letter(core->held_key);
-    if (!spline || parameter == PARAMETER_COUNT) return;
-    nudge_one(core, spline, parameter, parameter_rows[parameter].step * direction);
 }
 
 void core_cycle_choice(struct core *core, int parameter)
@@ -432,12 +415,6 @@ static double frequency_of(const wiggly_explanation *found) { return round(found
 
 static double damping_of(const wiggly_explanation *found) { return round(found->damping * 1000) / 1000; }
 
-static bool is_set(const struct spline *spline, const wiggly_explanation *found)
-{
-    return spline->parameter[PARAMETER_FREQUENCY].value == frequency_of(found) &&
-           spline->parameter[PARAMETER_DAMPING].value == damping_of(found);
-}
-
 void core_find_frequency(struct core *core, int unused)
 {
     (void)unused;
@@ -450,7 +427,9 @@ void core_find_frequency(struct core *core, int unused)
         core_message(core, false, "%s", reason ? reason : "These knots do not swing: no frequency explains them.");
         return;
     }
-    const int active = core->active, chosen = count == 2 && is_set(spline, &found[0]) ? 1 : 0;
+    const bool is_set = spline->parameter[PARAMETER_FREQUENCY].value == frequency_of(&found[0]) &&
+                        spline->parameter[PARAMETER_DAMPING].value == damping_of(&found[0]);
+    const int active = core->active, chosen = count == 2 && is_set ? 1 : 0;
     if (!core_step(core, "Find frequency", 0) ||
         !core_set_parameter(core, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) ||
         !core_set_parameter(core, active, PARAMETER_DAMPING, damping_of(&found[chosen])))

@@ -16,23 +16,6 @@ static float clamped(float value, float lo, float hi) { return fmaxf(lo, fminf(v
 
 static float eased(float share) { return share * share * (3 - 2 * share); }
 
-/// Offsets sliding panels, and gives the stage the window.
-static void presenter_arrange(const struct presenter *presenter, struct layout *l)
-{
-    const float across = l->upright ? 0 : roundf((1 - eased(presenter->side)) * l->inspector.w);
-    const float down = roundf((1 - eased(presenter->below)) * (l->window.h - l->curves.y));
-    l->inspector.x += across;
-    l->curves.w += across;
-    l->ruler.w += across;
-    l->plot.w += across;
-    l->sheet.w += across;
-    l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
-    struct rect *const lower[] = {&l->curves, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
-    l->stage = presenter->shares || l->upright ? l->open : l->window; // upright, nothing of it would be left
-    for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
-    if (l->upright) l->inspector.y += down;
-}
-
 void core_layout(struct core *core)
 {
     struct layout *l = &core->layout;
@@ -56,7 +39,22 @@ void core_layout(struct core *core)
     l->plot = (struct rect){AXIS_WIDTH, stage + 1 + RULER_HEIGHT + sheet, width, plot};
     l->value_axis = (struct rect){0, l->plot.y, AXIS_WIDTH, plot};
     l->open = l->stage;
-    if (core->presenter.on) presenter_arrange(&core->presenter, l);
+
+    // Presenting offsets the sliding panels and gives the stage the window.
+    const struct presenter *presenter = &core->presenter;
+    if (!presenter->on) return;
+    const float across = upright ? 0 : roundf((1 - eased(presenter->side)) * l->inspector.w);
+    const float down = roundf((1 - eased(presenter->below)) * (l->window.h - l->curves.y));
+    l->inspector.x += across;
+    l->curves.w += across;
+    l->ruler.w += across;
+    l->plot.w += across;
+    l->sheet.w += across;
+    l->open = (struct rect){0, 0, l->curves.w, l->curves.y + down};
+    struct rect *const lower[] = {&l->curves, &l->ruler, &l->sheet, &l->plot, &l->value_axis, &l->status};
+    l->stage = presenter->shares || upright ? l->open : l->window; // upright, nothing of it would be left
+    for (int i = 0; i < (int)(sizeof lower / sizeof *lower); i++) lower[i]->y += down;
+    if (upright) l->inspector.y += down;
 }
 
 void core_set_panels(struct core *core, double stage_share, double inspector_width)
@@ -229,11 +227,9 @@ static const double speeds[] = {0.1, 0.25, 0.5, 1, 2, 4};
 
 enum { SPEEDS = sizeof speeds / sizeof speeds[0] };
 
-static double last_position(const struct document *document) { return fmax(document_samples(document) - 1, 0); }
-
 static void go_to(struct core *core, double position)
 {
-    core->playback.position = fmin(fmax(position, 0), last_position(core->document));
+    core->playback.position = fmin(fmax(position, 0), fmax(document_samples(core->document) - 1, 0));
 }
 
 /// The played range in samples.
@@ -255,15 +251,6 @@ void playback_toggle(struct core *core)
     if (at_end || playback->position < range[0] || playback->position > range[1]) playback->position = range[0];
 }
 
-/// Whole frames between two positions that were not shown, beyond those a display cannot show at this speed.
-static long frames_dropped(const struct document *document, double from, double to, double speed)
-{
-    const double rounding = 1e-6; // a sum of steps may end just before its frame
-    double passed = floor(to / document->substeps + rounding) - floor(from / document->substeps + rounding);
-    double expected = fmax(1, ceil(document->fps * speed / REFRESH));
-    return passed > expected ? (long)(passed - expected) : 0;
-}
-
 void playback_advance(struct core *core, double dt)
 {
     struct playback *playback = &core->playback;
@@ -275,7 +262,13 @@ void playback_advance(struct core *core, double dt)
     }
     range_positions(core, range);
     double to = from + dt * document->fps * document->substeps * playback->speed;
-    playback->dropped += frames_dropped(document, from, to, playback->speed);
+
+    // Whole frames that were not shown, beyond those a display cannot show at this speed.
+    const double rounding = 1e-6; // a sum of steps may end just before its frame
+    const double passed = floor(to / document->substeps + rounding) - floor(from / document->substeps + rounding);
+    const double expected = fmax(1, ceil(document->fps * playback->speed / REFRESH));
+    if (passed > expected) playback->dropped += (long)(passed - expected);
+
     playback->position = fmax(to, range[0]);
     if (to < range[1]) return;
     if (playback->looping && range[1] > range[0]) {
