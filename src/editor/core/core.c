@@ -532,26 +532,20 @@ enum room originals_room(const struct core *core, knot_rule *rule, const void *h
     return room;
 }
 
-/// Whether a rule reverses the knots' order.
-static bool are_reversed(const struct originals *originals, knot_rule *rule, const void *how)
-{
-    const struct original *list = originals->list;
-    for (int i = 1; i < originals->count; i++) {
-        if (list[i].spline == list[i - 1].spline) return rule(how, &list[i]).frame < rule(how, &list[i - 1]).frame;
-    }
-    return false;
-}
-
-/// To avoid collisions, knots moving right go first, the last one first. If the order is reversed, all are removed before.
 bool originals_put(struct core *core, knot_rule *rule, const void *how, char why[STOPPED_SIZE])
 {
     const struct originals *originals = &core->originals;
-    const bool reversed = are_reversed(originals, rule, how);
+    const struct original *list = originals->list;
+    int pair = 1; // of a spline
+    while (pair < originals->count && list[pair].spline != list[pair - 1].spline) pair++;
+    const bool reversed = pair < originals->count && rule(how, &list[pair]).frame < rule(how, &list[pair - 1]).frame;
+
+    // To avoid collisions, knots moving right go first, the last one first. If the order is reversed, all are removed before.
     bool done = true;
     for (int i = 0; i < 2 * originals->count && done; i++) {
         const bool first = i < originals->count;
         const int at = first ? originals->count - 1 - i : i - originals->count;
-        const struct original *original = &originals->list[at];
+        const struct original *original = &list[at];
         struct knot knot = rule(how, original);
         if (reversed && first) {
             done = edit_knot_remove(core->document, original->spline, knot.id, &core->error);

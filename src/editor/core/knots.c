@@ -222,23 +222,10 @@ const struct knot *core_extend_selection(struct core *core, int direction)
 
 // --- slopes: on, off, flat, Catmull-Rom, turned and stiffened by keys
 
-/// Kinds for core_merge_key(), different from nudge.c's.
-enum nudge_kind { NUDGE_SLOPE = 50, NUDGE_STIFFNESS };
-
-static const double FIRM = 1000; ///< default stiffness, 1/s
-static const double TURN = 0.05,
-                    FIRMER = 1.25; ///< per key press: of the visible values, a second; factor on the stiffness
+static const double FIRM = 1000;             ///< default stiffness, 1/s
+static const double TURN = 0.05;             ///< per key press: of the visible values, a second
+static const double FIRMER = 1.25;           ///< per key press: factor on the stiffness
 static const double SLOPE_RESOLUTION = 1e-3; ///< of the visible values, a second
-
-/// Computes a knot's slope, in values a second.
-typedef double slope_rule(const struct core *core, struct knot_place at);
-
-static double flat(const struct core *core, struct knot_place at)
-{
-    (void)core;
-    (void)at;
-    return 0;
-}
 
 /// Catmull-Rom: the slope of the chord between both neighbours; at an end, to the only neighbour. A loop wraps around.
 static double catmull_rom(const struct core *core, struct knot_place at)
@@ -258,72 +245,50 @@ static double catmull_rom(const struct core *core, struct knot_place at)
     return frames > 0 ? rise / frames * document->fps : 0;
 }
 
-/// A change of every selected knot in one step.
-struct knot_change {
-    const char *label;
-    uint64_t kind;    ///< for merging; 0: never
-    bool on;          ///< turns missing slopes on, or all off
-    slope_rule *rule; ///< or NULL
-    double slope;     ///< added
-    double stiffness; ///< multiplied
-};
-
-static void change_knots(struct core *core, const struct knot_change *change)
+void slopes_set(struct core *core, int how)
 {
     const struct document *document = core->document;
-    const uint64_t merge = change->kind ? core_merge_key(core, change->kind) : 0;
-    if (selected_count(core) == 0 || !core_step(core, change->label, merge)) return;
+    bool off = how == SLOPES_TOGGLE; // if all that can have one do; still knots cannot
+    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
+        const struct knot *knot = knot_at(document, at);
+        off &= knot->has_slope || knot->still;
+    }
+
+    enum { MERGES_SLOPE = 50, MERGES_STIFFNESS }; // kinds for core_merge_key(), different from those of splines.c
+    const struct {
+        const char *label;
+        uint64_t merges;
+        double slope;     ///< added, of the visible values
+        double stiffness; ///< multiplied
+    } changes[] = {
+        [SLOPES_TOGGLE] = {off ? "Slope off" : "Slope on", 0, 0, 1},
+        [SLOPES_FLAT] = {"Slope flat", 0, 0, 1},
+        [SLOPES_SMOOTH] = {"Slope smooth", 0, 0, 1},
+        [SLOPES_UP] = {"Change slope", MERGES_SLOPE, TURN, 1},
+        [SLOPES_DOWN] = {"Change slope", MERGES_SLOPE, -TURN, 1},
+        [SLOPES_FIRMER] = {"Change stiffness", MERGES_STIFFNESS, 0, FIRMER},
+        [SLOPES_SOFTER] = {"Change stiffness", MERGES_STIFFNESS, 0, 1 / FIRMER},
+    };
+    const uint64_t merge = changes[how].merges ? core_merge_key(core, changes[how].merges) : 0;
+    const bool aims = how == SLOPES_FLAT || how == SLOPES_SMOOTH;
+    const double more = changes[how].slope * core->visible;
+    if (selected_count(core) == 0 || !core_step(core, changes[how].label, merge)) return;
     for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
         const struct knot *before = knot_at(document, at);
         if (before->still) continue;
-        const bool fresh = change->on && !before->has_slope;
+        const bool fresh = !off && !before->has_slope;
         const int sample = document_sample(document, before->frame);
         struct knot knot = *before;
+        knot.has_slope = !off;
         if (fresh) knot.slope = evaluation_slope(core->evaluation, document, at.spline, sample);
         if (!isfinite(knot.slope)) knot.slope = 0;
         if (!(before->stiffness > 0)) knot.stiffness = FIRM;
-        knot.has_slope = change->on;
-        if (change->rule) knot.slope = change->rule(core, at);
-        if (change->rule || change->slope != 0 || fresh)
-            knot.slope = core_round(knot.slope + change->slope, SLOPE_RESOLUTION * core->visible);
-        knot.stiffness = fmin(fmax(knot.stiffness * change->stiffness, 1e-3), 1e9);
+        if (aims) knot.slope = how == SLOPES_FLAT ? 0 : catmull_rom(core, at);
+        if (aims || more != 0 || fresh) knot.slope = core_round(knot.slope + more, SLOPE_RESOLUTION * core->visible);
+        knot.stiffness = fmin(fmax(knot.stiffness * changes[how].stiffness, 1e-3), 1e9);
         core_put_knot(core, at.spline, &knot);
     }
     core_edited(core, -1);
-}
-
-void slopes_turn(struct core *core, int direction)
-{
-    struct knot_change change = {.label = "Change slope",
-                                 .kind = NUDGE_SLOPE,
-                                 .on = true,
-                                 .slope = TURN * direction * core->visible,
-                                 .stiffness = 1};
-    change_knots(core, &change);
-}
-
-void slopes_stiffen(struct core *core, int direction)
-{
-    struct knot_change change = {.label = "Change stiffness",
-                                 .kind = NUDGE_STIFFNESS,
-                                 .on = true,
-                                 .stiffness = direction > 0 ? FIRMER : 1 / FIRMER};
-    change_knots(core, &change);
-}
-
-void slopes_set(struct core *core, int how)
-{
-    bool off = true; // of all that have one; still knots cannot
-    for (struct knot_place at = SELECTED_START; selected_next(core, &at);) {
-        const struct knot *knot = knot_at(core->document, at);
-        off &= knot->has_slope || knot->still;
-    }
-    const struct knot_change changes[] = {
-        [SLOPES_TOGGLE] = {.label = off ? "Slope off" : "Slope on", .on = !off, .stiffness = 1},
-        [SLOPES_FLAT] = {.label = "Slope flat", .on = true, .rule = flat, .stiffness = 1},
-        [SLOPES_SMOOTH] = {.label = "Slope smooth", .on = true, .rule = catmull_rom, .stiffness = 1},
-    };
-    change_knots(core, &changes[how]);
 }
 
 // --- copying, cutting, pasting and duplicating
@@ -413,16 +378,6 @@ void core_paste_knots(struct core *core, const char *text)
     knot_list_free(&list);
 }
 
-static bool has_room(const struct originals *originals, const struct document *document, double shift)
-{
-    for (int i = 0; i < originals->count; i++) {
-        const struct original *original = &originals->list[i];
-        const int sample = document_sample(document, original->knot.frame + shift);
-        if (spline_find_knot(document, document->splines[original->spline], sample) >= 0) return false;
-    }
-    return true;
-}
-
 /// Shift of the copies in frames: as far behind the last original as that is behind the one before, or further until all have room.
 static double copies_shift(const struct originals *originals, const struct document *document)
 {
@@ -436,7 +391,13 @@ static double copies_shift(const struct originals *originals, const struct docum
     }
     const double step = isfinite(before) ? last - before : 1;
     double shift = round(last - first + fmax(step, 1));
-    while (!has_room(originals, document, shift)) shift++;
+    for (int i = 0; i < originals->count; i++) {
+        const struct original *original = &originals->list[i];
+        const int sample = document_sample(document, original->knot.frame + shift);
+        if (spline_find_knot(document, document->splines[original->spline], sample) < 0) continue;
+        shift++;
+        i = -1; // all anew
+    }
     return shift;
 }
 

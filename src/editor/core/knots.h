@@ -25,14 +25,9 @@ void core_toggle_settles(struct core *core, int unused);
 /// Makes the selected knots hold that where the curves are now. If all do already, they hold a value only.
 void core_set_hold(struct core *core, int holds);
 
-/// Increases (1) or decreases (-1) the selected knots' slopes, in proportion to the visible values.
-void slopes_turn(struct core *core, int direction);
-/// Increases (1) or decreases (-1) their stiffness.
-void slopes_stiffen(struct core *core, int direction);
-
-enum slopes { SLOPES_TOGGLE, SLOPES_FLAT, SLOPES_SMOOTH };
-
-/// Turns slopes on as the curve runs, or off; makes them level; or aims them at the neighbours (Catmull-Rom).
+/// Changes of the selected knots' slopes: on as the curve runs, or off; level; aimed at the neighbours (Catmull-Rom); turned in proportion to
+/// the visible values; stiffer or less.
+enum slopes { SLOPES_TOGGLE, SLOPES_FLAT, SLOPES_SMOOTH, SLOPES_UP, SLOPES_DOWN, SLOPES_FIRMER, SLOPES_SOFTER };
 void slopes_set(struct core *core, int how);
 
 /// Copies the selected knots as text; `cut` also deletes them. false if none is selected.

@@ -93,23 +93,6 @@ void rigs_add_tail(struct core *core)
     if (done) core_activate(core, spline);
 }
 
-/// Copies a model's chains onto its copy, the last rig.
-static bool copy_chains(struct core *core, int model, const char *copy)
-{
-    const int count = core->document->rig_count;
-    bool done = true;
-    for (int r = 0; r < count && done; r++) {
-        if (r == model || rig_body(core->document, r) != model) continue;
-        struct rig chain = *core->document->rigs[r];
-        char *name = need_text(copy);
-        chain.chain.model = name;
-        chain.pin_count = 0;
-        done = edit_rig_add(core->document, &chain, &core->error);
-        free(name);
-    }
-    return done;
-}
-
 void rigs_copy(struct core *core, int rig)
 {
     struct document *document = core->document;
@@ -136,7 +119,18 @@ void rigs_copy(struct core *core, int rig)
     if (!core_step(core, "Add one more", 0)) return;
     bool done = copy.kind == RIG_TAIL ? edit_tail_add(document, rig, core->active, &core->error)
                                       : edit_rig_add(document, &copy, &core->error);
-    if (done && copy.kind == RIG_MODEL) done = copy_chains(core, rig, document->rigs[document->rig_count - 1]->name);
+
+    // A model's chains are copied onto its copy, the last rig.
+    const int count = document->rig_count;
+    for (int r = 0; r < count && done && copy.kind == RIG_MODEL; r++) {
+        if (r == rig || rig_body(document, r) != rig) continue;
+        struct rig chain = *document->rigs[r];
+        char *name = need_text(document->rigs[count - 1]->name);
+        chain.chain.model = name;
+        chain.pin_count = 0;
+        done = edit_rig_add(document, &chain, &core->error);
+        free(name);
+    }
     core->refit_stage = done;
 }
 
@@ -147,44 +141,25 @@ struct removal {
     bool *mine, *others; ///< by spline: used by removed rigs, by others
 };
 
-static bool goes(const struct removal *removal, int rig)
+static bool removal_has(const struct removal *removal, int rig)
 {
     return rig == removal->rig || rig_body(removal->document, rig) == removal->rig;
 }
 
-static void survey(struct removal *removal, const struct document *document, int rig)
+static void removal_survey(struct removal *removal, const struct document *document, int rig)
 {
     const size_t count = (size_t)document->spline_count + 1;
     *removal = (struct removal){document, rig, need_zeroed(count, sizeof(bool)), need_zeroed(count, sizeof(bool))};
     for (struct reference reference = {0}; reference_next(document, &reference);) {
-        const bool stays = reference.kind == REFERENCE_TRACK || !goes(removal, reference.owner);
+        const bool stays = reference.kind == REFERENCE_TRACK || !removal_has(removal, reference.owner);
         (stays ? removal->others : removal->mine)[reference.spline] = true;
     }
 }
 
-static void forget(struct removal *removal)
+static void removal_free(struct removal *removal)
 {
     free(removal->mine);
     free(removal->others);
-}
-
-/// The names of splines that move only this rig, comma-separated; returns how many.
-static int own_splines(const struct document *document, int rig, char *names, size_t size)
-{
-    struct removal removal;
-    int count = 0;
-    size_t used = 0;
-    names[0] = '\0';
-    survey(&removal, document, rig);
-    for (int s = 0; s < document->spline_count; s++) {
-        if (!removal.mine[s] || removal.others[s]) continue;
-        const int wrote = snprintf(names + used, size - used, "%s%.*s", count > 0 ? ", " : "",
-                                   name_fit(document->splines[s]->name, 40), document->splines[s]->name);
-        used = used + (size_t)wrote < size ? used + (size_t)wrote : size - 1;
-        count++;
-    }
-    forget(&removal);
-    return count;
 }
 
 static void remove_rig(struct core *core, int rig, bool with_splines)
@@ -195,13 +170,13 @@ static void remove_rig(struct core *core, int rig, bool with_splines)
     bool done = true;
     if (rig < 0 || rig >= document->rig_count) return;
     if (!core_step(core, with_splines ? "Remove with splines" : "Remove", 0)) return;
-    survey(&removal, document, rig);
+    removal_survey(&removal, document, rig);
 
     // Splines that follow a joint of a removed rig keep their value at the playhead.
     for (int s = 0; s < document->spline_count && done; s++) {
         bool follows = false;
         for (int r = 0; r < document->rig_count; r++)
-            follows |= goes(&removal, r) && document_follows(document, s, r);
+            follows |= removal_has(&removal, r) && document_follows(document, s, r);
         if (!follows) continue;
         const double present = spline_list_present(core, s, PARAMETER_EQUILIBRIUM);
         done = core_set_parameter(core, s, PARAMETER_EQUILIBRIUM, core_round(present, 1e-3));
@@ -209,7 +184,7 @@ static void remove_rig(struct core *core, int rig, bool with_splines)
 
     // Its chains go first.
     for (int r = document->rig_count - 1; r >= 0 && done; r--) {
-        if (r == removal.rig || !goes(&removal, r)) continue;
+        if (r == removal.rig || !removal_has(&removal, r)) continue;
         done = edit_rig_remove(document, r, error);
         if (r < removal.rig) removal.rig--;
     }
@@ -217,7 +192,7 @@ static void remove_rig(struct core *core, int rig, bool with_splines)
     for (int s = document->spline_count - 1; s >= 0 && done && with_splines; s--) {
         if (removal.mine[s] && !removal.others[s]) done = edit_spline_remove(document, s, error);
     }
-    forget(&removal);
+    removal_free(&removal);
 }
 
 static void answer_removal(void *dialogs, struct core *core, int answer)
@@ -230,12 +205,26 @@ void rigs_ask_remove(struct core *core, int rig)
 {
     static const struct answer answers[] = {
         {"dialog.with", "With splines", 'W'}, {"dialog.keep", "Keep splines", 'K'}, {"dialog.cancel", "Cancel", 'C'}};
-    if (rig < 0 || rig >= core->document->rig_count) {
+    const struct document *document = core->document;
+    if (rig < 0 || rig >= document->rig_count) {
         core_message(core, false, "There is nothing on the stage to remove.");
         return;
     }
-    char names[160];
-    const int count = own_splines(core->document, rig, names, sizeof names);
+
+    // The names of splines that move only this rig.
+    struct removal removal;
+    char names[160] = "";
+    size_t used = 0;
+    int count = 0;
+    removal_survey(&removal, document, rig);
+    for (int s = 0; s < document->spline_count; s++) {
+        if (!removal.mine[s] || removal.others[s]) continue;
+        const int wrote = snprintf(names + used, sizeof names - used, "%s%.*s", count > 0 ? ", " : "",
+                                   name_fit(document->splines[s]->name, 40), document->splines[s]->name);
+        used = used + (size_t)wrote < sizeof names ? used + (size_t)wrote : sizeof names - 1;
+        count++;
+    }
+    removal_free(&removal);
     if (count == 0) {
         remove_rig(core, rig, false);
         return;
@@ -243,8 +232,8 @@ void rigs_ask_remove(struct core *core, int rig)
     struct question *question = core_ask(core, answers, 3, answer_removal);
     core->subject.rig = rig;
     snprintf(question->title, sizeof question->title, "Remove %.*s, with its spline%s or without?",
-             name_fit(path_name(rig_title(core->document->rigs[rig])), 150),
-             path_name(rig_title(core->document->rigs[rig])), count == 1 ? "" : "s");
+             name_fit(path_name(rig_title(document->rigs[rig])), 150), path_name(rig_title(document->rigs[rig])),
+             count == 1 ? "" : "s");
     snprintf(question->note, sizeof question->note, "%s move%s nothing else. Keep %s for what you add next?", names,
              count == 1 ? "s" : "", count == 1 ? "it" : "them");
 }
@@ -476,14 +465,6 @@ void bones_set_end(struct core *core, int chain, bool first, int node)
                  name_fit(rig->chain.from, 100), rig->chain.from, name_fit(rig->chain.to, 100), rig->chain.to);
 }
 
-static bool begins_at(const struct document *document, int model, const char *from)
-{
-    for (int r = -1; (r = document_next_chain(document, model, r)) >= 0;) {
-        if (strcmp(document->rigs[r]->chain.from, from) == 0) return true;
-    }
-    return false;
-}
-
 /// The names of the twin chain's ends; false if there is no twin or it already has a chain.
 static bool find_twin(const struct core *core, int rig, char from[BONE_NAME_SIZE], char to[BONE_NAME_SIZE])
 {
@@ -492,8 +473,10 @@ static bool find_twin(const struct core *core, int rig, char from[BONE_NAME_SIZE
     const int model = rig_body(core->document, rig);
     const struct imported *shown = model >= 0 ? bones_character(core, model) : NULL;
     if (!shown || !bone_other_side(chain->from, from) || !bone_other_side(chain->to, to)) return false;
-    return gltf_find_node(&shown->gltf, from) >= 0 && gltf_find_node(&shown->gltf, to) >= 0 &&
-           !begins_at(core->document, model, from);
+    bool has_chain = false;
+    for (int r = -1; (r = document_next_chain(core->document, model, r)) >= 0;)
+        has_chain |= strcmp(core->document->rigs[r]->chain.from, from) == 0;
+    return gltf_find_node(&shown->gltf, from) >= 0 && gltf_find_node(&shown->gltf, to) >= 0 && !has_chain;
 }
 
 int bones_mirrorable(const struct core *core, int chain)

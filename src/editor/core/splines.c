@@ -375,17 +375,6 @@ void core_toggle_pose_to_pose(struct core *core, int unused)
     core_edited(core, core->active);
 }
 
-/// Why it cannot be done, or NULL.
-static const char *obstacle(const struct spline *spline)
-{
-    const struct param *p = spline->parameter;
-    if (spline_mode(spline) == WIGGLY_CUBIC) return "A cubic does not swing. Press M to change the kind.";
-    if (p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0)
-        return "Frequency or damping follows another spline. Give it a number first.";
-    if (spline->knot_count < WIGGLY_FEWEST_EXPLAINED) return "Four knots or more are needed to find a frequency.";
-    return NULL;
-}
-
 /// Finds explanations of the knots; returns how many.
 static int explain(const struct core *core, const struct spline *spline, wiggly_explanation found[2])
 {
@@ -420,15 +409,20 @@ void core_find_frequency(struct core *core, int unused)
     (void)unused;
     const struct spline *spline = core_active_spline(core);
     if (!spline) return;
-    const char *reason = obstacle(spline);
+    const struct param *p = spline->parameter;
+    const bool follows = p[PARAMETER_FREQUENCY].track >= 0 || p[PARAMETER_DAMPING].track >= 0;
+    const char *reason = NULL;
+    if (spline->knot_count < WIGGLY_FEWEST_EXPLAINED) reason = "Four knots or more are needed to find a frequency.";
+    if (follows) reason = "Frequency or damping follows another spline. Give it a number first.";
+    if (spline_mode(spline) == WIGGLY_CUBIC) reason = "A cubic does not swing. Press M to change the kind.";
     wiggly_explanation found[2];
     const int count = reason ? 0 : explain(core, spline, found);
     if (count <= 0) {
         core_message(core, false, "%s", reason ? reason : "These knots do not swing: no frequency explains them.");
         return;
     }
-    const bool is_set = spline->parameter[PARAMETER_FREQUENCY].value == frequency_of(&found[0]) &&
-                        spline->parameter[PARAMETER_DAMPING].value == damping_of(&found[0]);
+    const bool is_set = p[PARAMETER_FREQUENCY].value == frequency_of(&found[0]) &&
+                        p[PARAMETER_DAMPING].value == damping_of(&found[0]);
     const int active = core->active, chosen = count == 2 && is_set ? 1 : 0;
     if (!core_step(core, "Find frequency", 0) ||
         !core_set_parameter(core, active, PARAMETER_FREQUENCY, frequency_of(&found[chosen])) ||
