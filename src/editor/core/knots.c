@@ -149,11 +149,13 @@ void core_remove_knots(struct core *core, const char *label)
 
 void core_delete(struct core *core, int unused)
 {
+    int rig;
+    const struct pin *pin = pins_selected(core, &rig);
     (void)unused;
-    if (pins_any_selected(core)) {
-        pins_delete(core);
-    } else {
+    if (!pin) {
         core_remove_knots(core, selected_count(core) == 1 ? "Delete knot" : "Delete knots");
+    } else if (core_step(core, "Delete pin", 0) && edit_pin_remove(core->document, rig, pin->id, &core->error)) {
+        pins_clear(core);
     }
 }
 

@@ -705,14 +705,6 @@ void pins_retime(struct core *core, int frames)
     pins_tell(core, rig);
 }
 
-void pins_delete(struct core *core)
-{
-    int rig;
-    const struct pin *pin = pins_selected(core, &rig);
-    if (!pin || !core_step(core, "Delete pin", 0)) return;
-    if (edit_pin_remove(core->document, rig, pin->id, &core->error)) pins_clear(core);
-}
-
 /// Orders by frame, then id.
 static bool is_before(const struct pin *a, const struct pin *b)
 {

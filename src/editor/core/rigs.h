@@ -106,7 +106,6 @@ bool pins_set(struct document *document, int rig, const struct pin *pin, struct 
 void pins_nudge(struct core *core, const double by[3]);
 /// Moves the selected pin by frames, past other pins of its point. Repeated moves are one undo step.
 void pins_retime(struct core *core, int frames);
-void pins_delete(struct core *core);
 /// Selects the pin after (1) or before (-1) the selected one, by frame.
 void pins_select_neighbour(struct core *core, int direction);
 

@@ -323,73 +323,81 @@ struct knot_place {
 };
 
 struct core {
-    struct document *document; ///< owned by the app, like the next three: set by editor_open()
+    // The scene, owned by the app: set by editor_open().
+    struct document *document;
     struct history *history;
     const struct evaluation *evaluation;
     const struct models *models;
+    unsigned serial;       ///< of the document
+    char title[256];       ///< file name, or "untitled"
+    char path[PATH_LIMIT]; ///< of the document's file, or ""
+    bool unkept;           ///< unsaved work has no recovery file
+    struct take take;
 
-    struct layout layout;
-    float scale;
-    double ui_scale; ///< the user's share of it
-    struct presenter presenter;
+    // The undo step, and what it leaves for the frame.
+    bool step_ends;           ///< an undo step is open and ends with this event; a drag's goes on
+    struct error error;       ///< of the last failed edit, until core_settle()
+    struct originals pressed; ///< the free knots as the open step began, with the phases they had
+    struct originals originals;
+    struct edited edited;
+    bool keep;             ///< an edit leaves what follows the next knot as it is
+    bool auto_key;         ///< dragging a body sets knots at the playhead instead of moving the whole shot
+    bool record_armed;     ///< record the next drag of a body
+    double nudged_seconds; ///< remaining time of a nudged knot's ghost
+
+    // Focus: what keys and commands act on.
     int active;                       ///< spline, or -1
     unsigned active_id;               ///< its id, to find it when the list changes
-    unsigned limb;                    ///< id of the rig chosen last, see core_limb(); 0: a spline was
     unsigned recent[CORE_MAX_RECENT]; ///< ids of previously active splines, the latest first
+    unsigned limb;                    ///< id of the rig chosen last, see core_limb(); 0: a spline was
     struct selection selection;
-    struct selection hidden, solo; ///< sets of spline ids
-    unsigned visibility;           ///< grows when these change
-    double visible;                ///< height of the visible values
-    bool no_snap;                  ///< Ctrl inverts this
-    int seen_first, seen_substeps; ///< of the scene, as the playhead counts
-    struct playback playback;
-    struct drag drag;
-    struct originals originals;
-    struct originals pressed; ///< the free knots as the open step began, with the phases they had
-    struct edited edited;
-    struct hover hover;
-    struct take take;
-    enum look look;
+    struct pin_selection pin;
+    struct bone_selection bone;
+    struct bone_pick pick; ///< until the next edit
+    struct character_view characters;
+    struct brush brush;
+    int clicked; ///< clicked rig + 1, until the inspector shows it
+
+    // Input: the pointer and held keys.
     float pointer_x, pointer_y;
     bool finger; ///< is the pointer
     unsigned mods;
     int held_key;   ///< F Z B C L K while held, else 0
     bool held_used; ///< with an arrow
     bool space_down, space_used;
+    bool no_snap; ///< Ctrl inverts this
+    struct drag drag;
+    struct hover hover;
 
-    struct character_view characters;
-    struct bone_selection bone;
-    struct bone_pick pick; ///< until the next edit
-    struct pin_selection pin;
-    int clicked; ///< clicked rig + 1, until the inspector shows it
-    struct brush brush;
+    // The view: kept from frame to frame, and never saved with the scene.
+    struct layout layout;
+    float scale;
+    double ui_scale; ///< the user's share of it
+    struct presenter presenter;
+    struct playback playback;
+    int seen_first, seen_substeps; ///< of the scene, as the playhead counts
+    enum look look;
     struct overlays overlays;
     struct curve_options curves;
-    double nudged_seconds; ///< remaining time of a nudged knot's ghost
-    bool auto_key;         ///< dragging a body sets knots at the playhead instead of moving the whole shot
-    bool keep;             ///< an edit leaves what follows the next knot as it is (keep.c)
-    bool record_armed;     ///< record the next drag of a body
-    bool more;             ///< the inspector shows everything
-    bool in_page;          ///< the app runs in a browser
-    bool still;            ///< no scene plays by itself
-    bool plain;            ///< the stage without text
-    bool refit_stage;      ///< fit the camera to the stage
-    bool refit_curves;     ///< show all curves after the solve
+    struct selection hidden, solo; ///< sets of spline ids
+    unsigned visibility;           ///< grows when these change
+    double visible;                ///< height of the visible values
+    bool more;                     ///< the inspector shows everything
+    bool in_page;                  ///< the app runs in a browser
+    bool still;                    ///< no scene plays by itself
+    bool plain;                    ///< the stage without text
+    bool refit_stage;              ///< fit the camera to the stage
+    bool refit_curves;             ///< show all curves after the solve
+    struct drawlist list;
 
-    unsigned serial;       ///< of the document
-    char title[256];       ///< file name, or "untitled"
-    char path[PATH_LIMIT]; ///< of the document's file, or ""
+    // What it says, and asks of the user and the app.
     struct message message;
     struct status status;
-    struct error error;       ///< of the last failed edit, until core_settle()
-    bool step_ends;           ///< an undo step is open and ends with this event; a drag's goes on
-    bool unkept;              ///< unsaved work has no recovery file
     bool unshown;             ///< the status line must be redrawn
     struct question question; ///< to ask next; no answers: none
     struct subject subject;
-    char *clipboard;        ///< copied knots as text, or NULL
     struct request request; ///< for the app, after the event
-    struct drawlist list;
+    char *clipboard;        ///< copied knots as text, or NULL
 };
 
 #endif
