@@ -1,9 +1,12 @@
-/// A GLFW window and its callbacks, which only translate and queue.
+/// A GLFW window: its callbacks and keys, and a clean end when the connection to X or Wayland is lost.
 #include "base/need.h"
 #include "base/progress.h"
 #include "platform/process.h"
 #include "platform/surface.h"
+#include <dlfcn.h>
 #include <epoxy/gl.h>
+#include <poll.h>
+#include <unistd.h>
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 #include <math.h>
@@ -25,6 +28,61 @@ struct window {
     bool is_fullscreen;
     int x, y, width, height; ///< before full screen
 };
+
+// --- GLFW's keys
+
+static const int special_keys[GLFW_KEY_LAST + 1] = {
+    [GLFW_KEY_SPACE] = KEY_SPACE,     [GLFW_KEY_ESCAPE] = KEY_ESCAPE,
+    [GLFW_KEY_ENTER] = KEY_ENTER,     [GLFW_KEY_KP_ENTER] = KEY_ENTER,
+    [GLFW_KEY_TAB] = KEY_TAB,         [GLFW_KEY_BACKSPACE] = KEY_BACKSPACE,
+    [GLFW_KEY_INSERT] = KEY_INSERT,   [GLFW_KEY_DELETE] = KEY_DELETE,
+    [GLFW_KEY_LEFT] = KEY_LEFT,       [GLFW_KEY_RIGHT] = KEY_RIGHT,
+    [GLFW_KEY_UP] = KEY_UP,           [GLFW_KEY_DOWN] = KEY_DOWN,
+    [GLFW_KEY_PAGE_UP] = KEY_PAGE_UP, [GLFW_KEY_PAGE_DOWN] = KEY_PAGE_DOWN,
+    [GLFW_KEY_HOME] = KEY_HOME,       [GLFW_KEY_END] = KEY_END,
+};
+
+/// The ASCII character printed on a key, letters in upper case, or KEY_NONE.
+static int printed(int glfw_key, int scancode)
+{
+    const char *name = glfwGetKeyName(glfw_key, scancode);
+    if (!name || name[0] <= ' ' || name[0] >= 0x7F || name[1] != '\0') return KEY_NONE;
+    return name[0] >= 'a' && name[0] <= 'z' ? name[0] - 'a' + 'A' : name[0];
+}
+
+/// Whether the keyboard layout has Latin letters.
+static bool is_latin(void)
+{
+    for (int key = GLFW_KEY_A; key <= GLFW_KEY_Z; key++) {
+        int letter = printed(key, 0);
+        if (letter >= 'A' && letter <= 'Z') return true;
+    }
+    return false;
+}
+
+/// Letters and punctuation map by their label, digits, arrows and the rest by position; so do letters if the layout has no Latin ones.
+/// KEY_NONE for other keys.
+static int key_of(int glfw_key, int scancode)
+{
+    if (glfw_key >= GLFW_KEY_0 && glfw_key <= GLFW_KEY_9) return glfw_key;
+    if (glfw_key >= GLFW_KEY_F1 && glfw_key <= GLFW_KEY_F12) return KEY_F1 + (glfw_key - GLFW_KEY_F1);
+    if (glfw_key >= 0 && glfw_key <= GLFW_KEY_LAST && special_keys[glfw_key]) return special_keys[glfw_key];
+    // GLFW numbers keys by US layout.
+    bool letter = glfw_key >= GLFW_KEY_A && glfw_key <= GLFW_KEY_Z;
+    if (letter && !is_latin()) return glfw_key;
+    int key = printed(glfw_key, scancode);
+    return key == KEY_NONE && letter ? glfw_key : key;
+}
+
+static unsigned mods_of(int glfw_mods)
+{
+    return (glfw_mods & GLFW_MOD_SHIFT ? (unsigned)MOD_SHIFT : 0u) |
+           (glfw_mods & GLFW_MOD_CONTROL ? (unsigned)MOD_CTRL : 0u) |
+           (glfw_mods & GLFW_MOD_ALT ? (unsigned)MOD_ALT : 0u) |
+           (glfw_mods & GLFW_MOD_SUPER ? (unsigned)MOD_SUPER : 0u);
+}
+
+// --- callbacks, which only translate and queue
 
 static struct window *of(GLFWwindow *handle) { return glfwGetWindowUserPointer(handle); }
 
@@ -98,7 +156,7 @@ static void on_character(GLFWwindow *handle, unsigned codepoint)
     push(of(handle), (struct event){.kind = EVENT_TEXT, .codepoint = codepoint});
 }
 
-static void pointer(struct window *window, float *x, float *y)
+static void pointer_place(struct window *window, float *x, float *y)
 {
     double window_x = 0.0, window_y = 0.0;
     glfwGetCursorPos(window->handle, &window_x, &window_y);
@@ -149,15 +207,15 @@ static void on_pointer(GLFWwindow *handle, double x, double y)
 static void on_key(GLFWwindow *handle, int glfw_key, int scancode, int action, int glfw_mods)
 {
     struct window *window = of(handle);
-    int key = key_translate(glfw_key, scancode);
+    int key = key_of(glfw_key, scancode);
     if (key == KEY_NONE) { // Alt, say
         double x = 0.0, y = 0.0;
         glfwGetCursorPos(handle, &x, &y);
         on_pointer(handle, x, y);
         return;
     }
-    push(window, (struct event){
-                     .kind = EVENT_KEY, .key = key, .action = action_of(action), .mods = mods_translate(glfw_mods)});
+    push(window,
+         (struct event){.kind = EVENT_KEY, .key = key, .action = action_of(action), .mods = mods_of(glfw_mods)});
 }
 
 static void on_button(GLFWwindow *handle, int glfw_button, int action, int glfw_mods)
@@ -167,12 +225,9 @@ static void on_button(GLFWwindow *handle, int glfw_button, int action, int glfw_
     enum event_button button = glfw_button == GLFW_MOUSE_BUTTON_LEFT    ? BUTTON_LEFT
                                : glfw_button == GLFW_MOUSE_BUTTON_RIGHT ? BUTTON_RIGHT
                                                                         : BUTTON_MIDDLE;
-    struct event event = {.kind = EVENT_BUTTON,
-                          .button = button,
-                          .action = action_of(action),
-                          .mods = mods_translate(glfw_mods),
-                          .clicks = 1};
-    pointer(window, &event.x, &event.y);
+    struct event event = {
+        .kind = EVENT_BUTTON, .button = button, .action = action_of(action), .mods = mods_of(glfw_mods), .clicks = 1};
+    pointer_place(window, &event.x, &event.y);
     if (event.action == ACTION_PRESS)
         event.clicks = clicks_count(&window->clicks, button, event.x, event.y, clock_now());
     push(window, event);
@@ -182,7 +237,7 @@ static void on_wheel(GLFWwindow *handle, double dx, double dy)
 {
     struct window *window = of(handle);
     struct event event = {.kind = EVENT_WHEEL, .dx = (float)dx, .dy = (float)dy, .mods = mods_now(handle)};
-    pointer(window, &event.x, &event.y);
+    pointer_place(window, &event.x, &event.y);
     push(window, event);
 }
 
@@ -190,21 +245,6 @@ static void on_drop(GLFWwindow *handle, int count, const char **paths)
 {
     struct window *window = of(handle);
     for (int i = 0; i < count; i++) event_queue_push_drop(window->queue, paths[i], clock_now());
-}
-
-static void listen(GLFWwindow *handle)
-{
-    glfwSetFramebufferSizeCallback(handle, on_framebuffer_size);
-    glfwSetWindowContentScaleCallback(handle, on_content_scale);
-    glfwSetWindowRefreshCallback(handle, on_refresh);
-    glfwSetWindowFocusCallback(handle, on_focus);
-    glfwSetWindowCloseCallback(handle, on_close);
-    glfwSetKeyCallback(handle, on_key);
-    glfwSetCharCallback(handle, on_character);
-    glfwSetCursorPosCallback(handle, on_pointer);
-    glfwSetMouseButtonCallback(handle, on_button);
-    glfwSetScrollCallback(handle, on_wheel);
-    glfwSetDropCallback(handle, on_drop);
 }
 
 static GLFWwindow *open_handle(int width, int height, const char *title)
@@ -259,7 +299,17 @@ struct window *window_create(int width, int height, const char *title, int vsync
     glfwMakeContextCurrent(window->handle);
     glfwSwapInterval(vsync);
     update_size(window);
-    listen(window->handle);
+    glfwSetFramebufferSizeCallback(window->handle, on_framebuffer_size);
+    glfwSetWindowContentScaleCallback(window->handle, on_content_scale);
+    glfwSetWindowRefreshCallback(window->handle, on_refresh);
+    glfwSetWindowFocusCallback(window->handle, on_focus);
+    glfwSetWindowCloseCallback(window->handle, on_close);
+    glfwSetKeyCallback(window->handle, on_key);
+    glfwSetCharCallback(window->handle, on_character);
+    glfwSetCursorPosCallback(window->handle, on_pointer);
+    glfwSetMouseButtonCallback(window->handle, on_button);
+    glfwSetScrollCallback(window->handle, on_wheel);
+    glfwSetDropCallback(window->handle, on_drop);
     return window;
 }
 
@@ -273,37 +323,123 @@ void window_destroy(struct window *window)
     free(window);
 }
 
-unsigned long window_number(const struct window *window)
+// --- the display is lost
+
+enum { EXIT_LOST = 3 };
+enum { BAD_WINDOW = 3, BAD_DRAWABLE = 9 }; ///< X error codes
+
+/// Copied from <X11/Xlib.h>, to need no package for it.
+struct x_error {
+    int type;
+    void *display;
+    unsigned long resource, serial;
+    unsigned char code, request, minor;
+};
+
+struct wl_display;
+
+static platform_rescue *rescue;
+static void *rescue_user;
+static unsigned long own; ///< our window's X number
+static bool error_seen;
+
+typedef int x_handler(void *display);
+typedef int x_error_handler(void *display, void *event);
+
+/// Skips exit() handlers, which would talk to the display.
+static _Noreturn void end_lost(void)
 {
+    platform_rescue *once = rescue;
+    rescue = NULL;
+    if (once) once(rescue_user);
+    _exit(EXIT_LOST);
+}
+
+/// Xlib calls this when the connection breaks, and ends the process on return.
+static int on_x_io_error(void *display)
+{
+    (void)display;
+    end_lost();
+}
+
+/// Xlib's default handler ends the process even for harmless errors, such as a vanished clipboard owner. A destroyed window must be handled
+/// before the frame ends: Mesa's software drivers read its size without checking and crash.
+static int on_x_error(void *display, void *event)
+{
+    (void)display;
+    const struct x_error *error = event;
+    if (rescue && own && error->resource == own && (error->code == BAD_WINDOW || error->code == BAD_DRAWABLE))
+        end_lost();
+    error_seen = true;
+    return 0;
+}
+
+/// Stores the address of a symbol from a library GLFW may have loaded, without linking to it. false if there is none.
+static bool symbol_find(const char *name, void *pointer)
+{
+    void *symbol = dlsym(RTLD_DEFAULT, name);
+    if (symbol) memcpy(pointer, &symbol, sizeof symbol);
+    return symbol != NULL;
+}
+
+/// GLFW replaces the error handler when it expects an error.
+static bool handle_errors(void)
+{
+    static x_error_handler *(*set)(x_error_handler *);
+    if (!set && !symbol_find("XSetErrorHandler", &set)) return false;
+    set(on_x_error);
+    return true;
+}
+
+void platform_on_lost(platform_rescue *function, void *user)
+{
+    x_handler *(*set)(x_handler *);
+    rescue = function;
+    rescue_user = user;
+    if (symbol_find("XSetIOErrorHandler", &set)) set(on_x_io_error);
+    handle_errors();
+}
+
+/// libwayland notices a dead compositor only when it reads, and GLFW has stopped reading by then.
+static bool is_wayland_lost(void)
+{
+    struct wl_display *(*get_display)(void);
+    int (*get_fd)(struct wl_display *), (*get_error)(struct wl_display *);
+    struct wl_display *display = symbol_find("glfwGetWaylandDisplay", &get_display) ? get_display() : NULL;
+    if (!display || !symbol_find("wl_display_get_fd", &get_fd) || !symbol_find("wl_display_get_error", &get_error))
+        return false;
+    struct pollfd end = {.fd = get_fd(display)};
+    return get_error(display) != 0 || (poll(&end, 1, 0) > 0 && (end.revents & (POLLHUP | POLLERR | POLLNVAL)) != 0);
+}
+
+/// Ends the process as described at platform_on_lost() if another program destroyed the window. X errors reveal that; while `idle`, nothing
+/// is drawn, so this queries the window.
+static void check_window(const struct window *window, bool idle)
+{
+    if (rescue && is_wayland_lost()) end_lost();
+    if (!rescue || !handle_errors()) return;
     static unsigned long (*number)(GLFWwindow *);
-    return number || symbol_find("glfwGetX11Window", &number) ? number(window->handle) : 0;
-}
-
-void window_ask_place(const struct window *window)
-{
+    own = number || symbol_find("glfwGetX11Window", &number) ? number(window->handle) : 0;
+    if (!error_seen && !idle) return;
+    error_seen = false;
     int x, y;
-    glfwGetWindowPos(window->handle, &x, &y);
+    glfwGetWindowPos(window->handle, &x, &y); // an error if the window is gone
 }
 
-static void wait(double seconds)
-{
-    if (seconds > 0.0) {
-        glfwWaitEventsTimeout(seconds);
-    } else {
-        glfwPollEvents();
-    }
-}
+// --- of the platform
 
 const struct event *platform_events(struct platform *platform, double seconds, int *count)
 {
     static const double idle = 0.1; ///< seconds; animations wait less
-    if (platform->window) {
-        wait(seconds);
-    } else {
+    if (!platform->window) {
         process_sleep(seconds);
+    } else if (seconds > 0.0) {
+        glfwWaitEventsTimeout(seconds);
+    } else {
+        glfwPollEvents();
     }
     const struct event *events = event_queue_take(&platform->queue, count);
-    if (platform->window) window_check(platform->window, *count == 0 && seconds > idle);
+    if (platform->window) check_window(platform->window, *count == 0 && seconds > idle);
     return events;
 }
 
@@ -315,19 +451,15 @@ void platform_size(const struct platform *platform, int *width, int *height, flo
     *scale = size.scale;
 }
 
-static bool is_software(void)
-{
-    const char *renderer = (const char *)glGetString(GL_RENDERER);
-    return renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe"));
-}
-
 /// Shows the window with its first frame, and tests whether a swap keeps the back buffer: no older buffer can hold this frame's middle row.
 static bool swap_first(struct window *window)
 {
     const int width = window->size.width, y = window->size.height / 2;
     const size_t bytes = 4 * (size_t)width;
     // On a GPU the standard leaves the content undefined, whatever one test shows.
-    unsigned char *before = is_software() ? need(2, bytes) : NULL, *after = before ? before + bytes : NULL;
+    const char *renderer = (const char *)glGetString(GL_RENDERER);
+    const bool is_software = renderer && (strstr(renderer, "llvmpipe") || strstr(renderer, "softpipe"));
+    unsigned char *before = is_software ? need(2, bytes) : NULL, *after = before ? before + bytes : NULL;
     if (before) glReadPixels(0, y, width, 1, GL_RGBA, GL_UNSIGNED_BYTE, before);
     glfwShowWindow(window->handle);
     glfwSwapBuffers(window->handle);
