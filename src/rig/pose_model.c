@@ -68,8 +68,9 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
                    struct rig_pose *posed)
 {
     const struct document *document = posing->document;
-    const bool is_tail = document->rigs[rig]->kind == RIG_TAIL;
-    if (!is_tail && document->rigs[rig]->kind != RIG_MODEL) return rig_pose(posing, rig, position, by_hand, posed);
+    const enum rig_kind kind = document->rigs[rig]->kind;
+    if (kind == RIG_TAIL) return tail_pose(posing, rig, position, by_hand, NULL, posed);
+    if (kind != RIG_MODEL) return rig_pose(posing, rig, position, by_hand, posed);
     struct gltf_pose *pose = posing_clip(posing, rig, position, posing->memory);
     wiggly_value values[RIG_MAX_INPUTS];
     struct strand strand;
@@ -77,25 +78,14 @@ bool rig_pose_body(const struct posing *posing, int rig, double position, const 
     if (!pose) return false;
     for (int r = 0; r < document->rig_count; r++) {
         if (!strand_find(posing, rig, r, &strand)) continue;
-        posing_values(posing, r, position, r == rig ? by_hand : NULL, values);
+        posing_values(posing, r, position, NULL, values);
         strand_bend(&strand, values, posing->look, pose);
     }
     posed->kind = RIG_MODEL;
     posed->model.imported = models_imported(posing->models, document, rig);
     posed->model.pose = pose;
-    if (is_tail) { // the fox's body
-        const struct tail *tail = &document->rigs[rig]->tail;
-        const double scale = tail->length / (double)FOX_TAIL_LENGTH;
-        const double columns[9] = {scale, 0, 0, 0, scale, 0, 0, 0, scale};
-        posing_values(posing, rig, position, by_hand, values);
-        memcpy(root, columns, sizeof columns);
-        const struct limbs limbs = tail_base(posing, rig, position, values, by_hand, root + 9);
-        fox_move(&limbs, pose);
-        posed->model.ground = tail_ground(tail);
-    } else {
-        posed->model.ground = (float)document->rigs[rig]->model.position[1];
-        posing_root(posing, rig, by_hand, root);
-    }
+    posed->model.ground = (float)document->rigs[rig]->model.position[1];
+    posing_root(posing, rig, by_hand, root);
     gltf_pose_world(&posed->model.imported->gltf, pose);
     for (int k = 0; k < 16; k++) posed->model.root[k] = k % 4 == 3 ? k == 15 : (float)root[3 * (k / 4) + k % 4];
     return true;

@@ -56,6 +56,10 @@ bool rig_pose(const struct posing *posing, int rig, double position, const struc
 bool rig_pose_body(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                    struct rig_pose *pose);
 
+/// Poses a tail and its fox at once; either may be NULL. false if the fox is asked for but missing.
+bool tail_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+               struct rig_pose *posed, struct rig_pose *fox);
+
 /// How a model rig plays a clip of its file: from its first key, in seconds, for a length; then again, or no more.
 struct clip_play {
     double first, length;
@@ -138,9 +142,6 @@ void posing_base(const struct posing *posing, int rig, const struct by_hand *by_
 /// The base of a tail, metres of the world, and the motion of the body's parts.
 struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
                        const struct by_hand *by_hand, double base[3]);
-
-/// Height of the ground under a tail's body.
-float tail_ground(const struct tail *tail);
 
 /// Like model_source.lowest() and follow().
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low);

@@ -184,15 +184,21 @@ static void turn_joint(const struct strand *strand, const wiggly_value *values, 
     }
 }
 
+static void set_rotation(float rotation[4], const double turned[4])
+{
+    double square = 0;
+    for (int k = 0; k < 4; k++) square += turned[k] * turned[k];
+    for (int k = 0; k < 4 && square > 0; k++) rotation[k] = (float)(turned[k] / sqrt(square));
+}
+
 void strand_bend(const struct strand *strand, const wiggly_value *values, enum look look, struct gltf_pose *pose)
 {
     for (int n = 0; n < strand->joints; n++) {
         float *rotation = pose->place[strand->bones.node[n]].rotation;
-        double turned[4], square = 0;
+        double turned[4];
         for (int k = 0; k < 4; k++) turned[k] = (double)rotation[k];
         turn_joint(strand, values, look, n, turned);
-        for (int k = 0; k < 4; k++) square += turned[k] * turned[k];
-        for (int k = 0; k < 4 && square > 0; k++) rotation[k] = (float)(turned[k] / sqrt(square));
+        set_rotation(rotation, turned);
     }
 }
 
@@ -278,7 +284,7 @@ bool path_find(const struct posing *posing, int rig, double position, const stru
                                                 .scale = {1, 1, 1}};
         memcpy(path->tip, (const double[]){0, 0, segment}, sizeof path->tip);
         posing_values(posing, rig, position, by_hand, values);
-        tail_base(posing, rig, position, values, by_hand, root + 9);
+        path->limbs = tail_base(posing, rig, position, values, by_hand, root + 9);
     } else {
         if (!list_nodes(strand.imported, pose, strand.bones.node[strand.joints - 1], path)) return false;
         const mat3s inward = into_bone(strand.imported, strand.bones.node[strand.joints - 1]);
@@ -385,12 +391,6 @@ static double limb_moved(const struct tail *tail, const wiggly_value *values, en
     return fmin(fmax(sum, limb_limits[axis].lowest), limb_limits[axis].highest);
 }
 
-float tail_ground(const struct tail *tail)
-{
-    const double height = (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) * tail->length;
-    return tail->position[1].track < 0 ? (float)(tail->position[1].value - height) : 0.0f;
-}
-
 struct limbs tail_base(const struct posing *posing, int rig, double position, const wiggly_value *values,
                        const struct by_hand *by_hand, double base[3])
 {
@@ -417,35 +417,66 @@ struct limbs tail_base(const struct posing *posing, int rig, double position, co
     return limbs;
 }
 
-static bool strand_rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
-                            struct rig_pose *posed)
+static void set_strand(const struct path *path, struct pose *strand)
 {
-    struct pose *strand = &posed->strand;
-    struct path path;
-    if (!path_find(posing, rig, position, by_hand, &path)) return false;
-    strand->count = path.count - path.first + 1;
+    strand->count = path->count - path->first + 1;
     for (int n = 0; n < strand->count; n++) {
-        const struct path_node *node = &path.nodes[n + 1 < strand->count ? path.first + n : path.count - 1];
-        const double *at = n + 1 < strand->count ? node->at : path.end;
+        const struct path_node *node = &path->nodes[n + 1 < strand->count ? path->first + n : path->count - 1];
+        const double *at = n + 1 < strand->count ? node->at : path->end;
         for (int k = 0; k < 12; k++)
             strand->matrix[n][k] = k % 4 == 3 ? 0.0f : (float)node->frame[3 * (k / 4) + k % 4];
         for (int k = 0; k < 3; k++) strand->matrix[n][12 + k] = (float)at[k];
         strand->matrix[n][15] = 1.0f;
     }
+}
+
+static bool chain_rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+                           struct rig_pose *posed)
+{
+    struct path path;
+    if (!path_find(posing, rig, position, by_hand, &path)) return false;
+    set_strand(&path, &posed->strand);
+    return true;
+}
+
+bool tail_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
+               struct rig_pose *posed, struct rig_pose *fox)
+{
+    const struct tail *tail = &posing->document->rigs[rig]->tail;
+    const double scale = tail->length / (double)FOX_TAIL_LENGTH;
+    const double height = (double)(FOX_BASE_HEIGHT / FOX_TAIL_LENGTH) * tail->length;
+    const float ground = tail->position[1].track < 0 ? (float)(tail->position[1].value - height) : 0.0f;
+    struct path path;
+    if (!path_find(posing, rig, position, by_hand, &path)) return false;
+    if (posed) {
+        posed->kind = RIG_TAIL;
+        posed->strand.ground = ground;
+        posed->strand.scale = (float)scale;
+        posed->strand.limbs = path.limbs;
+        set_strand(&path, &posed->strand);
+    }
+    if (!fox) return true;
+
+    struct gltf_pose *pose = posing_clip(posing, rig, position, posing->memory);
+    if (!pose) return false;
+    for (int n = 0; n < path.count; n++) // at rest the fox's tail is straight, too
+        set_rotation(pose->place[path.nodes[n].node].rotation, path.nodes[n].rotation);
+    fox_move(&path.limbs, pose);
+    fox->kind = RIG_MODEL;
+    fox->model.imported = models_imported(posing->models, posing->document, rig);
+    fox->model.pose = pose;
+    fox->model.ground = ground;
+    gltf_pose_world(&fox->model.imported->gltf, pose);
+    for (int k = 0; k < 16; k++) fox->model.root[k] = k % 5 == 0 ? (float)scale : 0.0f;
+    for (int k = 0; k < 3; k++) fox->model.root[12 + k] = (float)path.nodes[0].at[k]; // the tail's base
+    fox->model.root[15] = 1.0f;
     return true;
 }
 
 static bool tail_rig_pose(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                           struct rig_pose *posed)
 {
-    const struct tail *tail = &posing->document->rigs[rig]->tail;
-    wiggly_value values[RIG_MAX_INPUTS];
-    double base[3];
-    posing_values(posing, rig, position, by_hand, values);
-    posed->strand.ground = tail_ground(tail);
-    posed->strand.scale = (float)(tail->length / (double)FOX_TAIL_LENGTH);
-    posed->strand.limbs = tail_base(posing, rig, position, values, by_hand, base);
-    return strand_rig_pose(posing, rig, position, by_hand, posed);
+    return tail_pose(posing, rig, position, by_hand, posed, NULL);
 }
 
 static void tail_rig_bounds(const struct rig_pose *posed, float lo[3], float hi[3])
@@ -544,4 +575,4 @@ static void strand_weigh(const struct posing *posing, int rig, const int *spline
 static const struct pinning_functions strand_pinning = {strand_find_pin, strand_weigh};
 
 const struct posing_functions tail_posing = {tail_rig_pose, tail_rig_bounds, &strand_pinning};
-const struct posing_functions chain_posing = {strand_rig_pose, NULL, &strand_pinning};
+const struct posing_functions chain_posing = {chain_rig_pose, NULL, &strand_pinning};

@@ -61,9 +61,10 @@ struct path_node {
 /// The way from the root to a strand's tip, in double precision, because floats are too coarse for solving.
 struct path {
     struct path_node nodes[PATH_MAX_NODES];
-    int first, count; ///< the strand's joints are the last ones, from `first` on
-    double tip[3];    ///< in the last joint's own space
-    double end[3];    ///< the tip in the world
+    int first, count;   ///< the strand's joints are the last ones, from `first` on
+    double tip[3];      ///< in the last joint's own space
+    double end[3];      ///< the tip in the world
+    struct limbs limbs; ///< a tail's
 };
 
 /// Poses a tail or chain at a position in samples. False if its model is missing, or has too many nodes above it.

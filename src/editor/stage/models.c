@@ -59,13 +59,9 @@ static void bones_add(struct stage *stage, int model, const struct rig_pose *pos
     }
 }
 
-struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed)
+struct stage_model *models_show(struct stage_view *view, const struct rig_pose *posed)
 {
-    struct stage_view *view = &stage->view;
-    struct posing posing = stage_posing_by_hand(stage);
-    posing.memory = POSE_SHOWN;
     if (view->model_count == STAGE_MAX_MODELS) return NULL;
-    if (!rig_pose_body(&posing, rig, core->playback.position, NULL, posed)) return NULL;
     struct stage_model *shown = &view->models[view->model_count++];
     *shown = (struct stage_model){
         .gltf = &posed->model.imported->gltf, .pose = posed->model.pose, .ground = posed->model.ground};
@@ -87,15 +83,18 @@ static float model_aside(const struct core *core, int n)
 static void pose_imported(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct stage_view *view = &stage->view;
+    struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose posed;
-    struct stage_model *shown = models_show(stage, core, rig, &posed);
+    posing.memory = POSE_SHOWN;
+    if (!rig_pose_body(&posing, rig, core->playback.position, NULL, &posed)) return;
+    struct stage_model *shown = models_show(view, &posed);
     if (!shown) return;
     bones_add(stage, rig, &posed);
     shown->dusk = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
     add_shadows(view, shown, &posed.model.imported->skeleton);
 
     // The clip without its chains, beside it.
-    const struct posing posing = {.document = core->document, .models = core->models, .memory = POSE_BESIDE};
+    posing = (struct posing){.document = core->document, .models = core->models, .memory = POSE_BESIDE};
     if (!core->overlays.original || view->model_count == STAGE_MAX_MODELS) return;
     if (!rig_pose_body(&posing, rig, core->playback.position, NULL, &posed)) return;
     const float by = model_aside(core, n);

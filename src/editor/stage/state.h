@@ -264,8 +264,8 @@ const struct stage_character *stage_character_shown(const struct stage *stage, i
 void stage_vertex(const struct figure *figure, const struct morph *morph, const float position[3], int vertex,
                   float place[3]);
 
-/// Shows a rig's model: an imported character, or a tail's fox. NULL if missing or the view is full.
-struct stage_model *models_show(struct stage *stage, const struct core *core, int rig, struct rig_pose *posed);
+/// Shows an imported character, or a tail's fox. NULL if the view is full.
+struct stage_model *models_show(struct stage_view *view, const struct rig_pose *posed);
 
 /// A rig's strand as last shown, or NULL.
 const struct shown_strand *strand_of(const struct stage *stage, int rig);

@@ -69,14 +69,16 @@ bool strand_pose(const struct stage *stage, const struct core *core, int rig, do
 static void pose_tail(struct stage *stage, const struct core *core, int rig, int n)
 {
     struct stage_view *view = &stage->view;
+    struct posing posing = stage_posing_by_hand(stage);
     struct rig_pose posed, body;
     (void)n;
     if (stage->tail_count == STAGE_MAX_TAILS) return;
-    strand_pose(stage, core, rig, core->playback.position, NULL, &posed);
+    posing.memory = POSE_SHOWN;
+    const bool has_fox = tail_pose(&posing, rig, core->playback.position, NULL, &posed, &body);
     const int room = STAGE_MAX_BLOBS - view->blob_count;
     view->blob_count += pose_blobs(&posed.strand, view->key_from, view->blobs + view->blob_count,
                                    room < BLOBS_OF_ONE_TAIL ? room : BLOBS_OF_ONE_TAIL);
-    struct stage_model *fox = models_show(stage, core, rig, &body);
+    struct stage_model *fox = has_fox ? models_show(view, &body) : NULL;
     if (fox) fox->dusk = DUSK * posed.strand.scale;
     stage->strands[stage->strand_count++] =
         (struct shown_strand){rig, fox ? view->model_count - 1 : -1, posed.strand};
