@@ -25,12 +25,4 @@ struct platform {
     char *clipboard; ///< without a window
 };
 
-/// Events go to `queue`, which must outlive the window.
-struct window *window_create(int width, int height, const char *title, int vsync, struct event_queue *queue,
-                             struct error *error);
-void window_destroy(struct window *window);
-
-/// Whether platform_debug_gl() was called, so that contexts need debug output.
-bool gl_debug_wanted(void);
-
 #endif

@@ -1,12 +1,19 @@
-/// A canvas in a browser: its WebGL 2 context, and the events that page.js sends.
+/// A canvas in a browser: its WebGL 2 context, and the events that page.js sends. And the process there, which has no signals and never waits.
+#include "platform/platform.h"
 #include "base/need.h"
 #include "base/progress.h"
 #include "platform/events.h"
-#include "platform/platform.h"
+#include "platform/process.h"
+#include <dlfcn.h>
 #include <emscripten.h>
 #include <emscripten/html5.h>
+#include <errno.h>
+#include <math.h>
+#include <spawn.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/types.h>
+#include <sys/xattr.h>
 
 struct platform {
     EMSCRIPTEN_WEBGL_CONTEXT_HANDLE context; ///< 0 without a window
@@ -284,3 +291,67 @@ EMSCRIPTEN_KEEPALIVE void web_clipboard(char *text)
     free(shown ? shown->clipboard : text);
     if (shown) shown->clipboard = text;
 }
+
+// --- the process
+
+/// The page begins at 0.
+double process_age(void) { return 1e-3 * emscripten_get_now(); }
+double process_peak_memory(void) { return NAN; }
+void process_sleep(double seconds) { (void)seconds; }
+void process_catch_end(void) {}
+bool process_was_told_to_end(void) { return false; }
+
+bool turns_open(bool first)
+{
+    (void)first;
+    return false;
+}
+void turns_take(void) {}
+void turns_give(void) {}
+
+// Not in this C library, or of no use in a browser.
+
+int posix_spawnp(pid_t *process, const char *file, const posix_spawn_file_actions_t *actions,
+                 const posix_spawnattr_t *attributes, char *const arguments[], char *const environment[])
+{
+    (void)process, (void)file, (void)actions, (void)attributes, (void)arguments, (void)environment;
+    return ENOSYS;
+}
+
+ssize_t getxattr(const char *path, const char *name, void *value, size_t size)
+{
+    (void)path, (void)name, (void)value, (void)size;
+    return -1;
+}
+
+int fsetxattr(int file, const char *name, const void *value, size_t size, int flags)
+{
+    (void)file, (void)name, (void)value, (void)size, (void)flags;
+    return -1;
+}
+
+int fremovexattr(int file, const char *name)
+{
+    (void)file, (void)name;
+    return -1;
+}
+
+void *dlopen(const char *file, int mode)
+{
+    (void)file, (void)mode;
+    return NULL;
+}
+
+void *dlsym(void *library, const char *name)
+{
+    (void)library, (void)name;
+    return NULL;
+}
+
+int dlclose(void *library)
+{
+    (void)library;
+    return 0;
+}
+
+long allocation_count(void) { return 0; }
