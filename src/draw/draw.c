@@ -3,13 +3,13 @@
 #include "base/hash.h"
 #include "base/need.h"
 #include "base/progress.h"
-#include "draw/damage.h"
 #include "draw/gl.h"
 #include "draw/paint.h"
 #include "draw/stage.h"
 #include "model/fox.h"
 #include "model/vector.h"
 #include "ui/theme.h"
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -55,6 +55,203 @@ static bool target_bind(struct target *target, int width, int height)
     return glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
 }
 
+// --- what changed since the last frame
+//
+// A grid divides the framebuffer, with the stage's viewport on cell borders. A cell's hash combines the hashes of the stage there and of the
+// commands that touch the cell, in painter's order. Cells with a changed hash are merged into rectangles.
+
+enum { DAMAGE_SIDE = 128, DAMAGE_RECTANGLES = 8 };
+
+/// One direction of the grid: cells of equal size, cut at the viewport's edges.
+struct damage_axis {
+    int size, cell; ///< device pixels
+    int cuts[2];
+    int count;                  ///< of cells
+    int edges[DAMAGE_SIDE + 1]; ///< cell i is [edges[i], edges[i + 1])
+};
+
+struct damage {
+    uint64_t hashes[2][DAMAGE_SIDE * DAMAGE_SIDE]; ///< this frame's and the last one's, alternating
+    int current;
+    struct damage_axis columns, rows;
+    bool known;                                ///< the last frame's hashes match the screen
+    struct area rectangles[DAMAGE_RECTANGLES]; ///< disjoint, inside the framebuffer
+    int count;
+};
+
+/// The stage below the list: its viewport, and the part that moves.
+struct damage_stage {
+    struct area viewport, moving;
+    uint64_t hash, moving_hash; ///< of everything outside `moving`; of everything
+};
+
+/// Narrow cells make a moving playhead cheap; more cells cost more hashing.
+enum { CELL_MIN = 16, CANDIDATES = 48 };
+
+/// Rectangles being merged, in device pixels.
+struct pile {
+    struct area areas[CANDIDATES];
+    int count;
+};
+
+/// Lays out one direction; false if nothing changed.
+static bool set_axis(struct damage_axis *axis, int size, int from, int to)
+{
+    if (size == axis->size && from == axis->cuts[0] && to == axis->cuts[1]) return false;
+    // Each cut may add a cell.
+    *axis = (struct damage_axis){.size = size, .cuts = {from, to}};
+    axis->cell = area_max(CELL_MIN, (size + DAMAGE_SIDE - 3) / (DAMAGE_SIDE - 2));
+    for (int edge = 0; edge < size;) {
+        axis->edges[axis->count++] = edge;
+        int next = (edge / axis->cell + 1) * axis->cell;
+        for (int i = 0; i < 2; i++) {
+            if (axis->cuts[i] > edge && axis->cuts[i] < next) next = axis->cuts[i];
+        }
+        edge = next;
+    }
+    axis->edges[axis->count] = size;
+    return true;
+}
+
+/// The cell of a device pixel inside the framebuffer.
+static int cell_of(const struct damage_axis *axis, int pixel)
+{
+    int index = pixel / axis->cell;
+    for (int i = 0; i < 2; i++) {
+        int cut = axis->cuts[i];
+        bool counts = cut > 0 && cut < axis->size && cut % axis->cell != 0 && (i == 0 || cut != axis->cuts[0]);
+        if (counts && pixel >= cut) index++;
+    }
+    return index;
+}
+
+/// Mixes `hash` into all cells that `area` touches.
+static void mark(struct damage *damage, uint64_t *cells, struct area area, uint64_t hash)
+{
+    struct area inside = area_intersect(area, (struct area){0, 0, damage->columns.size, damage->rows.size});
+    if (area_empty(inside)) return;
+    int first_column = cell_of(&damage->columns, inside.x0), last_column = cell_of(&damage->columns, inside.x1 - 1);
+    int first_row = cell_of(&damage->rows, inside.y0), last_row = cell_of(&damage->rows, inside.y1 - 1);
+    for (int row = first_row; row <= last_row; row++) {
+        uint64_t *line = cells + row * damage->columns.count;
+        for (int column = first_column; column <= last_column; column++) line[column] = hash_word(line[column], hash);
+    }
+}
+
+static void merge(struct pile *pile, int i, int j)
+{
+    pile->areas[i] = area_union(pile->areas[i], pile->areas[j]);
+    pile->areas[j] = pile->areas[--pile->count];
+}
+
+/// Merges the pair whose union wastes the fewest pixels, if at most `limit`.
+static bool merge_cheapest(struct pile *pile, long limit)
+{
+    int best_i = -1, best_j = -1;
+    for (int i = 0; i < pile->count; i++) {
+        for (int j = i + 1; j < pile->count; j++) {
+            const struct area a = pile->areas[i], b = pile->areas[j];
+            const long cost = area_pixels(area_union(a, b)) - area_pixels(a) - area_pixels(b);
+            if (cost > limit) continue;
+            limit = cost;
+            best_i = i;
+            best_j = j;
+        }
+    }
+    if (best_i < 0) return false;
+    merge(pile, best_i, best_j);
+    return true;
+}
+
+static const long ANY_WASTE = LONG_MAX;
+
+/// Adds a run, or extends an equally wide one above it.
+static void add_run(struct pile *pile, struct area run)
+{
+    for (int i = pile->count - 1; i >= 0; i--) {
+        struct area *above = &pile->areas[i];
+        if (above->y1 != run.y0 || above->x0 != run.x0 || above->x1 != run.x1) continue;
+        above->y1 = run.y1;
+        return;
+    }
+    if (pile->count == CANDIDATES) merge_cheapest(pile, ANY_WASTE);
+    pile->areas[pile->count++] = run;
+}
+
+/// Merges rectangles that touch until all are disjoint.
+static void make_disjoint(struct pile *pile)
+{
+    for (int i = 0; i < pile->count; i++) {
+        for (int j = i + 1; j < pile->count; j++) {
+            if (!area_touches(pile->areas[i], pile->areas[j])) continue;
+            merge(pile, i, j);
+            i = -1;
+            break;
+        }
+    }
+}
+
+/// Merges all rectangles that touch the stage into one.
+static void join_on_stage(struct pile *pile, struct area viewport)
+{
+    int first = -1;
+    for (int i = 0; i < pile->count; i++) {
+        if (!area_touches(pile->areas[i], viewport)) continue;
+        if (first < 0) {
+            first = i;
+        } else {
+            merge(pile, first, i);
+            i--;
+        }
+    }
+}
+
+/// An extra rectangle costs about as much as this many pixels: each traverses the list and changes the scissor.
+static const long WORTH_A_RECTANGLE = 4096;
+
+/// Compares a frame of width × height device pixels with the last one and fills `rectangles`, with the whole frame if the last one is
+/// unknown. At most one rectangle touches the stage's viewport, because drawing the stage costs the same for any part of it.
+static void damage_update(struct damage *damage, int width, int height, float scale, const struct drawlist *list,
+                          const struct damage_stage *stage)
+{
+    const struct area whole = {0, 0, width, height}, viewport = stage->viewport;
+    const bool new_columns = set_axis(&damage->columns, width, viewport.x0, viewport.x1);
+    const bool new_rows = set_axis(&damage->rows, height, viewport.y0, viewport.y1);
+    const int columns = damage->columns.count, rows = damage->rows.count;
+    if (new_columns || new_rows) damage->known = false;
+    damage->current = 1 - damage->current;
+    uint64_t *cells = damage->hashes[damage->current];
+    for (int i = 0; i < columns * rows; i++) cells[i] = HASH_START;
+    mark(damage, cells, viewport, stage->hash);
+    mark(damage, cells, stage->moving, stage->moving_hash);
+    for (const struct draw_command *command = list->commands; command < list->commands + list->count; command++)
+        mark(damage, cells, area_outer(command->bounds, scale), command->hash);
+
+    // The runs of changed cells in each row.
+    struct pile pile = {.count = 0};
+    if (!damage->known) pile.areas[pile.count++] = whole;
+    for (int row = 0; damage->known && row < rows; row++) {
+        const uint64_t *now = cells + row * columns;
+        const uint64_t *before = damage->hashes[1 - damage->current] + row * columns;
+        const int *x = damage->columns.edges, *y = damage->rows.edges;
+        for (int to = 0; to < columns;) {
+            int from = to;
+            while (from < columns && now[from] == before[from]) from++;
+            for (to = from; to < columns && now[to] != before[to];) to++;
+            if (from < to) add_run(&pile, (struct area){x[from], y[row], x[to], y[row + 1]});
+        }
+    }
+    for (int count = 0; damage->known && count != pile.count;) {
+        count = pile.count;
+        make_disjoint(&pile);
+        join_on_stage(&pile, area_intersect(viewport, whole));
+        merge_cheapest(&pile, pile.count > DAMAGE_RECTANGLES ? ANY_WASTE : WORTH_A_RECTANGLE);
+    }
+    damage->count = pile.count;
+    for (int i = 0; i < pile.count; i++) damage->rectangles[i] = area_intersect(pile.areas[i], whole);
+    damage->known = true;
+}
+
 // --- frames
 
 struct draw {
@@ -93,7 +290,7 @@ static bool load_atlas(struct draw *draw, float scale, struct error *error)
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-    damage_forget(&draw->damage);
+    draw->damage.known = false;
     return true;
 }
 
@@ -166,35 +363,42 @@ static void draw_below(struct draw *draw, const struct draw_input *input, struct
                viewport.y1 - viewport.y0);
 }
 
-/// A new resolution changes every pixel of the stage, and enlarging spreads motion to neighbours.
-static struct damage_stage describe_stage(const struct draw_input *input)
+void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost)
 {
     static const float seam = 3.0f; ///< device pixels that soft outlines may reach outwards, rounded up
-    if (!input->stage) return (struct damage_stage){0};
-    struct damage_stage stage = {.viewport = area_rounded(input->stage->viewport, input->scale),
-                                 .hash = stage_backdrop_hash(input->stage),
-                                 .moving_hash = input->stage->hash};
-    const float scale = is_reduced(input->stage_scale) ? input->stage_scale : 1.0f;
-    stage.moving = stage_extent(input->stage, stage.viewport, (int)ceilf(seam / scale));
-    stage.hash = hash_bytes(stage.hash, &scale, sizeof scale);
-    return stage;
-}
-
-static void draw_damage(struct draw *draw, const struct draw_input *input, struct area viewport,
-                        struct draw_cost *cost)
-{
-    const struct damage *damage = &draw->damage;
+    struct damage *damage = &draw->damage;
+    struct batch *batch = &draw->batch;
+    struct painter painter = {batch, &draw->scratch, &draw->atlas, input->scale};
+    *cost = (struct draw_cost){0};
+    cost->gpu_us = gpu_timer_take(&draw->timer, &cost->gpu_frame);
     double start = clock_now();
+    // If the driver takes no larger texture, the old glyphs remain, less sharp.
+    if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
+    if (!input->keeps) damage->known = false;
+
+    struct damage_stage stage = {.hash = 0};
+    if (input->stage) {
+        // A new resolution changes every pixel of the stage, and enlarging spreads motion to neighbours.
+        const float scale = is_reduced(input->stage_scale) ? input->stage_scale : 1.0f;
+        stage.viewport = area_rounded(input->stage->viewport, input->scale);
+        stage.hash = stage_backdrop_hash(input->stage);
+        stage.hash = hash_bytes(stage.hash, &scale, sizeof scale);
+        stage.moving_hash = input->stage->hash;
+        stage.moving = stage_extent(input->stage, stage.viewport, (int)ceilf(seam / scale));
+    }
+    damage_update(damage, input->width, input->height, input->scale, input->list, &stage);
+    cost->draw_us = 1e6 * (clock_now() - start);
+    if (damage->count == 0) return;
+
+    start = clock_now();
     int changed = 0; // the first rectangle on the stage
-    while (changed < damage->count && !area_touches(damage->rectangles[changed], viewport)) changed++;
+    while (changed < damage->count && !area_touches(damage->rectangles[changed], stage.viewport)) changed++;
     if (input->stage && changed < damage->count) stage_upload(draw->stage, input->stage, &cost->uploaded_bytes);
     cost->upload_us = 1e6 * (clock_now() - start);
 
     gpu_timer_begin(&draw->timer, input->frame);
-    struct batch *batch = &draw->batch;
-    struct painter painter = {batch, &draw->scratch, &draw->atlas, input->scale};
     for (int i = 0; i < damage->count; i++) {
-        draw_below(draw, input, damage->rectangles[i], viewport);
+        draw_below(draw, input, damage->rectangles[i], stage.viewport);
         cost->pixels += area_pixels(damage->rectangles[i]);
     }
     batch_begin(batch, input->width, input->height, draw->atlas_texture, draw->atlas.width, draw->atlas.height);
@@ -206,22 +410,7 @@ static void draw_damage(struct draw *draw, const struct draw_input *input, struc
     cost->rectangles = damage->count;
     cost->uploaded_bytes += batch->uploaded_bytes;
     cost->upload_us += batch->upload_us;
-    cost->draw_us = 1e6 * (clock_now() - start) - cost->upload_us;
-}
-
-void draw_frame(struct draw *draw, const struct draw_input *input, struct draw_cost *cost)
-{
-    *cost = (struct draw_cost){0};
-    cost->gpu_us = gpu_timer_take(&draw->timer, &cost->gpu_frame);
-    double start = clock_now();
-    // If the driver takes no larger texture, the old glyphs remain, less sharp.
-    if (input->scale != draw->atlas.scale) load_atlas(draw, input->scale, NULL);
-    if (!input->keeps) damage_forget(&draw->damage);
-    const struct damage_stage stage = describe_stage(input);
-    damage_update(&draw->damage, input->width, input->height, input->scale, input->list, &stage);
-    double compared = 1e6 * (clock_now() - start);
-    if (draw->damage.count > 0) draw_damage(draw, input, stage.viewport, cost);
-    cost->draw_us += compared;
+    cost->draw_us += 1e6 * (clock_now() - start) - cost->upload_us;
 }
 
 void draw_read(int width, int height, unsigned char *rgba)

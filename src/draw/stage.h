@@ -3,7 +3,6 @@
 #define DRAW_STAGE_H
 
 #include "base/error.h"
-#include "draw/area.h"
 #include "draw/gl.h"
 #include "model/vector.h"
 #include "ui/stage.h"
