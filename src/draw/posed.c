@@ -43,51 +43,43 @@ static void find_neighbours(struct posed *mesh, int from)
     free(look);
 }
 
-/// Whether a triangle faces the eye, or nearly. Near the limit the rasteriser decides, because it rounds.
-static bool is_front(const float a[3], const float b[3], const float c[3], const float eye[3], float sign)
-{
-    static const float slack = 1e-6f; // squared cosine
-    const vec3s normal = triangle_normal(a, b, c);
-    const vec3s to_eye = glms_vec3_sub(vec3_from(eye), vec3_from(a));
-    const float facing = sign * glms_vec3_dot(normal, to_eye);
-    return facing >= 0.0f || facing * facing < slack * glms_vec3_norm2(normal) * glms_vec3_norm2(to_eye);
-}
-
-/// Marks the triangles that face the eye.
+/// Marks the triangles that face the eye, or nearly. Near the limit the rasteriser decides, because it rounds.
 static void mark_front(struct posed *mesh, const float eye[3])
 {
-    const float(*place)[3] = (const float(*)[3])mesh->place;
+    static const float slack = 1e-6f; // squared cosine
     for (int p = 0; p < mesh->part_count; p++) {
         const struct posed_part *part = &mesh->parts[p];
         for (int i = part->first; i < part->end; i += 3) {
             const uint32_t *corner = mesh->indices + i;
+            const float *a = mesh->place[corner[0]];
+            const vec3s normal = triangle_normal(a, mesh->place[corner[1]], mesh->place[corner[2]]);
+            const vec3s to_eye = glms_vec3_sub(vec3_from(eye), vec3_from(a));
+            const float facing = (part->mirrored ? -1.0f : 1.0f) * glms_vec3_dot(normal, to_eye);
             mesh->front[i / 3] =
-                is_front(place[corner[0]], place[corner[1]], place[corner[2]], eye, part->mirrored ? -1.0f : 1.0f);
+                facing >= 0.0f || facing * facing < slack * glms_vec3_norm2(normal) * glms_vec3_norm2(to_eye);
         }
     }
 }
 
 // --- imported characters and foxes
 
-static enum stage_program program_of(const struct gltf_part *part, const struct gltf_material *material)
-{
-    if (part->mark) return strcmp(material->name, "face") == 0 ? PROGRAM_FACE : PROGRAM_COAT;
-    const bool plain =
-        material->image < 0 && material->cutoff <= 0.0f && !material->blended && !material->double_sided;
-    return plain ? PROGRAM_PLAIN : PROGRAM_PICTURED;
-}
-
 static void add_gltf_part(struct posed *mesh, const struct gltf *gltf, int node, const struct gltf_part *part)
 {
     static const float white[4] = {1, 1, 1, 1};
     static const struct gltf_material plain = {.color = {1, 1, 1, 1}, .image = -1};
     const struct gltf_material *material = part->material < 0 ? &plain : &gltf->materials[part->material];
+    const bool is_plain =
+        material->image < 0 && material->cutoff <= 0.0f && !material->blended && !material->double_sided;
+    const bool is_face = part->mark && strcmp(material->name, "face") == 0;
     struct posed_part *added = &mesh->parts[mesh->part_count++];
     *added = (struct posed_part){.first = mesh->index_count,
                                  .end = mesh->index_count + part->index_count,
                                  .vertex = mesh->vertex_count,
                                  .node = node,
-                                 .program = program_of(part, material),
+                                 .program = is_face      ? PROGRAM_FACE
+                                            : part->mark ? PROGRAM_COAT
+                                            : is_plain   ? PROGRAM_PLAIN
+                                                         : PROGRAM_PICTURED,
                                  .material = part->material,
                                  .cutoff = material->cutoff,
                                  .blended = material->blended,
@@ -156,16 +148,7 @@ void posed_pose_gltf(struct posed *mesh, const struct stage_model *shown, const 
 
 // --- soft characters
 
-/// The vertex's own colour or that of its phase. The face keeps its colour: without eyes nobody sees which way the animal looks.
-static void map_color(const struct figure *figure, const float phase[2], float color[3])
-{
-    float mapped[3];
-    const float luminance = 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
-    const float share = glm_smoothstep(0.3f * figure->dark, figure->dark, luminance);
-    phase_color_linear(phase[0], phase[1], mapped);
-    glm_vec3_lerp(color, mapped, share, color);
-}
-
+/// Its own colour or that of its phase. The face keeps its colour: without eyes nobody sees which way the animal looks.
 static void color_vertex(const struct figure *figure, int map, int axis, int vertex, struct posed_look *look)
 {
     const struct character *c = &figure->character;
@@ -176,7 +159,12 @@ static void color_vertex(const struct figure *figure, int map, int axis, int ver
     const float largest = figure->largest[map][axis], scale = largest > 0.0f ? 1.0f / largest : 0.0f;
     look->phase[0] = scale * c->coordinates[map].re[vertex][axis];
     look->phase[1] = scale * c->coordinates[map].im[vertex][axis];
-    map_color(figure, look->phase, look->color);
+
+    float *color = look->color, mapped[3];
+    const float luminance = 0.2126f * color[0] + 0.7152f * color[1] + 0.0722f * color[2];
+    const float share = glm_smoothstep(0.3f * figure->dark, figure->dark, luminance);
+    phase_color_linear(look->phase[0], look->phase[1], mapped);
+    glm_vec3_lerp(color, mapped, share, color);
 }
 
 /// A phase map shows no materials.

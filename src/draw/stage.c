@@ -61,18 +61,6 @@ static mat4s clip_from_world_of(const struct stage_view *view)
     return glms_mat4_mul(mat4_from(view->projection), mat4_from(view->view));
 }
 
-/// Uses a program and sets camera, light and the softness of edges.
-static void use_program(const struct program *program, const struct stage_view *view, float seam)
-{
-    const mat4s clip_from_world = clip_from_world_of(view);
-    glUseProgram(program->name);
-    glUniformMatrix4fv(program->at[AT_CLIP_FROM_WORLD], 1, GL_FALSE, clip_from_world.raw[0]);
-    glUniform3fv(program->at[AT_EYE], 1, view->eye);
-    glUniform3fv(program->at[AT_KEY_FROM], 1, view->key_from);
-    gl_uniform_linear(program->at[AT_EARTH], view->colors.bounce);
-    glUniform1f(program->at[AT_SEAM], seam);
-}
-
 // --- where the stage moves on the screen
 
 /// Height of the ground under the lowest rig.
@@ -179,21 +167,6 @@ struct stage_flat {
 /// Corners of two triangles.
 static const float square[FLAT_CORNERS][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, -1}, {1, 1}, {-1, 1}};
 
-static float ground_radius(const struct stage_view *view)
-{
-    float largest = 0.0f;
-    for (int k = 0; k < 3; k++) {
-        for (int c = 0; c < view->character_count; c++) {
-            const struct figure *figure = view->characters[c].figure;
-            largest = fmaxf(largest, figure->hi[k] - figure->lo[k]);
-        }
-        for (int m = 0; m < view->model_count; m++)
-            largest = fmaxf(largest, view->models[m].hi[k] - view->models[m].lo[k]);
-    }
-    const float scale = largest > LARGE ? largest / LARGE : largest > 0.0f ? fminf(largest / SMALL, 1.0f) : 1.0f;
-    return view->has_tail ? fmaxf(GROUND_RADIUS, GROUND_RADIUS * scale) : GROUND_RADIUS * scale;
-}
-
 static void set_color(struct corner *corner, uint32_t color, float opacity)
 {
     for (int k = 0; k < 3; k++) corner->color[k] = (float)(color >> (24 - 8 * k) & 0xFF) / 255.0f;
@@ -238,7 +211,7 @@ static void set_look_attributes(size_t stride, size_t offset)
     gl_attribute(POSED_COVER, 1, GL_FLOAT, stride, offset + offsetof(struct posed_look, cover));
 }
 
-/// These return the number of uploaded bytes. They skip pictures that cannot be decoded or are too large for the driver.
+/// These return the number of uploaded bytes.
 static long upload_mesh(struct posed *mesh)
 {
     const size_t vertices = (size_t)mesh->vertex_count, stride = sizeof *mesh->looks;
@@ -255,14 +228,6 @@ static long upload_mesh(struct posed *mesh)
     return (long)(vertices * stride + bytes);
 }
 
-static long upload_looks(const struct posed *mesh)
-{
-    const size_t bytes = (size_t)mesh->vertex_count * sizeof *mesh->looks;
-    glBindBuffer(GL_ARRAY_BUFFER, mesh->look_buffer);
-    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)bytes, mesh->looks, GL_STATIC_DRAW);
-    return (long)bytes;
-}
-
 static long upload_places(const struct posed *mesh)
 {
     const GLsizeiptr half = (GLsizeiptr)((size_t)mesh->vertex_count * sizeof *mesh->place);
@@ -273,63 +238,13 @@ static long upload_places(const struct posed *mesh)
     return 2 * (long)half;
 }
 
+/// Skips a picture that could not be decoded, or is too large for the driver.
 static long upload_picture(GLuint *picture, const struct gltf_image *image)
 {
     const int largest = gl_largest_texture();
     if (!image->pixels || image->width > largest || image->height > largest) return 0;
     *picture = gl_picture(image->pixels, image->width, image->height);
     return 4L * image->width * image->height;
-}
-
-static long upload_gltf_pictures(struct posed *mesh, const struct gltf *gltf)
-{
-    long bytes = 0;
-    mesh->picture_count = gltf->image_count;
-    mesh->sampler_count = gltf->material_count;
-    mesh->pictures = pool_take(&mesh->pool, (size_t)gltf->image_count, sizeof *mesh->pictures);
-    mesh->samplers = pool_take(&mesh->pool, (size_t)gltf->material_count, sizeof *mesh->samplers);
-    for (int i = 0; i < gltf->image_count; i++) bytes += upload_picture(&mesh->pictures[i], &gltf->images[i]);
-    glGenSamplers(gltf->material_count, mesh->samplers);
-    for (int m = 0; m < gltf->material_count; m++) {
-        const struct gltf_sampler *sampler = &gltf->materials[m].sampler;
-        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_WRAP_S, sampler->wrap[0]);
-        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_WRAP_T, sampler->wrap[1]);
-        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_MIN_FILTER, sampler->far);
-        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_MAG_FILTER, sampler->near);
-    }
-    for (int p = 0; p < mesh->part_count; p++) {
-        struct posed_part *part = &mesh->parts[p];
-        if (part->material < 0) continue;
-        const int image = gltf->materials[part->material].image;
-        part->picture = image >= 0 ? mesh->pictures[image] : 0;
-        part->sampler = mesh->samplers[part->material];
-    }
-    return bytes;
-}
-
-static long upload_figure_pictures(struct posed *mesh, const struct looks *looks)
-{
-    size_t room = PIXEL_ROOM;
-    long bytes = 0;
-    mesh->picture_count = looks->material_count;
-    mesh->pictures = pool_take(&mesh->pool, (size_t)looks->material_count, sizeof *mesh->pictures);
-    for (int p = 0; p < mesh->part_count; p++) {
-        struct posed_part *part = &mesh->parts[p];
-        if (part->material < 0 || !looks->materials[part->material].image) continue;
-        const struct looks_material *own = &looks->materials[part->material], *material = looks->materials;
-        while (!material->image || material->image_size != own->image_size ||
-               memcmp(material->image, own->image, own->image_size) != 0)
-            material++; // the first with the same picture
-        const int first = (int)(material - looks->materials);
-        struct gltf_image image = {0};
-        if (!mesh->pictures[first] && gltf_decode_image(material->image, material->image_size, room, &image, NULL)) {
-            bytes += upload_picture(&mesh->pictures[first], &image);
-            room -= 4 * (size_t)image.width * (size_t)image.height;
-            free(image.pixels);
-        }
-        part->picture = mesh->pictures[first];
-    }
-    return bytes;
 }
 
 /// Also frees its memory.
@@ -423,15 +338,41 @@ static void show_mesh(struct stage_renderer *stage, struct kept *kept, enum mesh
 static long add_character(struct stage_renderer *stage, const struct stage_character *shown, const float eye[3])
 {
     const struct figure *figure = shown->figure;
+    const struct looks *looks = &figure->character.looks;
     const enum mesh_kind kind = shown->coarse ? MESH_COARSE : MESH_FINE;
     struct kept *kept = find_mesh(stage, kind, figure->id);
     struct posed *mesh = &kept->mesh;
+    const bool is_new = kept->kind == MESH_NONE;
     long bytes = 0;
-    if (kept->kind == MESH_NONE) {
+    if (is_new) {
         posed_from_figure(mesh, figure, shown->coarse);
-        bytes += upload_mesh(mesh) + upload_figure_pictures(mesh, &figure->character.looks);
+        bytes += upload_mesh(mesh);
+        mesh->picture_count = looks->material_count;
+        mesh->pictures = pool_take(&mesh->pool, (size_t)looks->material_count, sizeof *mesh->pictures);
     }
-    if (posed_map_figure(mesh, shown)) bytes += upload_looks(mesh);
+    size_t room = PIXEL_ROOM;
+    for (int p = 0; is_new && p < mesh->part_count; p++) {
+        struct posed_part *part = &mesh->parts[p];
+        if (part->material < 0 || !looks->materials[part->material].image) continue;
+        const struct looks_material *own = &looks->materials[part->material], *material = looks->materials;
+        while (!material->image || material->image_size != own->image_size ||
+               memcmp(material->image, own->image, own->image_size) != 0)
+            material++; // the first with the same picture
+        GLuint *picture = &mesh->pictures[material - looks->materials];
+        struct gltf_image image = {0};
+        if (!*picture && gltf_decode_image(material->image, material->image_size, room, &image, NULL)) {
+            bytes += upload_picture(picture, &image);
+            room -= 4 * (size_t)image.width * (size_t)image.height;
+            free(image.pixels);
+        }
+        part->picture = *picture;
+    }
+    if (posed_map_figure(mesh, shown)) {
+        const size_t size = (size_t)mesh->vertex_count * sizeof *mesh->looks;
+        glBindBuffer(GL_ARRAY_BUFFER, mesh->look_buffer);
+        glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)size, mesh->looks, GL_STATIC_DRAW);
+        bytes += (long)size;
+    }
     posed_pose_figure(mesh, shown, eye);
     show_mesh(stage, kept, kind, figure->id,
               (struct shown){.shade = {shown->position[1], 0.3f * (figure->hi[1] - figure->lo[1])}});
@@ -443,10 +384,32 @@ static long add_model(struct stage_renderer *stage, const struct stage_model *sh
     const struct gltf *gltf = shown->gltf;
     struct kept *kept = find_mesh(stage, MESH_MODEL, gltf->id);
     struct posed *mesh = &kept->mesh;
+    const bool is_new = kept->kind == MESH_NONE;
     long bytes = 0;
-    if (kept->kind == MESH_NONE) {
+    if (is_new) {
         posed_from_gltf(mesh, gltf);
-        bytes += upload_mesh(mesh) + upload_gltf_pictures(mesh, gltf);
+        bytes += upload_mesh(mesh);
+        mesh->picture_count = gltf->image_count;
+        mesh->sampler_count = gltf->material_count;
+        mesh->pictures = pool_take(&mesh->pool, (size_t)gltf->image_count, sizeof *mesh->pictures);
+        mesh->samplers = pool_take(&mesh->pool, (size_t)gltf->material_count, sizeof *mesh->samplers);
+        glGenSamplers(gltf->material_count, mesh->samplers);
+    }
+    for (int i = 0; is_new && i < gltf->image_count; i++)
+        bytes += upload_picture(&mesh->pictures[i], &gltf->images[i]);
+    for (int m = 0; is_new && m < gltf->material_count; m++) {
+        const struct gltf_sampler *sampler = &gltf->materials[m].sampler;
+        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_WRAP_S, sampler->wrap[0]);
+        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_WRAP_T, sampler->wrap[1]);
+        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_MIN_FILTER, sampler->far);
+        glSamplerParameteri(mesh->samplers[m], GL_TEXTURE_MAG_FILTER, sampler->near);
+    }
+    for (int p = 0; is_new && p < mesh->part_count; p++) {
+        struct posed_part *part = &mesh->parts[p];
+        if (part->material < 0) continue;
+        const int image = gltf->materials[part->material].image;
+        part->picture = image >= 0 ? mesh->pictures[image] : 0;
+        part->sampler = mesh->samplers[part->material];
     }
     posed_pose_gltf(mesh, shown, eye);
     show_mesh(stage, kept, MESH_MODEL, gltf->id,
@@ -552,13 +515,19 @@ static bool has_program(const struct posed *mesh, enum stage_program program, bo
 static void draw_meshes(const struct stage_renderer *stage, const struct stage_view *view, float scale, float seam)
 {
     const bool second = seam > 0.0f;
+    const mat4s clip_from_world = clip_from_world_of(view);
     glActiveTexture(GL_TEXTURE0 + PICTURE_UNIT);
     for (enum stage_program which = 0; which < PROGRAM_FLAT; which++) {
         const struct program *program = &stage->programs[which];
         for (int s = 0; s < stage->shown_count; s++) {
             const struct shown *shown = &stage->shown[s];
             if (!has_program(shown->mesh, which, second)) continue;
-            use_program(program, view, seam);
+            glUseProgram(program->name);
+            glUniformMatrix4fv(program->at[AT_CLIP_FROM_WORLD], 1, GL_FALSE, clip_from_world.raw[0]);
+            glUniform3fv(program->at[AT_EYE], 1, view->eye);
+            glUniform3fv(program->at[AT_KEY_FROM], 1, view->key_from);
+            gl_uniform_linear(program->at[AT_EARTH], view->colors.bounce);
+            glUniform1f(program->at[AT_SEAM], seam);
             glUniform2fv(program->at[AT_SHADE], 1, shown->shade);
             glUniform1f(program->at[AT_BLINK], shown->blink);
             glUniform1f(program->at[AT_LINE], shown->mesh->map_coordinate >= 0 ? PHASE_LINE * scale : 0.0f);
@@ -651,6 +620,19 @@ void stage_upload(struct stage_renderer *stage, const struct stage_view *view, l
     for (int c = 0; c < view->character_count; c++) *bytes += add_character(stage, &view->characters[c], view->eye);
     for (int m = 0; m < view->model_count; m++) *bytes += add_model(stage, &view->models[m], view->eye);
 
+    // The ground is as large as the largest figure needs.
+    float largest = 0.0f;
+    for (int k = 0; k < 3; k++) {
+        for (int c = 0; c < view->character_count; c++) {
+            const struct figure *figure = view->characters[c].figure;
+            largest = fmaxf(largest, figure->hi[k] - figure->lo[k]);
+        }
+        for (int m = 0; m < view->model_count; m++)
+            largest = fmaxf(largest, view->models[m].hi[k] - view->models[m].lo[k]);
+    }
+    const float scale = largest > LARGE ? largest / LARGE : largest > 0.0f ? fminf(largest / SMALL, 1.0f) : 1.0f;
+    const float radius = GROUND_RADIUS * (view->has_tail ? fmaxf(scale, 1.0f) : scale);
+
     struct stage_flat *flat = &stage->flat;
     const float ground = lowest_ground(view);
     const mat4s clip_from_world = clip_from_world_of(view);
@@ -661,8 +643,7 @@ void stage_upload(struct stage_renderer *stage, const struct stage_view *view, l
             (struct corner){.clip = {square[c][0], square[c][1], 0.0f, 1.0f}};
     }
     flat->quads++;
-    add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], ground_radius(view),
-             view->colors.ground, 1.0f);
+    add_disc(flat, clip_from_world, view->middle[0], ground, view->middle[1], radius, view->colors.ground, 1.0f);
     for (int b = 0; b < view->blob_count; b++) {
         const struct shadow_blob *blob = &view->blobs[b];
         add_disc(flat, clip_from_world, blob->x, ground, blob->z, blob->radius, view->colors.shadow, blob->strength);
