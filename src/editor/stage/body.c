@@ -32,44 +32,10 @@ static int find_inertia(const struct stage *stage, unsigned id)
     return i;
 }
 
-/// Drives a rig's channels by a change of its base's velocity; returns whether any still swings.
-static bool drive_channels(struct drag_inertia *inertia, const struct core *core, int rig, const double kick[3],
-                           double dt)
-{
-    const struct posing posing = stage_posing(core);
-    struct swing_arm arm;
-    int count;
-    const struct channel *channels = rig_channels(core->document->rigs[rig], &count);
-    bool swings = false;
-    if (!swing_arm(&posing, rig, &arm)) return false;
-    for (int c = 0; c < count; c++) {
-        const struct channel *channel = &channels[c];
-        const struct spline *spline = core->document->splines[channel->spline];
-        struct swing_filter filter;
-        double direction[3], parameter[PARAMETER_COUNT]; // at the playhead, those that follow splines too
-        for (int p = 0; p < PARAMETER_COUNT; p++) {
-            const struct param *param = &spline->parameter[p];
-            wiggly_value value = {.y = param->value};
-            if (param->track >= 0) value = evaluation_at(core->evaluation, param->track, core->playback.position);
-            parameter[p] = value.y + value.re;
-        }
-        inertia->scale[c] = 0;
-        if (!swing_hangs(channels, count, channel) || !swing_filter(spline, parameter, &filter)) {
-            inertia->channel[c] = (struct swing){0};
-            continue;
-        }
-        swing_direction(&arm, channel->axis, direction);
-        double along = kick[0] * direction[0] + kick[1] * direction[1] + kick[2] * direction[2];
-        swing_step(&inertia->channel[c], &filter, along, dt);
-        inertia->scale[c] = swing_scale(&arm, channel, &filter);
-        swings |= !swing_settled(&inertia->channel[c], &filter);
-    }
-    return swings;
-}
-
 void drag_inertia_advance(struct stage *stage, const struct core *core, double dt)
 {
     const struct document *document = core->document;
+    const struct posing posing = stage_posing(core);
     if (!(dt > 0)) return;
     if (core->look == LOOK_CUBIC) memset(stage->inertia, 0, sizeof stage->inertia); // a cubic has no restoring force
     for (int r = 0; r < document->rig_count && core->look != LOOK_CUBIC; r++) {
@@ -90,8 +56,37 @@ void drag_inertia_advance(struct stage *stage, const struct core *core, double d
             inertia->velocity[k] = velocity;
             inertia->offset[k] = offset[k];
         }
-        if (moves || inertia->swings) inertia->swings = drive_channels(inertia, core, r, kick, dt) || moves;
-        if (!inertia->swings) *inertia = (struct drag_inertia){0}; // at rest
+
+        // The change of its velocity drives its channels; it is not at rest while any still swings.
+        struct swing_arm arm;
+        int count = 0;
+        const bool is_driven = (moves || inertia->swings) && swing_arm(&posing, r, &arm);
+        const struct channel *channels = is_driven ? rig_channels(document->rigs[r], &count) : NULL;
+        bool swings = moves;
+        for (int c = 0; c < count; c++) {
+            const struct channel *channel = &channels[c];
+            const struct spline *spline = document->splines[channel->spline];
+            struct swing_filter filter;
+            double direction[3], parameter[PARAMETER_COUNT]; // at the playhead, those that follow splines too
+            for (int p = 0; p < PARAMETER_COUNT; p++) {
+                const struct param *param = &spline->parameter[p];
+                wiggly_value value = {.y = param->value};
+                if (param->track >= 0) value = evaluation_at(core->evaluation, param->track, core->playback.position);
+                parameter[p] = value.y + value.re;
+            }
+            inertia->scale[c] = 0;
+            if (!swing_hangs(channels, count, channel) || !swing_filter(spline, parameter, &filter)) {
+                inertia->channel[c] = (struct swing){0};
+                continue;
+            }
+            swing_direction(&arm, channel->axis, direction);
+            double along = kick[0] * direction[0] + kick[1] * direction[1] + kick[2] * direction[2];
+            swing_step(&inertia->channel[c], &filter, along, dt);
+            inertia->scale[c] = swing_scale(&arm, channel, &filter);
+            swings |= !swing_settled(&inertia->channel[c], &filter);
+        }
+        inertia->swings = swings;
+        if (!swings) *inertia = (struct drag_inertia){0}; // at rest
     }
 }
 
@@ -329,26 +324,6 @@ void record_advance(struct stage *stage, const struct core *core)
 
 bool record_has_motion(const struct stage *stage) { return stage->record.count >= 3; }
 
-static void record_forget(struct stage *stage) { stage->record = (struct record){0}; }
-
-/// The cubic through some of the values, level at both ends; false if it cannot be solved.
-static bool solve_through(wiggly_solver *solver, const double *values, int count, const int *knots, int knot_count,
-                          wiggly_knot *buffer, double *total)
-{
-    wiggly_desc desc = wiggly_default_desc();
-    wiggly_curve curve = {.size = sizeof curve, .total = total};
-    desc.samples = count;
-    desc.mode = WIGGLY_CUBIC;
-    for (int i = 0; i < knot_count; i++) {
-        bool end = i == 0 || i == knot_count - 1;
-        buffer[i] = (wiggly_knot){
-            .sample = knots[i], .value = values[knots[i]], .has_slope = end, .stiffness = RECORD_STIFFNESS};
-    }
-    desc.knots = buffer;
-    desc.knot_count = knot_count;
-    return wiggly_solve(solver, &desc, &curve) < WIGGLY_ERROR_ARGUMENT;
-}
-
 int record_simplify(const double *values, int count, double tolerance, int *knots, int capacity)
 {
     wiggly_solver *solver = NULL;
@@ -358,7 +333,21 @@ int record_simplify(const double *values, int count, double tolerance, int *knot
     knots[0] = 0;
     knots[1] = count - 1;
     if (wiggly_create(count, capacity, &solver) != WIGGLY_OK) need_failed();
-    while (solve_through(solver, values, count, knots, made, buffer, total)) {
+    for (;;) {
+        // The cubic through them, level at both ends.
+        wiggly_desc desc = wiggly_default_desc();
+        wiggly_curve curve = {.size = sizeof curve, .total = total};
+        desc.samples = count;
+        desc.mode = WIGGLY_CUBIC;
+        desc.knots = buffer;
+        desc.knot_count = made;
+        for (int i = 0; i < made; i++) {
+            const bool end = i == 0 || i == made - 1;
+            buffer[i] = (wiggly_knot){
+                .sample = knots[i], .value = values[knots[i]], .has_slope = end, .stiffness = RECORD_STIFFNESS};
+        }
+        if (wiggly_solve(solver, &desc, &curve) >= WIGGLY_ERROR_ARGUMENT) break;
+
         // The sample that is missed most. Not beside the ends: a knot there would change the end's slope.
         double miss = 0;
         int at = 0, to = made;
@@ -419,26 +408,6 @@ static int key_way(const struct stage *stage, struct core *core, int coordinate,
     if (hung >= 0) *swings = hung;
     core_edited(core, spline);
     return made;
-}
-
-/// Makes the edits in the open step: base splines for coordinates that moved, and channels that follow them. Reports the number of knots,
-/// then forgets the motion.
-static void record_keep(struct stage *stage, struct core *core)
-{
-    struct record *record = &stage->record;
-    char text[768], why[STOPPED_SIZE] = "";
-    int made = 0, swings = -1;
-    base_begin(stage, core);
-    for (int k = 0; k < 3; k++) {
-        double most = 0;
-        for (int i = 0; i < record->count; i++) most = fmax(most, fabs(record->way[k][i]));
-        if (most >= STILL) made += key_way(stage, core, k, &swings, why);
-    }
-    snprintf(text, sizeof text, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.", made);
-    core_add_stopped(why, text, sizeof text);
-    base_say_channel(core, swings, text, sizeof text);
-    core_message(core, false, "%s", text);
-    record_forget(stage);
 }
 
 enum { MARGIN = 12, HEIGHT = 22, PAD = 8, DOT = 10, MAX_POINTS = 256 };
@@ -894,10 +863,26 @@ static void end_body(void *room, struct core *core, bool keep)
         const bool edits = keep && body < core->document->rig_count; // an edit may have removed the body
         const bool records = edits && record_has_motion(stage) && tail_of(core->document, body);
         body_drag_way(stage, core, offset);
-        if (records) record_keep(stage, core);
+        if (records) {
+            // Base splines for coordinates that moved, and channels that follow them.
+            const struct record *record = &stage->record;
+            char text[768], why[STOPPED_SIZE] = "";
+            int made = 0, swings = -1;
+            base_begin(stage, core);
+            for (int k = 0; k < 3; k++) {
+                double most = 0;
+                for (int i = 0; i < record->count; i++) most = fmax(most, fabs(record->way[k][i]));
+                if (most >= STILL) made += key_way(stage, core, k, &swings, why);
+            }
+            snprintf(text, sizeof text, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.",
+                     made);
+            core_add_stopped(why, text, sizeof text);
+            base_say_channel(core, swings, text, sizeof text);
+            core_message(core, false, "%s", text);
+        }
         if (edits && !records) place_body(stage, core, offset);
         if (!edits || records) drag_inertia_stop(stage, core->document, body);
-        record_forget(stage);
+        stage->record = (struct record){0};
     }
     stage_click(room, core, keep);
 }

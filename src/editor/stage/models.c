@@ -40,25 +40,6 @@ static void add_shadows(struct stage_view *view, const struct stage_model *shown
     }
 }
 
-/// Adds the bones of a shown character.
-static void bones_add(struct stage *stage, int model, const struct rig_pose *pose)
-{
-    const struct skeleton *skeleton = &pose->model.imported->skeleton;
-    const mat4s to_world = mat4_from(pose->model.root);
-    for (int b = 0; b < skeleton->count && stage->bone_count < STAGE_MAX_BONES; b++) {
-        const struct bone *bone = &skeleton->bones[b];
-        struct shown_bone *shown = &stage->bones[stage->bone_count++];
-        float ends[2][3];
-        *shown =
-            (struct shown_bone){.model = model, .part = *bone, .carries = skeleton->carries[bone->node], .chain = -1};
-        skeleton_ends(bone, pose->model.pose, ends);
-        for (int e = 0; e < 2; e++) {
-            const vec3s at = glms_mat4_mulv3(to_world, vec3_from(ends[e]), 1.0f);
-            memcpy(shown->ends[e], at.raw, sizeof at.raw);
-        }
-    }
-}
-
 struct stage_model *models_show(struct stage_view *view, const struct rig_pose *posed)
 {
     if (view->model_count == STAGE_MAX_MODELS) return NULL;
@@ -89,9 +70,21 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
     if (!rig_pose_body(&posing, rig, core->playback.position, NULL, &posed)) return;
     struct stage_model *shown = models_show(view, &posed);
     if (!shown) return;
-    bones_add(stage, rig, &posed);
+    const struct skeleton *skeleton = &posed.model.imported->skeleton;
+    for (int b = 0; b < skeleton->count && stage->bone_count < STAGE_MAX_BONES; b++) {
+        const struct bone *bone = &skeleton->bones[b];
+        struct shown_bone *added = &stage->bones[stage->bone_count++];
+        float ends[2][3];
+        *added =
+            (struct shown_bone){.model = rig, .part = *bone, .carries = skeleton->carries[bone->node], .chain = -1};
+        skeleton_ends(bone, posed.model.pose, ends);
+        for (int e = 0; e < 2; e++) {
+            const vec3s at = glms_mat4_mulv3(mat4_from(posed.model.root), vec3_from(ends[e]), 1.0f);
+            memcpy(added->ends[e], at.raw, sizeof at.raw);
+        }
+    }
     shown->dusk = fmaxf(0.3f * (shown->hi[1] - shown->lo[1]), 1e-6f);
-    add_shadows(view, shown, &posed.model.imported->skeleton);
+    add_shadows(view, shown, skeleton);
 
     // The clip without its chains, beside it.
     posing = (struct posing){.document = core->document, .models = core->models, .memory = POSE_BESIDE};
@@ -104,7 +97,7 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
     shown->root[12] += by;
     shown->lo[0] += by;
     shown->hi[0] += by;
-    add_shadows(view, shown, &posed.model.imported->skeleton);
+    add_shadows(view, shown, skeleton);
 }
 
 static uint64_t hash_models(uint64_t sum, const struct stage_view *view)
@@ -343,20 +336,6 @@ static int model_under(const struct stage *stage, const struct core *core)
     return -1;
 }
 
-static void show_bone(struct drawlist *list, const float a[2], const float b[2], uint32_t color, uint32_t edge,
-                      float opacity)
-{
-    const float dx = b[0] - a[0], dy = b[1] - a[1], length = maths_hypotf(dx, dy);
-    const float half = fmaxf(THINNEST, fminf(THICKEST, SHARE * length));
-    const float ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
-    const float x = a[0] + WIDEST_AT * dx, y = a[1] + WIDEST_AT * dy;
-    const float corners[5][2] = {
-        {a[0], a[1]}, {x - half * uy, y + half * ux}, {b[0], b[1]}, {x + half * uy, y - half * ux}, {a[0], a[1]}};
-    drawlist_line(list, corners[0], 5, 3, theme_fade(theme()->panel, 0.45f));
-    drawlist_convex(list, corners[0], 4, theme_fade(color, opacity));
-    drawlist_line(list, corners[0], 5, 1.25f, theme_fade(edge, 0.5f + 0.5f * opacity));
-}
-
 /// The bones from a node down to a tip, which a new chain would bend; −1: none.
 struct way {
     int model, node, tip;
@@ -397,8 +376,8 @@ void bones_show(const struct stage *stage, struct core *core)
         meant = way_from(core, hover->model, hover->node);
     else if (!core->drag.owner && hover->thing == &thing_chain)
         meant = (struct way){hover->model, hover->node, -1};
-    for (int b = 0; b < stage->bone_count; b++) {
-        const struct shown_bone *bone = &stage->bones[b];
+    for (int i = 0; i < stage->bone_count; i++) {
+        const struct shown_bone *bone = &stage->bones[i];
         const int model = bone->model, node = bone->part.node;
         float ends[2][2];
         if (model != under && model != chosen.model && core->pick.use == BONE_SELECTED) continue;
@@ -412,7 +391,18 @@ void bones_show(const struct stage *stage, struct core *core)
             drawlist_line(&core->list, ends[0], 2, 1.25f, theme_fade(color, opacity));
             continue;
         }
-        show_bone(&core->list, ends[0], ends[1], color, is_chosen ? theme()->text : color, opacity);
+
+        // Widest near its joint.
+        const float *a = ends[0], *b = ends[1], dx = b[0] - a[0], dy = b[1] - a[1], length = maths_hypotf(dx, dy);
+        const float half = fmaxf(THINNEST, fminf(THICKEST, SHARE * length));
+        const float ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
+        const float x = a[0] + WIDEST_AT * dx, y = a[1] + WIDEST_AT * dy;
+        const float corners[5][2] = {
+            {a[0], a[1]}, {x - half * uy, y + half * ux}, {b[0], b[1]}, {x + half * uy, y - half * ux}, {a[0], a[1]}};
+        drawlist_line(&core->list, corners[0], 5, 3, theme_fade(theme()->panel, 0.45f));
+        drawlist_convex(&core->list, corners[0], 4, theme_fade(color, opacity));
+        drawlist_line(&core->list, corners[0], 5, 1.25f,
+                      theme_fade(is_chosen ? theme()->text : color, 0.5f + 0.5f * opacity));
     }
     if (meant.node < 0) return;
 

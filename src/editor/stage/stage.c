@@ -348,28 +348,6 @@ static const float AZIMUTH_OF_ONE = -1.13f, AZIMUTH_OF_PAIR = -1.5708f, FROM_BEH
 static const struct stage_kind *const kinds[RIG_KINDS] = {RIG_KIND_LIST(STAGE_ROW)};
 #undef STAGE_ROW
 
-/// Adds a rig's motion over the scene to the box lo … hi; false if it is not visible.
-static bool add_motion(const struct stage *stage, const struct core *core, int rig, int n, float lo[3], float hi[3])
-{
-    const struct stage_kind *kind = kinds[core->document->rigs[rig]->kind];
-    const struct posing posing = stage_posing_by_hand(stage);
-    const double last = document_samples(core->document) - 1;
-    bool any = false;
-    for (int step = 0; kind->bound_steps > 0 && step <= kind->bound_steps; step++) {
-        struct rig_pose posed;
-        float low[3], high[3];
-        if (!rig_pose(&posing, rig, last * step / kind->bound_steps, NULL, &posed)) break;
-        const float aside = kind->aside ? kind->aside(core, n) : 0.0f;
-        rig_bounds(&posed, low, high);
-        for (int k = 0; k < 3; k++) {
-            lo[k] = fminf(lo[k], low[k] - (k == 0 ? aside : 0.0f));
-            hi[k] = fmaxf(hi[k], high[k] + (k == 0 ? aside : 0.0f));
-        }
-        any = true;
-    }
-    return any;
-}
-
 struct rect stage_figure(const struct stage *stage, const struct core *core)
 {
     const struct rect *place = &core->layout.stage, *figure = &stage->figure;
@@ -382,10 +360,22 @@ void stage_fit(struct stage *stage, const struct core *core)
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     const struct document *document = core->document;
     bool seen[RIG_KINDS] = {false}, any = false;
-    for (int r = 0; r < document->rig_count; r++) {
-        const bool moves = add_motion(stage, core, r, document_rig_number(document, r), lo, hi);
-        seen[document->rigs[r]->kind] |= moves;
-        any |= moves;
+    const struct posing posing = stage_posing_by_hand(stage);
+    for (int r = 0; r < document->rig_count; r++) { // over the scene
+        const struct stage_kind *kind = kinds[document->rigs[r]->kind];
+        for (int step = 0; kind->bound_steps > 0 && step <= kind->bound_steps; step++) {
+            const double position = (document_samples(document) - 1.0) * step / kind->bound_steps;
+            struct rig_pose posed;
+            float low[3], high[3];
+            if (!rig_pose(&posing, r, position, NULL, &posed)) break;
+            const float aside = kind->aside ? kind->aside(core, document_rig_number(document, r)) : 0.0f;
+            rig_bounds(&posed, low, high);
+            for (int k = 0; k < 3; k++) {
+                lo[k] = fminf(lo[k], low[k] - (k == 0 ? aside : 0.0f));
+                hi[k] = fmaxf(hi[k], high[k] + (k == 0 ? aside : 0.0f));
+            }
+            seen[document->rigs[r]->kind] = any = true;
+        }
     }
     stage->camera = camera_default();
     if (seen[RIG_CHARACTER] && !seen[RIG_TAIL])

@@ -211,22 +211,6 @@ bool tail_drag_holds(const struct document *document, int rig, int joint)
     return held->kind == RIG_CHAIN || (held->kind == RIG_TAIL && joint <= held->tail.joints);
 }
 
-/// Derivative of the grabbed point per radian of bend about one axis, by its real and its imaginary part.
-static void derivative(const struct stage *stage, const struct core *core, const struct tail_drag_axis *axis,
-                       const float at[2], double column[2][2])
-{
-    const struct tail_drag *grab = &stage->tail_drag;
-    for (int part = 0; part < (axis->swings ? 2 : 1); part++) {
-        struct rig_pose posed;
-        float moved[2] = {at[0], at[1]};
-        const double change = PROBE * axis->values_per_radian;
-        const struct what_if what_if = {axis->spline, part ? 0 : change, part ? change : 0};
-        if (strand_pose(stage, core, grab->rig, core->playback.position, &what_if, &posed))
-            strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, moved);
-        for (int k = 0; k < 2; k++) column[part][k] = (double)(moved[k] - at[k]) / PROBE;
-    }
-}
-
 /// (JJᵀ + Φ)⁻¹ miss; J by columns. Returns JJᵀ's largest eigenvalue, and with it 0 if nothing moves the point.
 static double pull_back(const double (*column)[2], int columns, const double miss[2], double pull[2])
 {
@@ -252,21 +236,6 @@ static double pull_back(const double (*column)[2], int columns, const double mis
     pull[0] = along * way[0] - across * way[1];
     pull[1] = along * way[1] + across * way[0];
     return most;
-}
-
-/// A spline without knots starts from rest, a quarter period before its first knot.
-static void begin_from_rest(struct core *core, int spline, int sample)
-{
-    const struct document *document = core->document;
-    const struct spline *of = document->splines[spline];
-    const double frame = document_frame(document, sample), first = document->first_frame;
-    const double frequency = core_parameter_at(core, of, PARAMETER_FREQUENCY, sample);
-    struct knot still = {.value = NAN, .stiffness = KNOT_DEFAULT_STIFFNESS, .still = true};
-    if (of->knot_count > 0 || !(frequency > 0)) return;
-    still.frame = frame - fmax(1, round(document->fps / (4 * frequency)));
-    if (still.frame < first)
-        still.frame = spline_start(of) == WIGGLY_LOOP ? still.frame + document->last_frame - first : first;
-    if (still.frame >= first && still.frame != frame) core_put_knot(core, spline, &still);
 }
 
 /// The knot that a pull takes along to its pose: the nearest one within a quarter of a period, and at least a frame; −1: none, or there is one.
@@ -311,7 +280,18 @@ static void set_pose(struct stage *stage, struct core *core, const struct tail_d
     knot.has_phase = axis->swings;
     knot.phase = axis->swings ? to[1] : 0;
     core_hold(spline, &knot, why);
-    begin_from_rest(core, axis->spline, grab->sample);
+
+    // A spline without knots starts from rest, a quarter period before its first knot.
+    const struct document *document = core->document;
+    const double first = document->first_frame;
+    const double frequency = core_parameter_at(core, spline, PARAMETER_FREQUENCY, grab->sample);
+    if (spline->knot_count == 0 && frequency > 0) {
+        struct knot still = {.value = NAN, .stiffness = KNOT_DEFAULT_STIFFNESS, .still = true};
+        still.frame = knot.frame - fmax(1, round(document->fps / (4 * frequency)));
+        if (still.frame < first)
+            still.frame = spline_start(spline) == WIGGLY_LOOP ? still.frame + document->last_frame - first : first;
+        if (still.frame >= first && still.frame != knot.frame) core_put_knot(core, axis->spline, &still);
+    }
     core_put_knot(core, axis->spline, &knot);
 }
 
@@ -337,12 +317,20 @@ static void pull_strand(void *room, struct core *core)
     if (!strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, at)) return;
     double miss[2] = {grab->start[0] + drag->moved_x - at[0], grab->start[1] + drag->moved_y - at[1]};
     if (grab->applied && maths_hypot(miss[0], miss[1]) < CLOSE) return;
-    double column[4][2] = {{0}}, way[4] = {0}, pull[2];
+    double column[4][2] = {{0}}; // of each axis by its real and its imaginary part, per radian of bend
+    double way[4] = {0}, pull[2];
     for (int a = 0; a < 2; a++) {
         const struct tail_drag_axis *axis = &grab->axis[a];
         if (!axis->active) continue;
         const wiggly_value now = evaluation_at(core->evaluation, axis->spline, grab->sample);
-        derivative(stage, core, axis, at, column + 2 * a);
+        for (int part = 0; part < (axis->swings ? 2 : 1); part++) { // the derivative
+            float moved[2] = {at[0], at[1]};
+            const double change = PROBE * axis->values_per_radian;
+            const struct what_if what_if = {axis->spline, part ? 0 : change, part ? change : 0};
+            if (strand_pose(stage, core, grab->rig, core->playback.position, &what_if, &posed))
+                strand_project(stage, core, &posed.strand, grab->joint, grab->fraction, moved);
+            for (int k = 0; k < 2; k++) column[2 * a + part][k] = (double)(moved[k] - at[k]) / PROBE;
+        }
         way[2 * a] = (now.y + now.re - axis->start[0]) / axis->values_per_radian;
         way[2 * a + 1] = axis->swings ? (now.im - axis->start[1]) / axis->values_per_radian : 0;
         for (int k = 0; k < 2; k++) miss[k] += column[2 * a][k] * way[2 * a] + column[2 * a + 1][k] * way[2 * a + 1];
