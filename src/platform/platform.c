@@ -96,22 +96,6 @@ struct offscreen {
     GLuint framebuffer, color, depth;
 };
 
-/// epoxy ends the process if a library is missing, so check first.
-static bool have_libraries(struct error *error)
-{
-    static const char *const names[] = {"libEGL.so.1", "libOpenGL.so.0", "libGL.so.1"};
-    bool have[3];
-    for (int i = 0; i < 3; i++) {
-        void *library = dlopen(names[i], RTLD_LAZY | RTLD_LOCAL);
-        have[i] = library != NULL;
-        if (library) dlclose(library);
-    }
-    if (!have[0])
-        return fail(error, ERROR_ENVIRONMENT, "libEGL.so.1 is missing: install libegl1 and libgl1-mesa-dri");
-    if (!have[1] && !have[2]) return fail(error, ERROR_ENVIRONMENT, "libGL.so.1 is missing: install libgl1");
-    return true;
-}
-
 static bool has_word(const char *words, const char *word)
 {
     size_t length = strlen(word);
@@ -173,6 +157,17 @@ static bool open_device(struct offscreen *offscreen, const char *client_extensio
 /// Tries GPUs, then Mesa's surfaceless platform, then its software device.
 static bool open_any(struct offscreen *offscreen, struct error *error)
 {
+    static const char *const names[] = {"libEGL.so.1", "libOpenGL.so.0", "libGL.so.1"};
+    bool have[3]; // epoxy ends the process if a library is missing
+    for (int i = 0; i < 3; i++) {
+        void *library = dlopen(names[i], RTLD_LAZY | RTLD_LOCAL);
+        have[i] = library != NULL;
+        if (library) dlclose(library);
+    }
+    if (!have[0])
+        return fail(error, ERROR_ENVIRONMENT, "libEGL.so.1 is missing: install libegl1 and libgl1-mesa-dri");
+    if (!have[1] && !have[2]) return fail(error, ERROR_ENVIRONMENT, "libGL.so.1 is missing: install libgl1");
+
     const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     if (open_device(offscreen, extensions, false)) return true;
     if (has_word(extensions, "EGL_MESA_platform_surfaceless") &&
@@ -609,7 +604,6 @@ struct platform *platform_blind(int width, int height, float scale)
 
 struct platform *platform_offscreen(int width, int height, float scale, struct error *error)
 {
-    if (!have_libraries(error)) return NULL;
     struct platform *platform = platform_blind(width, height, scale);
     platform->offscreen = need_zeroed(1, sizeof *platform->offscreen);
     platform->keeps = true;
