@@ -14,7 +14,7 @@
  */
 export const members = 10
 
-/** How these count in the value and in the speed, and how much of its move o has made. */
+/** The weights of these in the value and in the speed, and how much of its move o has made. */
 export const weight = { value: new Float64Array(members).fill(1, 0, 1), speed: new Float64Array(members), moved: 0 }
 
 /**
@@ -34,7 +34,7 @@ export function springLaw(frequency, damping, bandwidth, windUp, count, least, i
   }
 }
 
-/** Makes the weights of a real number, as they are, those of a complex one that is also multiplied by x + iy, which swings by the pole. */
+/** Turns the weight of a real number into those of a complex one: times x + iy, which swings by the pole. */
 function setTurned({ decay, turn }, m, x, y) {
   const { value, speed } = weight, z = value[m], slope = speed[m]
   value[m] = x * z
