@@ -22,10 +22,10 @@ static inline void blind_open(struct blind *blind, const char *scene)
     app->fixed_clock = true;
     app->ui_scale = 1;
     app->platform = platform_blind(1280, 720, 1);
-    app->table.history = history_create(NULL);
-    app->table.models = models_create();
+    app->work.history = history_create(NULL);
+    app->work.models = models_create();
     font_init();
-    app->table.editor = editor_create();
+    app->work.editor = editor_create();
     app_connect_files(app);
     app_resize(app, 1280, 720, 1);
     assert_done(app_open(app, scene, &error));

@@ -74,8 +74,8 @@ static inline void monkey_button(struct monkey *m, enum event_button button, enu
 static inline bool find_thing(struct monkey *m, float *x, float *y)
 {
     struct app *app = &m->blind->app;
-    const struct document *d = app->table.document;
-    const struct spline *spline = core_active_spline(&app->table.editor->core);
+    const struct document *d = app->work.document;
+    const struct spline *spline = core_active_spline(&app->work.editor->core);
     const int tails = document_count_rigs(d, RIG_TAIL);
     const char *tail = tails > 0 ? d->rigs[document_find_rig(d, RIG_TAIL, below(m, tails))]->name : NULL;
     char target[512] = "";
@@ -83,7 +83,7 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     if (document_find_rig(d, RIG_MODEL, 0) >= 0 && one_in(m, 2)) {
         static const char *const bones[] = {"tail_1", "tail_5", "ear_L_1", "ear_R_1", "head", "leg_FL_1"};
         snprintf(target, sizeof target, "bone(%s)", bones[below(m, 6)]);
-        return editor_target(app->table.editor, target, x, y, NULL);
+        return editor_target(app->work.editor, target, x, y, NULL);
     }
     if (which < 3 && spline && spline->knot_count > 0) {
         const int knot = below(m, spline->knot_count);
@@ -100,13 +100,13 @@ static inline bool find_thing(struct monkey *m, float *x, float *y)
     } else {
         snprintf(target, sizeof target, "ruler(%d)", d->first_frame + below(m, d->last_frame - d->first_frame + 1));
     }
-    return editor_target(app->table.editor, target, x, y, NULL);
+    return editor_target(app->work.editor, target, x, y, NULL);
 }
 
 /// A widget of the inspector or the open dialog.
 static inline bool find_widget(struct monkey *m, float *x, float *y)
 {
-    const struct editor *editor = m->blind->app.table.editor;
+    const struct editor *editor = m->blind->app.work.editor;
     const struct ui *ui =
         editor->dialogs->dialog.kind != DIALOG_NONE ? &editor->dialogs->dialog.ui : &editor->inspector->ui;
     if (ui->stop_count == 0) return false;
@@ -118,7 +118,7 @@ static inline bool find_widget(struct monkey *m, float *x, float *y)
 
 static inline void monkey_point(struct monkey *m)
 {
-    const struct rect window = m->blind->app.table.editor->core.layout.window;
+    const struct rect window = m->blind->app.work.editor->core.layout.window;
     float x = window.w * (float)(below(m, 1100) - 50) / 1000, y = window.h * (float)(below(m, 1100) - 50) / 1000;
     const int what = below(m, 5);
     if (what < 2) find_thing(m, &x, &y);

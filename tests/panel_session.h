@@ -19,7 +19,7 @@ static inline void panel_open(struct session *session, const char *scene, float 
 static inline struct models *panel_open_models(struct session *session, const char *scene)
 {
     panel_open(session, scene, 1280, 1500);
-    struct models *models = session->table.models;
+    struct models *models = session->work.models;
     assert_done(models_update(models, session->document, &error));
     editor_open(session->editor, &session->world);
     return models;

@@ -11,9 +11,9 @@
 #include <ctype.h>
 
 struct session {
-    struct table table;
+    struct workspace work;
     struct editor_world world;
-    struct document *document; ///< from `table`, like the next two
+    struct document *document; ///< from `work`, like the next two
     struct history *history;
     struct editor *editor;
     float x, y;    ///< pointer
@@ -32,17 +32,17 @@ static inline void session_close(struct session *session)
 {
     while (session->saved_count > 0) free(session->saved[--session->saved_count]);
     free(session->saved);
-    table_free(&session->table);
+    workspace_free(&session->work);
 }
 
 /// A frame of 1/60 s; requests are left to the test.
 static inline void session_frame(struct session *session)
 {
     struct frame_row row = {0};
-    table_edit(&session->table, 1.0 / 60, &row);
-    table_solve(&session->table, &row);
-    table_pose(&session->table, &row);
-    table_show(&session->table, &row);
+    workspace_edit(&session->work, 1.0 / 60, &row);
+    workspace_solve(&session->work, &row);
+    workspace_pose(&session->work, &row);
+    workspace_show(&session->work, &row);
     assert_ids(session->editor);
 }
 
@@ -217,11 +217,11 @@ static inline void session_open(struct session *session, const char *scene)
     assert_non_null(session->history);
     session->editor = editor_create();
     session->editor->core.more = true; // shows everything in the inspector
-    session->table = (struct table){.editor = session->editor,
-                                    .document = session->document,
-                                    .history = session->history,
-                                    .models = models_create()};
-    session->world = table_world(&session->table);
+    session->work = (struct workspace){.editor = session->editor,
+                                       .document = session->document,
+                                       .history = session->history,
+                                       .models = models_create()};
+    session->world = workspace_world(&session->work);
     editor_open(session->editor, &session->world);
     if (session->editor->core.playback.playing) session_key(session, KEY_SPACE, 0);
     session_frame(session);

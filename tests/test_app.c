@@ -41,7 +41,7 @@ static const char old_scene[] = "{\"wiggly\": 1, \"frames\": [0, 48], \"rigs\": 
 /// What an old scene showed and this wiggly does not is said, and saving keeps it.
 TEST_OF(struct blind, blind, open_scene(blind, old_scene), close_scene(blind), a_meadow_is_not_lost)
 {
-    assert_non_null(strstr(blind->app.table.editor->core.message.text, "Meadows are no longer shown"));
+    assert_non_null(strstr(blind->app.work.editor->core.message.text, "Meadows are no longer shown"));
     blind_key(blind, 'S', MOD_CTRL);
     struct document *saved = document_of_file(scene());
     assert_true(scene_has_meadow(saved));
@@ -57,29 +57,29 @@ static void send_pointer(struct blind *blind, enum event_kind kind, float x, flo
 TEST_OF(struct blind, blind, open_scene(blind, two_knots), close_scene(blind), a_figure_asks_before_it_replaces_work)
 {
     struct app *app = &blind->app;
-    const struct dialog *dialog = &app->table.editor->dialogs->dialog;
+    const struct dialog *dialog = &app->work.editor->dialogs->dialog;
     blind_key(blind, 'M', 0);
-    assert_false(history_is_saved(app->table.history));
-    char *edited = text_of_document(app->table.document);
+    assert_false(history_is_saved(app->work.history));
+    char *edited = text_of_document(app->work.document);
     blind_key(blind, '4', MOD_CTRL);
     assert_int_equal(dialog->kind, DIALOG_UNSAVED);
     blind_key(blind, 'C', 0);
-    assert_prints(app->table.document, edited);
+    assert_prints(app->work.document, edited);
     blind_key(blind, '4', MOD_CTRL);
     blind_key(blind, 'S', 0);
     assert_int_equal(dialog->kind, DIALOG_NONE);
-    assert_true(app->table.document->spline_count > 1);
+    assert_true(app->work.document->spline_count > 1);
     struct document *saved = document_of_file(scene());
     assert_prints(saved, edited);
     document_destroy(saved);
     free(edited);
     const int keys[] = {'1', '9', '7', 'N'};
     for (int k = 0; k < 4; k++) {
-        const unsigned serial = app->table.document->serial;
+        const unsigned serial = app->work.document->serial;
         blind_key(blind, keys[k], MOD_CTRL);
         assert_int_equal(dialog->kind, DIALOG_NONE);
-        assert_int_not_equal(app->table.document->serial, serial);
-        assert_null(app->table.document->path);
+        assert_int_not_equal(app->work.document->serial, serial);
+        assert_null(app->work.document->path);
     }
 }
 
@@ -89,16 +89,16 @@ TEST_OF(struct blind, blind, open_scene(blind, two_knots), close_scene(blind),
 {
     struct app *app = &blind->app;
     float x, y;
-    assert_true(editor_target(app->table.editor, "knot(s,1)", &x, &y, NULL));
+    assert_true(editor_target(app->work.editor, "knot(s,1)", &x, &y, NULL));
     send_pointer(blind, EVENT_POINTER, x, y);
     send_pointer(blind, EVENT_BUTTON, x, y);
     blind_send_key(blind, '4', MOD_CTRL);
     send_pointer(blind, EVENT_POINTER, x, y - 40);
     blind_frame(blind);
-    assert_false(history_is_open(app->table.history));
-    assert_int_equal(history_count(app->table.history), 0);
+    assert_false(history_is_open(app->work.history));
+    assert_int_equal(history_count(app->work.history), 0);
     blind_frame(blind);
-    assert_true(app->table.document->spline_count > 1);
+    assert_true(app->work.document->spline_count > 1);
 }
 
 /// Figure 2 is of poles and response: both are in sight at once, from the command line and by its key.
@@ -111,7 +111,7 @@ TEST(poles_of_figure_2_are_in_sight)
         if (by_key) blind_send_key(&blind, '2', MOD_CTRL);
         blind_frame(&blind);
         blind_frame(&blind);
-        struct editor *editor = blind.app.table.editor;
+        struct editor *editor = blind.app.work.editor;
         assert_true(inspector_target(editor->inspector, "pole.centre", &x, &y));
         const struct draw_command *axis = shown_text(editor, "-1 Hz"); // below the response
         assert_non_null(axis);
@@ -124,7 +124,7 @@ static void open_edited(struct blind *blind)
 {
     open_scene(blind, "{\"wiggly\": 1, \"frames\": [0, 48], \"splines\": [{\"name\": \"s\", \"knots\": []}]}");
     blind_key(blind, 'I', 0);
-    assert_false(history_is_saved(blind->app.table.history));
+    assert_false(history_is_saved(blind->app.work.history));
 }
 
 static void assert_knots_in_file(const char *path, int knots)
@@ -138,12 +138,12 @@ static void assert_knots_in_file(const char *path, int knots)
 static void assert_save_fails(struct blind *blind)
 {
     blind_key(blind, 'S', MOD_CTRL);
-    const struct message *message = &blind->app.table.editor->core.message;
+    const struct message *message = &blind->app.work.editor->core.message;
     assert_true(message->is_error);
     assert_non_null(strstr(message->text, scene()));
     assert_null(strchr(message->text, '\n'));
-    assert_false(history_is_saved(blind->app.table.history));
-    assert_int_equal(blind->app.table.document->splines[0]->knot_count, 1);
+    assert_false(history_is_saved(blind->app.work.history));
+    assert_int_equal(blind->app.work.document->splines[0]->knot_count, 1);
     assert_knots_in_file(scene(), 0);
     char command[128];
     snprintf(command, sizeof command, "[ \"$(ls -A %s)\" = scene.json ]", folder);
@@ -154,7 +154,7 @@ static void assert_save_fails(struct blind *blind)
 static void assert_save_succeeds(struct blind *blind)
 {
     blind_key(blind, 'S', MOD_CTRL);
-    assert_true(history_is_saved(blind->app.table.history));
+    assert_true(history_is_saved(blind->app.work.history));
     assert_knots_in_file(scene(), 1);
     unlink(scene());
     assert_int_equal(rmdir(folder), 0); // there was nothing else
@@ -232,7 +232,7 @@ EDITED_TEST(the_last_place_is_ones_own)
 {
     struct stat about;
     char *home = getenv("HOME") ? strdup(getenv("HOME")) : NULL;
-    document_set_path(b->app.table.document, "/proc/scene.json");
+    document_set_path(b->app.work.document, "/proc/scene.json");
     setenv("HOME", "/proc", 1);
     struct error error = {0};
     fail(&error, ERROR_ENVIRONMENT, "the end");

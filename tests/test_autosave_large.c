@@ -47,7 +47,7 @@ static void open_session(struct session *session)
     session->autosave = autosave_open(&slot);
 }
 
-static struct document *document_of(const struct session *session) { return session->blind.app.table.document; }
+static struct document *document_of(const struct session *session) { return session->blind.app.work.document; }
 
 /// A frame with a key's events, unless it is 0, at the pace of a display. Whether there are edits that no copy has.
 static bool frame(struct session *session, int key, unsigned mods)
@@ -57,8 +57,8 @@ static bool frame(struct session *session, int key, unsigned mods)
     blind_frame(&session->blind);
     const struct autosave_work work = {.document = document_of(session),
                                        .path = app_path(app),
-                                       .revision = history_revision(app->table.history),
-                                       .saved = history_is_saved(app->table.history)};
+                                       .revision = history_revision(app->work.history),
+                                       .saved = history_is_saved(app->work.history)};
     assert_done(autosave_update(session->autosave, &work, (double)session->frame++ / RATE, &error));
     return autosave_is_behind(session->autosave, &work);
 }

@@ -74,7 +74,7 @@ SESSION_TEST(test_a_still_knot_goes_along_with_the_whole_shot, session_open(s, s
     const struct spline *walk = s->document->splines[1];
     const double by = walk->knots[1].value - 0.1;
     assert_true(walk->knots[0].still && by > 0.1);
-    assert_near(s->table.evaluation.curves[1].total[0], 0.05 + by, 1e-6);
+    assert_near(s->work.evaluation.curves[1].total[0], 0.05 + by, 1e-6);
     assert_true(walk->knots[2].still);
     assert_near(walk->knots[2].value, 0.1 + by, 1e-9);
 }

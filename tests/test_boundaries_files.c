@@ -211,7 +211,7 @@ TEST_WITH(folder_make, folder_remove, text_on_the_clipboard)
         platform_set_clipboard(blind.app.platform, text);
         const char *taken = app_clipboard_text(&blind.app);
         assert_int_equal(taken != NULL, size <= MOST);
-        if (!taken) assert_non_null(strstr(blind.app.table.editor->core.message.text, "more than 16 MB"));
+        if (!taken) assert_non_null(strstr(blind.app.work.editor->core.message.text, "more than 16 MB"));
         free(text);
     }
     blind_close(&blind);
@@ -328,7 +328,7 @@ TEST_WITH(folder_make, folder_remove, names_of_rescued_scenes)
     blind_frame(&blind);
     blind_send(&blind, (struct event){.kind = EVENT_KEY, .key = 'I', .action = ACTION_PRESS});
     blind_frame(&blind);
-    assert_false(history_is_saved(blind.app.table.history));
+    assert_false(history_is_saved(blind.app.work.history));
     hole("walk.recovered.json", "", 0, 0);
     for (int i = 2; i <= 999; i++) take_name("walk.recovered-%d.json", i);
     fail(&error, ERROR_ENVIRONMENT, "the end");

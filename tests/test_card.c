@@ -18,8 +18,8 @@ static void open_scene(struct blind *b, const char *scene)
 static void welcome(struct blind *b, float width)
 {
     app_resize(&b->app, width, roundf(width * 9 / 16), 1);
-    b->app.table.editor->core.refit_stage = true; // as in a window of that size
-    dialogs_welcome(b->app.table.editor->dialogs);
+    b->app.work.editor->core.refit_stage = true; // as in a window of that size
+    dialogs_welcome(b->app.work.editor->dialogs);
     for (int i = 0; i < 2; i++) blind_frame(b);
 }
 
@@ -51,7 +51,7 @@ TEST(it_covers_no_character)
         open_scene(&b, scenes[i]);
         for (float width = 640; width <= 1280; width += 80) {
             welcome(&b, width);
-            const struct editor *editor = b.app.table.editor;
+            const struct editor *editor = b.app.work.editor;
             const struct rect card = words(editor), stage = editor->core.layout.stage;
             if (covers_a_character(editor, card)) fail_msg("%s at %g", scenes[i], (double)width);
             assert_true(card.x >= stage.x && card.x + card.w <= stage.x + stage.w);
@@ -68,7 +68,7 @@ TEST(a_click_on_it_takes_it_away)
         struct blind b;
         open_scene(&b, "compositing");
         welcome(&b, width);
-        const struct editor *editor = b.app.table.editor;
+        const struct editor *editor = b.app.work.editor;
         const struct rect card = words(editor);
         const bool is_band = width < 1000;
         assert_true(is_band == !shown_text(editor, "Compositing"));

@@ -209,7 +209,7 @@ SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
         double before[97];
         char target[64];
         int frame = mods ? 52 : 24, count = spline(s, 0)->knot_count;
-        memcpy(before, s->table.evaluation.curves[0].total, sizeof before);
+        memcpy(before, s->work.evaluation.curves[0].total, sizeof before);
         snprintf(target, sizeof target, "curve(sway,%d,%.9g)", frame, before[frame]);
         s->mods = mods;
         session_click(s, target);
@@ -218,10 +218,10 @@ SESSION_TEST(test_double_click_on_the_curve_keeps_it, session_open(s, FIVE))
         int k = selection_single(&s->editor->core.selection, spline(s, 0));
         assert_near(spline(s, 0)->knots[k].frame, frame, 0);
         assert_int_equal(spline(s, 0)->knots[k].has_phase, mods != 0);
-        for (int i = 0; i < 97; i++) assert_near(s->table.evaluation.curves[0].total[i], before[i], 1e-6);
+        for (int i = 0; i < 97; i++) assert_near(s->work.evaluation.curves[0].total[i], before[i], 1e-6);
     }
     char other[64];
-    snprintf(other, sizeof other, "curve(up,35,%.9g)", s->table.evaluation.curves[1].total[35]);
+    snprintf(other, sizeof other, "curve(up,35,%.9g)", s->work.evaluation.curves[1].total[35]);
     s->mods = MOD_CTRL; // off frames, which leaves the active spline as it is until the second click
     session_click(s, other);
     session_click_here(s, 2);
@@ -243,14 +243,14 @@ static double change_by_a_knot(const char *settings, int frame, bool pose)
              settings);
     session_open(&s, scene);
     for (int f = 0; f < frame; f++) session_key(&s, KEY_RIGHT, 0);
-    memcpy(before, s.table.evaluation.curves[0].total, sizeof before);
+    memcpy(before, s.work.evaluation.curves[0].total, sizeof before);
     session_key(&s, 'I', pose ? MOD_SHIFT : 0);
     const int at = spline_find_knot(s.document, spline(&s, 0), frame);
     const bool swings = spline_mode(spline(&s, 0)) == WIGGLY_COMPLEX;
     assert_true((at >= 0) == (swings || !pose)); // the others have no phase that a pose could hold
     assert_true(at < 0 || spline(&s, 0)->knots[at].has_phase == pose);
     assert_true((strstr(s.editor->core.message.text, "Only a wiggly spline") != NULL) == (at < 0));
-    for (int i = 0; i < 97; i++) most = fmax(most, fabs(s.table.evaluation.curves[0].total[i] - before[i]));
+    for (int i = 0; i < 97; i++) most = fmax(most, fabs(s.work.evaluation.curves[0].total[i] - before[i]));
     session_close(&s);
     return most;
 }
@@ -293,7 +293,7 @@ TEST(test_a_cubic_holds_its_last_value)
             session_key(&s, 'M', MOD_SHIFT); // the paper's cubic goes straight on, but V does not show that one
         for (const char *key = ways[way]; *key; key++) session_key(&s, *key, 0);
         session_frame(&s);
-        const wiggly_curve *curve = &s.table.evaluation.curves[0];
+        const wiggly_curve *curve = &s.work.evaluation.curves[0];
         assert_int_equal(curve->mode, WIGGLY_CUBIC);
         for (int i = 60; i <= 96; i++) assert_near(curve->total[i], 0, 1e-12);
         assert_true(fabs(curve->total[50]) > 0.01);

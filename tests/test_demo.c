@@ -12,9 +12,9 @@ static void demo_open(struct blind *b)
     assert_done(b->app.replay = demo_replay(&error));
 }
 
-static const char *caption(struct blind *b) { return b->app.table.editor->dialogs->caption; }
+static const char *caption(struct blind *b) { return b->app.work.editor->dialogs->caption; }
 
-static uint64_t scene_now(const struct blind *b) { return scene_hash(b->app.table.document); }
+static uint64_t scene_now(const struct blind *b) { return scene_hash(b->app.work.document); }
 
 #define DEMO_TEST(name) TEST_OF(struct blind, b, demo_open(b), blind_close(b), name)
 
@@ -30,14 +30,14 @@ DEMO_TEST(test_all_of_it_plays_and_begins_anew)
     assert_true(length > 100 * 60 && length < 140 * 60);
     for (long frame = 0; frame < length; frame++) {
         blind_frame(b);
-        const struct document *document = b->app.table.document;
+        const struct document *document = b->app.work.document;
         for (int r = 0; r < document->rig_count; r++) seen[document->rigs[r]->kind] = true;
         light |= theme_in_use() == THEME_LIGHT;
-        presents |= b->app.table.editor->core.presenter.on;
-        records |= strstr(b->app.table.editor->core.message.text, "knots recorded") != NULL;
+        presents |= b->app.work.editor->core.presenter.on;
+        records |= strstr(b->app.work.editor->core.message.text, "knots recorded") != NULL;
         if (strcmp(last, caption(b)) == 0) continue;
         snprintf(last, sizeof last, "%s", caption(b));
-        if (!shown_text(b->app.table.editor, last)) fail_msg("the caption “%s” does not fit", last);
+        if (!shown_text(b->app.work.editor, last)) fail_msg("the caption “%s” does not fit", last);
         edits += scene_now(b) != changed;
         changed = scene_now(b);
     }
@@ -58,15 +58,15 @@ static void plays_until(const struct event *event, bool stops)
     demo_open(&b);
     const uint64_t first = scene_now(&b);
     for (int i = 0; i < 9 * 60; i++) blind_frame(&b); // in the middle of a drag
-    assert_string_equal(b.app.table.editor->core.drag.label, "Move body");
+    assert_string_equal(b.app.work.editor->core.drag.label, "Move body");
     blind_send(&b, *event);
     blind_frame(&b);
     assert_int_equal(b.app.demo.on, !stops);
     if (stops) {
         assert_int_equal(scene_now(&b), first);
-        assert_true(history_is_saved(b.app.table.history));
+        assert_true(history_is_saved(b.app.work.history));
         assert_string_equal(caption(&b), "");
-        assert_null(b.app.table.editor->core.drag.owner);
+        assert_null(b.app.work.editor->core.drag.owner);
         blind_frame(&b);
         assert_null(b.app.replay);
     }

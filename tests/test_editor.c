@@ -32,7 +32,7 @@ SESSION_TEST(test_double_click_inserts_at_the_pointer, session_open(s, SWAY))
     assert_int_equal(sway(s)->knot_count, 5);
     assert_near(sway(s)->knots[3].frame, 30, 0);
     assert_near(sway(s)->knots[3].value, 1.1, 1e-5);
-    assert_near(s->table.evaluation.curves[0].total[30], sway(s)->knots[3].value,
+    assert_near(s->work.evaluation.curves[0].total[30], sway(s)->knots[3].value,
                 0); // hit exactly, in the same frame
     session_key(s, 'Z', MOD_CTRL);
     assert_int_equal(sway(s)->knot_count, 4);
@@ -41,12 +41,12 @@ SESSION_TEST(test_double_click_inserts_at_the_pointer, session_open(s, SWAY))
 SESSION_TEST(test_insert_at_playhead_keeps_the_curve, session_open(s, SWAY))
 {
     double before[49];
-    memcpy(before, s->table.evaluation.curves[0].total, sizeof before);
+    memcpy(before, s->work.evaluation.curves[0].total, sizeof before);
     session_click(s, "ruler(30)");
     session_key(s, 'I', 0);
     assert_int_equal(sway(s)->knot_count, 5);
     assert_near(sway(s)->knots[3].frame, 30, 0);
-    for (int i = 0; i < 49; i++) assert_near(s->table.evaluation.curves[0].total[i], before[i], 1e-7);
+    for (int i = 0; i < 49; i++) assert_near(s->work.evaluation.curves[0].total[i], before[i], 1e-7);
     assert_false(sway(s)->knots[3].has_phase);
     session_key(s, 'P', 0);
     assert_true(sway(s)->knots[3].has_phase);
@@ -349,8 +349,8 @@ TEST(test_a_monkey_can_be_undone)
             session_release(&s, BUTTON_RIGHT);
         }
         assert_false(history_is_open(s.history));
-        for (int i = 0; i < s.table.evaluation.samples; i++)
-            assert_true(isfinite(s.table.evaluation.curves[0].total[i]));
+        for (int i = 0; i < s.work.evaluation.samples; i++)
+            assert_true(isfinite(s.work.evaluation.curves[0].total[i]));
         while (history_undo_label(s.history)) assert_true(history_undo(s.history));
         assert_saved(&s, original);
         session_close(&s);

@@ -83,8 +83,8 @@ SESSION_TEST(test_a_pull_out_of_reach_stays_calm, session_open(s, TAIL))
     session_press(s, BUTTON_LEFT, 1);
     session_drag(s, -5000, 3000, 5);
     for (int i = 0; i < 100; i++) session_frame(s);
-    for (int i = 0; i < s->table.evaluation.samples; i++)
-        assert_true(fabs(s->table.evaluation.curves[0].total[i]) < 100);
+    for (int i = 0; i < s->work.evaluation.samples; i++)
+        assert_true(fabs(s->work.evaluation.curves[0].total[i]) < 100);
     session_key(s, KEY_ESCAPE, 0);
     assert_int_equal(s->document->splines[0]->knot_count, 3);
 }
@@ -103,7 +103,7 @@ SESSION_TEST(test_a_pull_in_circles_winds_up_once, session_open(s, TAIL))
         session_move(s, root[0] + reach * cosf(angle), root[1] + reach * sinf(angle));
         session_frame(s);
         for (int c = 0; c < 2; c++) // the values of seven radians where it is held
-            assert_true(fabs(s->table.evaluation.curves[c].total[0]) < 6.2);
+            assert_true(fabs(s->work.evaluation.curves[c].total[0]) < 6.2);
     }
 }
 
@@ -430,8 +430,7 @@ static void assert_finite_at(struct session *s, enum wiggly_mode mode, enum wigg
     set(s, PARAMETER_CALM, ends & 8 ? 1 : 0);
     history_end(s->history);
     session_frame(s);
-    for (int i = 0; i < s->table.evaluation.samples; i++)
-        assert_true(isfinite(s->table.evaluation.curves[0].total[i]));
+    for (int i = 0; i < s->work.evaluation.samples; i++) assert_true(isfinite(s->work.evaluation.curves[0].total[i]));
     int count = 0;
     assert_non_null(active_line(s, &count));
     assert_true(count > 100);

@@ -25,8 +25,8 @@ static void draw_whole(struct app *app)
     const struct draw_input input = {.width = WIDTH,
                                      .height = HEIGHT,
                                      .scale = 1,
-                                     .list = &app->table.editor->core.list,
-                                     .stage = editor_stage(app->table.editor)};
+                                     .list = &app->work.editor->core.list,
+                                     .stage = editor_stage(app->work.editor)};
     draw_frame(app->draw, &input, &cost);
     draw_read(WIDTH, HEIGHT, whole);
 }

@@ -24,8 +24,8 @@ static double farthest(const struct session *s, int spline, double *knot)
 {
     double most = 0;
     const struct spline *of = s->document->splines[spline];
-    for (int i = 0; i < s->table.evaluation.samples; i++)
-        most = fmax(most, fabs(s->table.evaluation.curves[spline].total[i]));
+    for (int i = 0; i < s->work.evaluation.samples; i++)
+        most = fmax(most, fabs(s->work.evaluation.curves[spline].total[i]));
     *knot = 0;
     for (int k = 0; k < of->knot_count; k++) *knot = fmax(*knot, fabs(of->knots[k].value));
     return most;

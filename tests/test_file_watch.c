@@ -40,7 +40,7 @@ static bool holds(const char *path, const char *name)
     return strstr(text, quoted) != NULL;
 }
 
-static enum dialog_kind asked(const struct blind *blind) { return blind->app.table.editor->dialogs->dialog.kind; }
+static enum dialog_kind asked(const struct blind *blind) { return blind->app.work.editor->dialogs->dialog.kind; }
 
 /// A scene with a knot that is not saved.
 static void open_mine(struct blind *blind)
@@ -49,7 +49,7 @@ static void open_mine(struct blind *blind)
     blind_open(blind, scene());
     blind_frame(blind);
     blind_key(blind, 'I', 0);
-    assert_false(history_is_saved(blind->app.table.history));
+    assert_false(history_is_saved(blind->app.work.history));
 }
 
 static void open_changed(struct blind *blind)
@@ -58,7 +58,7 @@ static void open_changed(struct blind *blind)
     write_scene(theirs);
     blind_key(blind, 'S', MOD_CTRL);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
-    assert_string_equal(blind->app.table.editor->dialogs->dialog.question.title, "walk.json has changed on the disk");
+    assert_string_equal(blind->app.work.editor->dialogs->dialog.question.title, "walk.json has changed on the disk");
     assert_true(holds(scene(), "theirs"));
 }
 
@@ -69,7 +69,7 @@ CHANGED_TEST(keep_mine_writes_it)
     blind_key(blind, 'K', 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "mine"));
-    assert_true(history_is_saved(blind->app.table.history));
+    assert_true(history_is_saved(blind->app.work.history));
     blind_key(blind, 'I', MOD_SHIFT);
     blind_key(blind, 'S', MOD_CTRL); // mine again: nothing to ask
     assert_int_equal(asked(blind), DIALOG_NONE);
@@ -79,13 +79,13 @@ CHANGED_TEST(take_theirs_can_be_undone)
 {
     blind_key(blind, 'T', 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
-    assert_string_equal(blind->app.table.document->splines[0]->name, "theirs");
+    assert_string_equal(blind->app.work.document->splines[0]->name, "theirs");
     assert_string_equal(app_path(&blind->app), scene());
-    assert_true(history_is_saved(blind->app.table.history));
+    assert_true(history_is_saved(blind->app.work.history));
     blind_key(blind, 'Z', MOD_CTRL);
-    assert_string_equal(blind->app.table.document->splines[0]->name, "mine");
-    assert_int_equal(blind->app.table.document->splines[0]->knot_count, 1);
-    assert_false(history_is_saved(blind->app.table.history));
+    assert_string_equal(blind->app.work.document->splines[0]->name, "mine");
+    assert_int_equal(blind->app.work.document->splines[0]->knot_count, 1);
+    assert_false(history_is_saved(blind->app.work.history));
 }
 
 /// Theirs is no scene any more: the sentence says so, and mine stays on the table.
@@ -94,8 +94,8 @@ CHANGED_TEST(broken_theirs_is_not_taken)
     write_scene("{");
     blind_key(blind, 'T', 0);
     assert_int_equal(asked(blind), DIALOG_CHANGED);
-    assert_non_null(strstr(blind->app.table.editor->dialogs->dialog.error, "walk.json:1"));
-    assert_string_equal(blind->app.table.document->splines[0]->name, "mine");
+    assert_non_null(strstr(blind->app.work.editor->dialogs->dialog.error, "walk.json:1"));
+    assert_string_equal(blind->app.work.document->splines[0]->name, "mine");
     blind_key(blind, KEY_ESCAPE, 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
 }
@@ -104,7 +104,7 @@ CHANGED_TEST(save_as_keeps_both)
 {
     blind_key(blind, KEY_ENTER, 0); // the one that loses nothing
     assert_int_equal(asked(blind), DIALOG_SAVE_AS);
-    ui_text_set(&blind->app.table.editor->dialogs->dialog.ui.text, folder_path("other.json"));
+    ui_text_set(&blind->app.work.editor->dialogs->dialog.ui.text, folder_path("other.json"));
     blind_key(blind, KEY_ENTER, 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "theirs"));
@@ -128,7 +128,7 @@ CHANGED_TEST(cancel_writes_nothing)
     blind_key(blind, KEY_ESCAPE, 0);
     assert_int_equal(asked(blind), DIALOG_NONE);
     assert_true(holds(scene(), "theirs"));
-    assert_false(history_is_saved(blind->app.table.history));
+    assert_false(history_is_saved(blind->app.work.history));
     blind_key(blind, 'S', MOD_CTRL);
     assert_int_equal(asked(blind), DIALOG_CHANGED); // asked again
 }
@@ -203,7 +203,7 @@ TEST(the_mouse_answers)
     for (int i = 0; i < 4; i++) {
         struct blind blind;
         open_changed(&blind);
-        const struct draw_command *found = shown_text(blind.app.table.editor, labels[i]);
+        const struct draw_command *found = shown_text(blind.app.work.editor, labels[i]);
         if (!found) fail_msg("no button “%s”", labels[i]);
         const float x = found->x + 4, y = found->y - 4;
         blind_send(&blind, (struct event){.kind = EVENT_POINTER, .x = x, .y = y});
@@ -251,7 +251,7 @@ TEST(what_others_wrote_before_recovery_is_noticed)
             open_at_desk(&blind);
             assert_int_equal(asked(&blind), DIALOG_RECOVER);
             blind_key(&blind, 'R', 0);
-            assert_int_equal(blind.app.table.document->splines[0]->knot_count, 1);
+            assert_int_equal(blind.app.work.document->splines[0]->knot_count, 1);
             if (crashes == 0) crash(&blind);
         }
         blind_key(&blind, 'S', MOD_CTRL);
@@ -260,7 +260,7 @@ TEST(what_others_wrote_before_recovery_is_noticed)
         if (when != NEVER) blind_key(&blind, 'K', 0);
         assert_int_equal(asked(&blind), DIALOG_NONE);
         assert_true(holds(scene(), "mine"));
-        assert_true(history_is_saved(blind.app.table.history));
+        assert_true(history_is_saved(blind.app.work.history));
         personal_end(&blind.app, false);
         blind_close(&blind);
     }
@@ -275,7 +275,7 @@ static int prepare(void **state)
 /// Asks the app for something, and returns what it says about it, once it does.
 static const char *said(struct blind *blind, enum request_kind kind, const char *path)
 {
-    struct core *core = &blind->app.table.editor->core;
+    struct core *core = &blind->app.work.editor->core;
     core->message = (struct message){0};
     core_request(core, kind, path);
     app_requests(&blind->app);
@@ -302,7 +302,7 @@ MINE_TEST(a_replay_writes_where_it_may)
         if (strcmp(text, "Nothing was written: a replay writes only with --saves DIR.") != 0)
             fail_msg("%zu: %s", i, text);
     }
-    assert_true(history_is_saved(blind->app.table.history));
+    assert_true(history_is_saved(blind->app.work.history));
     assert_int_not_equal(access(own, F_OK), 0);
     assert_int_equal(mkdir(saves, 0777), 0);
     blind->options.saves = saves;
@@ -347,7 +347,7 @@ TEST(a_pipe_is_neither_read_nor_written)
         assert_int_equal(stat(path, &about), 0);
         assert_true(S_ISFIFO(about.st_mode));
     }
-    assert_false(history_is_saved(blind.app.table.history));
+    assert_false(history_is_saved(blind.app.work.history));
     alarm(0);
     blind_close(&blind);
 }

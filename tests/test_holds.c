@@ -153,7 +153,7 @@ TEST(test_a_value_comes_back)
         const struct knot *knot = &s.document->splines[0]->knots[1];
         assert_true(knot->still);
         assert_loads_again(s.document);
-        assert_near(s.table.evaluation.curves[0].total[48], 2, 1e-9);
+        assert_near(s.work.evaluation.curves[0].total[48], 2, 1e-9);
         if (row->high < INFINITY) {
             const struct param high = param_number(row->high);
             assert_done(edit_parameter(s.document, 0, PARAMETER_HIGH, &high, &error));

@@ -296,11 +296,11 @@ SESSION_TEST(
         1280, 720))
 {
     char words[24];
-    assert_int_equal(s->table.evaluation.status[0], WIGGLY_OK);
-    s->table.evaluation.status[0] = WIGGLY_CALMED;
-    snprintf(words, sizeof words, "%s", wiggly_status_text(s->table.evaluation.status[0]));
+    assert_int_equal(s->work.evaluation.status[0], WIGGLY_OK);
+    s->work.evaluation.status[0] = WIGGLY_CALMED;
+    snprintf(words, sizeof words, "%s", wiggly_status_text(s->work.evaluation.status[0]));
     assert_true(shows_text(s, words));
-    s->table.evaluation.status[0] = WIGGLY_OK;
+    s->work.evaluation.status[0] = WIGGLY_OK;
     assert_true(shows_text(s, "Rings forever"));
     panel_drag(s, "damping", 0.5);
     panel_release(s);
@@ -317,10 +317,10 @@ SESSION_TEST(
 static void assert_finite_and_loadable(struct session *f)
 {
     session_frame(f);
-    for (int s = 0; s < f->table.evaluation.count; s++) {
-        for (int i = 0; i < f->table.evaluation.samples; i++) {
-            assert_true(isfinite(f->table.evaluation.curves[s].total[i]) &&
-                        isfinite(f->table.evaluation.curves[s].im[i]));
+    for (int s = 0; s < f->work.evaluation.count; s++) {
+        for (int i = 0; i < f->work.evaluation.samples; i++) {
+            assert_true(isfinite(f->work.evaluation.curves[s].total[i]) &&
+                        isfinite(f->work.evaluation.curves[s].im[i]));
         }
     }
     assert_loads_again(f->document);

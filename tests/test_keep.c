@@ -100,7 +100,7 @@ TEST(an_edit_changes_nothing_beyond_the_next_knot)
         for (int i = 0; i < 8; i++) uniform(&seed);
         write_scene(&seed, scene, sizeof scene);
         session_open(s, scene);
-        const wiggly_curve *curve = &s->table.evaluation.curves[0];
+        const wiggly_curve *curve = &s->work.evaluation.curves[0];
         const char *original = session_saved(s);
         const int count = sway(s)->knot_count, k = (int)(uniform(&seed) * count);
         const bool loops = spline_start(sway(s)) == WIGGLY_LOOP;
@@ -164,7 +164,7 @@ SESSION_TEST(an_edit_swings_through_on_demand, session_open(s, SWAY))
 /// The second nudge goes on from the first, whose pose has the phase from before both.
 SESSION_TEST(nudges_keep_the_first_phase, session_open(s, SWAY))
 {
-    const double phase = s->table.evaluation.curves[0].im[50];
+    const double phase = s->work.evaluation.curves[0].im[50];
     session_click(s, "knot(sway,1)");
     for (int n = 0; n < 3; n++) session_key(s, KEY_UP, MOD_ALT);
     assert_true(sway(s)->knots[2].has_phase && sway(s)->knots[2].phase == phase);

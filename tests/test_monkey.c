@@ -158,8 +158,8 @@ static void remember(struct origin *origin, const struct document *document)
 /// elsewhere calls its characters' files by other names.
 static void watch_origin(struct origin *origin, const struct app *app)
 {
-    const struct document *d = app->table.document;
-    bool fresh = history_count(app->table.history) == 0 && d->serial != origin->serial;
+    const struct document *d = app->work.document;
+    bool fresh = history_count(app->work.history) == 0 && d->serial != origin->serial;
     bool moved = d->serial == origin->serial && strcmp(origin->folder, d->folder ? d->folder : "") != 0;
     if (!origin->text || fresh) remember(origin, d);
     if (moved) origin->serial = 0;
@@ -167,7 +167,7 @@ static void watch_origin(struct origin *origin, const struct app *app)
 
 static void assert_curves_are_finite(const struct app *app)
 {
-    const struct evaluation *e = &app->table.evaluation;
+    const struct evaluation *e = &app->work.evaluation;
     for (int s = 0; s < e->count; s++) {
         for (int i = 0; i < e->samples; i++) {
             if (!isfinite(e->curves[s].total[i])) fail_msg("spline %d is not finite at sample %d", s, i);
@@ -179,11 +179,11 @@ static void assert_curves_are_finite(const struct app *app)
 /// only such as undo can bring back: no knot to come is.
 static void assert_editor(const struct app *app)
 {
-    const struct editor *editor = app->table.editor;
-    const struct document *d = app->table.document;
+    const struct editor *editor = app->work.editor;
+    const struct document *d = app->work.document;
     bool dragging = editor->core.drag.owner || inspector_is_dragging(editor->inspector);
     const struct ui *ui = &editor->inspector->ui;
-    if (history_is_open(app->table.history) && !dragging) {
+    if (history_is_open(app->work.history) && !dragging) {
         fail_msg("a step is open, and nothing is dragged: %d %d, %x %d, dialog %d", editor->core.drag.owner != NULL,
                  editor->core.drag.moved, ui->held, ui->moved, editor->dialogs->dialog.kind);
     }
@@ -205,7 +205,7 @@ static void hands_off(struct monkey *m)
         for (int b = 0; b < 3; b++) monkey_button(m, (enum event_button)b, ACTION_RELEASE, 1);
         blind_frame(m->blind);
     }
-    assert_false(history_is_open(m->blind->app.table.history));
+    assert_false(history_is_open(m->blind->app.work.history));
 }
 
 /// Undoing everything gives the first document byte by byte, doing it all again the last one.
@@ -214,18 +214,18 @@ static void assert_undone(struct monkey *m, struct origin *origin)
     struct app *app = &m->blind->app;
     hands_off(m);
     watch_origin(origin, app);
-    const size_t all = history_count(app->table.history), done = history_done(app->table.history);
-    core_jump(&app->table.editor->core, all);
-    char *last = text_of_document(app->table.document);
-    core_jump(&app->table.editor->core, 0);
+    const size_t all = history_count(app->work.history), done = history_done(app->work.history);
+    core_jump(&app->work.editor->core, all);
+    char *last = text_of_document(app->work.document);
+    core_jump(&app->work.editor->core, 0);
     blind_frame(m->blind);
-    if (history_dropped(app->table.history) > 0 || app->table.document->serial != origin->serial)
-        remember(origin, app->table.document);
-    assert_prints(app->table.document, origin->text);
-    core_jump(&app->table.editor->core, all);
+    if (history_dropped(app->work.history) > 0 || app->work.document->serial != origin->serial)
+        remember(origin, app->work.document);
+    assert_prints(app->work.document, origin->text);
+    core_jump(&app->work.editor->core, all);
     blind_frame(m->blind);
-    assert_prints(app->table.document, last);
-    core_jump(&app->table.editor->core, done);
+    assert_prints(app->work.document, last);
+    core_jump(&app->work.editor->core, done);
     free(last);
 }
 
@@ -239,11 +239,11 @@ static char *printed_anywhere(const struct document *document)
 /// As when the display is lost: the work is in a recovery file, and that gives the document.
 static void assert_rescued(struct app *app)
 {
-    if (history_is_saved(app->table.history)) return;
+    if (history_is_saved(app->work.history)) return;
     const char *path = personal_rescue(app);
     assert_non_null(path);
     struct document *rescued = document_of_file(path);
-    char *own = printed_anywhere(app->table.document), *again = printed_anywhere(rescued);
+    char *own = printed_anywhere(app->work.document), *again = printed_anywhere(rescued);
     assert_string_equal(again, own);
     document_destroy(rescued);
     free(again);
@@ -253,9 +253,9 @@ static void assert_rescued(struct app *app)
 /// What takes long to solve is undone: the monkey has no patience.
 static void keep_small(struct app *app)
 {
-    while (document_samples(app->table.document) * (app->table.document->spline_count + 1) > MOST_SAMPLES) {
-        core_undo(&app->table.editor->core, -1);
-        if (!history_redo_label(app->table.history)) return;
+    while (document_samples(app->work.document) * (app->work.document->spline_count + 1) > MOST_SAMPLES) {
+        core_undo(&app->work.editor->core, -1);
+        if (!history_redo_label(app->work.history)) return;
     }
 }
 
@@ -292,15 +292,15 @@ static void step(struct run *run)
     for (int i = one_in(m, 4) ? below(m, 4) : 0; i >= 0; i--) monkey_act(m); // mostly each in its own frame
     blind_frame(m->blind);
     watch_origin(&run->origin, app);
-    if (!history_is_open(app->table.history)) keep_small(app);
+    if (!history_is_open(app->work.history)) keep_small(app);
     assert_editor(app);
-    assert_ids(app->table.editor);
+    assert_ids(app->work.editor);
     const int frame = run->frame++;
-    if (history_revision(app->table.history) == run->checked) return;
-    run->checked = history_revision(app->table.history);
-    assert_invariants(app->table.document);
+    if (history_revision(app->work.history) == run->checked) return;
+    run->checked = history_revision(app->work.history);
+    assert_invariants(app->work.document);
     if (app->row.splines_solved > 0) assert_curves_are_finite(app);
-    if (frame % RELOAD_EVERY == 0) assert_loads_again(app->table.document);
+    if (frame % RELOAD_EVERY == 0) assert_loads_again(app->work.document);
     if (frame % RESCUE_EVERY == 0) assert_rescued(app);
     if (m->sent < run->next_undo) return;
     run->next_undo += UNDO_EVERY;
@@ -318,7 +318,7 @@ static void say_where(void)
 static void record(struct app *app, const char *path)
 {
     struct replay_header header = {
-        .width = 1280, .height = 720, .scale = 1, .scene_hash = scene_hash(app->table.document)};
+        .width = 1280, .height = 720, .scale = 1, .scene_hash = scene_hash(app->work.document)};
     assert_done(app->recording = recording_open(path, &header, &error));
 }
 
@@ -383,21 +383,21 @@ TEST(nor_in_a_long_scene)
 static void lose_display(struct run *run)
 {
     struct app *app = &run->blind.app;
-    const bool unsaved = !history_is_saved(app->table.history);
+    const bool unsaved = !history_is_saved(app->work.history);
     if (unsaved && !personal_rescue(app)) fail_msg("the work is lost");
-    char *lost = printed_anywhere(app->table.document);
+    char *lost = printed_anywhere(app->work.document);
     end(run, true);
     start(run, NULL);
     run->checked = 0;
-    const bool offered = app->table.editor->dialogs->dialog.kind == DIALOG_RECOVER;
+    const bool offered = app->work.editor->dialogs->dialog.kind == DIALOG_RECOVER;
     assert_int_equal(offered, unsaved);
     const bool recover = !one_in(&run->monkey, 4);
     if (offered) monkey_key(&run->monkey, recover ? 'R' : 'D', 0);
     blind_frame(&run->blind);
     if (offered && recover) {
-        char *again = printed_anywhere(app->table.document);
+        char *again = printed_anywhere(app->work.document);
         assert_string_equal(again, lost);
-        assert_false(history_is_saved(app->table.history));
+        assert_false(history_is_saved(app->work.history));
         free(again);
     }
     free(lost);

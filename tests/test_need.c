@@ -97,7 +97,7 @@ static void run_app(void)
     blind_send_key(&blind, KEY_RIGHT, 0);
     blind_send_key(&blind, 'I', 0);
     blind_frame(&blind);
-    if (!scene_save(blind.app.table.document, folder_path("expected.json"), NULL)) _exit(9);
+    if (!scene_save(blind.app.work.document, folder_path("expected.json"), NULL)) _exit(9);
     while (personal_is_behind(&blind.app)) personal_update(&blind.app);
     while (access(folder_path("state/wiggly/recovery-1"), F_OK) != 0)
         thrd_sleep(&(struct timespec){.tv_nsec = 1000000}, NULL);

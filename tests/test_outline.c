@@ -35,7 +35,7 @@ static void expect_smooth(const char *scene, const int most[2])
     struct blind blind;
     blind_open(&blind, scene);
     blind_frame(&blind);
-    struct stage_view view = *editor_stage(blind.app.table.editor);
+    struct stage_view view = *editor_stage(blind.app.work.editor);
     for (int t = 0; t < 2; t++) {
         theme_use(themes[t]);
         view.colors = theme()->stage;

@@ -34,10 +34,10 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
     start(&blind);
     theme_use(other);
     blind.app.ui_scale = 1.5;
-    core_set_panels(&blind.app.table.editor->core, 0.4, 333);
-    assert_false(blind.app.table.editor->core.more);
+    core_set_panels(&blind.app.work.editor->core, 0.4, 333);
+    assert_false(blind.app.work.editor->core.more);
     blind_key(&blind, KEY_F9, 0);
-    assert_true(blind.app.table.editor->core.keep);
+    assert_true(blind.app.work.editor->core.keep);
     blind_key(&blind, 'A', MOD_ALT);
     personal_update(&blind.app);
     end(&blind);
@@ -46,10 +46,10 @@ TEST_WITH(folder_make, folder_remove, looks_and_panels_are_as_they_were_left)
     start(&blind);
     assert_int_equal(theme_in_use(), other);
     assert_near(blind.app.ui_scale, 1.5, 0);
-    assert_true(blind.app.table.editor->core.more);
-    assert_false(blind.app.table.editor->core.keep);
-    assert_near(blind.app.table.editor->core.layout.stage_share, 0.4, 1e-6);
-    assert_near(blind.app.table.editor->core.layout.inspector_width, 333, 1e-9);
+    assert_true(blind.app.work.editor->core.more);
+    assert_false(blind.app.work.editor->core.keep);
+    assert_near(blind.app.work.editor->core.layout.stage_share, 0.4, 1e-6);
+    assert_near(blind.app.work.editor->core.layout.inspector_width, 333, 1e-9);
     end(&blind);
     theme_use(before);
 }
@@ -61,7 +61,7 @@ TEST_WITH(folder_make, folder_remove, the_welcome_comes_once)
     for (int run = 0; run < 3; run++) {
         start(&blind);
         personal_update(&blind.app);
-        assert_int_equal(dialogs_is_welcoming(blind.app.table.editor->dialogs), run < 2);
+        assert_int_equal(dialogs_is_welcoming(blind.app.work.editor->dialogs), run < 2);
         blind_frame(&blind);
         if (run == 1) {
             blind_key(&blind, KEY_ESCAPE, 0);
@@ -106,7 +106,7 @@ TEST_WITH(folder_make, folder_remove, settings_that_cannot_be_stored_are_said)
     struct blind blind;
     start(&blind);
     personal_note_file(&blind.app, folder_file("one.json", ""));
-    const struct message *message = &blind.app.table.editor->core.message;
+    const struct message *message = &blind.app.work.editor->core.message;
     assert_false(message->is_error);
     assert_int_equal(rename(folder_path("wiggly"), folder_path("was")), 0);
     folder_file("wiggly", "");

@@ -214,7 +214,7 @@ SESSION_TEST(test_the_surface_of_a_character_is_pinned_and_follows_the_pointer, 
     session_drag(s, 25, 8, 4);
     session_release(s, BUTTON_LEFT);
     assert_int_equal(pins_of(s), 1);
-    const struct pin_left *left = evaluation_pin(&s->table.evaluation, s->document, 0, 0);
+    const struct pin_left *left = evaluation_pin(&s->work.evaluation, s->document, 0, 0);
     assert_non_null(left);
     assert_true(left->is_found);
     assert_true(fabs(left->way[0]) < 0.05 && fabs(left->way[1]) < 0.05);

@@ -4,7 +4,7 @@
 #include "inside.h"
 #include "shown.h"
 
-static struct core *core_of(struct blind *b) { return &b->app.table.editor->core; }
+static struct core *core_of(struct blind *b) { return &b->app.work.editor->core; }
 
 /// The pointer in device pixels, as a window at scale 1 sends it.
 static void point(struct blind *b, float x, float y)
@@ -25,7 +25,7 @@ BLIND_TEST(test_keys_make_everything_larger_and_smaller, blind_open(b, NULL))
     blind_key(b, '=', CTRL_SHIFT);
     assert_near(core_of(b)->layout.window.w, 1024, 1e-3);
     assert_near(core_of(b)->scale, 1.25, 1e-6);
-    assert_non_null(shown_text(b->app.table.editor, "125 %"));
+    assert_non_null(shown_text(b->app.work.editor, "125 %"));
     blind_key(b, KEY_F8, 0);
     assert_near(core_of(b)->scale, 1.5, 1e-6);
     blind_key(b, '-', CTRL_SHIFT);
@@ -55,7 +55,7 @@ BLIND_TEST(test_a_scale_without_room_is_refused, blind_open(b, NULL))
     assert_near(core_of(b)->scale, 1.5, 1e-6);
     assert_string_equal(core_of(b)->message.text, "175 % needs a window of 1330 × 700, not 1280 × 720");
     blind_frame(b);
-    assert_non_null(shown_text(b->app.table.editor, core_of(b)->message.text)); // in full
+    assert_non_null(shown_text(b->app.work.editor, core_of(b)->message.text)); // in full
     blind_send(b, (struct event){.kind = EVENT_SIZE, .x = 1000, .y = 600, .scale = 1});
     blind_frame(b);
     assert_near(core_of(b)->scale, 1.25, 1e-6);
@@ -84,7 +84,7 @@ BLIND_TEST(test_the_status_line_changes_it_by_mouse, blind_open(b, NULL))
 
 BLIND_TEST(test_presenting_gives_the_stage_the_window_and_changes_nothing, blind_open(b, NULL))
 {
-    char *before = text_of_document(b->app.table.document);
+    char *before = text_of_document(b->app.work.document);
     const struct layout normal = core_of(b)->layout;
     blind_key(b, KEY_F5, 0);
     frames(b, 30);
@@ -93,12 +93,12 @@ BLIND_TEST(test_presenting_gives_the_stage_the_window_and_changes_nothing, blind
     assert_near(l->stage.w * 1.5f, 1280, 1);
     assert_near(l->stage.h * 1.5f, 720, 1);
     assert_true(l->inspector.x >= l->window.w && l->curves.y >= l->window.h);
-    assert_null(shown_text(b->app.table.editor, "Splines"));
+    assert_null(shown_text(b->app.work.editor, "Splines"));
     blind_key(b, KEY_ESCAPE, 0);
     assert_memory_equal(&core_of(b)->layout, &normal, sizeof normal);
-    assert_non_null(shown_text(b->app.table.editor, "Splines"));
-    assert_true(history_is_saved(b->app.table.history));
-    assert_prints(b->app.table.document, before);
+    assert_non_null(shown_text(b->app.work.editor, "Splines"));
+    assert_true(history_is_saved(b->app.work.history));
+    assert_prints(b->app.work.document, before);
     free(before);
 }
 
@@ -156,7 +156,7 @@ BLIND_TEST(test_in_an_upright_window_all_panels_come_from_below, blind_open(b, N
         blind_send(b, press);
     }
     frames(b, 30);
-    assert_non_null(shown_text(b->app.table.editor, "damping")); // the group is still open
+    assert_non_null(shown_text(b->app.work.editor, "damping")); // the group is still open
     assert_near(l->status.y + l->status.h, 792, 0);
     assert_near(l->inspector.y + l->inspector.h, l->status.y, 0);
     assert_near(l->stage.h, l->curves.y, 0); // they take their room from the stage
@@ -171,27 +171,27 @@ BLIND_TEST(test_in_an_upright_window_all_panels_come_from_below, blind_open(b, N
 BLIND_TEST(test_what_is_pressed_is_shown_and_fades, blind_open(b, NULL))
 {
     blind_key(b, 'Z', MOD_CTRL);
-    assert_null(shown_text(b->app.table.editor, "Ctrl + Z"));
+    assert_null(shown_text(b->app.work.editor, "Ctrl + Z"));
     blind_key(b, KEY_F5, 0);
-    assert_non_null(shown_text(b->app.table.editor, "F5"));
+    assert_non_null(shown_text(b->app.work.editor, "F5"));
     blind_key(b, 'Z', MOD_CTRL);
-    assert_non_null(shown_text(b->app.table.editor, "Ctrl + Z"));
-    assert_non_null(shown_text(b->app.table.editor, "Nothing to undo")); // the status line is away or on its way
+    assert_non_null(shown_text(b->app.work.editor, "Ctrl + Z"));
+    assert_non_null(shown_text(b->app.work.editor, "Nothing to undo")); // the status line is away or on its way
     blind_key(b, 'Z', MOD_CTRL);
-    assert_non_null(shown_text(b->app.table.editor, "Ctrl + Z ×2"));
+    assert_non_null(shown_text(b->app.work.editor, "Ctrl + Z ×2"));
     frames(b, 120);
-    assert_null(shown_text(b->app.table.editor, "Ctrl + Z ×2"));
+    assert_null(shown_text(b->app.work.editor, "Ctrl + Z ×2"));
     struct event event = {
         .kind = EVENT_BUTTON, .button = BUTTON_RIGHT, .action = ACTION_PRESS, .clicks = 1, .x = 600, .y = 300};
     blind_send(b, event);
     blind_frame(b);
-    assert_non_null(shown_text(b->app.table.editor, "right-click"));
+    assert_non_null(shown_text(b->app.work.editor, "right-click"));
     point(b, 640, 300);
-    assert_non_null(shown_text(b->app.table.editor, "right drag"));
+    assert_non_null(shown_text(b->app.work.editor, "right drag"));
     frames(b, 120);
-    assert_non_null(shown_text(b->app.table.editor, "right drag"));
+    assert_non_null(shown_text(b->app.work.editor, "right drag"));
     event.action = ACTION_RELEASE;
     blind_send(b, event);
     frames(b, 120);
-    assert_null(shown_text(b->app.table.editor, "right drag"));
+    assert_null(shown_text(b->app.work.editor, "right drag"));
 }

@@ -9,7 +9,7 @@ enum { STEPS = 2, SETTLE = 7 };
 
 static const double TURN = 6.28318530717958647692;
 
-static struct core *core_of(struct blind *b) { return &b->app.table.editor->core; }
+static struct core *core_of(struct blind *b) { return &b->app.work.editor->core; }
 
 static void open_still(struct blind *b, const char *scene)
 {
@@ -26,7 +26,7 @@ static void point(struct blind *b, float x, float y, unsigned mods)
 
 static void find(struct blind *b, const char *target, float at[2])
 {
-    assert_done(editor_target(b->app.table.editor, target, &at[0], &at[1], &error));
+    assert_done(editor_target(b->app.work.editor, target, &at[0], &at[1], &error));
 }
 
 /// Presses on a target, pulls it by pixels, and lets the pull settle; returns where the press was.
@@ -56,7 +56,7 @@ static void let_go(struct blind *b, const float at[2])
 /// The first two splines, the limb's, at the playhead.
 static void read_limb(struct blind *b, wiggly_value x[2])
 {
-    for (int s = 0; s < 2; s++) x[s] = evaluation_at(&b->app.table.evaluation, s, core_of(b)->playback.position);
+    for (int s = 0; s < 2; s++) x[s] = evaluation_at(&b->app.work.evaluation, s, core_of(b)->playback.position);
 }
 
 /// |x| of both.
@@ -81,7 +81,7 @@ TEST(a_pull_raises_x_at_most_twice_as_far_as_the_best_direction_needs)
         struct blind blind, *const b = &blind;
         double worst = 0;
         open_still(b, rows[r].scene);
-        const struct document *document = b->app.table.document;
+        const struct document *document = b->app.work.document;
         for (int f = 0; f < FRAMES; f++) {
             double least = INFINITY, raise = 0;
             char target[64];
@@ -119,7 +119,7 @@ TEST(a_pull_raises_x_at_most_twice_as_far_as_the_best_direction_needs)
     }
 }
 
-static const struct spline *sway(const struct blind *b) { return b->app.table.document->splines[0]; }
+static const struct spline *sway(const struct blind *b) { return b->app.work.document->splines[0]; }
 
 /// The nearest knot within a quarter of a period, here 6 frames, goes to the pose; with Alt a new one is set beside it.
 TEST(a_pull_takes_a_near_knot_along)
@@ -143,7 +143,7 @@ TEST(a_pull_takes_a_near_knot_along)
         assert_true(rows[r].mods ? !hint
                                  : !rows[r].takes || strstr(hint, "comes along")); // the other spline's may, too
         let_go(b, at);
-        const int pose = spline_find_knot(b->app.table.document, sway(b), frame + rows[r].away);
+        const int pose = spline_find_knot(b->app.work.document, sway(b), frame + rows[r].away);
         assert_true(pose >= 0 && sway(b)->knots[pose].has_phase);
         assert_int_equal(sway(b)->knots[pose].id == id, rows[r].takes || rows[r].away == 0);
         assert_int_equal(sway(b)->knot_count, knots + (rows[r].takes || rows[r].away == 0 ? 0 : 1));

@@ -65,9 +65,9 @@ static void end(struct blind *blind)
     blind_close(blind);
 }
 
-static const struct dialog *dialog(const struct blind *blind) { return &blind->app.table.editor->dialogs->dialog; }
-static const char *message(const struct blind *blind) { return blind->app.table.editor->core.message.text; }
-static const char *shown(const struct blind *blind) { return blind->app.table.document->splines[0]->name; }
+static const struct dialog *dialog(const struct blind *blind) { return &blind->app.work.editor->dialogs->dialog; }
+static const char *message(const struct blind *blind) { return blind->app.work.editor->core.message.text; }
+static const char *shown(const struct blind *blind) { return blind->app.work.document->splines[0]->name; }
 
 /// Enter would recover: it is not asked about, so that nothing comes in place of the scene.
 TEST_WITH(forget_all, NULL, another_scene_is_shown_and_the_work_kept)
@@ -166,14 +166,14 @@ TEST_WITH(forget_all, NULL, a_long_path_is_the_same_scene)
     blind_key(&blind, KEY_ESCAPE, 0);
     blind_key(&blind, 'E', MOD_CTRL);
     snprintf(path + length, sizeof path - length, "/walk.");
-    assert_memory_equal(blind.app.table.editor->dialogs->exporting.memory.path, path, strlen(path));
+    assert_memory_equal(blind.app.work.editor->dialogs->exporting.memory.path, path, strlen(path));
     end(&blind);
     assert_false(recovery_find(state_folder(), NULL, &entry, NULL));
 }
 
 static bool is_marked(const struct blind *blind)
 {
-    return shown_text(blind->app.table.editor, "Autosave fails: save now (Ctrl+S)") != NULL;
+    return shown_text(blind->app.work.editor, "Autosave fails: save now (Ctrl+S)") != NULL;
 }
 
 /// Goes on until it is marked that work has no recovery file, or no longer: a thread writes those, at most one a second.

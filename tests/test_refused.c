@@ -109,7 +109,7 @@ static void rescue(const char *name, enum call call, struct error *error)
     blind_open(&blind, path);
     blind_frame(&blind);
     blind_key(&blind, 'I', 0);
-    assert_false(history_is_saved(blind.app.table.history));
+    assert_false(history_is_saved(blind.app.work.history));
     refused.call = call;
     refused.error = EPERM;
     fail(error, ERROR_ENVIRONMENT, "the end");

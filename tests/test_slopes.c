@@ -84,10 +84,10 @@ static const char LOOP[] =
 SESSION_TEST(test_a_slope_of_a_varying_loop_is_the_curves, session_open(s, LOOP))
 {
     double before[49];
-    memcpy(before, s->table.evaluation.curves[0].total, sizeof before);
+    memcpy(before, s->work.evaluation.curves[0].total, sizeof before);
     session_key(s, 'A', MOD_CTRL);
     session_key(s, 'T', 0);
     assert_true(spline(s, 0)->knots[0].has_slope && spline(s, 0)->knots[0].slope != 0);
     for (int i = 0; i < 49; i++)
-        assert_near(s->table.evaluation.curves[0].total[i], before[i], 1e-4); // slopes are rounded
+        assert_near(s->work.evaluation.curves[0].total[i], before[i], 1e-4); // slopes are rounded
 }

@@ -39,8 +39,8 @@ static void drag_and_give_up(int frame)
     struct app *app = &blind.app;
     if (frame % 50 == 0) {
         char target[64];
-        snprintf(target, sizeof target, "knot(%s,0)", app->table.document->splines[0]->name);
-        if (!editor_target(app->table.editor, target, &x, &y, NULL)) fail_msg("no %s", target);
+        snprintf(target, sizeof target, "knot(%s,0)", app->work.document->splines[0]->name);
+        if (!editor_target(app->work.editor, target, &x, &y, NULL)) fail_msg("no %s", target);
         blind_send(&blind, (struct event){.kind = EVENT_POINTER, .x = x, .y = y});
         button(ACTION_PRESS, x, y);
     }

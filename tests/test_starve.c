@@ -317,8 +317,8 @@ static int run_session(struct session *session,
     blind_open(&blind, session->path);
     personal_start(app);
     *session->done = 0;
-    if (seen) seen(session, app->table.document);
-    history_mark_unsaved(app->table.history);
+    if (seen) seen(session, app->work.document);
+    history_mark_unsaved(app->work.history);
     atomic_store(&allocations, 0);
     starve_at = at;
     for (int i = 0; !app->failed && i < STEPS; i++) {
@@ -327,7 +327,7 @@ static int run_session(struct session *session,
         event_queue_push(&app->platform->queue, &event);
         app_frame(app);
         *session->done = i + 1;
-        if (seen) seen(session, app->table.document);
+        if (seen) seen(session, app->work.document);
     }
     starve_at = -1;
     const bool good = !app->failed;

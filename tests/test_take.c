@@ -13,7 +13,7 @@ static void open_file(struct session *s, const char *path)
     panel_open(s, text, 1280, 900);
     free(text);
     s->document->folder = need_text("assets/scenes");
-    assert_done(models_update(s->table.models, s->document, &error));
+    assert_done(models_update(s->work.models, s->document, &error));
     editor_open(s->editor, &s->world);
     if (s->editor->core.playback.playing) session_key(s, KEY_SPACE, 0);
     session_move(s, 2, 2);

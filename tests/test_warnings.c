@@ -178,7 +178,7 @@ TEST(test_the_scenes_of_the_program_are_quiet)
         session_open(&s, text);
         for (int spline = 0; spline < s.document->spline_count; spline++) {
             found.count = 0;
-            warnings_add(s.document, &s.table.evaluation, spline, &found);
+            warnings_add(s.document, &s.work.evaluation, spline, &found);
             assert_int_equal(found.count, 0);
         }
         session_close(&s);

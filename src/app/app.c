@@ -19,37 +19,37 @@
 static double microseconds(double from, double to) { return 1e6 * (to - from); }
 
 /// Reads the models of a document that is new, restored by undo, or has other models since the last edit.
-static void read_models(struct table *table)
+static void read_models(struct workspace *work)
 {
     struct error error;
-    if (!table->models) return;
-    const bool is_new = table->models_serial != table->document->serial;
-    if (!is_new && models_suit(table->models, table->document)) return;
-    table->models_serial = table->document->serial;
+    if (!work->models) return;
+    const bool is_new = work->models_serial != work->document->serial;
+    if (!is_new && models_suit(work->models, work->document)) return;
+    work->models_serial = work->document->serial;
     if (is_new) {
-        if (!scene_read_paint(table->document, &error)) core_message(&table->editor->core, true, "%s", error.text);
-        if (!history_is_open(table->history)) history_amend(table->history);
+        if (!scene_read_paint(work->document, &error)) core_message(&work->editor->core, true, "%s", error.text);
+        if (!history_is_open(work->history)) history_amend(work->history);
     }
-    if (!models_update(table->models, table->document, &error))
-        core_message(&table->editor->core, true, "%s", error.text);
+    if (!models_update(work->models, work->document, &error))
+        core_message(&work->editor->core, true, "%s", error.text);
 }
 
-void table_edit(struct table *table, double dt, struct frame_row *row)
+void workspace_edit(struct workspace *work, double dt, struct frame_row *row)
 {
     const double start = clock_now();
-    editor_advance(table->editor, dt);
+    editor_advance(work->editor, dt);
     row->edit_us = microseconds(start, clock_now());
 }
 
-void table_solve(struct table *table, struct frame_row *row)
+void workspace_solve(struct workspace *work, struct frame_row *row)
 {
-    read_models(table);
-    if (table->models) models_follow(table->models, table->document);
+    read_models(work);
+    if (work->models) models_follow(work->models, work->document);
     const double start = clock_now();
-    struct evaluation *evaluation = &table->evaluation;
-    row->edited = !evaluation_is_of(evaluation, table->document);
-    evaluation->models = models_source(table->models);
-    evaluation_update(evaluation, table->document, table->editor->core.look == LOOK_CUBIC);
+    struct evaluation *evaluation = &work->evaluation;
+    row->edited = !evaluation_is_of(evaluation, work->document);
+    evaluation->models = models_source(work->models);
+    evaluation_update(evaluation, work->document, work->editor->core.look == LOOK_CUBIC);
     row->solver = evaluation_solver(evaluation);
     row->splines_solved = evaluation->solved_splines;
     row->samples = evaluation->solved_samples;
@@ -57,27 +57,27 @@ void table_solve(struct table *table, struct frame_row *row)
     row->solve_us = microseconds(start, clock_now());
 }
 
-void table_pose(struct table *table, struct frame_row *row)
+void workspace_pose(struct workspace *work, struct frame_row *row)
 {
     const double start = clock_now();
-    editor_pose(table->editor);
+    editor_pose(work->editor);
     row->pose_us = microseconds(start, clock_now());
 }
 
-void table_show(struct table *table, struct frame_row *row)
+void workspace_show(struct workspace *work, struct frame_row *row)
 {
     const double start = clock_now();
-    editor_show(table->editor);
+    editor_show(work->editor);
     row->pose_us += microseconds(start, clock_now());
 }
 
-void table_free(struct table *table)
+void workspace_free(struct workspace *work)
 {
-    evaluation_free(&table->evaluation);
-    history_destroy(table->history);
-    document_destroy(table->document);
-    models_destroy(table->models);
-    editor_destroy(table->editor);
+    evaluation_free(&work->evaluation);
+    history_destroy(work->history);
+    document_destroy(work->document);
+    models_destroy(work->models);
+    editor_destroy(work->editor);
 }
 
 // --- the size of the interface relative to the display's scale
@@ -103,7 +103,7 @@ static bool has_room(const struct app *app, double scale)
 
 static double wanted_scale(const struct app *app, double chosen)
 {
-    return chosen * (app->table.editor->core.presenter.on ? PRESENTING : 1);
+    return chosen * (app->work.editor->core.presenter.on ? PRESENTING : 1);
 }
 
 /// The chosen scale, or the largest step below it that fits. A window too small for any keeps its scale.
@@ -120,16 +120,16 @@ void ui_scale_fit(struct app *app)
 {
     app->ui_scale_shown = fitting_scale(app);
     const float shown = (float)app->ui_scale_shown;
-    editor_resize(app->table.editor, fmaxf(app->display.width / shown, UI_LEAST_WIDTH),
+    editor_resize(app->work.editor, fmaxf(app->display.width / shown, UI_LEAST_WIDTH),
                   fmaxf(app->display.height / shown, UI_LEAST_HEIGHT), app->display.scale * shown);
-    app->table.editor->core.ui_scale = app->ui_scale;
+    app->work.editor->core.ui_scale = app->ui_scale;
 }
 
 /// Call when presenting has started or ended.
 static void ui_scale_update(struct app *app)
 {
     if (app->ui_scale_shown == fitting_scale(app)) return;
-    editor_let_go(app->table.editor); // a held control would jump
+    editor_let_go(app->work.editor); // a held control would jump
     ui_scale_fit(app);
 }
 
@@ -170,7 +170,7 @@ static const double longest_step = 1; ///< seconds; playback does not skip ahead
 static bool locate(void *user, const char *target, float *x, float *y, struct error *error)
 {
     struct app *app = user;
-    return editor_target(app->table.editor, target, x, y, error);
+    return editor_target(app->work.editor, target, x, y, error);
 }
 
 void app_resize(struct app *app, float width, float height, float scale)
@@ -194,7 +194,7 @@ static void handle_event(struct app *app, const struct event *event)
         app_resize(app, event->x, event->y, event->scale);
         ui_scale_to_ui(app, &seen);
     }
-    editor_event(app->table.editor, &seen);
+    editor_event(app->work.editor, &seen);
     app_requests(app);
 }
 
@@ -271,7 +271,7 @@ static double resolution_now(const struct app *app)
 static bool take_input(struct app *app)
 {
     double wait_start = clock_now();
-    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->table.editor) || app->paste ||
+    bool wanted = app->fixed_clock || app->frame == 0 || editor_wants_frames(app->work.editor) || app->paste ||
                   app->export_job || app->demo.on || app->fetches;
     app->was_idle = !wanted;
 
@@ -308,7 +308,7 @@ static bool take_input(struct app *app)
     }
     if (app->demo.on && !app->failed) {
         const double dt = app->frame == 0 ? 0 : app->fixed_clock ? replay_dt : app->frame_start - app->last_time;
-        history_mark_saved(app->table.history); // no question about the demo's edits
+        history_mark_saved(app->work.history); // no question about the demo's edits
         if (!demo_next(app, fmin(fmax(dt, 0), longest_step), &app->error)) app->failed = true;
     }
     if (app->replay && !app->failed) play_events(app);
@@ -332,8 +332,8 @@ static struct draw_input draw_input(const struct app *app, float stage_scale)
 {
     struct draw_input input = {
         .keeps = !app->must_redraw && platform_keeps(app->platform),
-        .list = &app->table.editor->core.list,
-        .stage = editor_stage(app->table.editor),
+        .list = &app->work.editor->core.list,
+        .stage = editor_stage(app->work.editor),
         .frame = app->frame,
         .stage_scale = stage_scale,
     };
@@ -388,14 +388,14 @@ static void end_frame(struct app *app)
         if (platform_in_page()) cost.swap = row->frame_interval_ms - cost.before - cost.draw;
         resolution_measure(&app->resolution, &cost);
     }
-    if (app->draw) platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->table.editor));
+    if (app->draw) platform_cursor(app->platform, app->demo.on ? CURSOR_ARROW : editor_cursor(app->work.editor));
 
     if (app->log) framelog_push(app->log, row);
     double now = clock_now();
     if (now - app->stats_time >= 0.5) {
         bool seen = app->stats_time > 0 && platform_is_window(app->platform); // offscreen nothing runs in real time
         double fps = seen ? (double)(app->frame - app->stats_frame) / (now - app->stats_time) : 0;
-        app->table.editor->core.status.told = (struct figures){fps, row->solve_us};
+        app->work.editor->core.status.told = (struct figures){fps, row->solve_us};
         app->stats_time = now;
         app->stats_frame = app->frame;
         pace_set_rate(&app->pace, platform_refresh_rate(app->platform));
@@ -408,7 +408,7 @@ static void end_frame(struct app *app)
 
 void app_frame(struct app *app)
 {
-    struct table *table = &app->table;
+    struct workspace *work = &app->work;
     struct frame_row *row = &app->row;
     if (!take_input(app)) {
         personal_update(app);
@@ -416,21 +416,21 @@ void app_frame(struct app *app)
     }
     exporting_step(app);
     const double passed = step_clock(app);
-    table_edit(table, exporting_draws(app) ? 0 : passed, row);
+    workspace_edit(work, exporting_draws(app) ? 0 : passed, row);
     app_show_title(app);
     ui_scale_update(app);
     personal_update(app);
     app->fetches = false; // characters of a new document
-    for (int r = 0; table->models_serial != table->document->serial && r < table->document->rig_count; r++) {
+    for (int r = 0; work->models_serial != work->document->serial && r < work->document->rig_count; r++) {
         char path[PATH_LIMIT];
-        app->fetches |= document_model_path(table->document, r, path) && platform_fetches(path);
+        app->fetches |= document_model_path(work->document, r, path) && platform_fetches(path);
     }
     if (app->failed || app->fetches) return;
-    table_solve(table, row);
-    table_pose(table, row);
-    const float scale = resolution_choose(&app->resolution, editor_stage(table->editor)->hash, resolution_now(app));
-    table->editor->core.status.stage_scale = scale;
-    table_show(table, row);
+    workspace_solve(work, row);
+    workspace_pose(work, row);
+    const float scale = resolution_choose(&app->resolution, editor_stage(work->editor)->hash, resolution_now(app));
+    work->editor->core.status.stage_scale = scale;
+    workspace_show(work, row);
     row->upload_us = row->draw_us = row->gpu_us = row->swap_us = NAN;
     row->uploaded_bytes = -1;
     if (app->draw) draw_timed(app);
@@ -475,7 +475,7 @@ static bool open_log(struct app *app, struct error *error)
     const struct app_options *o = app->options;
     struct frame_header header = {
         .gl_renderer = app->draw ? draw_renderer_name() : NULL,
-        .solver = evaluation_solver(&app->table.evaluation),
+        .solver = evaluation_solver(&app->work.evaluation),
         .vsync = platform_is_window(app->platform) && !is_replay(app) && !o->frames,
         .warm_up = WARM_UP,
         .reference_ms = NAN,
@@ -526,9 +526,9 @@ static bool is_live(const struct app *app)
 /// Writes the command line's output files: document, log, recording. Continues after a failure and reports the first.
 static bool close_files(struct app *app, struct error *error)
 {
-    const char *result = app->table.document && app->frame > 0 ? app->options->result : NULL;
+    const char *result = app->work.document && app->frame > 0 ? app->options->result : NULL;
     struct error other = {0};
-    bool good = !result || scene_save(app->table.document, result, error);
+    bool good = !result || scene_save(app->work.document, result, error);
     if (app->log) {
         good = framelog_close(app->log, stdout, good ? error : &other) && good;
         printf("largest resident memory %.0f MB\n", process_peak_memory());
@@ -551,11 +551,11 @@ static void on_lost(void *user)
 
 void app_open_editor(struct app *app)
 {
-    editor_destroy(app->table.editor);
-    app->table.editor = editor_create();
-    app->table.editor->core.in_page = platform_in_page();
-    app->table.editor->core.still = app->options->still;
-    app->table.evaluation.solver = app->options->solver;
+    editor_destroy(app->work.editor);
+    app->work.editor = editor_create();
+    app->work.editor->core.in_page = platform_in_page();
+    app->work.editor->core.still = app->options->still;
+    app->work.evaluation.solver = app->options->solver;
     app_connect_files(app);
     ui_scale_fit(app);
 }
@@ -585,14 +585,14 @@ static bool start_app(struct app *app, struct error *error)
     app->ui_scale = o->ui_scale > 0 ? o->ui_scale : app->replay ? replay_get_header(app->replay)->ui_scale : 1;
     if (!o->no_draw && !(app->draw = draw_create(scale, error))) return false;
     app_open_editor(app);
-    app->table.models = models_create();
-    app->table.history = history_create(NULL);
+    app->work.models = models_create();
+    app->work.history = history_create(NULL);
     if (!app_open(app, o->scene, error)) {
         if (!o->scene || !platform_in_page() || !is_live(app)) return false;
         fprintf(stderr, "wiggly live: %s; the start scene opens instead\n", error->text); // not an empty page
         if (!app_open(app, NULL, error)) return false;
     }
-    uint64_t hash = scene_hash(app->table.document);
+    uint64_t hash = scene_hash(app->work.document);
     // A replay only fits its scene; the demo opens its own.
     if (is_replay(app) && replay_get_header(app->replay)->scene_hash != hash)
         return fail(error, ERROR_INPUT, "%s: recorded on another scene: expected hash %016llx, got %016llx",
@@ -604,8 +604,8 @@ static bool start_app(struct app *app, struct error *error)
     bool writes = o->frames_dir;
     for (int i = 0; i < 4; i++) writes |= outputs[i] != NULL;
     if (writes) {
-        document_note_models(app->table.document);
-        models_update(app->table.models, app->table.document, NULL);
+        document_note_models(app->work.document);
+        models_update(app->work.models, app->work.document, NULL);
     }
     for (int i = 0; i < 4; i++) {
         if (outputs[i] && !file_check_unread(outputs[i], error)) return false;
@@ -631,14 +631,14 @@ static bool start_app(struct app *app, struct error *error)
         if (!o->scene || !import_suits(o->scene)) file_forget_reads(o->scene); // the user may save it
         personal_start(app);
     }
-    if (o->welcome) dialogs_welcome(app->table.editor->dialogs);
+    if (o->welcome) dialogs_welcome(app->work.editor->dialogs);
     return true;
 }
 
 void app_free(struct app *app)
 {
     app_stop_export(app);
-    table_free(&app->table);
+    workspace_free(&app->work);
     draw_destroy(app->draw);
     platform_destroy(app->platform);
     replay_destroy(app->replay);
@@ -667,7 +667,7 @@ int app_run(const struct app_options *options, struct error *error)
 
         // The run may end before the user can decide about unsaved work.
         const bool told = process_was_told_to_end();
-        if (is_live(&app) && !history_is_saved(app.table.history) && (!good || told)) {
+        if (is_live(&app) && !history_is_saved(app.work.history) && (!good || told)) {
             if (good) fail(error, ERROR_ENVIRONMENT, "ended by a signal");
             app_rescue(&app, error);
             good = false;

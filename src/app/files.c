@@ -140,14 +140,14 @@ void exporting_step(struct app *app)
     if (!job) return;
     enum film_state state = continue_job(job, app->fixed_clock);
     while (app->fixed_clock && state == FILM_RUNS) state = continue_job(job, true);
-    dialogs_tell_export(app->table.editor->dialogs, atomic_load(&job->done), atomic_load(&job->total));
+    dialogs_tell_export(app->work.editor->dialogs, atomic_load(&job->done), atomic_load(&job->total));
     if (state == FILM_RUNS) return;
     const struct request *request = &job->request;
     const struct export_report *report = &job->report;
     const bool done = state == FILM_DONE, stopped = !done && atomic_load(&job->stop);
-    editor_answer(app->table.editor, request, done, stopped ? "Cancelled. Nothing was written." : job->error.text);
+    editor_answer(app->work.editor, request, done, stopped ? "Cancelled. Nothing was written." : job->error.text);
     if (done) {
-        core_message(&app->table.editor->core, false, "Wrote %s: %s.%s%s%s", request->path, report->text,
+        core_message(&app->work.editor->core, false, "Wrote %s: %s.%s%s%s", request->path, report->text,
                      *report->note ? " Note: " : "", report->note, *report->note ? "." : "");
         personal_note_export(app, request);
     }
@@ -207,7 +207,7 @@ static bool assets_has(const char *path)
            stat(own, &b) == 0 && a.st_dev == b.st_dev && a.st_ino == b.st_ino;
 }
 
-const char *app_path(const struct app *app) { return app->table.document->path ? app->table.document->path : ""; }
+const char *app_path(const struct app *app) { return app->work.document->path ? app->work.document->path : ""; }
 
 /// Content hash of the document's file if another program changed it; 0: unchanged, or gone.
 static uint64_t changed_content(const struct app *app)
@@ -219,7 +219,7 @@ static uint64_t changed_content(const struct app *app)
 /// Asks about a changed file. `saves`: the user tried to save, so the question replaces saving.
 static bool ask_changed(struct app *app, bool saves)
 {
-    return dialogs_ask_changed(app->table.editor->dialogs, &app->table.editor->core, path_name(app_path(app)), saves);
+    return dialogs_ask_changed(app->work.editor->dialogs, &app->work.editor->core, path_name(app_path(app)), saves);
 }
 
 void file_watch_look(struct app *app)
@@ -234,7 +234,7 @@ static void show_title(struct app *app)
     const char *name = app_path(app)[0] ? path_name(app_path(app)) : "untitled";
     char title[512], shown[400];
     printable(name, shown, sizeof shown);
-    app->shown_saved = history_is_saved(app->table.history);
+    app->shown_saved = history_is_saved(app->work.history);
     snprintf(title, sizeof title, "%s%s — wiggly", app->shown_saved ? "" : "*", shown);
     platform_title(app->platform, title);
 }
@@ -251,17 +251,17 @@ static const char *end_of_names(int count) { return count == 0 ? "nothing" : cou
 
 void app_show_title(struct app *app)
 {
-    if (history_is_saved(app->table.history) != app->shown_saved) show_title(app);
+    if (history_is_saved(app->work.history) != app->shown_saved) show_title(app);
     if (!platform_in_page()) return;
 
     // For a screen reader: what is shown.
-    const struct document *document = app->table.document;
+    const struct document *document = app->work.document;
     const int rigs = document->rig_count, splines = document->spline_count;
     char text[DESCRIPTION] = "On the stage: ";
     for (int r = 0; r < rigs && r < NAMED; r++) append(text, r ? ", " : "", rig_title(document->rigs[r]));
     append(text, end_of_names(rigs), ". Splines: ");
     for (int s = 0; s < splines && s < NAMED; s++) append(text, s ? ", " : "", document->splines[s]->name);
-    append(text, end_of_names(splines), app->table.editor->core.playback.playing ? ". It plays." : ". It is paused.");
+    append(text, end_of_names(splines), app->work.editor->core.playback.playing ? ". It plays." : ". It is paused.");
     const uint64_t hash = hash_bytes(HASH_START, text, strlen(text));
     if (hash != app->described) platform_describe(app->platform, text);
     app->described = hash;
@@ -270,16 +270,16 @@ void app_show_title(struct app *app)
 void app_adopt(struct app *app, struct document *document)
 {
     if (app->personal) file_forget_reads(NULL); // of the scene before
-    document_destroy(app->table.document);
-    app->table.document = document;
+    document_destroy(app->work.document);
+    app->work.document = document;
     document->serial = ++app->last_serial;
     app->own_file = (struct own_file){0};
-    history_clear(app->table.history, document);
-    history_mark_saved(app->table.history);
-    struct editor_world world = table_world(&app->table);
-    editor_open(app->table.editor, &world);
+    history_clear(app->work.history, document);
+    history_mark_saved(app->work.history);
+    struct editor_world world = workspace_world(&app->work);
+    editor_open(app->work.editor, &world);
     if (scene_has_meadow(document))
-        core_message(&app->table.editor->core, false, "Meadows are no longer shown; the file keeps them.");
+        core_message(&app->work.editor->core, false, "Meadows are no longer shown; the file keeps them.");
     show_title(app);
 }
 
@@ -297,7 +297,7 @@ static struct document *parse_built_in(const char *name, struct error *error)
 /// Shows the subject of a paper's figure.
 static void show_subject(struct app *app, const char *name)
 {
-    if (strcmp(name, "figure2.json") == 0) editor_show_poles(app->table.editor);
+    if (strcmp(name, "figure2.json") == 0) editor_show_poles(app->work.editor);
 }
 
 bool app_open(struct app *app, const char *path, struct error *error)
@@ -335,12 +335,12 @@ static bool take_theirs(struct app *app, struct error *error)
     if (!document) return false;
     document_set_path(document, app_path(app));
     document->serial = ++app->last_serial;
-    editor_let_go(app->table.editor); // a drag may have begun since
-    history_begin(app->table.history, "Take theirs", 0);
-    document_become(app->table.document, document);
-    history_end(app->table.history);
-    history_mark_saved(app->table.history);
-    editor_refresh(app->table.editor);
+    editor_let_go(app->work.editor); // a drag may have begun since
+    history_begin(app->work.history, "Take theirs", 0);
+    document_become(app->work.document, document);
+    history_end(app->work.history);
+    history_mark_saved(app->work.history);
+    editor_refresh(app->work.editor);
     show_title(app);
     app->own_file.content = file_content(app_path(app));
     return true;
@@ -362,24 +362,24 @@ static bool place_file(const struct app *app, const char *path, char placed[PATH
 static void tell_placed(struct app *app, const char *placed)
 {
     if (placed[0])
-        core_message(&app->table.editor->core, false, "Saved %s.", placed);
+        core_message(&app->work.editor->core, false, "Saved %s.", placed);
     else
-        core_message(&app->table.editor->core, false, "Nothing was written: a replay writes only with --saves DIR.");
+        core_message(&app->work.editor->core, false, "Nothing was written: a replay writes only with --saves DIR.");
 }
 
 static bool save(struct app *app, const char *path, struct error *error)
 {
     char placed[PATH_LIMIT];
     if (!place_file(app, path, placed, error)) return false;
-    if (placed[0] && (!file_check_place(placed, error) || !scene_save(app->table.document, placed, error)))
+    if (placed[0] && (!file_check_place(placed, error) || !scene_save(app->work.document, placed, error)))
         return false;
-    history_set_path(app->table.history, path);
-    history_mark_saved(app->table.history);
+    history_set_path(app->work.history, path);
+    history_mark_saved(app->work.history);
     app->own_file.content = file_content(app_path(app));
-    core_set_path(&app->table.editor->core, app_path(app));
+    core_set_path(&app->work.editor->core, app_path(app));
     show_title(app);
     personal_note_file(app, app_path(app));
-    core_message(&app->table.editor->core, false, "Saved.");
+    core_message(&app->work.editor->core, false, "Saved.");
     if (app->replay) tell_placed(app, placed);
     return true;
 }
@@ -419,7 +419,7 @@ static bool may_replace(struct app *app, const struct request *request, struct e
 {
     char path[PATH_LIMIT];
     const bool is_download = platform_in_page() && request->kind == REQUEST_EXPORT; // the browser replaces no file
-    const struct document *document = app->table.document;
+    const struct document *document = app->work.document;
     bool is_read = request->kind == REQUEST_EXPORT && file_same(request->path, app_path(app));
     for (int r = 0; r < document->rig_count && !is_read; r++)
         is_read = document_model_path(document, r, path) && file_same(request->path, path);
@@ -439,7 +439,7 @@ static bool start_export(struct app *app, const struct request *request, struct 
     struct request placed = *request;
     if (!place_file(app, request->path, placed.path, error)) return false;
     if (!placed.path[0]) {
-        editor_answer(app->table.editor, request, true, "");
+        editor_answer(app->work.editor, request, true, "");
         tell_placed(app, placed.path);
         return true;
     }
@@ -448,7 +448,7 @@ static bool start_export(struct app *app, const struct request *request, struct 
         return fail(error, ERROR_ENVIRONMENT, "%s: pictures need OpenGL, which is missing", placed.path);
     struct export_job *job = need_zeroed(1, sizeof *job);
     job->request = placed;
-    job->opened.document = document_copy(app->table.document);
+    job->opened.document = document_copy(app->work.document);
     job->opened.models = models_create();
     job->threaded = thrd_create(&job->thread, run_job, job) == thrd_success;
     app->export_job = job;
@@ -457,7 +457,7 @@ static bool start_export(struct app *app, const struct request *request, struct 
 
 static bool carry_out(struct app *app, const struct request *request, struct error *error)
 {
-    struct core *core = &app->table.editor->core;
+    struct core *core = &app->work.editor->core;
     switch (request->kind) {
     case REQUEST_NONE:
         return true;
@@ -483,12 +483,12 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         platform_choose_file(app->platform);
         return true;
     case REQUEST_ADD: {
-        editor_let_go(app->table.editor);
+        editor_let_go(app->work.editor);
         core_step(core, "Add character", 0);
-        const bool added = import_add(app->table.document, request->path, core->active, error);
-        if (!added) history_restart(app->table.history);
-        editor_refresh(app->table.editor);
-        if (added) editor_show_last(app->table.editor);
+        const bool added = import_add(app->work.document, request->path, core->active, error);
+        if (!added) history_restart(app->work.history);
+        editor_refresh(app->work.editor);
+        if (added) editor_show_last(app->work.editor);
         return added;
     }
     case REQUEST_SAVE:
@@ -498,7 +498,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return may_replace(app, request, error) && save(app, request->path, error);
     case REQUEST_KEEP_MINE:
         app->own_file.content = file_content(app_path(app));
-        history_mark_unsaved(app->table.history);
+        history_mark_unsaved(app->work.history);
         return true;
     case REQUEST_THEIRS:
         return take_theirs(app, error);
@@ -519,7 +519,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
         return take_picture(app, error);
     case REQUEST_SHARE: {
         size_t size;
-        char *scene = scene_print(app->table.document, &size);
+        char *scene = scene_print(app->work.document, &size);
         platform_share(app->platform, scene);
         free(scene);
         return true;
@@ -543,7 +543,7 @@ static bool carry_out(struct app *app, const struct request *request, struct err
 void app_requests(struct app *app)
 {
     for (;;) {
-        const struct request request = editor_take_request(app->table.editor);
+        const struct request request = editor_take_request(app->work.editor);
         if (request.kind == REQUEST_NONE) return;
         const bool saves = request.kind == REQUEST_SAVE ||
                            (request.kind == REQUEST_SAVE_AS && strcmp(request.path, app_path(app)) == 0);
@@ -551,7 +551,7 @@ void app_requests(struct app *app)
         struct error error = {0};
         const bool done = carry_out(app, &request, &error);
         const bool goes_on = done && request.kind == REQUEST_EXPORT;
-        if (!goes_on) editor_answer(app->table.editor, &request, done, error.text);
+        if (!goes_on) editor_answer(app->work.editor, &request, done, error.text);
     }
 }
 
@@ -561,9 +561,9 @@ const char *app_clipboard_text(struct app *app)
 {
     const char *text = platform_clipboard(app->platform);
     if (!text || !*text) {
-        core_message(&app->table.editor->core, false, "The clipboard has no text.");
+        core_message(&app->work.editor->core, false, "The clipboard has no text.");
     } else if (strlen(text) > MAX_CLIPBOARD) {
-        core_message(&app->table.editor->core, true, "The clipboard holds more than 16 MB, too much for knots.");
+        core_message(&app->work.editor->core, true, "The clipboard holds more than 16 MB, too much for knots.");
         text = NULL;
     }
     return text && *text ? text : NULL;
@@ -601,8 +601,8 @@ static int list_recent(void *user, struct dialog_recent *list, int max)
 
 void app_connect_files(struct app *app)
 {
-    dialogs_set_files(app->table.editor->dialogs, &(struct dialog_files){.list = list_folder,
-                                                                         .recent = list_recent,
-                                                                         .format_count = exporting_format_count(),
-                                                                         .user = app});
+    dialogs_set_files(app->work.editor->dialogs, &(struct dialog_files){.list = list_folder,
+                                                                        .recent = list_recent,
+                                                                        .format_count = exporting_format_count(),
+                                                                        .user = app});
 }

@@ -56,7 +56,7 @@ static bool make_folder(const char *variable, const char *below_home, char path[
 
 static void complain(struct app *app, const struct error *error)
 {
-    if (error->kind != ERROR_NONE) core_message(&app->table.editor->core, true, "%s", error->text);
+    if (error->kind != ERROR_NONE) core_message(&app->work.editor->core, true, "%s", error->text);
 }
 
 /// Reads the settings again before every change, because another window may have written them; locks them until written. NULL without a
@@ -80,14 +80,14 @@ static void store_settings(struct app *app, struct settings *settings)
 
 static struct choices choices_of(const struct app *app)
 {
-    const struct layout *layout = &app->table.editor->core.layout;
+    const struct layout *layout = &app->work.editor->core.layout;
     return (struct choices){.theme = theme_in_use(),
                             .ui_scale = app->ui_scale,
                             .stage_share = (double)layout->stage_share,
                             .inspector_width = (double)layout->inspector_width,
-                            .more = app->table.editor->core.more,
-                            .keep = app->table.editor->core.keep,
-                            .is_welcomed = !dialogs_is_welcoming(app->table.editor->dialogs)};
+                            .more = app->work.editor->core.more,
+                            .keep = app->work.editor->core.keep,
+                            .is_welcomed = !dialogs_is_welcoming(app->work.editor->dialogs)};
 }
 
 /// Saves changed settings. Panel sizes change during drags and are saved only at the end.
@@ -116,7 +116,7 @@ static void note_choices(struct app *app, bool ends)
 static void start_settings(struct app *app)
 {
     struct personal *personal = app->personal;
-    struct core *core = &app->table.editor->core;
+    struct core *core = &app->work.editor->core;
     struct error error = {0};
     struct export_memory memory;
     char folder[PATH_LIMIT];
@@ -136,10 +136,10 @@ static void start_settings(struct app *app)
     ui_scale_fit(app);
     core->more = settings_flag(settings, "more", false);
     core->keep = settings_flag(settings, "keep", true);
-    if (!settings_flag(settings, "welcomed", false)) dialogs_welcome(app->table.editor->dialogs);
+    if (!settings_flag(settings, "welcomed", false)) dialogs_welcome(app->work.editor->dialogs);
     personal->choices = choices_of(app);
     export_memory_read(settings, app_path(app), &memory);
-    dialogs_set_export(app->table.editor->dialogs, &memory);
+    dialogs_set_export(app->work.editor->dialogs, &memory);
     settings_free(settings);
     complain(app, &error);
 }
@@ -188,7 +188,7 @@ static void offer(struct app *app)
     if (!personal->is_offered) {
         struct recovery_entry other;
         if (!named || !recovery_find(personal->state_folder, NULL, &other, NULL)) return;
-        core_message(&app->table.editor->core, false,
+        core_message(&app->work.editor->core, false,
                      "Unsaved work on %.*s is kept: start wiggly without a scene to recover it.",
                      name_fit(name_of(&other), 255), name_of(&other));
         recovery_release(&other.slot);
@@ -201,7 +201,7 @@ static void offer(struct app *app)
         snprintf(shown.when, sizeof shown.when, "an unknown day");
     }
     shown.others = count - 1;
-    dialogs_offer_recovery(app->table.editor->dialogs, &shown);
+    dialogs_offer_recovery(app->work.editor->dialogs, &shown);
 }
 
 void personal_start(struct app *app)
@@ -222,11 +222,11 @@ void personal_start(struct app *app)
 
 static struct autosave_work work_of(const struct app *app)
 {
-    return (struct autosave_work){.document = app->table.document,
+    return (struct autosave_work){.document = app->work.document,
                                   .path = app_path(app),
-                                  .revision = history_revision(app->table.history),
+                                  .revision = history_revision(app->work.history),
                                   .content = app->own_file.content,
-                                  .saved = history_is_saved(app->table.history)};
+                                  .saved = history_is_saved(app->work.history)};
 }
 
 void personal_update(struct app *app)
@@ -237,7 +237,7 @@ void personal_update(struct app *app)
     struct autosave *autosave = app->personal->autosave;
     const struct autosave_work work = work_of(app);
     if (autosave && !autosave_update(autosave, &work, clock_now(), &error)) complain(app, &error);
-    editor_tell_unkept(app->table.editor, !work.saved && (!autosave || autosave_fails(autosave)));
+    editor_tell_unkept(app->work.editor, !work.saved && (!autosave || autosave_fails(autosave)));
 }
 
 bool personal_is_behind(const struct app *app)
@@ -256,7 +256,7 @@ bool personal_recover(struct app *app, struct error *error)
     document_set_path(document, personal->offered.origin.path);
     app_adopt(app, document);
     app->own_file.content = personal->offered.origin.content; // a later write counts as another program's
-    history_mark_unsaved(app->table.history);
+    history_mark_unsaved(app->work.history);
     autosave_move(personal->autosave, &personal->offered.slot);
     personal->is_offered = false;
     return true;
@@ -286,7 +286,7 @@ void personal_end(struct app *app, bool keep)
     if (!personal) return;
     note_choices(app, true);
     if (personal->is_offered) recovery_release(&personal->offered.slot);
-    autosave_close(personal->autosave, keep && !history_is_saved(app->table.history));
+    autosave_close(personal->autosave, keep && !history_is_saved(app->work.history));
     free(personal);
     app->personal = NULL;
 }

@@ -235,7 +235,7 @@ static bool rescue_to(const struct app *app, const char *folder, const char *nam
             snprintf(path, size, "%s%s%.*s.recovered%s.json", folder, folder[0] ? "/" : "", stem, name, number);
         if (length >= (int)size) return fail(error, ERROR_ENVIRONMENT, "%s: the path is too long", name);
         struct stat status; // lstat: even a dangling link is someone's
-        if (lstat(path, &status) != 0) return scene_save(app->table.document, path, error);
+        if (lstat(path, &status) != 0) return scene_save(app->work.document, path, error);
     }
     return fail(error, ERROR_ENVIRONMENT, "%s: too many recovered scenes are there already", path);
 }
@@ -263,7 +263,7 @@ void app_rescue(struct app *app, struct error *error)
 {
     char path[4096];
     struct error trouble = {0}, why = *error;
-    if (app->replay || !app->table.document || history_is_saved(app->table.history))
+    if (app->replay || !app->work.document || history_is_saved(app->work.history))
         return; // a replay can be played again
     const char *kept = personal_rescue(app);
     if (kept) {

@@ -20,7 +20,7 @@
 #define UI_SCALE_MOST 3.0
 
 /// The open document and its part of a frame: no window, no files, no GL. Start from zero, with the parts that a frame needs.
-struct table {
+struct workspace {
     struct editor *editor;
     struct document *document;
     struct history *history;
@@ -29,20 +29,20 @@ struct table {
     unsigned models_serial; ///< of the document whose models are loaded
 };
 
-static inline struct editor_world table_world(const struct table *table)
+static inline struct editor_world workspace_world(const struct workspace *work)
 {
-    return (struct editor_world){table->document, table->history, &table->evaluation, table->models};
+    return (struct editor_world){work->document, work->history, &work->evaluation, work->models};
 }
 
 /// The steps of a frame after its events, in this order. Each adds its time and counts to the row.
 /// `dt`: seconds of playback. Also applies running drags.
-void table_edit(struct table *table, double dt, struct frame_row *row);
-void table_solve(struct table *table, struct frame_row *row);
-void table_pose(struct table *table, struct frame_row *row);
+void workspace_edit(struct workspace *work, double dt, struct frame_row *row);
+void workspace_solve(struct workspace *work, struct frame_row *row);
+void workspace_pose(struct workspace *work, struct frame_row *row);
 /// Builds the draw list.
-void table_show(struct table *table, struct frame_row *row);
+void workspace_show(struct workspace *work, struct frame_row *row);
 
-void table_free(struct table *table);
+void workspace_free(struct workspace *work);
 
 /// The bundled recording that loops until the first touch.
 struct demo {
@@ -62,7 +62,7 @@ struct app {
     const struct app_options *options;
     struct platform *platform;
     struct draw *draw; ///< NULL: nothing is drawn
-    struct table table;
+    struct workspace work;
     char replaceable[PATH_LIMIT]; ///< existing file that "Save as" may replace if asked again
     struct own_file own_file;
     unsigned last_serial; ///< highest document.serial so far
