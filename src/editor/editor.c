@@ -90,7 +90,8 @@ void editor_open(struct editor *editor, const struct editor_world *world)
     open_panels(editor);
 }
 
-void editor_settle(struct editor *editor)
+/// At the end of each event and frame: the undo step closes, and the panels adopt a new document or active spline.
+static void end_event(struct editor *editor)
 {
     struct core *core = &editor->core;
     core_close(core);
@@ -139,7 +140,7 @@ void editor_tell_unkept(struct editor *editor, bool unkept)
 void editor_refresh(struct editor *editor)
 {
     core_refresh(&editor->core);
-    editor_settle(editor);
+    end_event(editor);
 }
 
 void editor_show_last(struct editor *editor)
@@ -256,7 +257,7 @@ void editor_event(struct editor *editor, const struct event *event)
     if (!used) pass_on(editor, event);
     const struct command *chosen = dialogs_take_command(editor->dialogs);
     if (chosen) command_run(editor, chosen);
-    editor_settle(editor);
+    end_event(editor);
 
     // A question or another new overlay ends any drag and releases held keys.
     if (dialogs_ask(editor->dialogs, core)) inspector_let_go(editor->inspector);
@@ -286,7 +287,7 @@ void editor_advance(struct editor *editor, double dt)
     curves_advance(editor->curves, &editor->core, dt);
     drag_apply(&editor->core, dt);
     stage_advance(editor->stage, &editor->core, dt);
-    editor_settle(editor);
+    end_event(editor);
 }
 
 void editor_pose(struct editor *editor)

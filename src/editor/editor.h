@@ -37,11 +37,9 @@ void editor_destroy(struct editor *editor);
 /// spline that moves a tail becomes active.
 void editor_open(struct editor *editor, const struct editor_world *world);
 
-/// Call after each edit, undo and redo. If the document was replaced (document.serial changed), starts anew like editor_open(); else finds
+/// Call after each edit of the app. If the document was replaced (document.serial changed), starts anew like editor_open(); else finds
 /// the active spline and the shown frame again.
 void editor_refresh(struct editor *editor);
-/// Call after each event and edit: the panels adopt a new document or active spline.
-void editor_settle(struct editor *editor);
 
 /// Shows the rig the app added last, in the inspector and on the stage.
 void editor_show_last(struct editor *editor);

@@ -454,7 +454,7 @@ int selected_count(const struct core *core)
     return count;
 }
 
-void selected_settle(struct core *core)
+void selected_activate(struct core *core)
 {
     struct knot_place first = SELECTED_START;
     if (selection_count(&core->selection, core_active_spline(core)) > 0) return;

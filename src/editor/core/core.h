@@ -14,7 +14,7 @@ void core_edited(struct core *core, int spline);
 /// Opens the undo step for the edits that follow, and clears the last message; `merge` as in history_begin(). The end of the event closes it.
 /// An edit that fails writes core->error, and all of the step is reverted. false while a drag's step is open, because others must not mix with it.
 bool core_step(struct core *core, const char *label, uint64_t merge);
-/// Closes the step of this event, if any. editor_settle() calls it; a drag's step stays open.
+/// Closes the step of this event, if any. The editor calls it; a drag's step stays open.
 void core_close(struct core *core);
 /// Call after edits in a drag: the editor follows the document, and core->error goes to the status line.
 void core_settle(struct core *core);
@@ -91,7 +91,7 @@ static inline const struct knot *knot_at(const struct document *document, struct
 bool selected_next(const struct core *core, struct knot_place *at);
 int selected_count(const struct core *core);
 /// If only another spline's knots are selected, activates that spline.
-void selected_settle(struct core *core);
+void selected_activate(struct core *core);
 
 void originals_add(struct originals *originals, int spline, const struct knot *knot);
 /// Collects the selected knots in `originals`; `later`: also all knots after each spline's first one.

@@ -169,7 +169,7 @@ void core_select_all(struct core *core, int all_splines)
         if (all_splines ? !spline_list_shows(core, s) : s != core->active) continue;
         for (int k = 0; k < spline->knot_count; k++) selection_set(&core->selection, spline->knots[k].id, true);
     }
-    selected_settle(core);
+    selected_activate(core);
 }
 
 /// Index of the first knot after, or last one before, a position; -1 if none.
@@ -346,7 +346,7 @@ static void select_from(struct core *core, unsigned first_id)
     selection_clear(&core->selection);
     pins_clear(core);
     for (unsigned id = first_id; id < core->document->next_id; id++) selection_set(&core->selection, id, true);
-    selected_settle(core);
+    selected_activate(core);
     core_edited(core, -1);
 }
 

@@ -404,7 +404,7 @@ static void end_box(void *room, struct core *core, bool keep)
     const struct curves *curves = room;
     if (!keep) selection_copy(&core->selection, &curves->before_box);
     if (keep && !core->drag.moved && curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
-    if (keep) selected_settle(core);
+    if (keep) selected_activate(core);
 }
 
 static enum parameter limit_of(int handle) { return handle ? PARAMETER_HIGH : PARAMETER_LOW; }

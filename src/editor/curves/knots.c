@@ -162,7 +162,7 @@ static void press_knot(void *room, struct core *core, const struct hover *hover,
     }
     if (event->mods & MOD_SHIFT) {
         selection_set(&core->selection, id, !selected);
-        selected_settle(core);
+        selected_activate(core);
         if (selected) return;
     } else if (!selected) {
         selection_clear(&core->selection);
