@@ -77,11 +77,6 @@ static void place_node(const struct silhouette *silhouette, int row, int column,
     xy[1] = silhouette->area.y + silhouette->cell * (float)row;
 }
 
-/// Inline, unlike hypotf(): called for every node of a grid that grows as the view comes closer.
-static float distance_of(float x, float y) { return sqrtf(x * x + y * y); }
-
-static float larger(float a, float b) { return a > b ? a : b; }
-
 /// Adds two discs and the area between them.
 static void silhouette_add_link(struct silhouette *silhouette, const float from[2], float from_radius,
                                 const float to[2], float to_radius)
@@ -96,13 +91,13 @@ static void silhouette_add_link(struct silhouette *silhouette, const float from[
         for (int column = nodes[0][0]; column <= nodes[0][1]; column++) {
             float p[2];
             place_node(silhouette, row, column, p);
-            const float x = p[0] - from[0], y = p[1] - from[1], t = segment_nearest(from, to, p);
-            const float between = from_radius + t * (to_radius - from_radius) -
-                                  distance_of(p[0] - from[0] - t * dx, p[1] - from[1] - t * dy);
-            const float at_from = from_radius - distance_of(x, y),
-                        at_to = to_radius - distance_of(p[0] - to[0], p[1] - to[1]);
+            const float t = segment_nearest(from, to, p), shares[3] = {0, t, 1};
             float *inside = &silhouette->inside[row][column];
-            *inside = larger(*inside, larger(between, larger(at_from, at_to)));
+            for (int k = 0; k < 3; k++) { // no hypotf() or fmaxf(): a view from near has many nodes
+                const float x = p[0] - from[0] - shares[k] * dx, y = p[1] - from[1] - shares[k] * dy;
+                const float depth = from_radius + shares[k] * (to_radius - from_radius) - sqrtf(x * x + y * y);
+                if (depth > *inside) *inside = depth;
+            }
         }
     }
 }
@@ -131,7 +126,7 @@ void silhouette_add_triangle(struct silhouette *silhouette, const float corner[3
             for (int k = 0; k < 3; k++) share[k] = turn(corner[(k + 1) % 3], corner[(k + 2) % 3], p) / area;
             if (!(share[0] >= 0 && share[1] >= 0 && share[2] >= 0)) continue;
             const float depth = share[0] * inside[0] + share[1] * inside[1] + share[2] * inside[2];
-            *node = larger(*node, depth < most ? depth : most);
+            if (depth > *node) *node = depth < most ? depth : most;
         }
     }
 }
