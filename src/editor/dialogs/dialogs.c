@@ -432,8 +432,8 @@ static void build_choices(struct dialogs *dialogs, const struct document *docume
     struct ui *ui = &dialogs->dialog.ui;
     const struct export_format *format = format_of(dialogs);
     const bool narrow = ui->area.w < 480; // one choice a row
-    struct rect rows[CHOICE_ROWS + 2];
-    for (int i = 0; i < CHOICE_ROWS + 2 * narrow; i++) rows[i] = ui_row(ui, UI_ROW);
+    struct rect rows[CHOICE_ROWS + 2] = {ui_row(ui, UI_ROW)};
+    for (int i = 1; i < CHOICE_ROWS + 2 * narrow; i++) rows[i] = ui_row(ui, UI_ROW);
 
     const double start = document->first_frame, end = document->last_frame;
     struct rect pair = labelled(ui, &rows[0], PAIR_WIDTH, "frames");
