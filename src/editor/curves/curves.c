@@ -248,7 +248,8 @@ struct value_map normal_map(const struct curves *curves, const struct core *core
     return map_between(curves, core, core->active, spline);
 }
 
-float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value)
+/// Height of a spline's value in logical pixels, normalised if that is on.
+static float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value)
 {
     struct value_map map = normal_map(curves, core, spline);
     return curves_y(curves, core, map.scale * value + map.offset);
@@ -259,18 +260,20 @@ float curves_knot_y(const struct curves *curves, const struct core *core, int sp
     return curves_y_of(curves, core, spline, core_knot_value(core, spline, knot));
 }
 
-void normal_update(struct curves *curves, const struct core *core)
+static const float LIFT = 16, EDGE = 12; ///< pixels: a warning's marker above its point; from the plot's edge
+
+/// Position of a warning's marker; false if it is not visible.
+static bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning,
+                          float xy[2])
 {
-    struct curve_cache *cache = &curves->cache;
-    const struct evaluation *evaluation = core->evaluation;
-    if (!core->curves.normalise || core->drag.owner || !evaluation) return;
-    cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
-    for (int s = 0; s < cache->range_count; s++) {
-        for (int highest = 0; highest < 2; highest++) {
-            int sample = evaluation_extreme(evaluation, s, 0, evaluation->samples - 1, highest);
-            cache->range[s][highest] = evaluation->curves[s].total[sample];
-        }
-    }
+    const struct rect plot = core->layout.plot;
+    xy[0] = plot.x + EDGE;
+    xy[1] = plot.y + EDGE;
+    if (warning->kind == WARNING_RATE) return true;
+    xy[0] = curves_x(curves, core, warning->frame);
+    xy[1] = fminf(fmaxf(curves_y_of(curves, core, warning->spline, warning->value) - LIFT, plot.y + EDGE),
+                  plot.y + plot.h - EDGE);
+    return xy[0] >= plot.x && xy[0] <= plot.x + plot.w;
 }
 
 void curves_activate(struct curves *curves, struct core *core, int before)
@@ -380,18 +383,19 @@ bool curves_wants_frames(const struct curves *curves) { return curves->following
 static const float CURVE_REACH = 7, OTHER_REACH = 7, WARNING_REACH = 9, LIMIT_REACH = 5; ///< pixels
 static const double ZOOM_STEP = 0.15; ///< exponent of e per notch of the wheel
 
-float nearest_knot(const struct curves *curves, const struct core *core, int of, float row, float x, float y,
-                   float reach, struct hover *hover)
+float nearest_knot(const struct curves *curves, const struct core *core, int of, const float xy[2], float reach,
+                   struct hover *hover)
 {
     static const char still[] =
         "Comes to rest at the equilibrium; Shift+P gives it a value. Drag it in time (Ctrl: off frames)";
     const struct spline *spline = core->document->splines[of];
     float best = reach;
-    for (int k = curves_knot_from(curves, core, spline, x - reach); k < spline->knot_count; k++) {
+    for (int k = curves_knot_from(curves, core, spline, xy[0] - reach); k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k];
         float at = curves_knot_x(curves, core, knot);
-        if (at > x + reach) break;
-        if (is_nearest(maths_hypotf(x - at, isnan(row) ? y - curves_knot_y(curves, core, of, knot) : 0), &best))
+        if (at > xy[0] + reach) break;
+        const float down = isnan(xy[1]) ? 0 : xy[1] - curves_knot_y(curves, core, of, knot);
+        if (is_nearest(maths_hypotf(xy[0] - at, down), &best))
             *hover = (struct hover){
                 .thing = &thing_knot, .hint = knot->still ? still : NULL, .spline = of, .knot = knot->id};
     }
@@ -420,8 +424,9 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     if (rect_contains(sheet_area(core), x, y)) return sheet_hover(curves, core, x, y);
     if (!rect_contains(core->layout.plot, x, y) || !spline) return hover;
     const bool seen = spline_list_seen(core) != NULL;
+    const float pointer[2] = {x, y};
     float best = core_reach(core, CURVES_HIT_RADIUS), xy[2];
-    if (seen) nearest_knot(curves, core, core->active, NAN, x, y, best, &hover);
+    if (seen) nearest_knot(curves, core, core->active, pointer, best, &hover);
     if (hover.thing) return hover;
     for (int k = 0; k < spline->knot_count && seen; k++) {
         const struct knot *knot = &spline->knots[k];
@@ -443,7 +448,7 @@ struct hover curves_hover(const struct curves *curves, const struct core *core, 
     best = OTHER_REACH;
     for (int i = 0; i < curves->cache.other_count; i++) {
         const int other = curves_other(curves, core->document, i);
-        if (other >= 0) best = nearest_knot(curves, core, other, NAN, x, y, best, &hover);
+        if (other >= 0) best = nearest_knot(curves, core, other, pointer, best, &hover);
     }
     if (!hover.thing) scale_box_hover(curves, core, x, y, &hover);
     if (hover.thing) return hover;
@@ -584,12 +589,17 @@ void curves_press(struct curves *curves, struct core *core, const struct event *
 
 void curves_wheel(struct curves *curves, struct core *core, const struct event *event)
 {
-    if (sheet_wheel(curves, core, event)) return;
+    struct ui_list *rows = &curves->sheet.list;
+    const bool on_sheet = rect_contains(sheet_area(core), event->x, event->y);
+    if (on_sheet && !event->mods && rows->content > rows->view) {
+        ui_list_scroll(rows, event->dy > 0 ? -1 : 1);
+        return;
+    }
     double notches = event->dy != 0 ? event->dy : event->dx; /* some systems turn Shift+wheel sideways */
     double factor = maths_exp(-ZOOM_STEP * fmin(fmax(notches, -20), 20));
     double time = event->mods & MOD_SHIFT && !(event->mods & MOD_CTRL) ? 1 : factor;
     double value = event->mods & MOD_CTRL && !(event->mods & MOD_SHIFT) ? 1 : factor;
-    if (rect_contains(sheet_area(core), event->x, event->y)) value = 1; // the dope sheet zooms time only
+    if (on_sheet) value = 1; // the dope sheet zooms time only
     curves_zoom(curves, core, event->x, event->y, time, value);
 }
 
@@ -599,8 +609,8 @@ static struct rect box_rect(const struct drag *drag)
                          fabsf(drag->y - drag->start_y)};
 }
 
-/// Selects or deselects one spline's knots in the box: in the plot (`row` NAN), or on its row of the dope sheet.
-static void take_inside(const struct curves *curves, struct core *core, int s, float row)
+/// Selects or deselects one spline's knots in the box; on the dope sheet only their time counts.
+static void take_inside(const struct curves *curves, struct core *core, int s)
 {
     const struct rect box = box_rect(&core->drag);
     const struct spline *spline = core->document->splines[s];
@@ -608,7 +618,7 @@ static void take_inside(const struct curves *curves, struct core *core, int s, f
         const struct knot *knot = &spline->knots[k];
         const float x = curves_knot_x(curves, core, knot), y = curves_knot_y(curves, core, s, knot);
         if (x >= box.x + box.w) break;
-        if (x >= box.x && (!isnan(row) || rect_contains(box, x, y)))
+        if (x >= box.x && (curves->knot_drag.in_sheet || rect_contains(box, x, y)))
             selection_set(&core->selection, knot->id, curves->knot_drag.box != BOX_REMOVE);
     }
 }
@@ -620,14 +630,13 @@ static void draw_box(void *room, struct core *core)
     selection_copy(&core->selection, &curves->before_box);
     if (curves->knot_drag.box == BOX_REPLACE) selection_clear(&core->selection);
     for (int s = 0; curves->knot_drag.in_sheet && s < document->spline_count; s++) {
-        const float row = sheet_row_in(curves, core, s, box_rect(&core->drag));
-        if (!isnan(row)) take_inside(curves, core, s, row);
+        if (sheet_row_in(curves, core, s, box_rect(&core->drag))) take_inside(curves, core, s);
     }
     if (curves->knot_drag.in_sheet) return;
-    if (spline_list_seen(core)) take_inside(curves, core, core->active, NAN);
+    if (spline_list_seen(core)) take_inside(curves, core, core->active);
     for (int i = 0; i < curves->cache.other_count; i++) {
         const int other = curves_other(curves, document, i);
-        if (other >= 0) take_inside(curves, core, other, NAN);
+        if (other >= 0) take_inside(curves, core, other);
     }
 }
 
@@ -654,22 +663,6 @@ void box_begin(struct curves *curves, struct core *core, const struct event *eve
     bool removes = event->mods & (MOD_CTRL | MOD_ALT);
     curves->knot_drag.box = removes ? BOX_REMOVE : event->mods & MOD_SHIFT ? BOX_ADD : BOX_REPLACE;
     selection_copy(&curves->before_box, &core->selection);
-}
-
-void limits_show(const struct curves *curves, struct core *core)
-{
-    const struct spline *spline = spline_list_seen(core);
-    const struct rect *plot = &core->layout.plot;
-    if (!spline) return;
-    for (int i = 0; i < 2; i++) {
-        double value = spline->parameter[limit_of(i)].value;
-        if (!isfinite(value)) continue;
-        const bool hot = core->hover.thing == &thing_limit && core->hover.handle == i;
-        float y = curves_y(curves, core, value);
-        const float line[2][2] = {{plot->x, y}, {plot->x + plot->w, y}};
-        drawlist_dashed(&core->list, &line[0][0], 2, hot ? 2 : 1.25f, 10, 6,
-                        theme_fade(spline_list_color(core->document, core->active), hot ? 1 : 0.6f));
-    }
 }
 
 // Warnings on the curves: their marks and fixes.
@@ -868,20 +861,7 @@ void curves_remedy_first(struct curves *curves, struct core *core, int unused)
     }
 }
 
-static const float SIZE = 7, LIFT = 16,
-                   EDGE = 12; ///< pixels: half a marker; distance above its point; distance from the plot's edge
-
-bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning, float xy[2])
-{
-    const struct rect plot = core->layout.plot;
-    xy[0] = plot.x + EDGE;
-    xy[1] = plot.y + EDGE;
-    if (warning->kind == WARNING_RATE) return true;
-    xy[0] = curves_x(curves, core, warning->frame);
-    xy[1] = fminf(fmaxf(curves_y_of(curves, core, warning->spline, warning->value) - LIFT, plot.y + EDGE),
-                  plot.y + plot.h - EDGE);
-    return xy[0] >= plot.x && xy[0] <= plot.x + plot.w;
-}
+static const float SIZE = 7; ///< pixels: half a marker
 
 static bool find_warning(void *room, const struct core *core, const struct target *target, float xy[2])
 {

@@ -24,40 +24,6 @@ static void collect_knots(const struct curves *curves, struct core *core)
     core->drag.label = core->originals.count == 1 ? "Move knot" : "Move knots";
 }
 
-/// The pointer's shift in frames: the held knot snaps to whole frames and all knots stay in range. `why` says what stopped it.
-static double wanted_frames(const struct curves *curves, const struct core *core, char why[STOPPED_SIZE])
-{
-    const struct drag *drag = &core->drag;
-    const struct originals *originals = &core->originals;
-    const struct document *document = core->document;
-    if (drag->lock_y) return 0;
-    double frames = drag->moved_x / curves_pixels_per_frame(curves, core), least = -INFINITY, most = INFINITY;
-    const struct original *held = &originals->list[0];
-    for (int i = 0; i < originals->count; i++) {
-        if (originals->list[i].knot.id == drag->knot) held = &originals->list[i];
-    }
-    if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
-
-    // To the left a spline's first original may go to the first frame or, with ripple, just after the unmoved knot before it.
-    for (int i = 0; i < originals->count; i++) {
-        const struct original *original = &originals->list[i];
-        const struct spline *spline = document->splines[original->spline];
-        const int sample = document_sample(document, original->knot.frame);
-        const int before = spline_lower_bound(document, spline, sample) - 1;
-        double left = document->first_frame - original->knot.frame;
-        if (curves->knot_drag.ripple && before >= 0)
-            left = document_frame(document, document_sample(document, spline->knots[before].frame) + 1) -
-                   document_frame(document, sample);
-        if (i == 0 || originals->list[i - 1].spline != original->spline) least = fmax(least, left);
-        most =
-            fmin(most, document_frame(document, document_last_knot_sample(document, spline)) - original->knot.frame);
-    }
-    if (frames < least || frames > most) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
-    if (curves->knot_drag.ripple && frames > most)
-        snprintf(why, STOPPED_SIZE, "the last knot has reached the end of the range. Extend the range to make room");
-    return fmax(fmin(frames, most), least);
-}
-
 /// Moves knots in time; selected ones also in value, measured in values of the active spline.
 struct moving {
     const struct curves *curves;
@@ -76,14 +42,44 @@ static struct knot moved_knot(const void *how, const struct original *original)
     return knot;
 }
 
+/// The held knot snaps to whole frames, and all knots stay in range.
 static void apply_knots(void *of, struct core *core)
 {
     struct curves *curves = of;
+    const struct drag *drag = &core->drag;
+    const struct originals *originals = &core->originals;
+    const struct document *document = core->document;
     const double pixels = curves_pixels_per_value(curves, core);
     char why[STOPPED_SIZE] = "";
-    if (core->originals.count == 0) return;
-    struct moving moving = {curves, core, wanted_frames(curves, core, why),
-                            core->drag.lock_x ? 0 : -core->drag.moved_y / pixels, 0.01 / pixels};
+    if (originals->count == 0) return;
+    const struct original *held = &originals->list[0];
+    for (int i = 0; i < originals->count; i++) {
+        if (originals->list[i].knot.id == drag->knot) held = &originals->list[i];
+    }
+    double frames = drag->lock_y ? 0 : drag->moved_x / curves_pixels_per_frame(curves, core);
+    if (drag->snap) frames = fabs(frames) < 0.5 ? 0 : round(held->knot.frame + frames) - held->knot.frame;
+
+    // To the left a spline's first original may go to the first frame or, with ripple, just after the unmoved knot before it.
+    double least = -INFINITY, most = INFINITY;
+    for (int i = 0; i < originals->count && !drag->lock_y; i++) {
+        const struct original *original = &originals->list[i];
+        const struct spline *spline = document->splines[original->spline];
+        const int sample = document_sample(document, original->knot.frame);
+        const int before = spline_lower_bound(document, spline, sample) - 1;
+        double left = document->first_frame - original->knot.frame;
+        if (curves->knot_drag.ripple && before >= 0)
+            left = document_frame(document, document_sample(document, spline->knots[before].frame) + 1) -
+                   document_frame(document, sample);
+        if (i == 0 || originals->list[i - 1].spline != original->spline) least = fmax(least, left);
+        most =
+            fmin(most, document_frame(document, document_last_knot_sample(document, spline)) - original->knot.frame);
+    }
+    if (frames < least || frames > most) snprintf(why, STOPPED_SIZE, "a knot would leave the range");
+    if (curves->knot_drag.ripple && frames > most)
+        snprintf(why, STOPPED_SIZE, "the last knot has reached the end of the range. Extend the range to make room");
+
+    struct moving moving = {curves, core, fmax(fmin(frames, most), least), drag->lock_x ? 0 : -drag->moved_y / pixels,
+                            0.01 / pixels};
     if (originals_room(core, moved_knot, &moving, why) != ROOM_FREE) moving.frames = curves->knot_drag.free_frames;
     curves->knot_drag.free_frames = moving.frames;
     if (!originals_put(core, moved_knot, &moving, why)) drag_restart(core);
@@ -143,13 +139,16 @@ static void end_knots(void *room, struct core *core, bool keep)
     }
 }
 
-static void show_knots(void *room, struct core *core) { scale_box_show(room, core, false); }
+static void show_moved_knots(void *room, struct core *core) { scale_box_show(room, core, false); }
 
 /// Shift adds or removes the knot. Without Shift a drag moves all selected knots.
 static void press_knot(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
-    static const struct drag_owner owner = {
-        .cursor = CURSOR_MOVE, .apply = apply_knots, .event = knots_event, .end = end_knots, .show = show_knots};
+    static const struct drag_owner owner = {.cursor = CURSOR_MOVE,
+                                            .apply = apply_knots,
+                                            .event = knots_event,
+                                            .end = end_knots,
+                                            .show = show_moved_knots};
     struct curves *curves = room;
     unsigned id = hover->knot;
     bool selected = selection_has(&core->selection, id);
@@ -261,6 +260,16 @@ void curves_nudge(const struct curves *curves, struct core *core, double frames,
 // A knot (t, v) goes to (p + a·(t − p), q + b·(v − q)) about the pivot (p, q); its slope is multiplied by b/a, so the curve's shape
 // scales too. "About the equilibrium" takes q from the knot's own spline at the knot.
 
+/// Handles in three rows of three, from the upper left; the middle is none.
+enum { BOX_HANDLES = 9, BOX_MIDDLE = 4 };
+
+/// -1 left or top, 0 middle, 1 right or bottom.
+static int box_column(int handle) { return handle % 3 - 1; }
+
+static int box_row(int handle) { return handle / 3 - 1; }
+
+static bool box_corner(int handle) { return box_column(handle) && box_row(handle); }
+
 static const double LEAST_REACH = 40;  ///< pixels from the pivot for factor 1, so that small movements stay precise
 static const double LEAST_SIDE = 8;    ///< likewise for a box dragged by its handle
 static const double FINE_SLOPE = 1e-6; ///< resolution of a scaled slope, of the visible values a second
@@ -339,14 +348,12 @@ static void say_scale(struct curves *curves, const struct core *core)
 }
 
 /// Distance of the pointer from the pivot relative to its distance at the start, along one axis.
-static double stretch_along(double pivot, double start, double now)
+static double axis_factor(double pivot, double start, double now)
 {
     double reach = start - pivot;
     if (fabs(reach) < LEAST_REACH) reach = reach < 0 ? -LEAST_REACH : LEAST_REACH;
     return 1 + (now - start) / reach;
 }
-
-static double clamped(double factor) { return fmin(fmax(factor, -MOST), MOST); }
 
 static void end_scale(void *room, struct core *core, bool keep)
 {
@@ -355,38 +362,9 @@ static void end_scale(void *room, struct core *core, bool keep)
 }
 
 /// The factor that keeps an edge of the box under the pointer. Distances are pixels from the pivot.
-static double pulled(double reach, double by, int direction)
+static double edge_factor(double reach, double by, int direction)
 {
     return 1 + by / (fabs(reach) < LEAST_SIDE ? direction * LEAST_REACH : reach);
-}
-
-/// The factors that the pointer or the typed ones ask for.
-static struct factors wanted_factors(const struct curves *curves, const struct core *core)
-{
-    const struct drag *drag = &core->drag;
-    const struct scaling *scaling = &curves->scaling;
-    const double x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value);
-    struct factors by;
-    if (scaling->handle >= 0) {
-        const int column = box_column(scaling->handle), row = box_row(scaling->handle);
-        const double across = curves_x(curves, core, scaling->edge[0]) - (float)x;
-        const double down = curves_y(curves, core, scaling->edge[1]) - (float)y;
-        by = (struct factors){column ? pulled(across, drag->moved_x, column) : 1,
-                              row ? pulled(down, drag->moved_y, row) : 1};
-    } else {
-        const double to_x = drag->start_x + drag->moved_x, to_y = drag->start_y + drag->moved_y;
-        const double before = maths_hypot(drag->start_x - x, drag->start_y - y);
-        double factor = 1 + (maths_hypot(to_x - x, to_y - y) - before) / fmax(before, LEAST_REACH);
-        if (drag->lock_x) factor = stretch_along(x, drag->start_x, to_x);
-        if (drag->lock_y) factor = stretch_along(y, drag->start_y, to_y);
-        by = (struct factors){factor, factor};
-    }
-
-    // One typed factor scales both axes; two scale time and value.
-    char *end, *second_end;
-    const double first = strtod(scaling->typed, &end), second = strtod(end, &second_end);
-    if (end != scaling->typed) by = (struct factors){first, second_end != end ? second : first};
-    return (struct factors){drag->lock_y ? 1 : clamped(by.time), drag->lock_x ? 1 : clamped(by.value)};
 }
 
 struct scale {
@@ -420,9 +398,34 @@ static void scale_knots(void *room, struct core *core)
 {
     struct curves *curves = room;
     struct scaling *scaling = &curves->scaling;
+    const struct drag *drag = &core->drag;
     const struct originals *originals = &core->originals;
     const struct scale scale = {curves, core};
-    scaling->by = wanted_factors(curves, core);
+    const double x = curves_x(curves, core, scaling->frame), y = curves_y(curves, core, scaling->value);
+    struct factors by;
+    if (scaling->handle >= 0) {
+        const int column = box_column(scaling->handle), row = box_row(scaling->handle);
+        const double across = curves_x(curves, core, scaling->edge[0]) - (float)x;
+        const double down = curves_y(curves, core, scaling->edge[1]) - (float)y;
+        by = (struct factors){column ? edge_factor(across, drag->moved_x, column) : 1,
+                              row ? edge_factor(down, drag->moved_y, row) : 1};
+    } else {
+        const double to_x = drag->start_x + drag->moved_x, to_y = drag->start_y + drag->moved_y;
+        const double before = maths_hypot(drag->start_x - x, drag->start_y - y);
+        double factor = 1 + (maths_hypot(to_x - x, to_y - y) - before) / fmax(before, LEAST_REACH);
+        if (drag->lock_x) factor = axis_factor(x, drag->start_x, to_x);
+        if (drag->lock_y) factor = axis_factor(y, drag->start_y, to_y);
+        by = (struct factors){factor, factor};
+    }
+
+    // One typed factor scales both axes; two scale time and value.
+    char *end, *second_end;
+    const double first = strtod(scaling->typed, &end), second = strtod(end, &second_end);
+    if (end != scaling->typed) by = (struct factors){first, second_end != end ? second : first};
+    scaling->by.time = drag->lock_y ? 1 : fmin(fmax(by.time, -MOST), MOST);
+    scaling->by.value = drag->lock_x ? 1 : fmin(fmax(by.value, -MOST), MOST);
+
+    // Time stops at its last free factor; values may still change, unless all knots are on the pivot.
     scaling->stopped[0][0] = scaling->stopped[1][0] = 0;
     if (originals_room(core, scaled_knot, &scale, scaling->stopped[0]) != ROOM_FREE)
         scaling->by.time = scaling->free_time;
@@ -437,64 +440,48 @@ static void scale_knots(void *room, struct core *core)
     say_scale(curves, core);
 }
 
-/// Accepts digits, sign, point, and a space before a second factor. Characters, because keyboard layouts differ.
-static bool type_factor(struct scaling *scaling, uint32_t c)
-{
-    size_t length = strlen(scaling->typed);
-    bool digit = c >= '0' && c <= '9';
-    const char *space = strchr(scaling->typed, ' '), *number = space ? space + 1 : scaling->typed;
-    bool sign = c == '-' && !*number, point = (c == '.' || c == ',') && !strchr(number, '.');
-    bool next = c == ' ' && !space && *number;
-    if (!(digit || sign || point || next) || length + 1 >= sizeof scaling->typed) return false;
-    scaling->typed[length] = (char)(c == ',' ? '.' : c);
-    scaling->typed[length + 1] = 0;
-    return true;
-}
-
-static void change_scale(struct core *core)
-{
-    drag_start_moving(core);
-    core->drag.stale = true;
-}
-
-static enum drag_answer press_scale_key(struct curves *curves, struct core *core, const struct event *event)
-{
-    struct scaling *scaling = &curves->scaling;
-    const size_t length = strlen(scaling->typed);
-    if (event->key == KEY_ESCAPE) return DRAG_TAKE_BACK;
-    if (event->key == KEY_ENTER) return DRAG_KEEP;
-    if (event->key == 'P') {
-        drag_restart(core);
-        scaling->pivot = next_pivot(scaling);
-        place_pivot(curves, core);
-    } else if (event->key == KEY_BACKSPACE) {
-        if (length > 0) scaling->typed[length - 1] = 0;
-    } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) || !drag_lock(&core->drag, event->key)) {
-        return DRAG_USED;
-    }
-    change_scale(core);
-    return DRAG_USED;
-}
-
 /// Keys and clicks while scaling: axes, pivot, typed factors, the end.
 static enum drag_answer scale_event(void *room, struct core *core, const struct event *event)
 {
     struct curves *curves = room;
-    bool press = event->action != ACTION_RELEASE;
+    struct scaling *scaling = &curves->scaling;
+    const size_t length = strlen(scaling->typed);
+    const char *space = strchr(scaling->typed, ' '), *number = space ? space + 1 : scaling->typed;
+    const uint32_t c = event->codepoint;
+    const bool press = event->action != ACTION_RELEASE;
+    const bool sign = c == '-' && !*number, point = (c == '.' || c == ',') && !strchr(number, '.');
+    const bool digit = c >= '0' && c <= '9', next = c == ' ' && !space && *number;
     switch (event->kind) {
     case EVENT_BUTTON:
-        if (curves->scaling.handle >= 0) return DRAG_PASSES;
+        if (scaling->handle >= 0) return DRAG_PASSES;
         return !press ? DRAG_USED : event->button == BUTTON_LEFT ? DRAG_KEEP : DRAG_TAKE_BACK;
     case EVENT_KEY:
-        return press ? press_scale_key(curves, core, event)
-                     : DRAG_PASSES; /* of a key that was held before, the release is somebody else's */
-    case EVENT_TEXT:
-        if (type_factor(&curves->scaling, event->codepoint)) change_scale(core);
+        if (!press) return DRAG_PASSES; // of a key that was held before, the release is somebody else's
+        if (event->key == KEY_ESCAPE) return DRAG_TAKE_BACK;
+        if (event->key == KEY_ENTER) return DRAG_KEEP;
+        if (event->key == 'P') {
+            drag_restart(core);
+            scaling->pivot = next_pivot(scaling);
+            place_pivot(curves, core);
+        } else if (event->key == KEY_BACKSPACE) {
+            if (length > 0) scaling->typed[length - 1] = 0;
+        } else if ((scaling->handle >= 0 && !box_corner(scaling->handle)) || !drag_lock(&core->drag, event->key)) {
+            return DRAG_USED;
+        }
+        break;
+    case EVENT_TEXT: // characters, because keyboard layouts differ; a space comes before a second factor
+        if (!(digit || sign || point || next) || length + 1 >= sizeof scaling->typed) return DRAG_USED;
+        scaling->typed[length] = (char)(c == ',' ? '.' : c);
+        scaling->typed[length + 1] = 0;
+        break;
+    case EVENT_WHEEL: // the factor is measured in pixels: no zooming meanwhile
         return DRAG_USED;
     default:
-        return event->kind == EVENT_WHEEL ? DRAG_USED
-                                          : DRAG_PASSES; /* the factor is measured in pixels: no zooming meanwhile */
+        return DRAG_PASSES;
     }
+    drag_start_moving(core);
+    core->drag.stale = true;
+    return DRAG_USED;
 }
 
 enum { TAG_PAD = 8, LINE = 16, MARGIN = 4, MOST_LINES = 4 };
@@ -771,7 +758,7 @@ struct hover sheet_hover(const struct curves *curves, const struct core *core, f
     const int s = spline < core->document->spline_count ? spline : -1;
     struct hover hover = {.thing = s >= 0 ? &thing_row : NULL, .spline = s};
     if (s < 0 || !rect_contains(core->layout.sheet, x, y)) return hover;
-    nearest_knot(curves, core, s, y, x, y, MARK_REACH, &hover);
+    nearest_knot(curves, core, s, (const float[2]){x, NAN}, MARK_REACH, &hover);
     return hover;
 }
 
@@ -797,22 +784,13 @@ const struct thing thing_row = {
     .place = ON_TIME,
     .press = press_row};
 
-float sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box)
+bool sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box)
 {
     for (int row = 0; row < curves->sheet.rows; row++) {
         const float y = row_y(core, row), half = ROW / 2.0f;
-        if (curves->sheet.spline[row] == spline) return y + half > box.y && y - half < box.y + box.h ? y : NAN;
+        if (curves->sheet.spline[row] == spline) return y + half > box.y && y - half < box.y + box.h;
     }
-    return NAN;
-}
-
-bool sheet_wheel(struct curves *curves, struct core *core, const struct event *event)
-{
-    struct dope_sheet *sheet = &curves->sheet;
-    if (!rect_contains(sheet_area(core), event->x, event->y)) return false;
-    if (event->mods || sheet->list.content <= sheet->list.view) return false;
-    ui_list_scroll(&sheet->list, event->dy > 0 ? -1 : 1);
-    return true;
+    return false;
 }
 
 static bool find_mark(void *room, const struct core *core, const struct target *target, float xy[2])
@@ -834,35 +812,11 @@ const struct thing thing_mark = {.name = "mark",
                                  .find = find_mark,
                                  .missing = "the dope sheet does not show that knot"};
 
-/// Draws a row: a tint if it is active, a line from first to last mark, the marks, and the name.
-static void show_row(const struct curves *curves, struct core *core, int row)
-{
-    const struct document *document = core->document;
-    const int s = curves->sheet.spline[row];
-    if (s >= document->spline_count) return; // an undo in this frame removed it
-    const struct spline *spline = document->splines[s];
-    const struct rect *sheet = &core->layout.sheet, *panel = &core->layout.curves;
-    const bool active = s == core->active, hot = core->hover.thing == &thing_row && core->hover.spline == s;
-    const float y = row_y(core, row), left = sheet->x + sheet->w + 6;
-    const uint32_t color = spline_list_color(document, s);
-    const struct rect band = {sheet->x, y - ROW / 2.0f, sheet->w, ROW};
-    if (active || hot) drawlist_rect(&core->list, band, theme_fade(theme()->text, active ? 0.07f : 0.035f));
-    struct rect clip = drawlist_push_clip(&core->list, *sheet);
-    if (spline->knot_count > 1) {
-        const float from = curves_knot_x(curves, core, &spline->knots[0]);
-        const float to = curves_knot_x(curves, core, &spline->knots[spline->knot_count - 1]);
-        drawlist_rect(&core->list, (struct rect){from, roundf(y) - 0.5f, to - from, 1}, theme_fade(color, 0.35f));
-    }
-    knots_show(curves, core, s, y);
-    drawlist_set_clip(&core->list, clip);
-    drawlist_text_fit(&core->list, left, roundf(y + 4), panel->x + panel->w - 6 - left,
-                      active ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL,
-                      theme_readable(color, theme()->panel, 4.5f), spline->name);
-}
-
 void sheet_show(const struct curves *curves, struct core *core)
 {
-    const struct rect *area = &core->layout.sheet;
+    const struct document *document = core->document;
+    const struct dope_sheet *sheet = &curves->sheet;
+    const struct rect *area = &core->layout.sheet, *panel = &core->layout.curves;
     // The triangle in the ruler's corner points down while the sheet is open.
     const struct rect r = sheet_switch(core);
     const float x = r.x + 8, y = r.y + r.h / 2, a = 3.5f;
@@ -871,8 +825,28 @@ void sheet_show(const struct curves *curves, struct core *core)
     drawlist_convex(&core->list, core->curves.sheet ? down : right, 3,
                     core->hover.thing == &thing_sheet ? theme()->text : theme()->text_dim);
     if (area->h <= 0) return;
-    const struct dope_sheet *sheet = &curves->sheet;
-    for (int row = 0; row < sheet->rows; row++) show_row(curves, core, row);
+    for (int row = 0; row < sheet->rows; row++) {
+        const int s = sheet->spline[row];
+        if (s >= document->spline_count) continue; // an undo in this frame removed it
+        const struct spline *spline = document->splines[s];
+        const bool active = s == core->active, hot = core->hover.thing == &thing_row && core->hover.spline == s;
+        const float middle = row_y(core, row), left = area->x + area->w + 6;
+        const uint32_t color = spline_list_color(document, s);
+        const struct rect band = {area->x, middle - ROW / 2.0f, area->w, ROW};
+        if (active || hot) drawlist_rect(&core->list, band, theme_fade(theme()->text, active ? 0.07f : 0.035f));
+        struct rect clip = drawlist_push_clip(&core->list, *area);
+        if (spline->knot_count > 1) {
+            const float from = curves_knot_x(curves, core, &spline->knots[0]);
+            const float to = curves_knot_x(curves, core, &spline->knots[spline->knot_count - 1]);
+            const struct rect line = {from, roundf(middle) - 0.5f, to - from, 1};
+            drawlist_rect(&core->list, line, theme_fade(color, 0.35f));
+        }
+        knots_show(curves, core, s, middle);
+        drawlist_set_clip(&core->list, clip);
+        drawlist_text_fit(&core->list, left, roundf(middle + 4), panel->x + panel->w - 6 - left,
+                          active ? FONT_LABEL_BOLD : FONT_LABEL, THEME_TEXT_SMALL,
+                          theme_readable(color, theme()->panel, 4.5f), spline->name);
+    }
     const struct rect track = {area->x - 7, area->y + SHEET_PAD, 3, area->h - 2 * SHEET_PAD};
     ui_list_bar(&sheet->list, &core->list, track, 0);
     drawlist_rect(&core->list, (struct rect){area->x, area->y + area->h - 1, area->w, 1}, theme()->border);

@@ -62,68 +62,12 @@ static void draw_band(const struct curves *curves, const struct core *core, int 
     }
 }
 
-/// Writes the points of a spline as the take has it; returns how many. Allocates nothing.
-static int take_line(const struct curves *curves, const struct core *core, int spline, float *xy)
-{
-    const struct curve_cache *cache = &curves->cache;
-    const struct take *take = &core->take;
-    const int before = take_spline(core, spline);
-    const struct value_map map = normal_map(curves, core, spline);
-    const double by = cache->by * take->document->substeps / core->document->substeps;
-    int count = 0;
-    for (int c = 0; c < cache->count && before >= 0; c++) {
-        const double frame = frame_of(core->document, cache->first + cache->by * c);
-        const double middle = core_position(take->document, frame);
-        if (middle < 0 || middle > take->evaluation.samples - 1) continue;
-        const wiggly_value v =
-            evaluation_at(&take->evaluation, before, outermost(&take->evaluation, before, middle, by, c % 2));
-        xy[2 * count] = curves_x(curves, core, frame);
-        xy[2 * count++ + 1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
-    }
-    return count;
-}
-
 int curves_other(const struct curves *curves, const struct document *document, int other)
 {
     const int spline = curves->cache.other_spline[other];
     const bool same =
         spline < document->spline_count && document->splines[spline]->id == curves->cache.other_id[other];
     return same ? spline : -1;
-}
-
-/// Places the columns of the visible part of the scene's range.
-static void place_columns(struct curves *curves, const struct core *core)
-{
-    struct curve_cache *cache = &curves->cache;
-    const struct document *document = core->document;
-    const struct spline *spline = core_active_spline(core);
-    double left = fmax(curves->view.frame0, document->first_frame);
-    double right = fmin(curves->view.frame1, document->last_frame);
-    cache->count = 0;
-    if (!(right > left)) return;
-    double pixels = (right - left) * curves_pixels_per_frame(curves, core);
-    cache->count = (int)fmin(fmax(ceil(pixels) + 1, 2), EDITOR_MAX_COLUMNS);
-    double first = core_position(document, left);
-    double by = (core_position(document, right) - first) / (cache->count - 1);
-    cache->first = first;
-    cache->by = by;
-    for (int c = 0; c < cache->count; c++) {
-        cache->position[c] = outermost(core->evaluation, core->active, first + by * c, by, c % 2);
-    }
-    if (!spline) return;
-
-    // The nearest column moves onto each knot of the active spline. Where knots share one, its lowest and highest samples show them.
-    int k = spline_lower_bound(document, spline, (int)fmax(floor(first - by), 0));
-    for (double before = -1; k < spline->knot_count; k++) {
-        const double sample = document_sample(document, spline->knots[k].frame);
-        const double column = floor((sample - first) / by + 0.5);
-        if (column >= cache->count) break;
-        const double after = k + 1 < spline->knot_count
-                                 ? floor((document_sample(document, spline->knots[k + 1].frame) - first) / by + 0.5)
-                                 : INFINITY;
-        if (column >= 0 && column != before && column != after) cache->position[(int)column] = sample;
-        before = column;
-    }
 }
 
 /// Draws the active spline's lines. Its lagged copies are spread evenly along the tail or chain that it moves, unless its visible knots are
@@ -185,7 +129,9 @@ static void draw_active(struct curves *curves, const struct core *core)
 static void curves_update(struct curves *curves, struct core *core)
 {
     struct curve_cache *cache = &curves->cache;
-    uint64_t revision[2] = {history_revision(core->history), core->evaluation ? core->evaluation->revision : 0};
+    const struct document *document = core->document;
+    const struct evaluation *evaluation = core->evaluation;
+    uint64_t revision[2] = {history_revision(core->history), evaluation ? evaluation->revision : 0};
     int choice[3] = {core->active, (int)core->look, core->curves.normalise};
     bool held = core->curves.normalise && core->drag.owner != NULL;
     uint64_t key = hash_bytes(HASH_START, revision, sizeof revision);
@@ -197,20 +143,54 @@ static void curves_update(struct curves *curves, struct core *core)
     if (key == 0) key = 1;
     if (key == cache->key) return;
     cache->key = key;
-    place_columns(curves, core);
+
+    // The columns of the visible part of the scene's range.
+    const double left = fmax(curves->view.frame0, document->first_frame);
+    const double right = fmin(curves->view.frame1, document->last_frame);
+    const double pixels = (right - left) * curves_pixels_per_frame(curves, core);
+    cache->count = right > left ? (int)fmin(fmax(ceil(pixels) + 1, 2), EDITOR_MAX_COLUMNS) : 0;
+    if (cache->count > 0) {
+        cache->first = core_position(document, left);
+        cache->by = (core_position(document, right) - cache->first) / (cache->count - 1);
+    }
+    const double first = cache->first, by = cache->by;
+    for (int c = 0; c < cache->count; c++)
+        cache->position[c] = outermost(evaluation, core->active, first + by * c, by, c % 2);
+
+    // The nearest column moves onto each knot of the active spline. Where knots share one, its lowest and highest samples show them.
+    const struct spline *spline = cache->count > 0 ? core_active_spline(core) : NULL;
+    int k = spline ? spline_lower_bound(document, spline, (int)fmax(floor(first - by), 0)) : 0;
+    for (double before = -1; spline && k < spline->knot_count; k++) {
+        const double sample = document_sample(document, spline->knots[k].frame);
+        const double column = floor((sample - first) / by + 0.5);
+        if (column >= cache->count) break;
+        const double after = k + 1 < spline->knot_count
+                                 ? floor((document_sample(document, spline->knots[k + 1].frame) - first) / by + 0.5)
+                                 : INFINITY;
+        if (column >= 0 && column != before && column != after) cache->position[(int)column] = sample;
+        before = column;
+    }
     draw_active(curves, core);
-    normal_update(curves, core);
+
+    // What normalised curves cover. During a drag it stays, so that the other curves hold still.
+    if (core->curves.normalise && !core->drag.owner && evaluation) {
+        cache->range_count = evaluation->count < CURVES_MAX_RANGES ? evaluation->count : CURVES_MAX_RANGES;
+        for (int i = 0; i < 2 * cache->range_count; i++) {
+            const int sample = evaluation_extreme(evaluation, i / 2, 0, evaluation->samples - 1, i % 2);
+            cache->range[i / 2][i % 2] = evaluation->curves[i / 2].total[sample];
+        }
+    }
     cache->other_count = 0;
-    for (int s = 0; s < core->document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
+    for (int s = 0; s < document->spline_count && cache->other_count < CURVES_MAX_OTHERS; s++) {
         if (s == core->active || !spline_list_shows(core, s)) continue;
         polyline *line = &cache->others[cache->other_count];
         const struct value_map map = normal_map(curves, core, s);
         cache->other_spline[cache->other_count] = s;
-        cache->other_id[cache->other_count] = core->document->splines[s]->id;
+        cache->other_id[cache->other_count] = document->splines[s]->id;
         for (int c = 0; c < cache->count; c++) {
-            double position = outermost(core->evaluation, s, cache->position[c], cache->by, c % 2);
-            wiggly_value v = evaluation_at(core->evaluation, s, position);
-            (*line)[c][0] = curves_x(curves, core, frame_of(core->document, position));
+            double position = outermost(evaluation, s, cache->position[c], by, c % 2);
+            wiggly_value v = evaluation_at(evaluation, s, position);
+            (*line)[c][0] = curves_x(curves, core, frame_of(document, position));
             (*line)[c][1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
         }
         const bool band = cache->other_band[cache->other_count++] = is_band(cache, *line);
@@ -327,51 +307,13 @@ static struct rect playhead_tag(const struct curves *curves, const struct core *
     return (struct rect){left, ruler->y + 3, width, 16};
 }
 
-/// Writes the numbers beside the grid: values, and frames or seconds.
-static void show_numbers(const struct curves *curves, struct core *core, struct grid_step times, double unit,
-                         struct grid_step values)
-{
-    const struct rect *ruler = &core->layout.ruler, *axis = &core->layout.value_axis;
-    struct rect clip = drawlist_push_clip(&core->list, *ruler);
-    const struct rect tag = playhead_tag(curves, core);
-    for (double i = ceil(curves->view.frame0 / unit / times.size); i * times.size <= curves->view.frame1 / unit;
-         i++) { // centred over the grid lines, but for the one under the playhead's tag
-        char text[32];
-        snprintf(text, sizeof text, "%.*f", times.decimals, i * times.size + 0.0);
-        float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        float x = curves_x(curves, core, i * times.size * unit) - width / 2;
-        if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
-        if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
-        drawlist_text(&core->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
-    }
-    drawlist_set_clip(&core->list, clip);
-
-    const struct rect corner = ruler_corner(core);
-    const char *name = core->curves.seconds ? "s" : "frame";
-    const float left = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, name);
-    drawlist_text(&core->list, left, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
-                  core->hover.thing == &thing_units ? theme()->text : theme()->text_dim, name);
-    clip = drawlist_push_clip(&core->list, *axis);
-    float half = font_cap_height(FONT_NUMBER, THEME_TEXT_SMALL) / 2;
-    for (double i = ceil(curves->view.value0 / values.size); i * values.size <= curves->view.value1; i++) {
-        double value = i * values.size;
-        float y = curves_y(curves, core, value);
-        if (y < axis->y + 8 || y > axis->y + axis->h - 8) continue;
-        char text[32];
-        bool wide = fabs(value) >= 1e6 || values.size < 1e-6;
-        snprintf(text, sizeof text, wide ? "%.*g" : "%.*f", wide ? 3 : values.decimals, value + 0.0);
-        float x = axis->x + axis->w - 8 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
-        drawlist_text(&core->list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL,
-                      theme()->text_dim, text);
-    }
-    drawlist_set_clip(&core->list, clip);
-}
-
 static void grid_show(const struct curves *curves, struct core *core)
 {
     const struct layout *layout = &core->layout;
-    const struct rect field = field_of(core), *plot = &layout->plot, *ruler = &layout->ruler;
+    const struct rect field = field_of(core), *plot = &layout->plot, *ruler = &layout->ruler,
+                      *axis = &layout->value_axis;
     const struct view *view = &curves->view;
+    char text[32];
     const double unit = core->curves.seconds ? core->document->fps : 1; // frames per unit of the ruler
     struct grid_step times = round_step(MIN_FRAME_STEP / (curves_pixels_per_frame(curves, core) * unit));
     struct grid_step values = round_step(MIN_VALUE_STEP / curves_pixels_per_value(curves, core));
@@ -415,7 +357,38 @@ static void grid_show(const struct curves *curves, struct core *core)
         drawlist_rect(&core->list, (struct rect){x[0], ruler->y, 2, ruler->h}, color);
         drawlist_rect(&core->list, (struct rect){x[1] - 2, ruler->y, 2, ruler->h}, color);
     }
-    show_numbers(curves, core, times, unit, values);
+
+    // Frames or seconds, centred over the grid lines, but for the one under the playhead's tag.
+    clip = drawlist_push_clip(&core->list, *ruler);
+    const struct rect tag = playhead_tag(curves, core);
+    for (double i = ceil(view->frame0 / unit / times.size); i * times.size <= view->frame1 / unit; i++) {
+        snprintf(text, sizeof text, "%.*f", times.decimals, i * times.size + 0.0);
+        float width = font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+        float x = curves_x(curves, core, i * times.size * unit) - width / 2;
+        if (x < ruler->x || x + width > ruler->x + ruler->w) continue;
+        if (x < tag.x + tag.w + TAG_GAP && x + width > tag.x - TAG_GAP) continue;
+        drawlist_text(&core->list, x, ruler->y + 15, FONT_NUMBER, THEME_TEXT_SMALL, theme()->text_dim, text);
+    }
+    drawlist_set_clip(&core->list, clip);
+    const struct rect corner = ruler_corner(core);
+    const char *name = core->curves.seconds ? "s" : "frame";
+    const float left = corner.x + corner.w - 8 - font_width(FONT_LABEL, THEME_TEXT_SMALL, name);
+    drawlist_text(&core->list, left, corner.y + 15, FONT_LABEL, THEME_TEXT_SMALL,
+                  core->hover.thing == &thing_units ? theme()->text : theme()->text_dim, name);
+
+    clip = drawlist_push_clip(&core->list, *axis);
+    const float half = font_cap_height(FONT_NUMBER, THEME_TEXT_SMALL) / 2;
+    for (double i = ceil(view->value0 / values.size); i * values.size <= view->value1; i++) {
+        double value = i * values.size;
+        float y = curves_y(curves, core, value);
+        if (y < axis->y + 8 || y > axis->y + axis->h - 8) continue;
+        bool wide = fabs(value) >= 1e6 || values.size < 1e-6;
+        snprintf(text, sizeof text, wide ? "%.*g" : "%.*f", wide ? 3 : values.decimals, value + 0.0);
+        float x = axis->x + axis->w - 8 - font_width(FONT_NUMBER, THEME_TEXT_SMALL, text);
+        drawlist_text(&core->list, fmaxf(x, axis->x + 2), roundf(y + half), FONT_NUMBER, THEME_TEXT_SMALL,
+                      theme()->text_dim, text);
+    }
+    drawlist_set_clip(&core->list, clip);
 }
 
 static void choose_range(void *room, struct core *core)
@@ -493,7 +466,7 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
     return hover;
 }
 
-static void move_pin(void *room, struct core *core)
+static void move_pin_time(void *room, struct core *core)
 {
     struct curves *curves = room;
     struct pin_time_drag *drag = &curves->pin_drag;
@@ -516,10 +489,10 @@ static void move_pin(void *room, struct core *core)
 }
 
 /// Selects the pin, goes to its frame and starts dragging it.
-static void press_pin(void *room, struct core *core, const struct hover *hover, const struct event *event)
+static void press_pin_time(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {
     struct curves *curves = room;
-    static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .apply = move_pin};
+    static const struct drag_owner owner = {.cursor = CURSOR_HORIZONTAL, .apply = move_pin_time};
     const struct document *document = core->document;
     const struct rig *rig = document->rigs[hover->rig];
     const int at = pins_find_id(rig, hover->pin);
@@ -530,24 +503,7 @@ static void press_pin(void *room, struct core *core, const struct hover *hover, 
     pins_visit(core, &rig->pins[at]);
 }
 
-static void ruler_pins_show(const struct curves *curves, struct core *core)
-{
-    const struct rect *ruler = &core->layout.ruler;
-    struct pin_place at = PINS_START;
-    for (const struct pin *pin; (pin = pins_next(core->document, &at));) {
-        const uint32_t color = pins_color(core->document, at.rig);
-        const bool selected = core->pin.any && core->pin.id == pin->id;
-        const bool hot = core->hover.thing == &thing_pin_time && core->hover.pin == pin->id;
-        const float radius = RADIUS + (selected || hot ? 1 : 0);
-        float xy[2];
-        place_pin(curves, core, pin, xy);
-        if (xy[0] < ruler->x || xy[0] > ruler->x + ruler->w) continue;
-        drawlist_disc(&core->list, xy, radius, selected ? theme()->playhead : color);
-        drawlist_circle(&core->list, xy, radius, 1, selected || hot ? color : theme()->panel);
-    }
-}
-
-static bool find_pin(void *room, const struct core *core, const struct target *target, float xy[2])
+static bool find_pin_time(void *room, const struct core *core, const struct target *target, float xy[2])
 {
     place_pin(room, core, target->pin, xy);
     return rect_contains(core->layout.ruler, xy[0], xy[1]);
@@ -558,11 +514,11 @@ const struct thing thing_pin_time = {
     .cursor = CURSOR_MOVE,
     .hint = "Drag to move the pin in time (Ctrl: off frames); Del removes it; Alt+PgUp, Alt+PgDn: by a frame",
     .place = ON_PIN,
-    .press = press_pin,
+    .press = press_pin_time,
     .name = "pintime",
     .of = OF_PIN,
     .numbers = 1,
-    .find = find_pin,
+    .find = find_pin_time,
     .missing = "that pin is not on the visible part of the ruler"};
 
 // Lines, knots and names.
@@ -666,7 +622,20 @@ static void show_lines(struct curves *curves, struct core *core)
         const int shown = i < 0 ? core->active : cache->other_spline[i];
         if (!spline_list_shows(core, shown)) continue;
         color = i < 0 ? theme()->playhead : spline_list_color(core->document, shown);
-        const int count = take_line(curves, core, shown, xy);
+        const struct take *take = &core->take;
+        const int before = take_spline(core, shown);
+        const struct value_map map = normal_map(curves, core, shown);
+        const double by = cache->by * take->document->substeps / core->document->substeps;
+        int count = 0;
+        for (int c = 0; c < cache->count && before >= 0; c++) {
+            const double frame = frame_of(core->document, cache->first + cache->by * c);
+            const double middle = core_position(take->document, frame);
+            if (middle < 0 || middle > take->evaluation.samples - 1) continue;
+            const double position = outermost(&take->evaluation, before, middle, by, c % 2);
+            const wiggly_value v = evaluation_at(&take->evaluation, before, position);
+            xy[2 * count] = curves_x(curves, core, frame);
+            xy[2 * count++ + 1] = curves_y(curves, core, map.scale * (v.y + v.re) + map.offset);
+        }
         if (count > 1) drawlist_line(&core->list, xy, count, 1.25f, theme_fade(color, i < 0 ? 0.8f : 0.4f));
     }
 }
@@ -693,23 +662,23 @@ void curves_handle(const struct curves *curves, const struct core *core, const s
     xy[1] = curves_y(curves, core, knot->value) + (float)fmin(fmax(down * factor, -1e3), 1e3);
 }
 
-static void hover_ring(struct drawlist *list, float x, float y)
+static void hover_ring(struct drawlist *list, const float middle[2])
 {
-    drawlist_circle(list, (const float[2]){x, y}, HOVER_RADIUS, 1.25f, theme()->playhead);
+    drawlist_circle(list, middle, HOVER_RADIUS, 1.25f, theme()->playhead);
 }
 
 /// A diamond for a value, a circle for a pose, a square for a still pose; filled, or with an outline. Where the motion settles a level line goes
 /// through it.
-static void knot_mark(struct drawlist *list, const struct knot *knot, float x, float y, float r, uint32_t color,
+static void knot_mark(struct drawlist *list, const struct knot *knot, const float middle[2], float r, uint32_t color,
                       uint32_t outline)
 {
-    const float s = 0.8f * r;
+    const float x = middle[0], y = middle[1], s = 0.8f * r;
     const float diamond[] = {x, y - r, x + r, y, x, y + r, x - r, y, x, y - r};
     const float square[] = {x - s, y - s, x + s, y - s, x + s, y + s, x - s, y + s, x - s, y - s};
     const float *xy = knot->still ? square : diamond;
     if (knot->has_phase) {
-        drawlist_disc(list, (const float[]){x, y}, 0.9f * r, color);
-        if (outline) drawlist_circle(list, (const float[]){x, y}, 0.9f * r, 1.5f, outline);
+        drawlist_disc(list, middle, 0.9f * r, color);
+        if (outline) drawlist_circle(list, middle, 0.9f * r, 1.5f, outline);
     } else {
         drawlist_convex(list, xy, 4, color);
         if (outline) drawlist_line(list, xy, 5, 1.5f, outline);
@@ -730,31 +699,8 @@ static double column_of(const struct curves *curves, const struct core *core, co
     return floor(document_sample(core->document, knot->frame) * pixels);
 }
 
-static void show_knot(const struct curves *curves, struct core *core, const struct knot *knot, float x,
-                      uint32_t color)
-{
-    const bool selected = selection_has(&core->selection, knot->id);
-    const float y = curves_knot_y(curves, core, core->active, knot);
-    float ends[2][2]; // of its slope: handles, or a short stroke in their place
-    for (int end = 0; end < 2 && knot->has_slope; end++) {
-        curves_handle(curves, core, knot, end, ends[end]);
-        const float own[2] = {curves_knot_x(curves, core, knot), curves_y(curves, core, knot->value)};
-        for (int i = 0; i < 2 && !selected; i++) ends[end][i] = own[i] + 0.3f * (ends[end][i] - own[i]);
-    }
-    if (knot->has_slope)
-        drawlist_line(&core->list, &ends[0][0], 2, selected ? 1 : 1.5f, theme_fade(color, selected ? 0.8f : 0.7f));
-    for (int end = 0; end < 2 && knot->has_slope && selected; end++) {
-        drawlist_disc(&core->list, ends[end], HANDLE_RADIUS, color);
-        if (core->hover.thing == &thing_slope && core->hover.knot == knot->id && core->hover.handle == end)
-            hover_ring(&core->list, ends[end][0], ends[end][1]);
-    }
-    knot_mark(&core->list, knot, x, y, KNOT_RADIUS, selected ? color : theme()->panel,
-              selected ? theme()->playhead : color); // hollow unless selected
-    if (is_hovered(core, knot)) hover_ring(&core->list, x, y);
-}
-
-/// Draws one knot of each pixel column: the hovered, else a selected one.
-static void show_knots(const struct curves *curves, struct core *core)
+/// Draws one of the active spline's knots in each pixel column: the hovered, else a selected one.
+static void show_active_knots(const struct curves *curves, struct core *core)
 {
     const struct document *document = core->document;
     const struct spline *spline = spline_list_seen(core);
@@ -785,7 +731,28 @@ static void show_knots(const struct curves *curves, struct core *core)
             const float xy[] = {x, curves_y(curves, core, range[0]), x, curves_y(curves, core, range[1])};
             if (range[1] > range[0]) drawlist_line(&core->list, xy, 2, 1.5f, theme_fade(color, 0.7f));
         }
-        show_knot(curves, core, &knots[shown], x, color);
+
+        // The knot, with its slope: handles if it is selected, or a short stroke in their place.
+        const struct knot *knot = &knots[shown];
+        const bool selected = selection_has(&core->selection, knot->id);
+        float ends[2][2];
+        for (int i = 0; i < 2 && knot->has_slope; i++) {
+            curves_handle(curves, core, knot, i, ends[i]);
+            const float own[2] = {curves_knot_x(curves, core, knot), curves_y(curves, core, knot->value)};
+            for (int n = 0; n < 2 && !selected; n++) ends[i][n] = own[n] + 0.3f * (ends[i][n] - own[n]);
+        }
+        if (knot->has_slope)
+            drawlist_line(&core->list, &ends[0][0], 2, selected ? 1 : 1.5f,
+                          theme_fade(color, selected ? 0.8f : 0.7f));
+        for (int i = 0; i < 2 && knot->has_slope && selected; i++) {
+            drawlist_disc(&core->list, ends[i], HANDLE_RADIUS, color);
+            if (core->hover.thing == &thing_slope && core->hover.knot == knot->id && core->hover.handle == i)
+                hover_ring(&core->list, ends[i]);
+        }
+        const float middle[2] = {x, curves_knot_y(curves, core, core->active, knot)};
+        knot_mark(&core->list, knot, middle, KNOT_RADIUS, selected ? color : theme()->panel,
+                  selected ? theme()->playhead : color); // hollow unless selected
+        if (is_hovered(core, knot)) hover_ring(&core->list, middle);
     }
 }
 
@@ -802,16 +769,16 @@ void knots_show(const struct curves *curves, struct core *core, int s, float row
         const bool selected = selection_has(&core->selection, knot->id);
         const float x = curves_knot_x(curves, core, knot);
         if (x < end && !selected && !is_hovered(core, knot)) continue; // where knots are crowded these show
-        const float y = on_sheet ? row : curves_knot_y(curves, core, s, knot);
+        const float middle[2] = {x, on_sheet ? row : curves_knot_y(curves, core, s, knot)};
         end = x + CROWDED;
         if (x < plot->x - margin) continue;
         if (x > plot->x + plot->w + margin) break;
-        knot_mark(&core->list, knot, x, y,
+        knot_mark(&core->list, knot, middle,
                   selected   ? KNOT_RADIUS
                   : on_sheet ? MARK_RADIUS
                              : OTHER_RADIUS,
                   on_sheet || selected ? full : theme_fade(full, THEME_OTHERS), selected ? theme()->playhead : 0);
-        if (is_hovered(core, knot)) hover_ring(&core->list, x, y);
+        if (is_hovered(core, knot)) hover_ring(&core->list, middle);
     }
 }
 
@@ -862,43 +829,47 @@ static void show_labels(const struct curves *curves, struct core *core)
     }
 }
 
-/// The hint of an empty panel, unless a swinging equilibrium would be under the text.
-static void show_empty(struct core *core)
-{
-    const struct spline *spline = core_active_spline(core);
-    bool flat = spline && spline->knot_count == 0 && !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) &&
-                !pins_move_spline(core->document, core->active);
-    bool hidden = spline && !spline_list_seen(core);
-    if (spline && !flat && !hidden) return;
-    const bool has_bones = rigs_have_bones(core);
-    const char *text = hidden      ? "This spline is hidden. Click its eye in the list (F9: More) to show it."
-                       : flat      ? "Double-click to set the first knot."
-                       : has_bones ? "This scene has no splines. Click a bone and press Shift+J to let it swing."
-                                   : "This scene has no splines. Click + in the list on the right to add one.";
-    const struct rect *plot = &core->layout.plot;
-    float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, text)) / 2;
-    drawlist_text(&core->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, text);
-}
-
 void curves_show(struct curves *curves, struct core *core)
 {
     static const char *const looks[] = {[LOOK_WIGGLY] = "", [LOOK_STIFF] = "Stiff", [LOOK_CUBIC] = "Cubic"};
     const struct rect *plot = &core->layout.plot, *sheet = &core->layout.sheet, *ruler = &core->layout.ruler;
+    const struct document *document = core->document;
+    const struct spline *spline = core_active_spline(core), *visible = spline_list_seen(core);
     struct rect clip = drawlist_push_clip(&core->list, core->layout.curves);
     curves_update(curves, core);
     grid_show(curves, core);
     struct rect panel = drawlist_push_clip(&core->list, *plot);
-    limits_show(curves, core);
+    for (int i = 0; visible && i < 2; i++) {
+        const double limit = visible->parameter[i ? PARAMETER_HIGH : PARAMETER_LOW].value;
+        if (!isfinite(limit)) continue;
+        const bool hot = core->hover.thing == &thing_limit && core->hover.handle == i;
+        const float y = curves_y(curves, core, limit), line[] = {plot->x, y, plot->x + plot->w, y};
+        drawlist_dashed(&core->list, line, 2, hot ? 2 : 1.25f, 10, 6,
+                        theme_fade(spline_list_color(document, core->active), hot ? 1 : 0.6f));
+    }
     show_wind_up(curves, core);
     show_lines(curves, core);
     for (int i = 0; i < curves->cache.other_count; i++) {
         knots_show(curves, core, curves->cache.other_spline[i], NAN);
     }
-    show_knots(curves, core);
+    show_active_knots(curves, core);
     if (!core->drag.owner) scale_box_show(curves, core, true); // it would change with every step of a drag
     warnings_update(curves, core);
     warnings_show(curves, core);
-    show_empty(core);
+
+    // The hint of an empty panel, unless a swinging equilibrium would be under the text.
+    const bool flat = spline && spline->knot_count == 0 &&
+                      !param_follows(&spline->parameter[PARAMETER_EQUILIBRIUM]) &&
+                      !pins_move_spline(document, core->active);
+    if (!visible || flat) {
+        const char *hint =
+            spline && !visible      ? "This spline is hidden. Click its eye in the list (F9: More) to show it."
+            : flat                  ? "Double-click to set the first knot."
+            : rigs_have_bones(core) ? "This scene has no splines. Click a bone and press Shift+J to let it swing."
+                                    : "This scene has no splines. Click + in the list on the right to add one.";
+        const float x = plot->x + (plot->w - font_width(FONT_LABEL, THEME_TEXT_NORMAL, hint)) / 2;
+        drawlist_text(&core->list, x, plot->y + 32, FONT_LABEL, THEME_TEXT_NORMAL, theme()->text_dim, hint);
+    }
     drawlist_set_clip(&core->list, panel);
     sheet_show(curves, core);
 
@@ -923,7 +894,20 @@ void curves_show(struct curves *curves, struct core *core)
         drawlist_rounded(&core->list, tag, 3, theme()->playhead);
         drawlist_text(&core->list, tag.x + 5, tag.y + 12, FONT_NUMBER, THEME_TEXT_SMALL, theme()->panel, frame);
     }
-    ruler_pins_show(curves, core);
+
+    // The pins' marks on the ruler.
+    struct pin_place at = PINS_START;
+    for (const struct pin *pin; (pin = pins_next(document, &at));) {
+        const uint32_t color = pins_color(document, at.rig);
+        const bool selected = core->pin.any && core->pin.id == pin->id;
+        const bool hot = core->hover.thing == &thing_pin_time && core->hover.pin == pin->id;
+        const float radius = RADIUS + (selected || hot ? 1 : 0);
+        float xy[2];
+        place_pin(curves, core, pin, xy);
+        if (xy[0] < ruler->x || xy[0] > ruler->x + ruler->w) continue;
+        drawlist_disc(&core->list, xy, radius, selected ? theme()->playhead : color);
+        drawlist_circle(&core->list, xy, radius, 1, selected || hot ? color : theme()->panel);
+    }
     drag_show(curves, core);
     warnings_show_words(curves, core);
     drawlist_set_clip(&core->list, clip);

@@ -66,14 +66,6 @@ struct pin_time_drag {
 /// The pivot: the middle of the selection, the playhead's equilibrium, the equilibrium at each knot, or the box's opposite side.
 enum pivot { PIVOT_MIDDLE, PIVOT_PLAYHEAD, PIVOT_EQUILIBRIUM, PIVOT_SIDE, PIVOTS };
 
-/// Handles in three rows of three, from the upper left; the middle is none.
-enum { BOX_HANDLES = 9, BOX_MIDDLE = 4 };
-
-/// -1 left or top, 0 middle, 1 right or bottom.
-static inline int box_column(int handle) { return handle % 3 - 1; }
-static inline int box_row(int handle) { return handle / 3 - 1; }
-static inline bool box_corner(int handle) { return box_column(handle) && box_row(handle); }
-
 struct factors {
     double time, value;
 };
@@ -179,11 +171,8 @@ double curves_value(const struct curves *curves, const struct core *core, double
 
 /// How a spline's values are drawn.
 struct value_map normal_map(const struct curves *curves, const struct core *core, int spline);
-/// Height of a spline's value in logical pixels, normalised if that is on.
-float curves_y_of(const struct curves *curves, const struct core *core, int spline, double value);
+/// A knot's height in logical pixels, normalised if that is on.
 float curves_knot_y(const struct curves *curves, const struct core *core, int spline, const struct knot *knot);
-/// Measures the normalised curves. During a drag it does not, so that the other curves hold still.
-void normal_update(struct curves *curves, const struct core *core);
 
 /// The spline of another curve's vertices, or -1 if an edit has moved it in the list since.
 int curves_other(const struct curves *curves, const struct document *document, int other);
@@ -198,8 +187,6 @@ int curves_knot_from(const struct curves *curves, const struct core *core, const
 extern const struct thing thing_knot, thing_mark, thing_slope, thing_curve, thing_active_curve, thing_box,
     thing_warning, thing_limit, thing_row, thing_ruler, thing_units, thing_sheet, thing_pin_time;
 
-void limits_show(const struct curves *curves, struct core *core);
-
 /// Draws a spline's knots, in the plot (`row` NAN) or at the height `row` of the dope sheet.
 void knots_show(const struct curves *curves, struct core *core, int spline, float row);
 /// Whether `distance` is at most `*best`; if so stores it there.
@@ -210,9 +197,10 @@ static inline bool is_nearest(float distance, float *best)
     return true;
 }
 
-/// Finds a spline's nearest knot closer than `reach`, by is_nearest(); returns its distance, else `reach`.
-float nearest_knot(const struct curves *curves, const struct core *core, int of, float row, float x, float y,
-                   float reach, struct hover *hover);
+/// Finds a spline's knot nearest to a point and closer than `reach`, by is_nearest(); returns its distance, else `reach`. On the dope sheet,
+/// where only x counts, y is NAN.
+float nearest_knot(const struct curves *curves, const struct core *core, int of, const float xy[2], float reach,
+                   struct hover *hover);
 
 /// The pin mark at a point of the ruler.
 struct hover ruler_pins_hover(const struct curves *curves, const struct core *core, float x, float y);
@@ -221,10 +209,8 @@ struct hover ruler_pins_hover(const struct curves *curves, const struct core *co
 struct rect sheet_area(const struct core *core);
 struct rect sheet_switch(const struct core *core);
 struct hover sheet_hover(const struct curves *curves, const struct core *core, float x, float y);
-/// The height of a spline's row if the box touches it, else NAN.
-float sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box);
-/// false if the wheel is not for scrolling.
-bool sheet_wheel(struct curves *curves, struct core *core, const struct event *event);
+/// Whether a box touches a spline's row.
+bool sheet_row_in(const struct curves *curves, const struct core *core, int spline, struct rect box);
 void sheet_show(const struct curves *curves, struct core *core);
 
 void scale_box_hover(const struct curves *curves, const struct core *core, float x, float y, struct hover *hover);
@@ -243,8 +229,6 @@ struct rect ruler_corner(const struct core *core);
 /// Finds the warnings if document or view changed. Allocates nothing.
 void warnings_update(struct curves *curves, const struct core *core);
 
-/// Position of a warning's marker; false if it is not visible.
-bool warning_place(const struct curves *curves, const struct core *core, const struct warning *warning, float xy[2]);
 void warnings_show(const struct curves *curves, struct core *core);
 /// The text under the pointer and what a click does. Drawn last, above everything else; the fix is chosen here.
 void warnings_show_words(struct curves *curves, struct core *core);
