@@ -139,60 +139,58 @@ static struct rect characters_legend(const struct core *core)
     return (struct rect){stage.x + 12, stage.y + stage.h - LEGEND_HEIGHT - 12, LEGEND_WIDTH, LEGEND_HEIGHT};
 }
 
-/// Angles as in the complex plane: in step to the right, a quarter ahead at the top.
-static void show_legend(struct core *core, const struct coordinate *coordinate)
-{
-    static const char *const directions[] = {"left and right (x)", "up and down (y)", "back and forth (z)"};
-    struct drawlist *list = &core->list;
-    const struct rect box = characters_legend(core);
-    const float x = box.x + box.w / 2, y = box.y + 80;
-    char title[96];
-    snprintf(title, sizeof title, "%.*s: %s", name_fit(coordinate->name, 40), coordinate->name,
-             directions[core->characters.axis]);
-    stage_scrim(core, box);
-    drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
-
-    // The wheel: amplitude grows outwards. Rings and sectors overlap, so that no edges show.
-    const float step = 6.28318531f / SECTORS;
-    for (int ring = RINGS; ring >= 1; ring--) {
-        const float radius = WHEEL * (float)ring / RINGS, amplitude = ((float)ring - 0.5f) / (RINGS - 0.5f);
-        for (int s = 0; s < SECTORS; s++) {
-            const float middle = step * (float)s, from = middle - 0.62f * step, to = middle + 0.62f * step;
-            const float xy[] = {x,
-                                y,
-                                x + radius * maths_cosf(from),
-                                y - radius * maths_sinf(from),
-                                x + radius * maths_cosf(to),
-                                y - radius * maths_sinf(to)};
-            drawlist_convex(list, xy, 3, phase_color(amplitude * maths_cosf(middle), amplitude * maths_sinf(middle)));
-        }
-    }
-    for (int i = 0; i < 8; i++) { // the same lines as on the character (stage_mesh.frag)
-        const float angle = 0.785398163f * ((float)i + 0.5f), along = maths_cosf(angle), up = maths_sinf(angle),
-                    from = 0.2f * WHEEL;
-        const float xy[] = {x + from * along, y - from * up, x + WHEEL * along, y - WHEEL * up};
-        drawlist_line(list, xy, 2, 1.25f, 0x000000A0u);
-    }
-    show_centred(list, x, y - WHEEL - 6, "ahead", theme()->text_dim);
-    show_centred(list, x, y + WHEEL + 14, "behind", theme()->text_dim);
-    drawlist_text(list, x + WHEEL + 8, y + 4, FONT_LABEL, TEXT_SIZE, theme()->text_dim, "in step");
-    const char *left = "opposite";
-    drawlist_text(list, x - WHEEL - 8 - font_width(FONT_LABEL, TEXT_SIZE, left), y + 4, FONT_LABEL, TEXT_SIZE,
-                  theme()->text_dim, left);
-}
-
 void characters_show(const struct stage *stage, struct core *core)
 {
     static const char *const names[] = {"with phases", "without phases"}; // a line under the feet of each of a pair
+    static const char *const directions[] = {"left and right (x)", "up and down (y)", "back and forth (z)"};
     const struct coordinate *coordinate = characters_coordinate(core);
     const struct rect r = core->layout.stage;
-    if ((core->characters.mapped || core->brush.on) && coordinate) show_legend(core, coordinate);
+    struct drawlist *list = &core->list;
+    if ((core->characters.mapped || core->brush.on) && coordinate) {
+        // The legend. Angles as in the complex plane: in step to the right, a quarter ahead at the top.
+        const struct rect box = characters_legend(core);
+        const float x = box.x + box.w / 2, y = box.y + 80;
+        char title[96];
+        snprintf(title, sizeof title, "%.*s: %s", name_fit(coordinate->name, 40), coordinate->name,
+                 directions[core->characters.axis]);
+        stage_scrim(core, box);
+        drawlist_text_fit(list, box.x + 10, box.y + 18, box.w - 20, FONT_LABEL, TEXT_SIZE, theme()->text, title);
+
+        // Its wheel: amplitude grows outwards. Rings and sectors overlap, so that no edges show.
+        const float step = 6.28318531f / SECTORS;
+        for (int ring = RINGS; ring >= 1; ring--) {
+            const float radius = WHEEL * (float)ring / RINGS, amplitude = ((float)ring - 0.5f) / (RINGS - 0.5f);
+            for (int s = 0; s < SECTORS; s++) {
+                const float middle = step * (float)s, from = middle - 0.62f * step, to = middle + 0.62f * step;
+                const float xy[] = {x,
+                                    y,
+                                    x + radius * maths_cosf(from),
+                                    y - radius * maths_sinf(from),
+                                    x + radius * maths_cosf(to),
+                                    y - radius * maths_sinf(to)};
+                drawlist_convex(list, xy, 3,
+                                phase_color(amplitude * maths_cosf(middle), amplitude * maths_sinf(middle)));
+            }
+        }
+        for (int i = 0; i < 8; i++) { // the same lines as on the character (stage_mesh.frag)
+            const float angle = 0.785398163f * ((float)i + 0.5f), along = maths_cosf(angle), up = maths_sinf(angle),
+                        from = 0.2f * WHEEL;
+            const float xy[] = {x + from * along, y - from * up, x + WHEEL * along, y - WHEEL * up};
+            drawlist_line(list, xy, 2, 1.25f, 0x000000A0u);
+        }
+        show_centred(list, x, y - WHEEL - 6, "ahead", theme()->text_dim);
+        show_centred(list, x, y + WHEEL + 14, "behind", theme()->text_dim);
+        drawlist_text(list, x + WHEEL + 8, y + 4, FONT_LABEL, TEXT_SIZE, theme()->text_dim, "in step");
+        const char *left = "opposite";
+        drawlist_text(list, x - WHEEL - 8 - font_width(FONT_LABEL, TEXT_SIZE, left), y + 4, FONT_LABEL, TEXT_SIZE,
+                      theme()->text_dim, left);
+    }
     for (int i = 0; core->characters.compare && i < stage->view.character_count; i++) {
         const struct stage_character *shown = &stage->view.characters[i];
         const float feet[3] = {shown->position[0], shown->position[1], shown->position[2] + shown->figure->hi[2]};
         float xy[2];
         if (!stage_project_point(stage, r, feet, xy)) continue;
-        show_centred(&core->list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], theme()->text_dim);
+        show_centred(list, xy[0], fminf(xy[1] + 22, r.y + r.h - 8), names[i % 2], theme()->text_dim);
     }
 }
 
