@@ -85,22 +85,6 @@ static bool read_directions(struct job *job, int files)
     return !at && (job->direction_count <= 1 || job->direction_count == files);
 }
 
-/// A unique coordinate name from the file's: "up", then "up-2" … for further modes.
-static char *make_name(const char *path, const struct character *character)
-{
-    struct names names = {.between = "-"};
-    const char *base = path_name(path), *dot = strrchr(base, '.');
-    const size_t length = dot ? (size_t)(dot - base) : strlen(base);
-    char *stem = length > 0 ? name_from(base, length) : need_text("motion");
-    for (int i = 0; i < character->coordinate_count; i++) {
-        if (character->coordinates[i].name) names_add(&names, character->coordinates[i].name);
-    }
-    char *name = need_text(names_add(&names, stem));
-    names_free(&names);
-    free(stem);
-    return name;
-}
-
 /// Rounded to a millionth, so that files do not depend on the processor LAPACK ran on.
 static double rounded(double value) { return round(value * 1e6) / 1e6; }
 
@@ -189,11 +173,17 @@ static void warn_of_input(const struct input *in, const struct analysis *a, cons
 static void keep_components(const struct job *job, const struct analysis *analysis, const struct input *in,
                             struct result *result)
 {
+    struct character *character = &result->character;
+    const char *base = path_name(in->motion.path), *dot = strrchr(base, '.');
+    const size_t length = dot ? (size_t)(dot - base) : strlen(base);
+    char *stem = length > 0 ? name_from(base, length) : need_text("motion");
+    struct names names = {.between = "-"}; // "up", then "up-2" … for further modes
+    for (int i = 0; i < result->filled; i++) names_add(&names, character->coordinates[i].name);
     for (int rank = 0; rank < analysis->count; rank++) {
-        struct coordinate *to = &result->character.coordinates[result->filled];
+        struct coordinate *to = &character->coordinates[result->filled];
         struct analyzed *analyzed = &result->analyzed[result->filled++];
         const struct component *c = &analysis->components[rank];
-        to->name = make_name(in->motion.path, &result->character);
+        to->name = need_text(names_add(&names, stem));
         to->frequency = rounded(c->frequency);
         to->damping = rounded(c->damping);
         to->explained = rounded(c->explained);
@@ -232,6 +222,8 @@ static void keep_components(const struct job *job, const struct analysis *analys
         printf("    lag over the surface: from %.0f to %.0f degrees, with 5 %% of the motion beyond each end\n",
                printable_number(c->first_lag, 1), printable_number(c->last_lag, 1));
     }
+    names_free(&names);
+    free(stem);
     printf("  relative error of the motion with %d coordinate%s: %.3g; as many real principal components: %.3g\n",
            analysis->count, analysis->count > 1 ? "s" : "", analysis->left, analysis->real_left);
 }
@@ -280,37 +272,6 @@ static bool analyse_file(const struct job *job, int file, const struct lapack *l
     return done;
 }
 
-/// Adds a spline and its knots.
-static bool add_spline(struct document *document, const char *name, const struct analyzed *analyzed,
-                       struct error *error)
-{
-    const struct knots *knots = &analyzed->knots;
-    const struct {
-        enum parameter parameter;
-        double value;
-    } set[] = {{PARAMETER_MODE, knots->mode},
-               {PARAMETER_FREQUENCY, knots->frequency},
-               {PARAMETER_DAMPING, knots->damping},
-               {PARAMETER_WIND_UP, 0}, // the fit is to the whole curve
-               {PARAMETER_BANDWIDTH, knots->bandwidth}};
-    const int spline = document->spline_count, count = knots->mode == WIGGLY_COMPLEX ? 5 : 4;
-    if (!edit_spline_add(document, -1, name, NULL, error)) return false;
-    for (int i = 0; i < count; i++) {
-        const struct param value = param_number(set[i].value);
-        if (!edit_parameter(document, spline, set[i].parameter, &value, error)) return false;
-    }
-    for (int i = 0; i < knots->count; i++) {
-        const double frame = knots->frame[i] * document->fps / analyzed->fps;
-        const struct knot knot = {.frame = round(frame * 1000) / 1000,
-                                  .value = knots->value[i],
-                                  .slope = knots->sloped ? knots->slope[i] : 0,
-                                  .has_slope = knots->sloped,
-                                  .stiffness = KNOT_DEFAULT_STIFFNESS};
-        if (!edit_knot_insert(document, spline, &knot, error)) return false;
-    }
-    return true;
-}
-
 /// Writes a scene for the character file `model`, with one spline per coordinate, as many coordinates as a scene allows. The first
 /// coordinate of every motion comes before the second of any.
 static bool analyze_write_scene(const char *path, const char *model, const struct character *character,
@@ -338,8 +299,31 @@ static bool analyze_write_scene(const char *path, const char *model, const struc
                 edit_range(document, 0, (int)round(fps * seconds), RANGE_REFUSE, error);
     for (int i = 0; done && i < count; i++) {
         char *driver = character->coordinates[chosen[i]].name;
+        const struct analyzed *each = &analyzed[chosen[i]];
+        const struct knots *knots = &each->knots;
+        const struct {
+            enum parameter parameter;
+            double value;
+        } set[] = {{PARAMETER_MODE, knots->mode},
+                   {PARAMETER_FREQUENCY, knots->frequency},
+                   {PARAMETER_DAMPING, knots->damping},
+                   {PARAMETER_WIND_UP, 0}, // the fit is to the whole curve
+                   {PARAMETER_BANDWIDTH, knots->bandwidth}};
         drives[rig.character.drive_count++] = (struct drive){.name = driver, .spline = i, .amplitude = 1};
-        done = add_spline(document, driver, &analyzed[chosen[i]], error);
+        done = edit_spline_add(document, -1, driver, NULL, error);
+        for (int p = 0; done && p < (knots->mode == WIGGLY_COMPLEX ? 5 : 4); p++) {
+            const struct param value = param_number(set[p].value);
+            done = edit_parameter(document, i, set[p].parameter, &value, error);
+        }
+        for (int k = 0; done && k < knots->count; k++) {
+            const double frame = knots->frame[k] * document->fps / each->fps;
+            const struct knot knot = {.frame = round(frame * 1000) / 1000,
+                                      .value = knots->value[k],
+                                      .slope = knots->sloped ? knots->slope[k] : 0,
+                                      .has_slope = knots->sloped,
+                                      .stiffness = KNOT_DEFAULT_STIFFNESS};
+            done = edit_knot_insert(document, i, &knot, error);
+        }
     }
     done = done && edit_rig_add(document, &rig, error) && scene_save(document, path, error);
     document_destroy(document);

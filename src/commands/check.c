@@ -42,9 +42,20 @@ static int check_character(const char *path)
     return 0;
 }
 
-/// Goes on where paint, a model, or something the scene names in one is missing.
-static int check_scene(const char *path)
+int command_check(int argc, char **argv)
 {
+    const char *path;
+    const struct usage usage = {
+        .command = "check",
+        .operands = "scene.json",
+        .summary = "Prints every problem in a scene file, with its line, or a character's clips, bones and chains.",
+        .operand_maximum = 1,
+    };
+    enum options_result result = options_parse(&usage, argc, argv, &path);
+    if (result != OPTIONS_RUN) return (int)result;
+    if (import_suits(path)) return check_character(path);
+
+    // It goes on where paint, a model, or something the scene names in one is missing.
     struct problems problems = {.report = print_problem};
     struct error error = {0};
     struct opened opened = {.document = scene_load(path, &problems, &error)};
@@ -83,18 +94,4 @@ static int check_scene(const char *path)
     solution_warnings(document, evaluation, print_warning, &path);
     opened_free(&opened);
     return good ? 0 : ERROR_INPUT;
-}
-
-int command_check(int argc, char **argv)
-{
-    const char *path;
-    const struct usage usage = {
-        .command = "check",
-        .operands = "scene.json",
-        .summary = "Prints every problem in a scene file, with its line, or a character's clips, bones and chains.",
-        .operand_maximum = 1,
-    };
-    enum options_result result = options_parse(&usage, argc, argv, &path);
-    if (result != OPTIONS_RUN) return (int)result;
-    return import_suits(path) ? check_character(path) : check_scene(path);
 }

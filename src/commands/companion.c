@@ -67,30 +67,23 @@ bool companion_read(const char *motion, int frames, int vertices, struct compani
     return done;
 }
 
-/// z up becomes y up as in Blender's exporters: x stays, y becomes −z. x up: z stays, x becomes y, y becomes −x.
-static bool turn_upright(const struct mesh_options *options, struct surface *surface)
+bool open_mesh(const char *path, const struct mesh_options *options, struct surface *surface, struct error *error)
 {
+    // z up becomes y up as in Blender's exporters: x stays, y becomes −z. x up: z stays, x becomes y, y becomes −x.
     static const struct {
         int from[3], sign[3]; // for each of our axes
     } turns[] = {{{1, 0, 2}, {-1, 1, 1}}, {{0, 1, 2}, {1, 1, 1}}, {{0, 2, 1}, {1, 1, -1}}};
     const int up = options->up ? options->up - 1 : 1;
-    for (int i = 0; i < surface->vertex_count; i++) {
+    bool done = surface_read(path, surface, error);
+    for (int i = 0; done && i < surface->vertex_count; i++) {
         const float *p = surface->position[i];
         float placed[3];
-        for (int c = 0; c < 3; c++) {
+        for (int c = 0; c < 3; c++)
             placed[c] = (float)((double)p[turns[up].from[c]] * turns[up].sign[c] * options->scale);
-            if (!isfinite(placed[c])) return false;
-        }
+        done = (isfinite(placed[0]) && isfinite(placed[1]) && isfinite(placed[2])) ||
+               fail(error, ERROR_INPUT, "%s: expected a size that --scale keeps finite, got an infinite one", path);
         memcpy(surface->position[i], placed, sizeof placed);
     }
-    return true;
-}
-
-bool open_mesh(const char *path, const struct mesh_options *options, struct surface *surface, struct error *error)
-{
-    bool done = surface_read(path, surface, error);
-    if (done && !turn_upright(options, surface))
-        done = fail(error, ERROR_INPUT, "%s: expected a size that --scale keeps finite, got an infinite one", path);
     if (!done) {
         surface_free(surface);
         return false;

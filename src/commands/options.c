@@ -197,34 +197,6 @@ static void options_print_help(const struct usage *usage, bool all)
     if (count < usage->option_count) printf("\nwiggly %s --help-all lists all options.\n", usage->command);
 }
 
-/// Refuses an output that is another output of the command, or one of its inputs. Devices and pipes may be shared.
-static enum options_result options_check_outputs(const struct usage *usage, const char **operands)
-{
-    static char operand[WORD_MAX + 1];
-    const char *word = usage->operands + (usage->operands[0] == '[');
-    snprintf(operand, sizeof operand, "%.*s", (int)strcspn(word, " ]"), word);
-    for (int i = 0; i < usage->operand_maximum && operands[i]; i++) file_note_read(operands[i], operand);
-    for (int i = 0; i < usage->option_count; i++) {
-        const struct option_spec *input = &usage->options[i];
-        const char *path = input->kind == OPTION_INPUT ? *(const char **)input->target : NULL;
-        if (path) file_note_read(path, input->name);
-    }
-    for (int i = 0; i < usage->option_count; i++) {
-        const struct option_spec *one = &usage->options[i];
-        const char *path = one->kind == OPTION_OUTPUT ? *(const char **)one->target : NULL;
-        struct error error;
-        if (path && !file_check_unread(path, &error)) return options_wrong(usage, "%s: %s", one->name, error.text);
-        for (int k = 0; path && k < i; k++) {
-            const struct option_spec *other = &usage->options[k];
-            const char *taken = other->kind == OPTION_OUTPUT ? *(const char **)other->target : NULL;
-            if (taken && file_same(path, taken))
-                return options_wrong(usage, "%s and %s: expected two files, got %s for both", other->name, one->name,
-                                     path);
-        }
-    }
-    return OPTIONS_RUN;
-}
-
 enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands)
 {
     int count = 0;
@@ -250,7 +222,31 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     }
     if (count == 0 && usage->operands[0] != '[')
         return options_wrong(usage, "an argument is missing: %s", usage->operands);
-    return options_check_outputs(usage, operands);
+
+    // An output must not be another output, or an input. Devices and pipes may be shared.
+    static char operand[WORD_MAX + 1];
+    const char *word = usage->operands + (usage->operands[0] == '[');
+    snprintf(operand, sizeof operand, "%.*s", (int)strcspn(word, " ]"), word);
+    for (int i = 0; i < usage->operand_maximum && operands[i]; i++) file_note_read(operands[i], operand);
+    for (int i = 0; i < usage->option_count; i++) {
+        const struct option_spec *input = &usage->options[i];
+        const char *path = input->kind == OPTION_INPUT ? *(const char **)input->target : NULL;
+        if (path) file_note_read(path, input->name);
+    }
+    for (int i = 0; i < usage->option_count; i++) {
+        const struct option_spec *one = &usage->options[i];
+        const char *path = one->kind == OPTION_OUTPUT ? *(const char **)one->target : NULL;
+        struct error error;
+        if (path && !file_check_unread(path, &error)) return options_wrong(usage, "%s: %s", one->name, error.text);
+        for (int k = 0; path && k < i; k++) {
+            const struct option_spec *other = &usage->options[k];
+            const char *taken = other->kind == OPTION_OUTPUT ? *(const char **)other->target : NULL;
+            if (taken && file_same(path, taken))
+                return options_wrong(usage, "%s and %s: expected two files, got %s for both", other->name, one->name,
+                                     path);
+        }
+    }
+    return OPTIONS_RUN;
 }
 
 int options_end(bool done, const struct error *error)

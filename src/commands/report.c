@@ -49,38 +49,31 @@ void solution_warnings(const struct document *document, const struct evaluation 
     }
 }
 
-enum { DEEPEST_INDENTED = 64 };
-
-/// Prints a tree of nodes. Below a certain depth a number replaces the indentation.
-static void print_tree(const struct gltf *gltf, int root)
-{
-    const struct gltf_node *nodes = gltf->nodes;
-    for (int n = root, depth = 0; n >= 0;) {
-        if (depth <= DEEPEST_INDENTED) {
-            print_line(stdout, "%*s%s", 2 + 2 * depth, "", nodes[n].name);
-        } else {
-            print_line(stdout, "%*s(%d deep) %s", 2 + 2 * DEEPEST_INDENTED, "", depth, nodes[n].name);
-        }
-        if (nodes[n].child >= 0) {
-            n = nodes[n].child;
-            depth++;
-            continue;
-        }
-        for (; n >= 0 && nodes[n].next < 0; depth--) n = nodes[n].parent;
-        if (n >= 0) n = nodes[n].next;
-    }
-}
-
 void contents_print(const struct imported *imported)
 {
+    enum { DEEPEST_INDENTED = 64 };
     const struct gltf *gltf = &imported->gltf;
     printf("clips:%s\n", gltf->clip_count > 0 ? "" : " none");
     for (int c = 0; c < gltf->clip_count; c++)
         print_line(stdout, "  %s (%.3g s, %s)", gltf->clips[c].name, gltf->clips[c].last - gltf->clips[c].first,
                    gltf->clips[c].loops ? "loops" : "plays once");
     printf("bones and other nodes:\n");
-    for (int n = 0; n < gltf->node_count; n++) {
-        if (gltf->nodes[n].parent < 0) print_tree(gltf, n);
+    for (int root = 0; root < gltf->node_count; root++) {
+        const struct gltf_node *nodes = gltf->nodes;
+        for (int n = nodes[root].parent < 0 ? root : -1, depth = 0; n >= 0;) {
+            if (depth <= DEEPEST_INDENTED) {
+                print_line(stdout, "%*s%s", 2 + 2 * depth, "", nodes[n].name);
+            } else { // a number replaces the indentation
+                print_line(stdout, "%*s(%d deep) %s", 2 + 2 * DEEPEST_INDENTED, "", depth, nodes[n].name);
+            }
+            if (nodes[n].child >= 0) {
+                n = nodes[n].child;
+                depth++;
+                continue;
+            }
+            for (; n >= 0 && nodes[n].next < 0; depth--) n = nodes[n].parent;
+            if (n >= 0) n = nodes[n].next;
+        }
     }
     bool any = false;
     for (int n = 0; n < gltf->node_count; n++) {

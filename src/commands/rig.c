@@ -33,25 +33,6 @@ static const char *split_chain(const struct gltf *gltf, char *text)
     return last ? last + 1 : NULL;
 }
 
-/// Chooses the clip and adds the chains.
-static bool add_chains(const struct job *job, const struct gltf *gltf, struct opened *opened, struct error *error)
-{
-    const enum clip_repeat repeat = job->loop ? REPEAT_LOOP : job->once ? REPEAT_ONCE : REPEAT_BY_CLIP;
-    const char *clip = job->clip ? job->clip : opened->document->rigs[0]->model.clip;
-    bool done = import_choose_clip(opened->document, 0, gltf, clip, repeat, error);
-    struct chain_wish wish = job->wish;
-    wish.follows = !job->plain && opened->document->rigs[0]->model.clip;
-    for (int c = 0; done && c < job->chains.count; c++) {
-        int rig;
-        char *from = need_text(job->chains.text[c]);
-        wish.to = split_chain(gltf, from);
-        wish.from = from;
-        done = chain_make(opened->document, opened->models, &wish, &rig, error);
-        free(from);
-    }
-    return done && models_update(opened->models, opened->document, error);
-}
-
 /// Writes a scene or an animated character, and says what it plays.
 static bool write_output(const struct job *job, struct opened *opened, struct error *error)
 {
@@ -142,7 +123,20 @@ int command_rig(int argc, char **argv)
     } else if (!job.output) {
         contents_print(character);
     } else {
-        done = add_chains(&job, &character->gltf, &opened, &error) && write_output(&job, &opened, &error);
+        const struct gltf *gltf = &character->gltf;
+        const enum clip_repeat repeat = job.loop ? REPEAT_LOOP : job.once ? REPEAT_ONCE : REPEAT_BY_CLIP;
+        const char *clip = job.clip ? job.clip : opened.document->rigs[0]->model.clip;
+        done = import_choose_clip(opened.document, 0, gltf, clip, repeat, &error);
+        job.wish.follows = !job.plain && opened.document->rigs[0]->model.clip;
+        for (int c = 0; done && c < job.chains.count; c++) {
+            int rig;
+            char *from = need_text(job.chains.text[c]);
+            job.wish.to = split_chain(gltf, from);
+            job.wish.from = from;
+            done = chain_make(opened.document, opened.models, &job.wish, &rig, &error);
+            free(from);
+        }
+        done = done && models_update(opened.models, opened.document, &error) && write_output(&job, &opened, &error);
     }
     opened_free(&opened);
     return options_end(done, &error);

@@ -317,40 +317,6 @@ static bool write_modes(const struct job *job, const struct soft *soft, struct e
     return true;
 }
 
-static void report_body(const struct job *job, const struct soft *soft)
-{
-    print_line(stdout, "%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz",
-               job->mesh, soft->lattice.tet_count, soft->body.node_count, soft->pinned, soft->young,
-               soft->modes.count ? soft->modes.frequency[0] : 0);
-    if (!job->modal) {
-        printf("  seen most: mode %d, %.4g Hz, with %.0f %% of the motion\n", soft->seen + 1, soft_frequency(soft),
-               100 * soft->share);
-        if (!job->drive_text && (job->shake.shake.impulse || soft->pinned == 0))
-            printf("  swings freely, because of %s\n", job->shake.shake.impulse ? "--impulse" : "--pin none");
-    }
-    if (soft->lattice.repair[0]) print_line(stdout, "%s: %s", job->mesh, soft->lattice.repair);
-    fflush(stdout);
-    const double lowest = soft->modes.count ? soft->modes.frequency[0] : 0, period = 1 / soft_frequency(soft);
-    if (!job->modal && period > job->shake.seconds) {
-        print_line(
-            stderr,
-            "%s: warning: %.4g s show less than a period, %.4g s, so analyze cannot find the frequency; choose a "
-            "longer time, of at most %d frames, or a stiffer body",
-            job->mesh, job->shake.seconds, period, ANALYSIS_FRAMES_MAX);
-    }
-    if (!job->modal && lowest < slow_warning * soft_frequency(soft)) {
-        print_line(
-            stderr,
-            "%s: warning: the lowest mode, of %.2g Hz, is far below the %.2g Hz of the one that is seen most; if it "
-            "sways slowly, --pin more of it",
-            job->mesh, lowest, soft_frequency(soft));
-    }
-    if (soft->unpinned_parts > 0 && soft->pinned > 0) {
-        print_line(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift", job->mesh,
-                   soft->unpinned_parts, soft->lattice.part_count);
-    }
-}
-
 static bool simulate_mesh(struct job *job, struct error *error)
 {
     struct surface surface = {0};
@@ -361,7 +327,36 @@ static bool simulate_mesh(struct job *job, struct error *error)
     bool good = file_check_unread(job->rest, error) && open_mesh(job->mesh, &job->opening, &surface, error) &&
                 make_body(job, &soft, &surface, error);
     if (good) {
-        report_body(job, &soft);
+        print_line(stdout,
+                   "%s: %d tetrahedra, %d nodes, %d of them pinned; Young's modulus %.4g Pa, lowest mode %.4g Hz",
+                   job->mesh, soft.lattice.tet_count, soft.body.node_count, soft.pinned, soft.young,
+                   soft.modes.count ? soft.modes.frequency[0] : 0);
+        if (!job->modal) {
+            printf("  seen most: mode %d, %.4g Hz, with %.0f %% of the motion\n", soft.seen + 1,
+                   soft_frequency(&soft), 100 * soft.share);
+            if (!job->drive_text && (job->shake.shake.impulse || soft.pinned == 0))
+                printf("  swings freely, because of %s\n", job->shake.shake.impulse ? "--impulse" : "--pin none");
+        }
+        if (soft.lattice.repair[0]) print_line(stdout, "%s: %s", job->mesh, soft.lattice.repair);
+        fflush(stdout);
+        const double lowest = soft.modes.count ? soft.modes.frequency[0] : 0, period = 1 / soft_frequency(&soft);
+        if (!job->modal && period > job->shake.seconds) {
+            print_line(
+                stderr,
+                "%s: warning: %.4g s show less than a period, %.4g s, so analyze cannot find the frequency; choose a "
+                "longer time, of at most %d frames, or a stiffer body",
+                job->mesh, job->shake.seconds, period, ANALYSIS_FRAMES_MAX);
+        }
+        if (!job->modal && lowest < slow_warning * soft_frequency(&soft)) {
+            print_line(stderr,
+                       "%s: warning: the lowest mode, of %.2g Hz, is far below the %.2g Hz of the one that is seen "
+                       "most; if it sways slowly, --pin more of it",
+                       job->mesh, lowest, soft_frequency(&soft));
+        }
+        if (soft.unpinned_parts > 0 && soft.pinned > 0) {
+            print_line(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift", job->mesh,
+                       soft.unpinned_parts, soft.lattice.part_count);
+        }
         good = job->modal ? write_modes(job, &soft, error) : shake_body(job, &soft, &surface, error);
         good = good && obj_write(job->rest, &surface, error);
         if (good) print_line(stdout, "%s: the mesh at rest", job->rest);
