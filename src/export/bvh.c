@@ -63,29 +63,6 @@ static void to_angles(const float q[4], double angle[3])
     angle[2] = 2 * degrees * maths_atan2(rest_z, rest_w);
 }
 
-/// Moves everything to where the stage has it.
-static void place_on_stage(struct form *form, struct keys *keys, const float root[16])
-{
-    mat4s matrix = mat4_from(root);
-    const float scale = glms_vec3_norm(vec3_from(root));
-    mat3s turned = glms_mat4_pick3(matrix);
-    for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
-    const versors turn = glms_mat3_quat(turned);
-    for (int j = 0; j < form->joint_count; j++) {
-        glm_vec3_scale(form->joints[j].offset, scale, form->joints[j].offset);
-        glm_vec3_scale(form->joints[j].tip, scale, form->joints[j].tip);
-    }
-    for (float *row = keys->rows; row < keys_at(keys, keys->count, 0); row += keys->width) {
-        versors q;
-        glm_mat4_mulv3(matrix.raw, row, 1, row);
-        memcpy(&q, row + keys_rotation(form->first_bone), sizeof q);
-        q = glms_quat_mul(turn, q);
-        memcpy(row + keys_rotation(form->first_bone), &q, sizeof q);
-        for (int j = 0; j < form->joint_count; j++)
-            glm_vec3_scale(row + keys_offset(keys, j), scale, row + keys_offset(keys, j));
-    }
-}
-
 bool bvh_write(struct export_range *range, FILE *out, struct error *error)
 {
     struct rig_pose pose;
@@ -95,7 +72,26 @@ bool bvh_write(struct export_range *range, FILE *out, struct error *error)
     const float *root = range_root(range, range->rigs[0], &pose);
     if (!form_open(range, range->rigs[0], &form, error)) return false;
     const bool done = keys_collect(range, range->rigs[0], &form, &keys, error);
-    if (done && root) place_on_stage(&form, &keys, root);
+    if (done && root) { // everything moves to where the stage has it
+        mat4s matrix = mat4_from(root);
+        const float scale = glms_vec3_norm(vec3_from(root));
+        mat3s turned = glms_mat4_pick3(matrix);
+        for (int k = 0; k < 3; k++) glm_vec3_normalize(turned.raw[k]);
+        const versors turn = glms_mat3_quat(turned);
+        for (int j = 0; j < form.joint_count; j++) {
+            glm_vec3_scale(form.joints[j].offset, scale, form.joints[j].offset);
+            glm_vec3_scale(form.joints[j].tip, scale, form.joints[j].tip);
+        }
+        for (float *row = keys.rows; row < keys_at(&keys, keys.count, 0); row += keys.width) {
+            versors q;
+            glm_mat4_mulv3(matrix.raw, row, 1, row);
+            memcpy(&q, row + keys_rotation(form.first_bone), sizeof q);
+            q = glms_quat_mul(turn, q);
+            memcpy(row + keys_rotation(form.first_bone), &q, sizeof q);
+            for (int j = 0; j < form.joint_count; j++)
+                glm_vec3_scale(row + keys_offset(&keys, j), scale, row + keys_offset(&keys, j));
+        }
+    }
     if (done) {
         struct bvh bvh = {.out = out, .form = &form};
         const int count = keys.count, joints = form.joint_count;

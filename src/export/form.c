@@ -474,31 +474,6 @@ void keys_close_loop(float *rows, int width, int count)
     memmove(last, rows, (size_t)width * sizeof *rows);
 }
 
-/// slope = Σ factor · row(key + offset) / seconds: central; one-sided at the ends of the document. `scratch` holds one row.
-static bool add_slopes(const struct sampler *from, struct keys *keys, float *scratch, struct error *error)
-{
-    const size_t width = (size_t)keys->width;
-    const double seconds = range_seconds(from->range, STEP);
-    static const double ahead[3] = {0, STEP, 2 * STEP}, of_ahead[3] = {-1.5, 2, -0.5};
-    static const double behind[3] = {0, -STEP, -2 * STEP}, of_behind[3] = {1.5, -2, 0.5};
-    static const double around[3] = {-STEP, 0, STEP}, of_around[3] = {-0.5, 0, 0.5};
-    const bool loops = memcmp(keys->rows, keys_at(keys, keys->count - 1, 0), width * sizeof *keys->rows) == 0;
-    for (int k = 0; k < keys->count; k++) {
-        const bool begins = !loops && !range_is_inside(from->range, k - STEP);
-        const bool ends = !loops && !begins && !range_is_inside(from->range, k + STEP);
-        const double *offset = begins ? ahead : ends ? behind : around;
-        const double *factor = begins ? of_ahead : ends ? of_behind : of_around;
-        float *slope = keys->slopes + (size_t)k * width;
-        for (int d = 0; d < 3; d++) {
-            if (factor[d] == 0) continue;
-            if (!sample(from, keys, k + offset[d], scratch, error)) return false;
-            turn_short_way(keys, keys_at(keys, k, 0), scratch);
-            for (size_t i = 0; i < width; i++) slope[i] += (float)(factor[d] / seconds * (double)scratch[i]);
-        }
-    }
-    return true;
-}
-
 bool keys_collect(struct export_range *range, int rig, struct form *form, struct keys *keys, struct error *error)
 {
     const struct sampler from = {range, form, rig};
@@ -516,5 +491,26 @@ bool keys_collect(struct export_range *range, int rig, struct form *form, struct
         keys->travels = keys->travels || memcmp(row, keys->rows, 3 * sizeof *row) != 0;
     }
     keys_close_loop(keys->rows, keys->width, keys->count);
-    return !keys->slopes || add_slopes(&from, keys, keys->rows + (size_t)keys->count * width, error);
+
+    // slope = Σ factor · row(key + offset) / seconds: central; one-sided at the ends of the document
+    static const double ahead[3] = {0, STEP, 2 * STEP}, of_ahead[3] = {-1.5, 2, -0.5};
+    static const double behind[3] = {0, -STEP, -2 * STEP}, of_behind[3] = {1.5, -2, 0.5};
+    static const double around[3] = {-STEP, 0, STEP}, of_around[3] = {-0.5, 0, 0.5};
+    const double seconds = range_seconds(range, STEP);
+    float *scratch = keys->rows + count * width;
+    const bool loops = memcmp(keys->rows, keys_at(keys, keys->count - 1, 0), width * sizeof *keys->rows) == 0;
+    for (int k = 0; keys->slopes && k < keys->count; k++) {
+        const bool begins = !loops && !range_is_inside(range, k - STEP);
+        const bool ends = !loops && !begins && !range_is_inside(range, k + STEP);
+        const double *offset = begins ? ahead : ends ? behind : around;
+        const double *factor = begins ? of_ahead : ends ? of_behind : of_around;
+        float *slope = keys->slopes + (size_t)k * width;
+        for (int d = 0; d < 3; d++) {
+            if (factor[d] == 0) continue;
+            if (!sample(&from, keys, k + offset[d], scratch, error)) return false;
+            turn_short_way(keys, keys_at(keys, k, 0), scratch);
+            for (size_t i = 0; i < width; i++) slope[i] += (float)(factor[d] / seconds * (double)scratch[i]);
+        }
+    }
+    return true;
 }

@@ -1,7 +1,15 @@
-/// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all.
-#include "export/gltf.h"
+/// Rigs as glTF 2.0: meshes with skins or morph targets, and one clip that moves them all. Or an imported character's own file with the keys of
+/// its chains: its JSON is parsed, added to, and printed.
+///
+/// The clip's other channels stay as they are in that file, bit for bit. If the scene shows another part of the clip, or several rounds of it,
+/// their keys are copied to that, with the file's own values between the same keys.
+#include "model/gltf.h"
+#include "base/file.h"
 #include "base/need.h"
+#include "export/form.h"
+#include "model/glb.h"
 #include "model/gltf_write.h"
+#include "rig/import.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,6 +59,14 @@ static void make_targets(struct form *form, const struct keys *keys, bool clampe
 
 // --- one animation
 
+/// An animation being written. `file` must outlive it.
+struct gltf_motion {
+    struct gltf_file *file;
+    json_t *samplers, *channels;
+    json_int_t times; ///< accessor of the keys' times
+    int key_count;
+};
+
 static const struct {
     const char *name;
     enum gltf_elements elements;
@@ -78,18 +94,27 @@ static json_int_t add_sampler(struct gltf_motion *motion, enum gltf_path path, c
                                  slopes ? "CUBICSPLINE" : "LINEAR"));
 }
 
-json_int_t gltf_motion_add_sampler(struct gltf_motion *motion, enum gltf_path path, const struct keys *keys,
-                                   int column, int width)
+/// Adds a sampler for a column of a rig's keys, with tangents if present, and returns its number.
+static json_int_t add_column_sampler(struct gltf_motion *motion, enum gltf_path path, const struct keys *keys,
+                                     int column, int width)
 {
     return add_sampler(motion, path, keys_at(keys, 0, column), keys->slopes ? keys->slopes + column : NULL, width,
                        keys->width);
 }
 
-void gltf_motion_add_channel(struct gltf_motion *motion, json_int_t node, enum gltf_path path, json_int_t sampler)
+/// Adds a channel that moves a node by a sampler.
+static void add_channel(struct gltf_motion *motion, json_int_t node, enum gltf_path path, json_int_t sampler)
 {
     gltf_append(
         motion->file, motion->channels,
         json_pack("{s:I, s:{s:I, s:s}}", "sampler", sampler, "target", "node", node, "path", paths[path].name));
+}
+
+static json_t *reals(struct gltf_file *file, const float *numbers, int count)
+{
+    json_t *array = json_array();
+    for (int k = 0; k < count; k++) gltf_append(file, array, json_real((double)numbers[k]));
+    return array;
 }
 
 // --- a scene
@@ -102,93 +127,6 @@ struct scene {
     struct gltf_motion motion;
     int joints, targets;
 };
-
-/// A rig being added to a scene.
-struct part {
-    const struct form *form;
-    const struct keys *keys;
-    const struct file_targets *targets;
-    json_int_t mesh_node, first_joint;
-};
-
-static json_t *numbers(struct scene *scene, const float *values, int count)
-{
-    json_t *array = json_array();
-    for (int i = 0; i < count; i++) gltf_append(&scene->file, array, json_real((double)values[i]));
-    return array;
-}
-
-// --- mesh
-
-static json_int_t add_mesh(struct scene *scene, const struct part *part)
-{
-    const struct form *form = part->form;
-    struct gltf_shape shape = {.name = form->name,
-                               .vertex_count = form->vertex_count,
-                               .position = form->position,
-                               .normal = form->normal,
-                               .color = form->color,
-                               .uv = form->looks ? (const float(*)[2])form->looks->uv : NULL,
-                               .joints = (const uint16_t(*)[4])form->slots,
-                               .weights = (const float(*)[4])form->weights,
-                               .indices = form->indices,
-                               .index_count = form->index_count,
-                               .looks = form->looks,
-                               .target_count = part->targets->count,
-                               .character = form->character};
-    shape.targets = need((size_t)shape.target_count, sizeof *shape.targets);
-    for (int t = 0; t < shape.target_count; t++) {
-        const struct file_target *target = &part->targets->list[t];
-        const struct figure_target *of = &form->targets[target->source].figure;
-        shape.targets[t] = (struct gltf_shape_target){target->name, of->position, (const float(*)[3])of->normal,
-                                                      of->sign * target->scale, target->scale};
-    }
-    const json_int_t mesh = gltf_append(&scene->file, scene->meshes, gltf_shape_json(&scene->looks, &shape));
-    free(shape.targets);
-    return mesh;
-}
-
-// --- nodes
-
-/// Adds the mesh's node and, posed at the first key, the joints as nodes and their skin.
-static void add_nodes(struct scene *scene, struct part *part, json_int_t mesh)
-{
-    const struct form *form = part->form;
-    struct gltf_file *file = &scene->file;
-    json_t *node = json_pack("{s:s, s:I}", "name", form->name, "mesh", mesh);
-    part->mesh_node = gltf_append(file, scene->nodes, node);
-    gltf_append(file, scene->roots, json_integer(part->mesh_node));
-    if (form->joint_count == 0) {
-        gltf_set(file, node, "translation", numbers(scene, part->keys->rows, 3));
-        return;
-    }
-    json_t *joints = json_array();
-    part->first_joint = (json_int_t)json_array_size(scene->nodes);
-    for (int j = 0; j < form->joint_count; j++) {
-        const struct form_joint *joint = &form->joints[j];
-        const float *place = joint->parent < 0 ? part->keys->rows : joint->offset;
-        json_t *own = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", numbers(scene, place, 3),
-                                "rotation", numbers(scene, part->keys->rows + keys_rotation(j), 4));
-        gltf_append(file, joints, json_integer(gltf_append(file, scene->nodes, own)));
-        if (joint->parent < 0) continue;
-        json_t *parent = json_array_get(scene->nodes, (size_t)(part->first_joint + joint->parent));
-        gltf_append_to(file, parent, "children", json_integer(part->first_joint + j));
-    }
-    gltf_append(file, scene->roots, json_integer(part->first_joint));
-    float(*inverse)[16] = need_zeroed((size_t)form->joint_count, sizeof *inverse);
-    for (int j = 0; j < form->joint_count; j++) {
-        for (int k = 0; k < 4; k++) inverse[j][5 * k] = 1;
-        for (int k = 0; k < 3; k++) inverse[j][12 + k] = -form->joints[j].bind[k];
-    }
-    const json_int_t matrices = gltf_file_add(file, ELEMENTS_MATRICES, inverse, (size_t)form->joint_count, false);
-    free(inverse);
-    const json_int_t skin = gltf_append(file, scene->skins,
-                                        json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices",
-                                                  matrices, "skeleton", part->first_joint));
-    gltf_set(file, node, "skin", json_integer(skin));
-}
-
-// --- the clip
 
 /// Whether any key differs from the rest.
 static bool differs(const struct keys *keys, int column, int width, const float *rest)
@@ -204,61 +142,112 @@ static bool differs(const struct keys *keys, int column, int width, const float 
 static void add_keys(struct gltf_motion *motion, json_int_t node, enum gltf_path path, const struct keys *keys,
                      int column, int width)
 {
-    gltf_motion_add_channel(motion, node, path, gltf_motion_add_sampler(motion, path, keys, column, width));
+    add_channel(motion, node, path, add_column_sampler(motion, path, keys, column, width));
 }
 
-static void add_animation(struct scene *scene, const struct part *part)
+/// Adds the channels of a rig whose mesh and first joint are these nodes.
+static void add_animation(struct scene *scene, const struct form *form, const struct keys *keys,
+                          const struct file_targets *targets, json_int_t mesh_node, json_int_t first_joint)
 {
-    const struct form *form = part->form;
-    const struct keys *keys = part->keys;
     if (keys->travels)
-        add_keys(&scene->motion, form->joint_count > 0 ? part->first_joint : part->mesh_node, GLTF_TRANSLATION, keys,
-                 0, 3);
+        add_keys(&scene->motion, form->joint_count > 0 ? first_joint : mesh_node, GLTF_TRANSLATION, keys, 0, 3);
     for (int j = 0; j < form->joint_count; j++) {
         if (j >= form->first_bone || differs(keys, keys_rotation(j), 4, (const float[]){0, 0, 0, 1}))
-            add_keys(&scene->motion, part->first_joint + j, GLTF_ROTATION, keys, keys_rotation(j), 4);
+            add_keys(&scene->motion, first_joint + j, GLTF_ROTATION, keys, keys_rotation(j), 4);
         if (differs(keys, keys_scale(keys, j), 3, (const float[]){1, 1, 1}))
-            add_keys(&scene->motion, part->first_joint + j, GLTF_SCALE, keys, keys_scale(keys, j), 3);
+            add_keys(&scene->motion, first_joint + j, GLTF_SCALE, keys, keys_scale(keys, j), 3);
     }
-    const int width = part->targets->count;
+    const int width = targets->count;
     if (width == 0) return;
     const size_t count = (size_t)width * (size_t)keys->count;
     float *values = need(count, sizeof *values);
     float *slopes = keys->slopes ? need_zeroed(count, sizeof *slopes) : NULL;
     for (int i = 0; i < width * keys->count; i++) {
-        const struct file_target *target = &part->targets->list[i % width];
+        const struct file_target *target = &targets->list[i % width];
         const int column = keys_weight(keys, target->source);
         const float weight = *keys_at(keys, i / width, column) / target->scale;
-        values[i] = part->targets->clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
-        if (!slopes || (part->targets->clamped && weight <= 0)) continue;
+        values[i] = targets->clamped ? fminf(fmaxf(weight, 0.0f), 1.0f) : weight;
+        if (!slopes || (targets->clamped && weight <= 0)) continue;
         slopes[i] = keys->slopes[(size_t)(i / width) * (size_t)keys->width + (size_t)column] / target->scale;
     }
-    gltf_motion_add_channel(&scene->motion, part->mesh_node, GLTF_WEIGHTS,
-                            add_sampler(&scene->motion, GLTF_WEIGHTS, values, slopes, width, width));
+    add_channel(&scene->motion, mesh_node, GLTF_WEIGHTS,
+                add_sampler(&scene->motion, GLTF_WEIGHTS, values, slopes, width, width));
     free(values);
     free(slopes);
 }
-
-// --- writing
 
 static bool add_rig(struct scene *scene, int rig, struct error *error)
 {
     struct form form;
     struct keys keys;
-    struct file_targets targets = {0};
+    struct file_targets targets;
     if (!form_open(scene->range, rig, &form, error)) return false;
-    bool done = keys_collect(scene->range, rig, &form, &keys, error);
-    if (done) make_targets(&form, &keys, !scene->range->options->is_signed, &targets);
-    if (done) {
-        struct part part = {.form = &form, .keys = &keys, .targets = &targets};
-        add_nodes(scene, &part, add_mesh(scene, &part));
-        add_animation(scene, &part);
-        scene->joints += form.joint_count - form.first_bone;
-        scene->targets += targets.count;
+    if (!keys_collect(scene->range, rig, &form, &keys, error)) {
+        form_close(&form);
+        return false;
     }
+    make_targets(&form, &keys, !scene->range->options->is_signed, &targets);
+
+    struct gltf_file *file = &scene->file;
+    struct gltf_shape shape = {.name = form.name,
+                               .vertex_count = form.vertex_count,
+                               .position = form.position,
+                               .normal = form.normal,
+                               .color = form.color,
+                               .uv = form.looks ? (const float(*)[2])form.looks->uv : NULL,
+                               .joints = (const uint16_t(*)[4])form.slots,
+                               .weights = (const float(*)[4])form.weights,
+                               .indices = form.indices,
+                               .index_count = form.index_count,
+                               .looks = form.looks,
+                               .target_count = targets.count,
+                               .character = form.character};
+    shape.targets = need((size_t)shape.target_count, sizeof *shape.targets);
+    for (int t = 0; t < shape.target_count; t++) {
+        const struct file_target *target = &targets.list[t];
+        const struct figure_target *of = &form.targets[target->source].figure;
+        shape.targets[t] = (struct gltf_shape_target){target->name, of->position, (const float(*)[3])of->normal,
+                                                      of->sign * target->scale, target->scale};
+    }
+    const json_int_t mesh = gltf_append(file, scene->meshes, gltf_shape_json(&scene->looks, &shape));
+    free(shape.targets);
+    json_t *node = json_pack("{s:s, s:I}", "name", form.name, "mesh", mesh);
+    const json_int_t mesh_node = gltf_append(file, scene->nodes, node);
+    gltf_append(file, scene->roots, json_integer(mesh_node));
+
+    // The joints as nodes, posed at the first key, and their skin.
+    const json_int_t first_joint = (json_int_t)json_array_size(scene->nodes);
+    if (form.joint_count > 0) {
+        json_t *joints = json_array();
+        float(*inverse)[16] = need_zeroed((size_t)form.joint_count, sizeof *inverse);
+        for (int j = 0; j < form.joint_count; j++) {
+            const struct form_joint *joint = &form.joints[j];
+            const float *place = joint->parent < 0 ? keys.rows : joint->offset;
+            json_t *own = json_pack("{s:s, s:o, s:o}", "name", joint->name, "translation", reals(file, place, 3),
+                                    "rotation", reals(file, keys.rows + keys_rotation(j), 4));
+            gltf_append(file, joints, json_integer(gltf_append(file, scene->nodes, own)));
+            for (int k = 0; k < 4; k++) inverse[j][5 * k] = 1;
+            for (int k = 0; k < 3; k++) inverse[j][12 + k] = -joint->bind[k];
+            if (joint->parent < 0) continue;
+            json_t *parent = json_array_get(scene->nodes, (size_t)(first_joint + joint->parent));
+            gltf_append_to(file, parent, "children", json_integer(first_joint + j));
+        }
+        gltf_append(file, scene->roots, json_integer(first_joint));
+        const json_int_t matrices = gltf_file_add(file, ELEMENTS_MATRICES, inverse, (size_t)form.joint_count, false);
+        free(inverse);
+        const json_int_t skin = gltf_append(
+            file, scene->skins,
+            json_pack("{s:o, s:I, s:I}", "joints", joints, "inverseBindMatrices", matrices, "skeleton", first_joint));
+        gltf_set(file, node, "skin", json_integer(skin));
+    } else {
+        gltf_set(file, node, "translation", reals(file, keys.rows, 3));
+    }
+    add_animation(scene, &form, &keys, &targets, mesh_node, first_joint);
+    scene->joints += form.joint_count - form.first_bone;
+    scene->targets += targets.count;
     free(targets.list);
     form_close(&form);
-    return done;
+    return true;
 }
 
 static bool write_scene(struct export_range *range, const int *rigs, int count, bool binary, FILE *out,
@@ -307,6 +296,617 @@ bool gltf_write_rig(struct export_range *range, int rig, FILE *out, struct error
     return write_scene(range, &rig, 1, true, out, error);
 }
 
+// --- an imported character's own file
+
+static const double EARLIER = 4e-6; ///< of a time and its clip's length: before a step, more than posing rounds
+static const double NEAR = 1e-3;    ///< frames of the grid between keys that count as one
+
+/// What is exported, in seconds of the clip as the scene repeats it: round r begins at first + r · length.
+struct part {
+    struct clip_play play;
+    double end;      ///< of the clip's last key
+    double from, to; ///< of the first and last exported key
+    double shift;    ///< from there to the exported file's times
+    int rounds[2];   ///< the first and last round that it touches
+    bool is_clip;    ///< the part is the clip in the file
+};
+
+/// The part that a range's keys cover. It is the clip itself where they begin and end within a frame of it; one that plays once, or is a single
+/// pose, may end before.
+static struct part part_of(const struct export_range *range, const struct model_rig *model,
+                           const struct gltf_clip *clip)
+{
+    const double fps = range->posing->document->fps;
+    const double from = range_frame(range, 0) / fps, to = range_frame(range, range->key_count - 1) / fps;
+    if (!clip) return (struct part){.from = from, .to = to, .shift = -from};
+    struct part part = {.play = clip_play(model, clip), .end = clip->last, .from = from, .to = to};
+    const double frame = fmax(1, range->spacing) / fps;
+    const bool ends = to > clip->last - frame && (!part.play.loops || to < clip->first + part.play.length + frame);
+    part.is_clip = !(part.play.length > 0) || (fabs(from - clip->first) < frame && ends);
+    if (part.is_clip && part.play.length > 0) {
+        part.from = clip->first;
+        part.to = part.play.loops || to < clip->last + frame ? clip->last : to;
+    }
+    part.shift = clip->first - part.from;
+    if (!part.play.loops || !(part.play.length > 0)) return part;
+    const double begin = floor((part.from - clip->first) / part.play.length + 1e-6),
+                 end = ceil((part.to - clip->first) / part.play.length - 1e-6) - 1;
+    part.rounds[0] = (int)fmin(fmax(begin, -1e9), 1e9);
+    part.rounds[1] = part.rounds[0] + (int)fmin(fmax(end - begin, 0), range->key_count); // no shorter than a key
+    return part;
+}
+
+// --- the times of the chains' keys
+
+struct key_time {
+    double at;   ///< seconds in the scene
+    float time;  ///< in the file
+    bool is_own; ///< the clip has a key of the bones there, or begins or ends there
+};
+
+struct key_times {
+    struct key_time *list;
+    size_t count;
+};
+
+static void add_time(struct key_times *times, const struct part *part, double at, bool is_own)
+{
+    if (at < part->from || at > part->to) return;
+    times->list = need_more(times->list, times->count + 1, sizeof *times->list);
+    times->list[times->count++] = (struct key_time){at, (float)(at + part->shift), is_own};
+}
+
+static int compare_times(const void *a, const void *b)
+{
+    const struct key_time *one = a, *other = b;
+    return (one->at > other->at) - (one->at < other->at);
+}
+
+static bool is_bone(const struct form *form, json_int_t node)
+{
+    const struct model_body *body = form->owned;
+    for (int j = 0; j < form->joint_count; j++) {
+        if (body->node[j] == node) return true;
+    }
+    return false;
+}
+
+// --- other channels, where the part is not the clip
+
+/// A sampler's numbers, as a channel without a node; false if they are none.
+static bool read_sampler(const struct glb *stored, const json_t *sampler, bool is_rotation,
+                         struct gltf_channel *channel, int *element)
+{
+    const char *interpolation = json_string_value(json_object_get(sampler, "interpolation"));
+    struct glb_numbers times = {0}, values = {0};
+    struct error error;
+    bool good = glb_numbers(stored, glb_integer(sampler, "input", -1), &times, &error) &&
+                glb_numbers(stored, glb_integer(sampler, "output", -1), &values, &error) && times.components == 1 &&
+                times.count > 0;
+    *channel =
+        (struct gltf_channel){.path = is_rotation ? GLTF_ROTATION : GLTF_TRANSLATION, .interpolation = GLTF_LINEAR};
+    if (interpolation && strcmp(interpolation, "STEP") == 0) channel->interpolation = GLTF_STEP;
+    if (interpolation && strcmp(interpolation, "CUBICSPLINE") == 0) channel->interpolation = GLTF_CUBIC;
+    const size_t total = good ? (size_t)values.count * (size_t)values.components : 0,
+                 keys = (size_t)times.count * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
+    good = good && total > 0 && total % keys == 0 && (!is_rotation || total == 4 * keys);
+    if (good) {
+        channel->key_count = times.count;
+        channel->components = (int)(total / keys);
+        channel->times = need((size_t)times.count, sizeof *channel->times);
+        channel->values = need(total, sizeof *channel->values);
+        for (int k = 0; k < times.count; k++) channel->times[k] = (float)times.values[k];
+        for (size_t i = 0; i < total; i++) channel->values[i] = (float)values.values[i];
+        *element = values.components;
+    }
+    free(times.values);
+    free(values.values);
+    return good;
+}
+
+static int stride_of(const struct gltf_channel *channel)
+{
+    return channel->components * (channel->interpolation == GLTF_CUBIC ? 3 : 1);
+}
+
+/// Appends a key, whose tangents are 0 where only a value is given. Where a round ends with another value than the next begins with, it ends just
+/// before that.
+static void push_key(struct gltf_channel *to, double time, const float *key, bool is_whole)
+{
+    const int n = to->components, stride = stride_of(to), middle = stride > n ? n : 0;
+    const size_t size = (size_t)stride;
+    const int last = to->key_count - 1;
+    float *const end = to->values + (size_t)to->key_count * size;
+    if (last >= 0 && (float)time <= to->times[last]) {
+        float *const before = end - size;
+        const float *value = is_whole ? key + middle : key;
+        const bool same = memcmp(before + middle, value, (size_t)n * sizeof *value) == 0;
+        if (same && is_whole && middle) memcpy(before + 2 * n, key + 2 * n, (size_t)n * sizeof *key);
+        if (same) return;
+        to->times[last] = nextafterf((float)time, -INFINITY);
+        if (last > 0 && to->times[last] <= to->times[last - 1]) return;
+    }
+    to->times[to->key_count++] = (float)time;
+    memset(end, 0, size * sizeof *end);
+    if (is_whole) {
+        memcpy(end, key, size * sizeof *key);
+    } else {
+        memcpy(end + middle, key, (size_t)n * sizeof *key);
+    }
+}
+
+static void reserve_keys(struct gltf_channel *channel, size_t keys, const struct gltf_channel *like)
+{
+    *channel = *like;
+    channel->key_count = 0;
+    channel->times = need(keys, sizeof *channel->times);
+    channel->values = need(keys * (size_t)stride_of(like), sizeof *channel->values);
+}
+
+/// Adds the curve's value and slope at a time between its keys.
+static void push_between(struct gltf_channel *to, const struct gltf_channel *from, double time)
+{
+    const int n = from->components, stride = stride_of(from);
+    float *key = need_zeroed(3 * (size_t)n, sizeof *key);
+    int k = 0;
+    while (k + 1 < from->key_count && (double)from->times[k + 1] <= time) k++;
+    gltf_channel_at(from, time, key + n);
+    if (from->interpolation != GLTF_CUBIC) {
+        push_key(to, time, key + n, true);
+    } else {
+        const double T = k + 1 < from->key_count ? (double)(from->times[k + 1] - from->times[k]) : 0;
+        const double s = T > 0 ? (time - (double)from->times[k]) / T : 0;
+        const float *at = from->values + (size_t)k * (size_t)stride;
+        for (int i = 0; i < n && T > 0 && s >= 0; i++) {
+            const double slope = (6 * s * s - 6 * s) / T * (double)(at[n + i] - at[4 * n + i]) +
+                                 (3 * s * s - 4 * s + 1) * (double)at[2 * n + i] +
+                                 (3 * s * s - 2 * s) * (double)at[3 * n + i];
+            key[i] = key[2 * n + i] = (float)slope;
+        }
+        push_key(to, time, key, true);
+    }
+    free(key);
+}
+
+/// Lets a sampler have the part's keys. One whose numbers cannot be read stays as it is.
+static void cut_sampler(struct gltf_file *file, const struct glb *stored, json_t *sampler, bool is_rotation,
+                        const struct part *part)
+{
+    static const enum gltf_elements kinds[17] = {[1] = ELEMENTS_KEYS,
+                                                 [2] = ELEMENTS_UVS,
+                                                 [3] = ELEMENTS_KEY_VECTORS,
+                                                 [4] = ELEMENTS_TURNS,
+                                                 [16] = ELEMENTS_MATRICES};
+    struct gltf_channel own, unrolled, result;
+    int element = 0;
+    if (!read_sampler(stored, sampler, is_rotation, &own, &element)) return;
+    const int stride = stride_of(&own), middle = stride > own.components ? own.components : 0, count = own.key_count;
+
+    // The keys of all rounds, in the exported file's times. A channel that begins after its clip, or ends before, stands still there.
+    reserve_keys(&unrolled, (size_t)(count + 2) * (size_t)(part->rounds[1] - part->rounds[0] + 1), &own);
+    for (int round = part->rounds[0]; round <= part->rounds[1]; round++) {
+        const double later = part->shift + round * part->play.length;
+        if ((double)own.times[0] > part->play.first)
+            push_key(&unrolled, part->play.first + later, own.values + middle, false);
+        for (int k = 0; k < count; k++)
+            push_key(&unrolled, (double)own.times[k] + later, own.values + (size_t)k * (size_t)stride, true);
+        if ((double)own.times[count - 1] < part->end && part->rounds[1] > part->rounds[0])
+            push_key(&unrolled, part->end + later, own.values + (size_t)(count - 1) * (size_t)stride + middle, false);
+    }
+
+    // Of these the part that is exported.
+    const double first = part->from + part->shift, last = part->to + part->shift;
+    reserve_keys(&result, (size_t)unrolled.key_count + 2, &unrolled);
+    push_between(&result, &unrolled, first);
+    for (int k = 0; k < unrolled.key_count; k++) {
+        const double time = (double)unrolled.times[k];
+        if (time > (double)(float)first && time < (double)(float)last)
+            push_key(&result, time, unrolled.values + (size_t)k * (size_t)stride, true);
+    }
+    if (last > first) push_between(&result, &unrolled, last);
+
+    const size_t keys = (size_t)result.key_count, total = keys * (size_t)stride;
+    if (element < 17 && (kinds[element] || element == 0)) {
+        gltf_set(file, sampler, "input", json_integer(gltf_file_add(file, ELEMENTS_KEYS, result.times, keys, true)));
+        gltf_set(file, sampler, "output",
+                 json_integer(gltf_file_add(file, kinds[element], result.values, total / (size_t)element, false)));
+    }
+    struct gltf_channel *const all[] = {&own, &unrolled, &result};
+    for (int i = 0; i < 3; i++) {
+        free(all[i]->times);
+        free(all[i]->values);
+    }
+}
+
+/// The node and path that a channel moves are those of a chain's bone.
+static bool is_chains(const struct form *form, const json_t *channel)
+{
+    const json_t *target = json_object_get(channel, "target");
+    const char *path = json_string_value(json_object_get(target, "path"));
+    return path && strcmp(path, "rotation") == 0 && is_bone(form, glb_integer(target, "node", -1));
+}
+
+/// Lets all samplers but those of chains have the part's keys.
+static bool cut_clip(struct gltf_file *file, const struct form *form, json_t *clip, const struct part *part,
+                     struct error *error)
+{
+    const struct model_body *body = form->owned;
+    json_t *samplers = json_object_get(clip, "samplers");
+    const json_t *channel;
+    size_t i;
+    struct glb stored;
+    if (!glb_open(&stored, body->gltf->path, error)) return false;
+    bool *done = need_zeroed(json_array_size(samplers) + 1, sizeof *done);
+    const bool is_read = glb_read_buffers(&stored, error);
+    json_array_foreach(json_object_get(clip, "channels"), i, channel)
+    {
+        const char *path = json_string_value(json_object_get(json_object_get(channel, "target"), "path"));
+        const size_t sampler = (size_t)glb_integer(channel, "sampler", -1);
+        if (!is_read || sampler >= json_array_size(samplers) || done[sampler] || is_chains(form, channel)) continue;
+        done[sampler] = true;
+        cut_sampler(file, &stored, json_array_get(samplers, sampler), path && strcmp(path, "rotation") == 0, part);
+    }
+    free(done);
+    glb_close(&stored);
+    return is_read;
+}
+
+// --- the clip
+
+/// Makes the clip's accessor of times, and poses the rig at them: the keys of the range and of the bones in the clip, in ascending order; those of
+/// the range go where two are almost at one time.
+static bool collect_clip_keys(struct export_range *range, struct form *form, const struct part *part,
+                              struct gltf_motion *motion, struct keys *keys, struct error *error)
+{
+    const struct model_body *body = form->owned;
+    const double fps = range->posing->document->fps;
+    struct key_times times = {0};
+    add_time(&times, part, part->from, true);
+    if (part->to > part->from) add_time(&times, part, part->to, true);
+    for (int k = 0; k < range->key_count; k++) add_time(&times, part, range_frame(range, k) / fps, false);
+    for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
+        const struct gltf_channel *channel = &body->clip->channels[c];
+        if (channel->path != GLTF_ROTATION || !is_bone(form, channel->node)) continue;
+        // The bone's own keys, so that none between two frames is lost. A step has a key just before it.
+        for (int round = part->rounds[0]; round <= part->rounds[1]; round++) {
+            for (int k = 0; k < channel->key_count; k++) {
+                const double at = (double)channel->times[k] + round * part->play.length;
+                const size_t before = times.count;
+                if (channel->interpolation == GLTF_STEP && k > 0)
+                    add_time(&times, part, at - EARLIER * (fabs(at) + part->play.length), true);
+                if (times.count > before) times.list[before].time = nextafterf((float)(at + part->shift), -INFINITY);
+                add_time(&times, part, at, true);
+            }
+        }
+    }
+    qsort(times.list, times.count, sizeof *times.list, compare_times);
+    int count = 0;
+    for (size_t i = 0; i < times.count; i++) {
+        const struct key_time *next = &times.list[i], *last = count > 0 ? &times.list[count - 1] : NULL;
+        if (last && next->at - last->at < NEAR * range->spacing / fps && !(next->is_own && last->is_own)) {
+            if (next->is_own) times.list[count - 1] = *next;
+        } else if (!last || next->time > last->time) {
+            times.list[count++] = *next;
+        }
+    }
+
+    double *frames = need((size_t)count, sizeof *frames);
+    float *seconds = need((size_t)count, sizeof *seconds);
+    for (int k = 0; k < count; k++) {
+        frames[k] = times.list[k].at * fps;
+        seconds[k] = times.list[k].time;
+    }
+    free(times.list);
+    const int on_grid = range->key_count;
+    range->frames = frames;
+    range->key_count = motion->key_count = count;
+    range->total += count - on_grid;
+    const bool done = keys_collect(range, range->rigs[0], form, keys, error);
+    range->frames = NULL;
+    range->key_count = on_grid;
+    motion->times = gltf_file_add(motion->file, ELEMENTS_KEYS, seconds, (size_t)count, true);
+    free(frames);
+    free(seconds);
+    return done;
+}
+
+/// Puts the keys of the chains into the clip that the rig plays, or into a copy of it. `root` is the file's JSON, which `file` continues.
+static bool put_clip(struct export_range *range, struct form *form, struct gltf_file *file, json_t *root,
+                     struct error *error)
+{
+    const struct model_body *body = form->owned;
+    const struct model_rig *model = &range->posing->document->rigs[range->rigs[0]]->model;
+    const char *wanted = range->options->clip ? range->options->clip : model->clip ? model->clip : range->title;
+    const struct part part = part_of(range, model, body->clip);
+    struct gltf_motion motion = {.file = file};
+    struct keys keys;
+    size_t i;
+    if (!collect_clip_keys(range, form, &part, &motion, &keys, error)) return false;
+    char *name = name_from(wanted, strlen(wanted)); // it may be an argument
+    const int known = gltf_find_clip(body->gltf, name);
+
+    // A copy of the clip that plays, by the name that it is to have; the clip itself if it has that name.
+    static const char *const arrays[] = {"samplers", "channels"};
+    json_t *clips = json_object_get(root, "animations"), *nodes = json_object_get(root, "nodes"), *channel;
+    json_t *clip =
+        body->clip ? json_deep_copy(json_array_get(clips, (size_t)(body->clip - body->gltf->clips))) : json_object();
+    if (!body->clip || strcmp(body->clip->name, name) != 0) gltf_set(file, clip, "name", json_string(name));
+    for (i = 0; i < 2; i++)
+        if (!json_object_get(clip, arrays[i])) gltf_set(file, clip, arrays[i], json_array());
+    free(name);
+    motion.samplers = json_object_get(clip, "samplers");
+    motion.channels = json_object_get(clip, "channels");
+    if (body->clip && !part.is_clip && !cut_clip(file, form, clip, &part, error)) {
+        json_decref(clip);
+        return false;
+    }
+
+    // The keys turn the bones of chains, in the channels that the clip has for them, or new ones.
+    for (int j = 0; j < form->joint_count; j++) {
+        struct keys own = keys;
+        for (int c = 0; body->clip && c < body->clip->channel_count; c++) {
+            const struct gltf_channel *of = &body->clip->channels[c];
+            if (of->node == body->node[j] && of->interpolation == GLTF_STEP) own.slopes = NULL; // it jumps
+        }
+        const json_int_t sampler = add_column_sampler(&motion, GLTF_ROTATION, &own, keys_rotation(j), 4);
+        bool found = false;
+        json_array_foreach(motion.channels, i, channel)
+        {
+            if (!is_chains(form, channel)) continue;
+            if (glb_integer(json_object_get(channel, "target"), "node", -1) != body->node[j]) continue;
+            gltf_set(file, channel, "sampler", json_integer(sampler));
+            found = true;
+        }
+        if (!found) add_channel(&motion, body->node[j], GLTF_ROTATION, sampler);
+    }
+
+    // The matrices of nodes that the clip moves are split, because glTF does not allow it to move a matrix.
+    json_array_foreach(motion.channels, i, channel)
+    {
+        const json_t *target = json_object_get(channel, "target");
+        const int64_t n = glb_integer(target, "node", -1);
+        const char *path = json_string_value(json_object_get(target, "path"));
+        json_t *node = n < 0 ? NULL : json_array_get(nodes, (size_t)n);
+        if (!json_object_get(node, "matrix") || body->gltf->nodes[n].has_matrix) continue;
+        if (!path || (strcmp(path, "translation") && strcmp(path, "rotation") && strcmp(path, "scale"))) continue;
+        const struct gltf_place *place = &body->gltf->nodes[n].place;
+        json_object_del(node, "matrix");
+        gltf_set(file, node, "translation", reals(file, place->translation, 3));
+        gltf_set(file, node, "rotation", reals(file, place->rotation, 4));
+        gltf_set(file, node, "scale", reals(file, place->scale, 3));
+    }
+    if (known < 0) {
+        gltf_append_to(file, root, "animations", clip);
+    } else if (json_array_set_new(clips, (size_t)known, clip) != 0) {
+        file->without_memory = true;
+    }
+    return true;
+}
+
+// --- the file
+
+/// The file that the clip goes into.
+struct original {
+    struct glb source;
+    struct gltf_file file; ///< its JSON, and the bytes of the buffer that new ones go into
+    bool is_same;          ///< the container stays what it is
+    int clips;             ///< that were put into it
+};
+
+// --- the other container: all bytes in one buffer without an address, pictures too
+
+/// Lets a view, or an extension of one, find its bytes again. False if memory is short.
+static bool move_view(json_t *view, const size_t *starts, size_t count)
+{
+    const int64_t buffer = glb_integer(view, "buffer", -1), offset = glb_integer(view, "byteOffset", 0);
+    if (buffer < 0 || (size_t)buffer >= count || offset < 0) return true;
+    return json_object_set_new(view, "buffer", json_integer(0)) == 0 &&
+           (starts[buffer] == 0 ||
+            json_object_set_new(view, "byteOffset", json_integer(offset + (json_int_t)starts[buffer])) == 0);
+}
+
+/// The type of a picture; NULL: unknown.
+static const char *kind_of(struct glb_bytes bytes)
+{
+    static const struct {
+        const char *start, *kind;
+        size_t length;
+    } kinds[] = {{"\x89PNG", "image/png", 4}, {"\xFF\xD8", "image/jpeg", 2}, {"\xABKTX 20", "image/ktx2", 7}};
+    for (size_t i = 0; i < sizeof kinds / sizeof *kinds; i++) {
+        if (bytes.size >= kinds[i].length && memcmp(bytes.at, kinds[i].start, kinds[i].length) == 0)
+            return kinds[i].kind;
+    }
+    const bool webp = bytes.size >= 12 && memcmp(bytes.at, "RIFF", 4) == 0 && memcmp(bytes.at + 8, "WEBP", 4) == 0;
+    return webp ? "image/webp" : NULL;
+}
+
+static bool gather(struct original *o, struct error *error)
+{
+    json_t *view, *extension, *image;
+    size_t i;
+    if (!glb_read_buffers(&o->source, error)) return false;
+    const size_t count = json_array_size(json_object_get(o->source.json, "buffers"));
+    size_t *starts = calloc(count + 1, sizeof *starts);
+    bool done = starts;
+    for (size_t b = 0; done && b < count; b++) { // all there is: views may reach beyond the byteLength
+        const struct glb_bytes bytes = o->source.buffers[b].bytes;
+        starts[b] = gltf_file_append(&o->file, bytes.at, bytes.size);
+    }
+    json_array_foreach(o->file.views, i, view)
+    {
+        const char *name;
+        done = done && move_view(view, starts, count);
+        json_object_foreach(json_object_get(view, "extensions"), name, extension) done =
+            done && move_view(extension, starts, count);
+    }
+    if (o->file.size > 0) json_object_del(o->source.json, "buffers");
+    free(starts);
+
+    json_array_foreach(json_object_get(o->source.json, "images"), i, image)
+    {
+        const char *uri = json_string_value(json_object_get(image, "uri"));
+        struct glb_buffer picture;
+        struct error why = {0};
+        if (!done || !uri) continue;
+        if (!glb_read_uri(&o->source, uri, &picture, &why)) { // it keeps its address
+            done = why.kind != ERROR_ENVIRONMENT;
+            continue;
+        }
+        const char *kind = kind_of(picture.bytes);
+        if (kind) {
+            const json_int_t own = gltf_file_add_bytes(&o->file, picture.bytes.at, picture.bytes.size);
+            gltf_set(&o->file, image, "bufferView", json_integer(own));
+            gltf_set(&o->file, image, "mimeType", json_string(kind));
+            json_object_del(image, "uri");
+        }
+        free(picture.owned);
+    }
+    return done || fail_no_memory(error, o->source.path);
+}
+
+// --- the same container
+
+/// A file that stays what it is must be beside the files that it names.
+static bool check_place(const struct export_range *range, const struct glb *source, struct error *error)
+{
+    char from[PATH_LIMIT], to[PATH_LIMIT], folder[PATH_LIMIT];
+    static const char *const arrays[] = {"buffers", "images"};
+    bool names_files = false;
+    for (int a = 0; a < 2; a++) {
+        size_t i;
+        const json_t *thing;
+        json_array_foreach(json_object_get(source->json, arrays[a]), i, thing)
+        {
+            const char *uri = json_string_value(json_object_get(thing, "uri"));
+            names_files = names_files || (uri && strncmp(uri, "data:", 5) != 0);
+        }
+    }
+    const bool same =
+        !names_files || (path_folder(source->path, folder) && path_resolve(folder, ".", from) &&
+                         path_folder(range->path, folder) && path_resolve(folder, ".", to) && strcmp(from, to) == 0);
+    if (same) return true;
+    return fail(error, ERROR_INPUT, "%s: refers to files beside it: export it to the same folder, or as .glb",
+                source->path);
+}
+
+// --- the clips
+
+/// Adds what the chains make of another clip of the file.
+static bool put_other(struct export_range *range, int clip, struct original *o, struct error *error)
+{
+    const struct posing *first = range->posing;
+    const int rig = range->rigs[0];
+    const struct gltf *gltf = &models_imported(first->models, first->document, rig)->gltf;
+    struct document *document = import_with_clip(first->document, rig, gltf, clip, error);
+    if (!document) return false;
+    struct evaluation evaluation = {.solver = first->evaluation->solver, .models = first->evaluation->models};
+    struct posing posing = *first;
+    struct export_report report = {0};
+    struct form form;
+    evaluation_update(&evaluation, document, false);
+    posing.document = document;
+    posing.evaluation = &evaluation;
+    range->posing = &posing;
+    bool done = range_choose_keys(range, &report, error) && form_open(range, rig, &form, error);
+    if (done) {
+        done = put_clip(range, &form, &o->file, o->source.json, error);
+        o->clips++;
+        form_close(&form);
+    }
+    evaluation_free(&evaluation);
+    document_destroy(document);
+    range->posing = first;
+    return done;
+}
+
+/// Places all scenes' nodes under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
+/// validators warn of one that has a parent.
+static void put_place(struct original *o, const float root[16])
+{
+    json_t *matrix = json_array(), *nodes = json_object_get(o->source.json, "nodes"), *scene, *number;
+    size_t s, i;
+    for (i = 0; i < 16; i++) gltf_append(&o->file, matrix, json_real((double)root[i]));
+    json_array_foreach(json_object_get(o->source.json, "scenes"), s, scene)
+    {
+        json_t *placed = json_array(), *roots = json_array();
+        json_array_foreach(json_object_get(scene, "nodes"), i, number)
+        {
+            const json_t *node = json_array_get(nodes, (size_t)json_integer_value(number));
+            const bool is_skinned = json_object_get(node, "skin") && !json_object_get(node, "children");
+            gltf_append(&o->file, is_skinned ? roots : placed, json_incref(number));
+        }
+        if (json_array_size(placed) > 0) {
+            json_t *shown = json_pack("{s:s, s:O, s:O}", "name", "as shown", "matrix", matrix, "children", placed);
+            gltf_append(&o->file, roots, json_integer(gltf_append(&o->file, nodes, shown)));
+            gltf_set(&o->file, scene, "nodes", json_incref(roots));
+        }
+        json_decref(placed);
+        json_decref(roots);
+    }
+    json_decref(matrix);
+}
+
+/// Copies the file of the range's only rig and gives its clip, or a copy of that by another name, the keys of chains. Everything else stays the
+/// same, also in the other container (.glb or .gltf). Without a chain the clip stays, too.
+static bool write_model(struct export_range *range, FILE *out, struct error *error)
+{
+    struct original o = {0};
+    struct form form;
+    struct rig_pose pose;
+    if (!form_open(range, range->rigs[0], &form, error)) return false;
+    const struct model_body *body = form.owned;
+    const bool has_clip = form.joint_count > 0, binary = range->format->is_binary;
+    bool done = range_pose(range, range->rigs[0], 0, &pose, error);
+    const float *root = done ? range_root(range, range->rigs[0], &pose) : NULL;
+    if (!done || !glb_open(&o.source, body->gltf->path, error)) {
+        form_close(&form);
+        return false;
+    }
+    const bool was_packed = glb_is_packed(&o.source);
+    o.is_same = !was_packed && (memcmp(o.source.data, "glTF", 4) == 0) == binary;
+    if (!has_clip && o.is_same && !root) {
+        char *data = NULL;
+        size_t size;
+        done =
+            check_place(range, &o.source, error) && file_read(body->gltf->path, GLB_FILE_LIMIT, &data, &size, error);
+        if (done) fwrite(data, 1, size, out);
+        free(data);
+    } else {
+        // The bytes that new ones follow: those of a .glb's chunk, if that is its first buffer; none of a .gltf; else all there are.
+        const json_t *buffers = json_object_get(o.source.json, "buffers"), *first = json_array_get(buffers, 0);
+        const bool has_chunk = o.source.chunk.at && first && !json_object_get(first, "uri");
+        gltf_file_continue(&o.file, o.source.json);
+        if (!o.is_same || (binary && !has_chunk)) {
+            done = gather(&o, error);
+        } else {
+            if (has_chunk) gltf_file_append(&o.file, o.source.chunk.at, o.source.chunk.size);
+            if (!has_chunk) o.file.buffer = (json_int_t)json_array_size(buffers);
+            done = check_place(range, &o.source, error);
+        }
+        if (done && has_clip) {
+            done = put_clip(range, &form, &o.file, o.source.json, error);
+            o.clips = 1;
+        }
+        for (int c = 0; done && has_clip && range->options->all_clips && c < body->gltf->clip_count; c++) {
+            const struct gltf_clip *clip = &body->gltf->clips[c]; // chains do not move in clips of a single pose
+            if (clip != body->clip && clip->last > clip->first) done = put_other(range, c, &o, error);
+        }
+        if (done && root) put_place(&o, root);
+        done = done && gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
+    }
+    gltf_file_free(&o.file);
+    glb_close(&o.source);
+    if (has_clip) {
+        snprintf(range->summary, FORMAT_SUMMARY, "%d bones bent by chains in %d clip%s, %ld keys%s", form.joint_count,
+                 o.clips, o.clips == 1 ? "" : "s", range->total, was_packed ? ", meshes decompressed" : "");
+    } else {
+        snprintf(range->summary, FORMAT_SUMMARY, "the file as it was, %sbecause no chain moves it",
+                 was_packed ? "meshes decompressed, " : "");
+    }
+    form_close(&form);
+    return done;
+}
+
 /// An imported character is written to a file of its own, without other rigs.
 bool gltf_write(struct export_range *range, FILE *out, struct error *error)
 {
@@ -314,7 +914,7 @@ bool gltf_write(struct export_range *range, FILE *out, struct error *error)
     for (int r = 0; r < range->rig_count; r++) {
         const struct rig *rig = document->rigs[range->rigs[r]];
         if (!(form_kind(rig->kind)->holds & FORM_FILE)) continue;
-        if (range->rig_count == 1) return gltf_model_write(range, out, error);
+        if (range->rig_count == 1) return write_model(range, out, error);
         return fail(error, ERROR_INPUT, "\"%s\" is exported into a copy of its own file: choose one rig with %s",
                     form_name(rig), range->rig_choice);
     }

@@ -66,50 +66,42 @@ bool csv_write(struct export_range *range, FILE *out, struct error *error)
     return true;
 }
 
-// --- vertices
-
-static bool write_frames(struct export_range *range, const struct form *form, FILE *out, float (*positions)[3],
-                         struct error *error)
-{
-    struct rig_pose pose;
-    const enum motion_form as = range->format->motion;
-    const bool in_seconds = as == MOTION_MDD;
-    const struct document *document = range->posing->document;
-    const struct motion_span span = {
-        .frames = range->key_count,
-        .vertices = form->vertex_count,
-        .first = in_seconds ? range->first / document->fps : range->first,
-        .spacing = in_seconds ? range_seconds(range, 1) : range->spacing,
-    };
-    motion_print_start(out, as, &span);
-    for (int k = 0; k < range->key_count; k++) {
-        if (!range_pose(range, range->rigs[0], k, &pose, error)) return false;
-        form->kind->vertices(form, &pose, positions);
-        const float *root = range_root(range, range->rigs[0], &pose);
-
-        // Programs play a point cache inside the node that has the mesh, so its positions are relative to that node. Those of several nodes, and
-        // of a node without a size, stay in the character's space, as an array's do; or go where the options place the character.
-        const bool is_inside = !root && form->holder >= 0 && as != MOTION_NPY;
-        mat4s place = root        ? mat4_from(root)
-                      : is_inside ? mat4_from(pose.model.pose->world[form->holder])
-                                  : glms_mat4_identity();
-        const bool has_size = is_inside && glms_mat4_det(place) != 0.0f;
-        if (has_size) place = glms_mat4_inv(place);
-        for (int v = 0; (root || has_size) && v < form->vertex_count; v++)
-            glm_mat4_mulv3(place.raw, positions[v], 1, positions[v]);
-        motion_print_frame(out, as, (const float(*)[3])positions, form->vertex_count);
-        if (ferror(out)) return true; // the caller reports the error; writing on to a full disk is useless
-        if (!range_proceed(range, error)) return false;
-    }
-    return true;
-}
-
 bool points_write(struct export_range *range, FILE *out, struct error *error)
 {
     struct form form;
     if (!form_open(range, range->rigs[0], &form, error)) return false;
+    const enum motion_form as = range->format->motion;
+    const bool in_seconds = as == MOTION_MDD;
+    const struct motion_span span = {
+        .frames = range->key_count,
+        .vertices = form.vertex_count,
+        .first = in_seconds ? range->first / range->posing->document->fps : range->first,
+        .spacing = in_seconds ? range_seconds(range, 1) : range->spacing,
+    };
+    motion_print_start(out, as, &span);
     float(*positions)[3] = need((size_t)form.vertex_count + 1, sizeof *positions);
-    const bool done = write_frames(range, &form, out, positions, error);
+    bool done = true;
+    for (int k = 0; done && k < range->key_count; k++) {
+        struct rig_pose pose;
+        done = range_pose(range, range->rigs[0], k, &pose, error);
+        if (!done) break;
+        form.kind->vertices(&form, &pose, positions);
+        const float *root = range_root(range, range->rigs[0], &pose);
+
+        // Programs play a point cache inside the node that has the mesh, so its positions are relative to that node. Those of several nodes, and
+        // of a node without a size, stay in the character's space, as an array's do; or go where the options place the character.
+        const bool is_inside = !root && form.holder >= 0 && as != MOTION_NPY;
+        mat4s place = root        ? mat4_from(root)
+                      : is_inside ? mat4_from(pose.model.pose->world[form.holder])
+                                  : glms_mat4_identity();
+        const bool has_size = is_inside && glms_mat4_det(place) != 0.0f;
+        if (has_size) place = glms_mat4_inv(place);
+        for (int v = 0; (root || has_size) && v < form.vertex_count; v++)
+            glm_mat4_mulv3(place.raw, positions[v], 1, positions[v]);
+        motion_print_frame(out, as, (const float(*)[3])positions, form.vertex_count);
+        if (ferror(out)) break; // the caller reports the error; writing on to a full disk is useless
+        done = range_proceed(range, error);
+    }
     snprintf(range->summary, FORMAT_SUMMARY, "%d vertices, %d frames", form.vertex_count, range->key_count);
     free(positions);
     form_close(&form);
