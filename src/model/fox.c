@@ -200,16 +200,11 @@ void fox_head_from_bind(float matrix[16])
     matrix[15] = 1;
 }
 
-static mat4s head_from_bind(void)
+void fox_move(const struct limbs *limbs, struct gltf_pose *pose)
 {
     float matrix[16];
     fox_head_from_bind(matrix);
-    return mat4_from(matrix);
-}
-
-void fox_move(const struct limbs *limbs, struct gltf_pose *pose)
-{
-    const mat4s into_head = head_from_bind();
+    const mat4s into_head = mat4_from(matrix);
     const vec3s across = {{into_head.m00, into_head.m10, into_head.m20}}, stretched = size_of(limbs);
     const vec3s forth = {{into_head.m02, into_head.m12, into_head.m22}};
     const versors look = glms_quatv(limbs->look, (vec3s){{0, 1, 0}}), nod = glms_quatv(limbs->nod, across);

@@ -101,20 +101,6 @@ int64_t glb_integer(const json_t *object, const char *key, int64_t otherwise)
 
 // --- bytes outside the chunk
 
-static bool read_data(const char *uri, struct glb_buffer *buffer, struct error *error)
-{
-    const char *comma = strchr(uri, ',');
-    const bool is_base64 = comma && comma - uri >= 7 && strncmp(comma - 7, ";base64", 7) == 0;
-    if (!is_base64) return fail(error, ERROR_INPUT, "expected a data URI in base64, got another");
-    unsigned char *bytes = malloc(base64_capacity(strlen(comma)));
-    if (!bytes) return fail_no_memory(error, "a data URI");
-    *buffer = (struct glb_buffer){.bytes = {.at = bytes}, .owned = bytes};
-    if (base64_decode(comma + 1, bytes, &buffer->bytes.size)) return true;
-    free(bytes);
-    *buffer = (struct glb_buffer){0};
-    return fail(error, ERROR_INPUT, "expected base64, got something else");
-}
-
 /// "a%20b" → "a b"; false for an address, an absolute path, or no file name.
 static bool decode_name(const char *uri, char name[PATH_LIMIT])
 {
@@ -137,7 +123,18 @@ bool glb_read_uri(struct glb *glb, const char *uri, struct glb_buffer *buffer, s
 {
     char name[PATH_LIMIT], folder[PATH_LIMIT], path[PATH_LIMIT];
     *buffer = (struct glb_buffer){0};
-    if (strncmp(uri, "data:", 5) == 0) return read_data(uri, buffer, error);
+    if (strncmp(uri, "data:", 5) == 0) {
+        const char *comma = strchr(uri, ',');
+        const bool is_base64 = comma && comma - uri >= 7 && strncmp(comma - 7, ";base64", 7) == 0;
+        if (!is_base64) return fail(error, ERROR_INPUT, "expected a data URI in base64, got another");
+        unsigned char *bytes = malloc(base64_capacity(strlen(comma)));
+        if (!bytes) return fail_no_memory(error, "a data URI");
+        *buffer = (struct glb_buffer){.bytes = {.at = bytes}, .owned = bytes};
+        if (base64_decode(comma + 1, bytes, &buffer->bytes.size)) return true;
+        free(bytes);
+        *buffer = (struct glb_buffer){0};
+        return fail(error, ERROR_INPUT, "expected base64, got something else");
+    }
     if (!decode_name(uri, name) || !path_folder(glb->path, folder) ||
         snprintf(path, sizeof path, "%s%s%s", folder, folder[0] ? "/" : "", name) >= (int)sizeof path)
         return fail(error, ERROR_INPUT,
@@ -326,7 +323,6 @@ struct unpacking {
     struct gltf_file plain; ///< the views, accessors and bytes of the plain file
     size_t view_count;      ///< of the compressed file
     bool *is_spent;         ///< of each of its views: whether it held a Draco mesh
-    struct error *error;
 };
 
 static json_t *extension_of(const json_t *object, const char *name)
@@ -426,27 +422,6 @@ static bool unpack_primitive(struct unpacking *u, const json_t *primitive, const
     return done;
 }
 
-static bool unpack_meshes(struct unpacking *u)
-{
-    size_t m, p;
-    json_t *mesh, *primitive;
-    json_array_foreach(json_object_get(u->glb->json, "meshes"), m, mesh)
-    {
-        json_array_foreach(json_object_get(mesh, "primitives"), p, primitive)
-        {
-            const json_t *packed = extension_of(primitive, draco);
-            if (packed && !unpack_primitive(u, primitive, packed))
-                return fail(
-                    u->error, ERROR_INPUT,
-                    "%s: meshes[%zu].primitives[%zu]: expected a Draco mesh that a file of this size can hold, "
-                    "got something else",
-                    u->glb->path, m, p);
-            if (packed) drop_extension(primitive, draco);
-        }
-    }
-    return true;
-}
-
 // --- meshoptimizer: a buffer view
 
 static bool decode(const json_t *packed, struct glb_bytes from, size_t count, size_t stride, void *to)
@@ -492,31 +467,6 @@ static void *bytes_of(struct unpacking *u, const json_t *view, size_t *size)
     return NULL;
 }
 
-static bool unpack_views(struct unpacking *u)
-{
-    for (size_t i = 0; i < u->view_count; i++) {
-        json_t *view = json_array_get(u->plain.views, i);
-        size_t size;
-        void *bytes = u->is_spent[i] ? NULL : bytes_of(u, view, &size);
-        if (bytes) {
-            gltf_set(&u->plain, view, "buffer", json_integer(0));
-            gltf_set(&u->plain, view, "byteOffset",
-                     json_integer((json_int_t)gltf_file_append(&u->plain, bytes, size)));
-            gltf_set(&u->plain, view, "byteLength", json_integer((json_int_t)size));
-            drop_extension(view, meshopt);
-        } else if (u->is_spent[i]) { // keep its number: repeat another view in its place
-            json_array_set_new(u->plain.views, i, json_deep_copy(json_array_get(u->plain.views, u->view_count)));
-        } else {
-            return fail(u->error, ERROR_INPUT,
-                        "%s: bufferViews[%zu]: expected data within the file, plain or compressed by meshoptimizer, "
-                        "got something else",
-                        u->glb->path, i);
-        }
-        free(bytes);
-    }
-    return true;
-}
-
 static void drop_names(json_t *root, const char *array)
 {
     json_t *names = json_object_get(root, array);
@@ -529,13 +479,47 @@ static void drop_names(json_t *root, const char *array)
 
 static bool unpack(struct glb *glb, struct error *error)
 {
-    struct unpacking u = {
-        .glb = glb, .error = error, .room = GLB_ROOM + MOST_BYTES / GLB_GROWTH * (glb->room - GLB_ROOM)};
+    struct unpacking u = {.glb = glb, .room = GLB_ROOM + MOST_BYTES / GLB_GROWTH * (glb->room - GLB_ROOM)};
+    size_t m, p;
+    json_t *mesh, *primitive;
     if (!glb_is_packed(glb)) return true;
     gltf_file_continue(&u.plain, glb->json);
     u.view_count = json_array_size(u.plain.views);
     u.is_spent = calloc(u.view_count + 1, sizeof *u.is_spent);
-    bool done = u.is_spent && unpack_meshes(&u) && unpack_views(&u);
+    bool done = u.is_spent;
+    json_array_foreach(json_object_get(glb->json, "meshes"), m, mesh)
+    {
+        json_array_foreach(json_object_get(mesh, "primitives"), p, primitive)
+        {
+            const json_t *packed = done ? extension_of(primitive, draco) : NULL;
+            if (!packed) continue;
+            done = unpack_primitive(&u, primitive, packed) ||
+                   fail(error, ERROR_INPUT,
+                        "%s: meshes[%zu].primitives[%zu]: expected a Draco mesh that a file of this size can hold, "
+                        "got something else",
+                        glb->path, m, p);
+            if (done) drop_extension(primitive, draco);
+        }
+    }
+    for (size_t i = 0; done && i < u.view_count; i++) {
+        json_t *view = json_array_get(u.plain.views, i);
+        size_t size;
+        void *bytes = u.is_spent[i] ? NULL : bytes_of(&u, view, &size);
+        if (bytes) {
+            gltf_set(&u.plain, view, "buffer", json_integer(0));
+            gltf_set(&u.plain, view, "byteOffset", json_integer((json_int_t)gltf_file_append(&u.plain, bytes, size)));
+            gltf_set(&u.plain, view, "byteLength", json_integer((json_int_t)size));
+            drop_extension(view, meshopt);
+        } else if (u.is_spent[i]) { // keep its number: repeat another view in its place
+            json_array_set_new(u.plain.views, i, json_deep_copy(json_array_get(u.plain.views, u.view_count)));
+        } else {
+            done = fail(error, ERROR_INPUT,
+                        "%s: bufferViews[%zu]: expected data within the file, plain or compressed by meshoptimizer, "
+                        "got something else",
+                        glb->path, i);
+        }
+        free(bytes);
+    }
     if (done && !u.plain.without_memory) { // the decompressed bytes become the only buffer
         for (int i = 0; i < glb->buffer_count; i++) free(glb->buffers[i].owned);
         glb->buffers[0] = (struct glb_buffer){{(unsigned char *)u.plain.data, u.plain.size}, u.plain.data};

@@ -208,34 +208,6 @@ static void take_target(const struct gltf_mesh *mesh, int target, double sign, d
     }
 }
 
-static bool take_coordinates(const struct gltf_mesh *mesh, struct character *c)
-{
-    struct coordinate *coordinate = c->coordinates;
-    for (int t = 0; t < mesh->target_count; t++) {
-        const json_t *known = NULL, *entry;
-        size_t length, i;
-        int im;
-        if (!is_coordinate(mesh, t, &length, &im)) continue;
-        coordinate->name = strndup(gltf_target_name(mesh, t), length);
-        if (!coordinate->name) return false;
-        json_array_foreach(json_object_get(json_object_get(mesh->extras, "wiggly"), "coordinates"), i, entry)
-        {
-            const char *called = json_string_value(json_object_get(entry, "name"));
-            if (!known && called && strcmp(called, coordinate->name) == 0) known = entry;
-        }
-        const double scale = real_of(known, "scale") > 0 ? real_of(known, "scale") : 1;
-        coordinate->frequency = real_of(known, "frequency");
-        coordinate->damping = real_of(known, "damping");
-        coordinate->explained = real_of(known, "explained");
-        coordinate->pca1 = real_of(known, "pca1");
-        coordinate->pca2 = real_of(known, "pca2");
-        take_target(mesh, t, 1, scale, coordinate->re);
-        take_target(mesh, im, -1, scale, coordinate->im);
-        coordinate++;
-    }
-    return true;
-}
-
 // --- its place
 
 /// Moves it where the first node that shows it is: a mirroring node reverses the triangles and their normals. Without a node it stays exactly as
@@ -269,26 +241,31 @@ static bool place_as_node(const struct gltf *gltf, const struct gltf_mesh *mesh,
     return true;
 }
 
-// --- the whole character
-
-static bool read_character(const struct gltf *gltf, struct character *c, struct error *error)
+bool character_read(const char *path, struct character *c, struct error *error)
 {
-    const struct gltf_mesh *mesh = choose_mesh(gltf);
-    size_t vertices = 0, coordinates = 0, length;
-    int im;
-    if (!mesh)
-        return fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got %s", gltf->path,
-                    gltf->not_shown ? gltf->not_shown : "none");
-    for (int p = 0; p < mesh->part_count; p++)
+    struct gltf gltf;
+    size_t vertices = 0, coordinates = 0, length, i;
+    int im, next = 0;
+    *c = (struct character){0};
+    if (!gltf_read_stored(path, &gltf, error)) return false;
+    const size_t most = gltf.room / (2 * sizeof *c->position);
+    const struct gltf_mesh *mesh = choose_mesh(&gltf);
+    for (int p = 0; mesh && p < mesh->part_count; p++)
         vertices += mesh->parts[p].shared ? 0 : (size_t)mesh->parts[p].vertex_count;
-    for (int t = 0; t < mesh->target_count; t++) coordinates += is_coordinate(mesh, t, &length, &im);
-    if (vertices * coordinates > gltf->room / (2 * sizeof *c->position))
-        return fail(error, ERROR_INPUT, "%s: expected at most %zu vertices in a file of this size, got %zu times %zu",
-                    gltf->path, gltf->room / (2 * sizeof *c->position), coordinates, vertices);
+    for (int t = 0; mesh && t < mesh->target_count; t++) coordinates += is_coordinate(mesh, t, &length, &im);
+    bool made = mesh || fail(error, ERROR_INPUT, "%s: expected a mesh of triangles, got %s", gltf.path,
+                             gltf.not_shown ? gltf.not_shown : "none");
+    made = made &&
+           (vertices * coordinates <= most ||
+            fail(error, ERROR_INPUT, "%s: expected at most %zu vertices in a file of this size, got %zu times %zu",
+                 gltf.path, most, coordinates, vertices));
+    if (!made) {
+        gltf_free(&gltf);
+        return false;
+    }
 
     struct surface surface = {0};
-    int next = 0;
-    bool made = make_surface(gltf, mesh, &surface) && character_create(c, &surface, (int)coordinates);
+    made = make_surface(&gltf, mesh, &surface) && character_create(c, &surface, (int)coordinates);
     surface_free(&surface);
     for (int p = 0; made && p < mesh->part_count; p++) {
         const struct gltf_part *part = &mesh->parts[p];
@@ -296,55 +273,38 @@ static bool read_character(const struct gltf *gltf, struct character *c, struct 
         if (!part->shared && part->normal)
             memcpy(c->normal + base, part->normal, (size_t)part->vertex_count * sizeof *part->normal);
     }
-    made = made && take_coordinates(mesh, c) && place_as_node(gltf, mesh, c);
-    return made || fail_no_memory(error, gltf->path);
-}
 
-bool character_read(const char *path, struct character *character, struct error *error)
-{
-    struct gltf gltf;
-    *character = (struct character){0};
-    if (!gltf_read_stored(path, &gltf, error)) return false;
-    const bool done = read_character(&gltf, character, error);
+    struct coordinate *coordinate = c->coordinates;
+    for (int t = 0; made && t < mesh->target_count; t++) {
+        const json_t *known = NULL, *entry;
+        if (!is_coordinate(mesh, t, &length, &im)) continue;
+        coordinate->name = strndup(gltf_target_name(mesh, t), length);
+        made = coordinate->name;
+        if (!made) break;
+        json_array_foreach(json_object_get(json_object_get(mesh->extras, "wiggly"), "coordinates"), i, entry)
+        {
+            const char *called = json_string_value(json_object_get(entry, "name"));
+            if (!known && called && strcmp(called, coordinate->name) == 0) known = entry;
+        }
+        const double scale = real_of(known, "scale") > 0 ? real_of(known, "scale") : 1;
+        coordinate->frequency = real_of(known, "frequency");
+        coordinate->damping = real_of(known, "damping");
+        coordinate->explained = real_of(known, "explained");
+        coordinate->pca1 = real_of(known, "pca1");
+        coordinate->pca2 = real_of(known, "pca2");
+        take_target(mesh, t, 1, scale, coordinate->re);
+        take_target(mesh, im, -1, scale, coordinate->im);
+        coordinate++;
+    }
+    made = (made && place_as_node(&gltf, mesh, c)) || fail_no_memory(error, gltf.path);
     gltf_free(&gltf);
-    if (!done) character_free(character);
-    return done;
+    if (!made) character_free(c);
+    return made;
 }
 
 // --- everything a file shows at rest, as one surface
 
-static void add_part(struct surface_builder *b, const struct gltf *gltf, const struct gltf_part *part,
-                     float (*position)[3])
-{
-    const int first = b->surface->vertex_count, first_uv = b->surface->looks.uv_count;
-    b->material = part->material >= 0 ? builder_material(b, gltf->materials[part->material].name) : LOOKS_NONE;
-    if (b->material != LOOKS_NONE) {
-        const size_t used = looks_image_bytes(&b->surface->looks);
-        const size_t room = used < LOOKS_IMAGES_LIMIT ? LOOKS_IMAGES_LIMIT - used : 0;
-        struct looks_material *look = &b->surface->looks.materials[b->material];
-        b->failed = b->failed || !copy_look(gltf, part->material, room, look);
-    }
-    for (int i = 0; i < part->vertex_count && !b->failed; i++) {
-        const double p[3] = {(double)position[i][0], (double)position[i][1], (double)position[i][2]};
-        builder_vertex(b, p);
-        if (part->color) {
-            const float *c = part->color[i];
-            const float rgb[3] = {glm_clamp(c[0], 0, 1), glm_clamp(c[1], 0, 1), glm_clamp(c[2], 0, 1)};
-            builder_linear_color(b, rgb);
-        }
-        if (part->uv) builder_uv(b, (double)part->uv[i][0], (double)part->uv[i][1]);
-    }
-    for (int i = 0; i + 2 < part->index_count && !b->failed; i += 3) {
-        const uint32_t *corner = part->indices + i;
-        const bool joined = gltf_joins(part, i);
-        if (!joined) builder_end_polygon(b);
-        for (int k = joined ? 2 : 0; k < 3; k++)
-            builder_corner(b, (uint32_t)first + corner[k], part->uv ? (uint32_t)first_uv + corner[k] : LOOKS_NONE);
-    }
-    builder_end_polygon(b);
-}
-
-bool gltf_surface_read(struct words *words, struct surface_builder *builder)
+bool gltf_surface_read(struct words *words, struct surface_builder *b)
 {
     struct gltf gltf;
     struct gltf_pose pose;
@@ -359,11 +319,39 @@ bool gltf_surface_read(struct words *words, struct surface_builder *builder)
         if (!whole) break;
         gltf_pose_vertices(&gltf, &pose, n, position, NULL);
         const struct gltf_mesh *mesh = &gltf.meshes[gltf.nodes[n].mesh];
-        for (int p = 0, first = 0; p < mesh->part_count; first += mesh->parts[p++].vertex_count)
-            add_part(builder, &gltf, &mesh->parts[p], position + first);
+        for (int p = 0, next = 0; p < mesh->part_count; next += mesh->parts[p++].vertex_count) {
+            const struct gltf_part *part = &mesh->parts[p];
+            const int first = b->surface->vertex_count, first_uv = b->surface->looks.uv_count;
+            b->material = part->material >= 0 ? builder_material(b, gltf.materials[part->material].name) : LOOKS_NONE;
+            if (b->material != LOOKS_NONE) {
+                const size_t used = looks_image_bytes(&b->surface->looks);
+                const size_t room = used < LOOKS_IMAGES_LIMIT ? LOOKS_IMAGES_LIMIT - used : 0;
+                struct looks_material *look = &b->surface->looks.materials[b->material];
+                b->failed = b->failed || !copy_look(&gltf, part->material, room, look);
+            }
+            for (int i = 0; i < part->vertex_count && !b->failed; i++) {
+                const float *at = position[next + i];
+                builder_vertex(b, (const double[]){(double)at[0], (double)at[1], (double)at[2]});
+                if (part->color) {
+                    const float *c = part->color[i];
+                    const float rgb[3] = {glm_clamp(c[0], 0, 1), glm_clamp(c[1], 0, 1), glm_clamp(c[2], 0, 1)};
+                    builder_linear_color(b, rgb);
+                }
+                if (part->uv) builder_uv(b, (double)part->uv[i][0], (double)part->uv[i][1]);
+            }
+            for (int i = 0; i + 2 < part->index_count && !b->failed; i += 3) {
+                const uint32_t *corner = part->indices + i;
+                const bool joined = gltf_joins(part, i);
+                if (!joined) builder_end_polygon(b);
+                for (int k = joined ? 2 : 0; k < 3; k++)
+                    builder_corner(b, (uint32_t)first + corner[k],
+                                   part->uv ? (uint32_t)first_uv + corner[k] : LOOKS_NONE);
+            }
+            builder_end_polygon(b);
+        }
         free(position);
     }
-    builder->failed = !whole || builder->failed;
+    b->failed = !whole || b->failed;
     if (posed) gltf_pose_free(&pose);
     gltf_free(&gltf);
     return true;

@@ -671,32 +671,6 @@ static float *read_floats(struct gltf_reader *r, const json_t *sampler, const ch
     return values;
 }
 
-/// Reads the keys of a channel.
-static bool read_sampler(struct gltf_reader *r, const json_t *sampler, struct gltf_channel *channel)
-{
-    static const char *const names[] = {"STEP", "LINEAR", "CUBICSPLINE"};
-    const char *name = json_string_value(json_object_get(sampler, "interpolation"));
-    int count, of_time, components, kind = name ? 0 : GLTF_LINEAR;
-    channel->times = read_floats(r, sampler, "input", &channel->key_count, &of_time);
-    channel->values = channel->times ? read_floats(r, sampler, "output", &count, &components) : NULL;
-    if (!channel->values) return false;
-    while (name && kind < 3 && strcmp(name, names[kind]) != 0) kind++;
-    if (kind == 3) return gltf_bad(r, ".interpolation: expected STEP, LINEAR or CUBICSPLINE, got %.40s", name);
-    channel->interpolation = (enum gltf_interpolation)kind;
-    if (of_time != 1) return gltf_bad(r, ".input: expected times, got %d numbers a key", of_time);
-    for (int i = 1; i < channel->key_count; i++) {
-        if (channel->times[i] < channel->times[i - 1])
-            return gltf_bad(r, ".input: expected ascending times, got %g after %g", (double)channel->times[i],
-                            (double)channel->times[i - 1]);
-    }
-    int width = channel->path == GLTF_WEIGHTS ? 1 : channel->components;
-    int64_t expected =
-        (int64_t)channel->key_count * (channel->interpolation == GLTF_CUBIC ? 3 : 1) * channel->components / width;
-    return (components == width && count == expected) ||
-           gltf_bad(r, ".output: expected %lld elements of %d numbers, got %d of %d", (long long)expected, width,
-                    count, components);
-}
-
 /// The channel's target; false if it does not exist or is not animated here.
 static bool find_target(const struct gltf *gltf, const char *path, struct gltf_channel *channel)
 {
@@ -716,6 +690,7 @@ static bool find_target(const struct gltf *gltf, const char *path, struct gltf_c
 
 static bool read_clips(struct gltf_reader *r)
 {
+    static const char *const names[] = {"STEP", "LINEAR", "CUBICSPLINE"};
     const json_t *clips = gltf_array(r, "animations"), *json, *channel;
     size_t i, k;
     gltf_at(r, "animations");
@@ -747,7 +722,28 @@ static bool read_clips(struct gltf_reader *r)
             if (sampler < 0) return gltf_bad(r, ".sampler: expected a sampler, got none");
             gltf_at(r, "animations[%zu].samplers[%d]", i, sampler);
             clip->channel_count++;
-            if (!read_sampler(r, json_array_get(samplers, (size_t)sampler), to)) return false;
+            const json_t *of = json_array_get(samplers, (size_t)sampler);
+            const char *name = json_string_value(json_object_get(of, "interpolation"));
+            int count, of_time, components, kind = name ? 0 : GLTF_LINEAR;
+            to->times = read_floats(r, of, "input", &to->key_count, &of_time);
+            to->values = to->times ? read_floats(r, of, "output", &count, &components) : NULL;
+            if (!to->values) return false;
+            while (name && kind < 3 && strcmp(name, names[kind]) != 0) kind++;
+            if (kind == 3)
+                return gltf_bad(r, ".interpolation: expected STEP, LINEAR or CUBICSPLINE, got %.40s", name);
+            to->interpolation = (enum gltf_interpolation)kind;
+            if (of_time != 1) return gltf_bad(r, ".input: expected times, got %d numbers a key", of_time);
+            for (int n = 1; n < to->key_count; n++) {
+                if (to->times[n] < to->times[n - 1])
+                    return gltf_bad(r, ".input: expected ascending times, got %g after %g", (double)to->times[n],
+                                    (double)to->times[n - 1]);
+            }
+            const int width = to->path == GLTF_WEIGHTS ? 1 : to->components;
+            const int64_t expected =
+                (int64_t)to->key_count * (to->interpolation == GLTF_CUBIC ? 3 : 1) * to->components / width;
+            if (components != width || count != expected)
+                return gltf_bad(r, ".output: expected %lld elements of %d numbers, got %d of %d", (long long)expected,
+                                width, count, components);
             clip->first = fmin(clip->first, (double)to->times[0]);
             clip->last = fmax(clip->last, (double)to->times[to->key_count - 1]);
         }

@@ -93,17 +93,6 @@ static bool read_npy_header(struct motion *m, int64_t size, struct error *error)
 //     28  int32     samples
 //     then float32 x y z of each point of each frame, in both
 
-static bool read_pc2_header(struct motion *m, int64_t size, struct error *error)
-{
-    int32_t numbers[5];
-    if (!read_at(m, sizeof pc2_magic, numbers, sizeof numbers, error)) return false;
-    if (numbers[0] != 1)
-        return fail(error, ERROR_INPUT, "%s: expected version 1 of PC2, got %d", m->path, (int)numbers[0]);
-    m->data = PC2_HEADER;
-    m->number_size = 4;
-    return set_counts(m, numbers[4], numbers[1], error) && set_layout(m, size, error);
-}
-
 static int32_t big_endian(const unsigned char b[4])
 {
     return (int32_t)((uint32_t)b[0] << 24 | (uint32_t)b[1] << 16 | (uint32_t)b[2] << 8 | b[3]);
@@ -157,7 +146,15 @@ static bool read_header(struct motion *m, int64_t size, struct error *error)
                     m->path, (long long)size);
     if (!read_at(m, 0, start, sizeof start, error)) return false;
     if (memcmp(start, npy_magic, sizeof npy_magic) == 0) return read_npy_header(m, size, error);
-    if (memcmp(start, pc2_magic, sizeof pc2_magic) == 0) return read_pc2_header(m, size, error);
+    if (memcmp(start, pc2_magic, sizeof pc2_magic) == 0) {
+        int32_t numbers[5];
+        if (!read_at(m, sizeof pc2_magic, numbers, sizeof numbers, error)) return false;
+        if (numbers[0] != 1)
+            return fail(error, ERROR_INPUT, "%s: expected version 1 of PC2, got %d", m->path, (int)numbers[0]);
+        m->data = PC2_HEADER;
+        m->number_size = 4;
+        return set_counts(m, numbers[4], numbers[1], error) && set_layout(m, size, error);
+    }
     if (path_has_end(m->path, ".mdd")) return read_mdd_header(m, size, error); // has no magic number
     return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got something else", m->path);
 }
@@ -202,22 +199,6 @@ static double real_at(const struct motion *m, const char *bytes)
     return number;
 }
 
-/// Converts `count` numbers to doubles `stride` apart; returns the index of the first that is not finite, or `count`.
-static int convert(const struct motion *m, const char *bytes, int count, double *out, size_t stride)
-{
-    double sum = 0; // stays 0 if all numbers are finite
-    for (int i = 0; i < count; i++) {
-        double number = real_at(m, bytes + (size_t)i * (size_t)m->number_size);
-        out[(size_t)i * stride] = number;
-        sum += 0 * number;
-    }
-    if (sum == 0) return count;
-    for (int i = 0; i < count; i++) {
-        if (!isfinite(out[(size_t)i * stride])) return i;
-    }
-    return count;
-}
-
 bool motion_columns(const struct motion *motion, int first, int count, double *slab, struct error *error)
 {
     const struct motion *m = motion;
@@ -235,7 +216,15 @@ bool motion_columns(const struct motion *motion, int first, int count, double *s
         double *out = slab + (columns ? (size_t)i : (size_t)i * (size_t)count);
         done = read_at(m, m->data + at, bytes, size, error);
         if (!done) break;
-        const int bad = convert(m, bytes, numbers, out, columns ? (size_t)count : 1);
+        const size_t stride = columns ? (size_t)count : 1;
+        double sum = 0; // stays 0 if all numbers are finite
+        for (int n = 0; n < numbers; n++) {
+            const double number = real_at(m, bytes + (size_t)n * (size_t)m->number_size);
+            out[(size_t)n * stride] = number;
+            sum += 0 * number;
+        }
+        int bad = sum == 0 ? numbers : 0;
+        while (bad < numbers && isfinite(out[(size_t)bad * stride])) bad++;
         done = bad == numbers ||
                fail(error, ERROR_INPUT, "%s: frame %d, vertex %d: expected a finite number, got NaN or infinity",
                     m->path, columns ? bad : frame, (columns ? column : column + bad) / 3);

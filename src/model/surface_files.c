@@ -433,36 +433,6 @@ static bool ply_read_element(struct ply *ply)
     return true;
 }
 
-static bool ply_read_header(struct ply *ply)
-{
-    static const char *const formats[] = {
-        [TEXT] = "ascii", [LITTLE] = "binary_little_endian", [BIG] = "binary_big_endian"};
-    struct words *w = ply->words;
-    if (!words_take(w, "ply"))
-        return fail(w->error, ERROR_INPUT, "%s: expected a PLY file, got something else", w->path);
-    while (!words_take(w, "end_header")) {
-        bool good = true;
-        if (words_take(w, "format")) {
-            int f = 0;
-            while (f < 3 && !words_take(w, formats[f])) f++;
-            ply->format = (enum format)f;
-            good = f < 3 || words_expected(w, "ascii, binary_little_endian or binary_big_endian");
-            if (good) words_skip_line(w);
-        } else if (words_take(w, "element")) {
-            good = ply_read_element(ply);
-        } else if (words_more(w)) {
-            words_skip_line(w); // a comment, or another program's line without that word
-        } else {
-            good = words_expected(w, "a header that ends in end_header");
-        }
-        if (!good) return false;
-    }
-    words_skip_line(w);
-    if (*w->at == '\n') w->at++;
-    w->line++;
-    return true;
-}
-
 /// Infinity and NaN are refused if `used`; unused properties may have them.
 static bool ply_read_number(struct ply *ply, enum number_type type, bool used, double *number)
 {
@@ -478,52 +448,38 @@ static bool ply_read_number(struct ply *ply, enum number_type type, bool used, d
            fail(w->error, ERROR_INPUT, "%s: expected finite numbers, got NaN or infinity", w->path);
 }
 
-/// The newest corners of a triangle strip.
-struct strip {
-    uint32_t last[2];
-    int length;
-};
-
-/// Adds the triangle that ends at this corner; −1 begins a new strip.
-static void add_to_strip(struct surface_builder *b, struct strip *strip, long vertex)
-{
-    if (vertex < 0) {
-        strip->length = 0;
-        return;
-    }
-    if (strip->length >= 2) {
-        const int odd = strip->length % 2;
-        builder_corner(b, strip->last[odd], LOOKS_NONE);
-        builder_corner(b, strip->last[!odd], LOOKS_NONE);
-        builder_corner(b, (uint32_t)vertex, LOOKS_NONE);
-        builder_end_polygon(b);
-    }
-    strip->last[0] = strip->last[1];
-    strip->last[1] = (uint32_t)vertex;
-    strip->length++;
-}
-
 static bool ply_read_list(struct ply *ply, const struct property *p)
 {
     struct words *w = ply->words;
-    struct strip strip = {0};
+    struct surface_builder *b = ply->builder;
+    uint32_t last[2] = {0}; // the newest corners of a triangle strip
+    int strip = 0;          // and how many it has
     double length, number;
     if (!ply_read_number(ply, p->count_type, true, &length)) return false;
     if (length < 0) return fail(w->error, ERROR_INPUT, "%s: expected the length of a list, got %g", w->path, length);
-    for (double i = 0; i < length && !ply->builder->failed; i++) {
+    for (double i = 0; i < length && !b->failed; i++) {
         if (!ply_read_number(ply, p->type, p->role != OTHER, &number)) return false;
         if (p->role != CORNERS && p->role != STRIPS) continue;
         const bool ends = p->role == STRIPS && number < 0;
         if (!ends && !(number >= 0 && number < (double)ply->vertex_count && number == floor(number)))
             return fail(w->error, ERROR_INPUT, "%s: expected a vertex from 0 to %ld, got %g", w->path,
                         ply->vertex_count - 1, number);
-        if (p->role == STRIPS) {
-            add_to_strip(ply->builder, &strip, (long)number);
-        } else {
-            builder_corner(ply->builder, (uint32_t)number, ply->textured ? (uint32_t)number : LOOKS_NONE);
+        const uint32_t vertex = ends ? 0 : (uint32_t)number;
+        if (p->role == CORNERS) {
+            builder_corner(b, vertex, ply->textured ? vertex : LOOKS_NONE);
+            continue;
         }
+        if (!ends && strip >= 2) { // the triangle that ends at this corner
+            builder_corner(b, last[strip % 2], LOOKS_NONE);
+            builder_corner(b, last[strip % 2 == 0], LOOKS_NONE);
+            builder_corner(b, vertex, LOOKS_NONE);
+            builder_end_polygon(b);
+        }
+        last[0] = last[1];
+        last[1] = vertex;
+        strip = ends ? 0 : strip + 1;
     }
-    if (p->role == CORNERS) builder_end_polygon(ply->builder);
+    if (p->role == CORNERS) builder_end_polygon(b);
     return true;
 }
 
@@ -554,10 +510,33 @@ static bool ply_read_one(struct ply *ply, const struct element *e)
     return true;
 }
 
-static bool ply_read(struct words *words, struct surface_builder *builder)
+static bool ply_read(struct words *w, struct surface_builder *builder)
 {
-    struct ply ply = {.words = words, .builder = builder};
-    if (!ply_read_header(&ply)) return false;
+    struct ply ply = {.words = w, .builder = builder};
+    static const char *const formats[] = {
+        [TEXT] = "ascii", [LITTLE] = "binary_little_endian", [BIG] = "binary_big_endian"};
+    if (!words_take(w, "ply"))
+        return fail(w->error, ERROR_INPUT, "%s: expected a PLY file, got something else", w->path);
+    while (!words_take(w, "end_header")) {
+        bool good = true;
+        if (words_take(w, "format")) {
+            int f = 0;
+            while (f < 3 && !words_take(w, formats[f])) f++;
+            ply.format = (enum format)f;
+            good = f < 3 || words_expected(w, "ascii, binary_little_endian or binary_big_endian");
+            if (good) words_skip_line(w);
+        } else if (words_take(w, "element")) {
+            good = ply_read_element(&ply);
+        } else if (words_more(w)) {
+            words_skip_line(w); // a comment, or another program's line without that word
+        } else {
+            good = words_expected(w, "a header that ends in end_header");
+        }
+        if (!good) return false;
+    }
+    words_skip_line(w);
+    if (*w->at == '\n') w->at++;
+    w->line++;
     for (int i = 0; i < ply.element_count; i++) {
         const struct element *e = &ply.elements[i];
         if (!e->vertices) continue;
