@@ -182,59 +182,6 @@ bool edit_substeps(struct document *document, int substeps, struct error *error)
     return end_edit(document, before, check_knots_fit(document, error), error);
 }
 
-/// Removes a spline's knots that fall outside the range.
-static void trim_knots(struct document *document, int index)
-{
-    const struct spline *spline = document->splines[index];
-    const int last = document_last_knot_sample(document, spline), count = spline->knot_count;
-    int from = 0, to = count;
-    while (from < count && document_sample(document, spline->knots[from].frame) < 0) from++;
-    while (to > from && document_sample(document, spline->knots[to - 1].frame) > last) to--;
-    if (to - from == count) return;
-    struct spline *own = document_own_spline(document, index);
-    memmove(own->knots, own->knots + from, (size_t)(to - from) * sizeof *own->knots);
-    own->knot_count = to - from;
-}
-
-/// Moves knots outside the range to the nearest samples inside, and pushes other knots along.
-static bool move_knots(struct document *document, int index, struct error *error)
-{
-    const struct spline *spline = document->splines[index];
-    int count = spline->knot_count, last = document_last_knot_sample(document, spline);
-    if (count > last + 1) {
-        return fail(error, ERROR_INPUT, "%s: %d knots do not fit into %d frames", spline->name, count,
-                    document->last_frame - document->first_frame + 1);
-    }
-    int low = 0, high = count; // knots up to `low` are pushed right, those from `high` on left
-    while (low < count && document_sample(document, spline->knots[low].frame) < low) low++;
-    while (high > low && document_sample(document, spline->knots[high - 1].frame) > last - (count - high)) high--;
-    if (low == 0 && high == count) return true;
-    struct knot *knots = document_own_spline(document, index)->knots;
-    for (int k = 0; k < low; k++) knots[k].frame = document_frame(document, k);
-    for (int k = high; k < count; k++) knots[k].frame = document_frame(document, last - (count - 1 - k));
-    return true;
-}
-
-/// Moves a rig's pins outside the range to the nearest sample inside, or removes them.
-static void fit_pins(struct document *document, int index, enum range_fit fit)
-{
-    const struct rig *rig = document->rigs[index];
-    const int last = pins_last_sample(document, rig);
-    for (int i = 0; i < rig->pin_count;) {
-        const int sample = document_sample(document, rig->pins[i].frame);
-        if (sample >= 0 && sample <= last) {
-            i++;
-            continue;
-        }
-        struct rig *own = document_own_rig(document, index);
-        struct pin pin = pins_remove(own, own->pins[i].id);
-        pin.frame = document_frame(document, sample < 0 ? 0 : last);
-        if (fit == RANGE_MOVE) pins_insert(own, &pin);
-        rig = own;
-        i = 0; // the pins' order has changed
-    }
-}
-
 bool edit_range(struct document *document, int first, int last, enum range_fit fit, struct error *error)
 {
     struct timing timing = timing_of(document);
@@ -247,13 +194,53 @@ bool edit_range(struct document *document, int first, int last, enum range_fit f
 
     bool good = check_loops(document, error);
     if (good && fit == RANGE_REFUSE) good = check_knots_fit(document, error);
-    for (int s = 0; good && fit != RANGE_REFUSE && s < document->spline_count; s++) {
-        if (fit == RANGE_TRIM)
-            trim_knots(document, s);
-        else
-            good = move_knots(document, s, error);
+    for (int s = 0; good && fit == RANGE_TRIM && s < document->spline_count; s++) { // knots outside go
+        const struct spline *spline = document->splines[s];
+        const int end = document_last_knot_sample(document, spline), count = spline->knot_count;
+        int from = 0, to = count;
+        while (from < count && document_sample(document, spline->knots[from].frame) < 0) from++;
+        while (to > from && document_sample(document, spline->knots[to - 1].frame) > end) to--;
+        if (to - from == count) continue;
+        struct spline *own = document_own_spline(document, s);
+        memmove(own->knots, own->knots + from, (size_t)(to - from) * sizeof *own->knots);
+        own->knot_count = to - from;
     }
-    for (int r = 0; good && fit != RANGE_REFUSE && r < document->rig_count; r++) fit_pins(document, r, fit);
+    for (int s = 0; good && fit == RANGE_MOVE && s < document->spline_count; s++) {
+        // They move to the nearest samples inside, and push other knots along.
+        const struct spline *spline = document->splines[s];
+        const int end = document_last_knot_sample(document, spline), count = spline->knot_count;
+        if (count > end + 1) {
+            good = fail(error, ERROR_INPUT, "%s: %d knots do not fit into %d frames", spline->name, count,
+                        document->last_frame - document->first_frame + 1);
+            break;
+        }
+        int low = 0, high = count; // knots up to `low` are pushed right, those from `high` on left
+        while (low < count && document_sample(document, spline->knots[low].frame) < low) low++;
+        while (high > low && document_sample(document, spline->knots[high - 1].frame) > end - (count - high)) high--;
+        if (low == 0 && high == count) continue;
+        struct knot *knots = document_own_spline(document, s)->knots;
+        for (int k = 0; k < low; k++) knots[k].frame = document_frame(document, k);
+        for (int k = high; k < count; k++) knots[k].frame = document_frame(document, end - (count - 1 - k));
+    }
+
+    // Pins outside move to the nearest sample inside, or go.
+    for (int r = 0; good && fit != RANGE_REFUSE && r < document->rig_count; r++) {
+        const struct rig *rig = document->rigs[r];
+        const int end = pins_last_sample(document, rig);
+        for (int i = 0; i < rig->pin_count;) {
+            const int sample = document_sample(document, rig->pins[i].frame);
+            if (sample >= 0 && sample <= end) {
+                i++;
+                continue;
+            }
+            struct rig *own = document_own_rig(document, r);
+            struct pin pin = pins_remove(own, own->pins[i].id);
+            pin.frame = document_frame(document, sample < 0 ? 0 : end);
+            if (fit == RANGE_MOVE) pins_insert(own, &pin);
+            rig = own;
+            i = 0; // the pins' order has changed
+        }
+    }
     return end_edit(document, before, good, error);
 }
 

@@ -306,20 +306,6 @@ static void pinned_resize(struct evaluation *evaluation, const struct document *
         need_failed();
 }
 
-/// Computes the weights of splines that are new in a group, or of all.
-static void weigh_splines(struct pinned *pinned, bool all)
-{
-    const struct document *document = pinned->document;
-    const struct model_source *source = &pinned->evaluation->models;
-    for (int s = 0; s < pinned->evaluation->count; s++) {
-        if (pinned->which[s] < 0 || (pinned->was[s] && !all)) continue;
-        pinned->weight[s] = 0;
-        for (int r = 0; r < document->rig_count; r++)
-            source->weigh(source->context, document, r, &s, 1, &pinned->weight[s]);
-        if (!(pinned->weight[s] > 0)) pinned->weight[s] = 1; // splines that move nothing
-    }
-}
-
 /// Whether a rig differs from the solved one; `beside_pins`: in more than its pins.
 static bool rigs_differ(const struct pinned *pinned, bool beside_pins)
 {
@@ -349,7 +335,15 @@ static bool pinned_begin(struct evaluation *evaluation, const struct document *d
     const bool anew = serves != pinned->served || pinned->version != evaluation->models.version;
     const bool differs = anew || rigs_differ(pinned, false);
     for (int s = 0; s < count && differs; s++) storage->state[s].forced |= pinned->was[s] || pinned->which[s] >= 0;
-    weigh_splines(pinned, anew || rigs_differ(pinned, true));
+    const bool all = anew || rigs_differ(pinned, true);
+    for (int s = 0; s < count; s++) { // the weights of splines that are new in a group, or of all
+        if (pinned->which[s] < 0 || (pinned->was[s] && !all)) continue;
+        const struct model_source *source = &evaluation->models;
+        pinned->weight[s] = 0;
+        for (int r = 0; r < document->rig_count; r++)
+            source->weigh(source->context, document, r, &s, 1, &pinned->weight[s]);
+        if (!(pinned->weight[s] > 0)) pinned->weight[s] = 1; // splines that move nothing
+    }
     for (int s = 0; s < count; s++) pinned->was[s] = pinned->which[s] >= 0;
     pinned->served = serves;
     pinned->version = evaluation->models.version;

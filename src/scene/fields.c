@@ -406,36 +406,30 @@ bool fields_check(const struct document *document, int joints, const struct fiel
     return true;
 }
 
-static bool same_field(const struct field *field, const void *a, const void *b)
-{
-    const void *left = look(a, field->place), *right = look(b, field->place);
-    if (field->flag != 0 && *(const bool *)look(a, field->flag) != *(const bool *)look(b, field->flag)) return false;
-    if (is_text(field)) {
-        const char *one = text_of(field, a), *other = text_of(field, b);
-        return one == other || (one && other && strcmp(one, other) == 0); // NULL is only itself
-    }
-    if (field->kind == FIELD_LIST) {
-        bool same = count_of(field, a) == count_of(field, b);
-        for (int i = 0; same && i < count_of(field, a); i++)
-            same = fields_equal(field->rows, element_of(field, a, i), element_of(field, b, i));
-        return same;
-    }
-    if (field->kind == FIELD_PLACE) {
-        const struct param *one = left, *other = right;
-        bool same = true;
-        for (int k = 0; k < 3; k++) same &= one[k].track == other[k].track && one[k].value == other[k].value;
-        return same;
-    }
-    if (field->kind == FIELD_ANGLES) return angles_equal(left, right);
-    return memcmp(left, right, field->size) == 0;
-}
-
 bool fields_equal(const struct field *fields, const void *a, const void *b)
 {
-    for (const struct field *field = fields; field->key; field++) {
-        if (!field->is_apart && !same_field(field, a, b)) return false;
+    bool same = true;
+    for (const struct field *field = fields; same && field->key; field++) {
+        const void *left = look(a, field->place), *right = look(b, field->place);
+        if (field->is_apart) continue;
+        if (field->flag != 0) same = *(const bool *)look(a, field->flag) == *(const bool *)look(b, field->flag);
+        if (is_text(field)) {
+            const char *one = text_of(field, a), *other = text_of(field, b);
+            same = same && (one == other || (one && other && strcmp(one, other) == 0)); // NULL is only itself
+        } else if (field->kind == FIELD_LIST) {
+            same = same && count_of(field, a) == count_of(field, b);
+            for (int i = 0; same && i < count_of(field, a); i++)
+                same = fields_equal(field->rows, element_of(field, a, i), element_of(field, b, i));
+        } else if (field->kind == FIELD_PLACE) {
+            const struct param *one = left, *other = right;
+            for (int k = 0; k < 3; k++) same &= one[k].track == other[k].track && one[k].value == other[k].value;
+        } else if (field->kind == FIELD_ANGLES) {
+            same = same && angles_equal(left, right);
+        } else {
+            same = same && memcmp(left, right, field->size) == 0;
+        }
     }
-    return true;
+    return same;
 }
 
 void fields_copy(const struct field *fields, void *copy)

@@ -184,11 +184,14 @@ static bool csv_read_line(struct csv *csv, const char *text, size_t length, bool
     return true;
 }
 
-static bool knots_parse_csv(const char *name, const char *text, struct knot_list *list, struct error *error)
+bool knots_parse(const char *name, const char *text, struct knot_list *list, struct error *error)
 {
+    *list = (struct knot_list){0};
+    char first = text[strspn(text, " \t\r\n")];
+    if (first == '[' || first == '{') return parse_json(name, text, list, error);
+
     struct csv csv = {.name = name, .at = {0, 1, 2, 3, 4}, .list = list, .error = error};
     bool started = false, good = true;
-    *list = (struct knot_list){0};
     if (strncmp(text, byte_order_mark, sizeof byte_order_mark - 1) == 0) text += sizeof byte_order_mark - 1;
     while (good && *text) {
         size_t length = strcspn(text, "\n");
@@ -199,12 +202,4 @@ static bool knots_parse_csv(const char *name, const char *text, struct knot_list
     if (good && list->count == 0) good = csv_fail(&csv, "knots as JSON or as lines frame,value", "");
     if (!good) knot_list_free(list);
     return good;
-}
-
-bool knots_parse(const char *name, const char *text, struct knot_list *list, struct error *error)
-{
-    *list = (struct knot_list){0};
-    char first = text[strspn(text, " \t\r\n")];
-    bool is_json = first == '[' || first == '{';
-    return is_json ? parse_json(name, text, list, error) : knots_parse_csv(name, text, list, error);
 }

@@ -290,30 +290,6 @@ static void load_domain(struct reader *reader, const struct value *scene)
     reader->has_domain = true;
 }
 
-/// Warns of slopes and phases without effect, of phases once per spline.
-static void check_idle(struct reader *reader, const struct where *splines_at)
-{
-    const struct document *document = reader->document;
-    for (int i = 0; i < document->spline_count; i++) {
-        const struct spline *spline = document->splines[i];
-        const struct where spline_at = {.parent = splines_at, .index = (size_t)i};
-        const struct where knots_at = {.parent = &spline_at, .key = "knots"};
-        unsigned first = UINT_MAX; // the id of the first knot in the file; the others follow one by one
-        for (int k = 0; k < spline->knot_count; k++)
-            first = spline->knots[k].id < first ? spline->knots[k].id : first;
-        const int pose = spline_idle_pose(spline);
-        for (int k = 0; k < spline->knot_count; k++) {
-            const struct where at = {.parent = &knots_at, .index = spline->knots[k].id - first};
-            const struct where im_at = {.parent = &at, .key = "im"}, slope_at = {.parent = &at, .key = "slope"};
-            const char *why = knot_idle_slope(document, i, k);
-            if (k == pose)
-                reader_warn(reader, &im_at,
-                            "the pose holds only its value, because only Wiggly splines have a phase");
-            if (why) reader_warn(reader, &slope_at, "slope has no effect: %s", why);
-        }
-    }
-}
-
 static void validate_scene(struct reader *reader, const struct where *scene_at)
 {
     const struct document *document = reader->document;
@@ -344,7 +320,24 @@ static void validate_scene(struct reader *reader, const struct where *scene_at)
         reader_warn(reader, &at, "%.4g Hz is above half the sample rate, %.4g Hz: it aliases", highest, limit);
     }
     if (!reader->has_domain) return;
-    check_idle(reader, &splines_at);
+    for (int i = 0; i < document->spline_count; i++) { // slopes and phases without effect; of phases once per spline
+        const struct spline *spline = document->splines[i];
+        const struct where spline_at = {.parent = &splines_at, .index = (size_t)i};
+        const struct where knots_at = {.parent = &spline_at, .key = "knots"};
+        unsigned first = UINT_MAX; // the id of the first knot in the file; the others follow one by one
+        for (int k = 0; k < spline->knot_count; k++)
+            first = spline->knots[k].id < first ? spline->knots[k].id : first;
+        const int pose = spline_idle_pose(spline);
+        for (int k = 0; k < spline->knot_count; k++) {
+            const struct where at = {.parent = &knots_at, .index = spline->knots[k].id - first};
+            const struct where im_at = {.parent = &at, .key = "im"}, slope_at = {.parent = &at, .key = "slope"};
+            const char *why = knot_idle_slope(document, i, k);
+            if (k == pose)
+                reader_warn(reader, &im_at,
+                            "the pose holds only its value, because only Wiggly splines have a phase");
+            if (why) reader_warn(reader, &slope_at, "slope has no effect: %s", why);
+        }
+    }
 
     struct pin_trouble trouble;
     if (reader->errors > 0 || (pins_check(document, &trouble) && pins_check_order(document, &trouble))) return;

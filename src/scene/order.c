@@ -13,41 +13,35 @@ bool spline_uses(const struct spline *spline, enum parameter parameter, bool cub
     return parameter_rows[parameter].modes >> mode & 1;
 }
 
-/// Depth-first search from one spline; not recursive, because a chain of tracks may be as long as the scene.
-static bool order_from(const struct document *document, struct order_space space, int root, int *order, int *ordered,
-                       struct order_cycle *cycle)
-{
-    int depth = 0;
-    space.stack[0] = root;
-    space.next[root] = 1;
-    while (depth >= 0) {
-        int spline = space.stack[depth];
-        int parameter = space.next[spline] - 1;
-        if (parameter == PARAMETER_COUNT) {
-            space.next[spline] = DONE;
-            order[(*ordered)++] = spline;
-            depth--;
-            continue;
-        }
-        space.next[spline]++;
-        int leader = document->splines[spline]->parameter[parameter].track;
-        if (leader < 0 || space.next[leader] == DONE) continue;
-        if (space.next[leader] != UNSEEN) {
-            *cycle = (struct order_cycle){spline, (enum parameter)parameter};
-            return false;
-        }
-        space.next[leader] = 1;
-        space.stack[++depth] = leader;
-    }
-    return true;
-}
-
 bool scene_order(const struct document *document, struct order_space space, int *order, struct order_cycle *cycle)
 {
     int ordered = 0;
     if (document->spline_count > 0) memset(space.next, UNSEEN, (size_t)document->spline_count);
-    for (int i = 0; i < document->spline_count; i++) {
-        if (space.next[i] == UNSEEN && !order_from(document, space, i, order, &ordered, cycle)) return false;
+    for (int root = 0; root < document->spline_count; root++) {
+        // A search depth first; not recursive, because a chain of tracks may be as long as the scene.
+        if (space.next[root] != UNSEEN) continue;
+        int depth = 0;
+        space.stack[0] = root;
+        space.next[root] = 1;
+        while (depth >= 0) {
+            int spline = space.stack[depth];
+            int parameter = space.next[spline] - 1;
+            if (parameter == PARAMETER_COUNT) {
+                space.next[spline] = DONE;
+                order[ordered++] = spline;
+                depth--;
+                continue;
+            }
+            space.next[spline]++;
+            int leader = document->splines[spline]->parameter[parameter].track;
+            if (leader < 0 || space.next[leader] == DONE) continue;
+            if (space.next[leader] != UNSEEN) {
+                *cycle = (struct order_cycle){spline, (enum parameter)parameter};
+                return false;
+            }
+            space.next[leader] = 1;
+            space.stack[++depth] = leader;
+        }
     }
     return true;
 }

@@ -128,29 +128,6 @@ bool pins_check(const struct document *document, struct pin_trouble *trouble)
     return true;
 }
 
-/// Each pin takes a solve of each spline that is solved together with its rig's.
-static bool check_work(const struct document *document, const int *group, struct pin_trouble *trouble)
-{
-    const int samples = document_samples(document);
-    long long left = SCENE_MAX_PINNED;
-    for (int r = 0; r < document->rig_count; r++) {
-        const struct rig *rig = document->rigs[r];
-        const int held = is_held(rig) ? rig_point_spline(rig) : -1,
-                  pins = rig->pin_count + FLOOR_PINS * rig_has_floor(rig);
-        int splines = 0;
-        for (int s = 0; held >= 0 && s < document->spline_count; s++) splines += group[s] == group[held];
-        left -= (long long)pins * splines * samples;
-        if (left >= 0) continue;
-        *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};
-        return fail(
-            &trouble->error, ERROR_INPUT,
-            "expected at most %d samples over all pins and the splines that each moves, got more: %d pins, %d "
-            "splines and %d samples here (a floor counts as %d pins)",
-            SCENE_MAX_PINNED, pins, splines, samples, FLOOR_PINS);
-    }
-    return true;
-}
-
 bool pins_check_order(const struct document *document, struct pin_trouble *trouble)
 {
     struct order_cycle tracks;
@@ -164,8 +141,24 @@ bool pins_check_order(const struct document *document, struct pin_trouble *troub
     if (scene_order(document, (struct order_space){order + count, next}, tracked, &tracks)) {
         pin_groups_find(document, group);
         good = pin_groups_order(document, group, tracked, placed, order, &cycle);
-        if (good) {
-            good = check_work(document, group, trouble);
+        if (good) { // each pin takes a solve of each spline that is solved together with its rig's
+            const int samples = document_samples(document);
+            long long left = SCENE_MAX_PINNED;
+            for (int r = 0; good && r < document->rig_count; r++) {
+                const struct rig *rig = document->rigs[r];
+                const int held = is_held(rig) ? rig_point_spline(rig) : -1,
+                          pins = rig->pin_count + FLOOR_PINS * rig_has_floor(rig);
+                int splines = 0;
+                for (int s = 0; held >= 0 && s < document->spline_count; s++) splines += group[s] == group[held];
+                left -= (long long)pins * splines * samples;
+                if (left >= 0) continue;
+                *trouble = (struct pin_trouble){.rig = r, .pin = -1, .member = member_that_holds(rig)};
+                good = fail(
+                    &trouble->error, ERROR_INPUT,
+                    "expected at most %d samples over all pins and the splines that each moves, got more: %d pins, "
+                    "%d splines and %d samples here (a floor counts as %d pins)",
+                    SCENE_MAX_PINNED, pins, splines, samples, FLOOR_PINS);
+            }
         } else {
             const bool is_pinned = group[cycle.spline] >= 0;
             const bool together = is_pinned && group[cycle.spline] == group[cycle.leader];

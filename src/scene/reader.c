@@ -272,31 +272,14 @@ void reader_warn(struct reader *reader, const struct where *where, const char *f
     report_problem(reader, false, warning.text);
 }
 
-static const char *kind_of(const json_t *value)
-{
-    if (!value) return "nothing";
-    switch (json_typeof(value)) {
-    case JSON_OBJECT:
-        return "an object";
-    case JSON_ARRAY:
-        return "an array";
-    case JSON_STRING:
-        return "a string";
-    case JSON_INTEGER:
-    case JSON_REAL:
-        return "a number";
-    case JSON_TRUE:
-        return "true";
-    case JSON_FALSE:
-        return "false";
-    default:
-        return "null";
-    }
-}
-
 bool reader_unexpected(struct reader *reader, struct value value, const char *expected)
 {
-    return reader_fail(reader, &value.at, "expected %s, got %s", expected, kind_of(value.json));
+    static const char *const kinds[] = {
+        [JSON_OBJECT] = "an object", [JSON_ARRAY] = "an array", [JSON_STRING] = "a string",
+        [JSON_INTEGER] = "a number", [JSON_REAL] = "a number",  [JSON_TRUE] = "true",
+        [JSON_FALSE] = "false",      [JSON_NULL] = "null"};
+    return reader_fail(reader, &value.at, "expected %s, got %s", expected,
+                       value.json ? kinds[json_typeof(value.json)] : "nothing");
 }
 
 struct value reader_member(const struct value *object, const char *key)

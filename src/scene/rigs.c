@@ -204,30 +204,6 @@ void print_angles(struct members *members, const char *key, const struct angles 
 // vertices' a and ψ, little-endian float32; or the name of its .npy file, which alone is printed where that could not be read. Paint that
 // changes nothing is not printed.
 
-static void load_coordinate(struct reader *reader, struct value value, struct paint *paint, int coordinate)
-{
-    const char *text = json_string_value(value.json);
-    const size_t expected = (size_t)paint->vertices * sizeof *paint->values;
-    size_t size = 0;
-    if (json_is_null(value.json)) return;
-    if (!text) {
-        reader_unexpected(reader, value, "a string in base64 or null");
-        return;
-    }
-    char *bytes = need(base64_capacity(json_string_length(value.json)), 1);
-    if (!base64_decode(text, bytes, &size)) {
-        reader_fail(reader, &value.at, "expected base64, got something else");
-    } else if (size != expected) {
-        reader_fail(reader, &value.at, "expected the %zu bytes of %d vertices, got %zu", expected, paint->vertices,
-                    size);
-    } else {
-        struct error error;
-        memcpy(paint->values + (size_t)coordinate * (size_t)paint->vertices, bytes, size);
-        if (!paint_check(paint, coordinate, &error)) reader_fail(reader, &value.at, "%s", error.text);
-    }
-    free(bytes);
-}
-
 static void paint_load(struct reader *reader, const struct value *object, void *at)
 {
     struct character_rig *character = &((struct rig *)at)->character;
@@ -253,8 +229,28 @@ static void paint_load(struct reader *reader, const struct value *object, void *
         return;
     }
     character->painted = paint_create((int)coordinates, count);
-    for (int i = 0; i < (int)coordinates; i++)
-        load_coordinate(reader, reader_element(&paint, i), character->painted, i);
+    for (int i = 0; i < (int)coordinates; i++) {
+        const struct value value = reader_element(&paint, i);
+        const char *text = json_string_value(value.json);
+        const size_t expected = (size_t)count * sizeof *character->painted->values;
+        size_t size = 0;
+        if (json_is_null(value.json)) continue;
+        if (!text) {
+            reader_unexpected(reader, value, "a string in base64 or null");
+            continue;
+        }
+        char *bytes = need(base64_capacity(json_string_length(value.json)), 1);
+        if (!base64_decode(text, bytes, &size)) {
+            reader_fail(reader, &value.at, "expected base64, got something else");
+        } else if (size != expected) {
+            reader_fail(reader, &value.at, "expected the %zu bytes of %d vertices, got %zu", expected, count, size);
+        } else {
+            struct error error;
+            memcpy(character->painted->values + (size_t)i * (size_t)count, bytes, size);
+            if (!paint_check(character->painted, i, &error)) reader_fail(reader, &value.at, "%s", error.text);
+        }
+        free(bytes);
+    }
 }
 
 static void paint_print(struct members *members, const struct document *document, const void *at, const char *folder)

@@ -135,37 +135,6 @@ void text_json(struct text *text, json_t *value)
 enum { MAX_DIGITS = 17, SURE_DIGITS = 15, LEAST_POINT = -4, MOST_POINT = 15 };
 static const double tiny = 1e-300;
 
-/// A decimal number: 0.d1 d2 d3 … · 10^point.
-struct decimal {
-    char digits[MAX_DIGITS + 1];
-    int count, point;
-};
-
-/// The shortest decimal that reads back the same. Any decimal of up to 15 digits survives a round trip through a double, so rounding to
-/// 15 digits shows a shorter one as trailing zeros. Subnormals have fewer digits: these are tried from one up.
-static struct decimal shortest_decimal(double magnitude)
-{
-    struct decimal d = {0};
-    char text[48];
-    int exponent = 0;
-    int from = magnitude < tiny ? 1 : SURE_DIGITS;
-    for (int precision = from; precision <= MAX_DIGITS; precision++) {
-        snprintf(text, sizeof text, "%.*e", precision - 1, magnitude);
-        if (strtod(text, NULL) == magnitude) break;
-    }
-    for (const char *c = text; *c; c++) {
-        if (*c == 'e') {
-            exponent = atoi(c + 1);
-            break;
-        }
-        if (isdigit((unsigned char)*c)) d.digits[d.count++] = *c;
-    }
-    while (d.count > 1 && d.digits[d.count - 1] == '0') d.count--;
-    d.digits[d.count] = '\0';
-    d.point = exponent + 1;
-    return d;
-}
-
 size_t number_print(double value, char text[NUMBER_TEXT_SIZE])
 {
     assert(isfinite(value));
@@ -173,17 +142,35 @@ size_t number_print(double value, char text[NUMBER_TEXT_SIZE])
         strcpy(text, "0");
         return 1;
     }
+    // The shortest decimal that reads back the same. Any decimal of up to 15 digits survives a round trip through a double, so rounding to
+    // 15 digits shows a shorter one as trailing zeros. Subnormals have fewer digits: these are tried from one up.
+    const double magnitude = fabs(value);
+    char printed[48], digits[MAX_DIGITS + 1]; // 0.d1 d2 d3 … · 10^point
+    int count = 0, point = 1;
+    for (int precision = magnitude < tiny ? 1 : SURE_DIGITS; precision <= MAX_DIGITS; precision++) {
+        snprintf(printed, sizeof printed, "%.*e", precision - 1, magnitude);
+        if (strtod(printed, NULL) == magnitude) break;
+    }
+    for (const char *c = printed; *c; c++) {
+        if (*c == 'e') {
+            point = atoi(c + 1) + 1;
+            break;
+        }
+        if (isdigit((unsigned char)*c)) digits[count++] = *c;
+    }
+    while (count > 1 && digits[count - 1] == '0') count--;
+    digits[count] = '\0';
+
     size_t sign = value < 0;
     text[0] = '-';
-    const struct decimal d = shortest_decimal(fabs(value));
     char *at = text + sign;
-    if (d.point < LEAST_POINT || d.point > MOST_POINT)
-        return sign + (size_t)snprintf(at, NUMBER_TEXT_SIZE - sign, "%c%s%se%d", d.digits[0], d.count > 1 ? "." : "",
-                                       d.digits + 1, d.point - 1);
-    const int first = d.point < 1 ? d.point - 1 : 0, end = d.point > d.count ? d.point : d.count;
+    if (point < LEAST_POINT || point > MOST_POINT)
+        return sign + (size_t)snprintf(at, NUMBER_TEXT_SIZE - sign, "%c%s%se%d", digits[0], count > 1 ? "." : "",
+                                       digits + 1, point - 1);
+    const int first = point < 1 ? point - 1 : 0, end = point > count ? point : count;
     for (int i = first; i < end; i++) {
-        if (i == d.point) *at++ = '.';
-        *at++ = i >= 0 && i < d.count ? d.digits[i] : '0';
+        if (i == point) *at++ = '.';
+        *at++ = i >= 0 && i < count ? digits[i] : '0';
     }
     *at = '\0';
     return (size_t)(at - text);

@@ -32,23 +32,6 @@ static bool is_whole(const struct spline *spline, const struct knot *knot)
     return knot && (spline_mode(spline) != WIGGLY_COMPLEX || knot->has_phase || knot->still);
 }
 
-/// The oscillator's slope is a speed measured on both sides, at an end on one.
-static const char *idle_speed(const struct document *document, const struct spline *spline, int sample, int first,
-                              bool pinned)
-{
-    const bool loop = spline_start(spline) == WIGGLY_LOOP, complex = spline_mode(spline) == WIGGLY_COMPLEX;
-    const int samples = document_samples(document), period = samples - 1;
-    const int before = loop ? (sample + period - 1) % period : sample - 1;
-    const int after = loop ? (sample + 1) % period : sample + 1;
-    const bool begins = !loop && sample == first && !pinned, ends = !loop && after == samples;
-    if (!is_whole(spline, knot_on(document, spline, sample))) return NULL;
-    if (!begins && !is_whole(spline, knot_on(document, spline, before))) return NULL;
-    if (!ends && !is_whole(spline, knot_on(document, spline, after))) return NULL;
-    if (begins || ends)
-        return complex ? "it and the sample beside it hold poses or are still" : "the sample beside it is a knot too";
-    return complex ? "it and both samples beside it hold poses or are still" : "both samples beside it have knots";
-}
-
 const char *spline_idle_wind_up(const struct document *document, int of)
 {
     const struct spline *spline = document->splines[of];
@@ -114,7 +97,18 @@ const char *knot_idle_slope(const struct document *document, int of, int knot)
         if (frequency->value > 0 && damping->value < FULL)
             return at->has_phase ? "after the last pose the motion follows from that pose alone" : NULL;
     }
-    return idle_speed(document, spline, sample, first, pinned);
+    // The oscillator's slope is a speed measured on both sides, at an end on one.
+    const bool complex = spline_mode(spline) == WIGGLY_COMPLEX;
+    const int period = samples - 1;
+    const int before = loop ? (sample + period - 1) % period : sample - 1;
+    const int after = loop ? (sample + 1) % period : sample + 1;
+    const bool begins = !loop && sample == first && !pinned, ends = !loop && after == samples;
+    if (!is_whole(spline, knot_on(document, spline, sample))) return NULL;
+    if (!begins && !is_whole(spline, knot_on(document, spline, before))) return NULL;
+    if (!ends && !is_whole(spline, knot_on(document, spline, after))) return NULL;
+    if (begins || ends)
+        return complex ? "it and the sample beside it hold poses or are still" : "the sample beside it is a knot too";
+    return complex ? "it and both samples beside it hold poses or are still" : "both samples beside it have knots";
 }
 
 // --- solved splines
