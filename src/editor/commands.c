@@ -14,22 +14,6 @@
 #include "ui/theme.h"
 #include <math.h>
 
-/// Passes a request to the app. Some first need a file name, or an answer about unsaved work.
-static void ask_for(struct editor *editor, enum request_kind kind, int number)
-{
-    const struct request request = {.kind = kind, .number = number};
-    const bool has_path = editor->core.path[0] != '\0';
-    if (kind == REQUEST_NEW || kind == REQUEST_OPEN || kind == REQUEST_FIGURE || kind == REQUEST_QUIT) {
-        editor_leave(editor, &request);
-    } else if (kind == REQUEST_SAVE_AS || (kind == REQUEST_SAVE && !has_path)) {
-        dialogs_save_as(editor->dialogs, &editor->core);
-    } else if (kind == REQUEST_EXPORT) {
-        dialogs_export(editor->dialogs, &editor->core);
-    } else {
-        editor->core.request = request;
-    }
-}
-
 enum show {
     SHOW_HELP,
     SHOW_PALETTE,
@@ -468,7 +452,21 @@ void command_run(struct editor *editor, const struct command *command)
     if (command->curves) command->curves(editor->curves, core, argument);
     if (command->inspector) command->inspector(editor->inspector, argument);
     if (command->section) inspector_unfold(editor->inspector, command->section);
-    if (command->request) ask_for(editor, command->request, argument);
+
+    // A request goes to the app. Some first need a file name, or an answer about unsaved work.
+    const struct request request = {.kind = command->request, .number = argument};
+    const enum request_kind kind = request.kind;
+    if (kind == REQUEST_NEW || kind == REQUEST_OPEN || kind == REQUEST_FIGURE || kind == REQUEST_QUIT) {
+        editor_leave(editor, &request);
+    } else if (kind == REQUEST_SAVE_AS || (kind == REQUEST_SAVE && !core->path[0])) {
+        dialogs_save_as(editor->dialogs, core);
+    } else if (kind == REQUEST_EXPORT) {
+        dialogs_export(editor->dialogs, core);
+    } else if (kind != REQUEST_NONE) {
+        core->request = request;
+    }
+
+    // The neighbouring pin if one is selected, else the knot, which the curves scroll to.
     const bool pins = command->when & PINS && pins_any_selected(&editor->core);
     if (pins) pins_select_neighbour(core, argument);
     const struct knot *knot = command->knot && !pins ? command->knot(core, argument) : NULL;
