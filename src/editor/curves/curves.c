@@ -134,9 +134,9 @@ static void show_values(struct view *view, const struct view *part)
 {
     const double span = part->value1 - part->value0, largest = fmax(fabs(part->value0), fabs(part->value1));
     const double margin = span > 1e-9 * largest && span > 1e-9 ? 0.12 * span : 1;
-    const bool known = isfinite(span);
-    view->value0 = known ? part->value0 - margin : -1;
-    view->value1 = known ? part->value1 + margin : 1;
+    const bool finite = isfinite(span);
+    view->value0 = finite ? part->value0 - margin : -1;
+    view->value1 = finite ? part->value1 + margin : 1;
 }
 
 /// Sets the view within limits, and stops following edits.
@@ -234,8 +234,8 @@ static struct value_map map_between(const struct curves *curves, const struct co
 {
     const struct value_map as_it_is = {1, 0};
     const struct curve_cache *cache = &curves->cache;
-    bool known = spline < cache->range_count && active >= 0 && active < cache->range_count;
-    if (!core->curves.normalise || spline == active || !known) return as_it_is;
+    bool measured = spline < cache->range_count && active >= 0 && active < cache->range_count;
+    if (!core->curves.normalise || spline == active || !measured) return as_it_is;
     const double *to = cache->range[active], *from = cache->range[spline];
     if (!has_height(to)) return as_it_is;
     if (!has_height(from)) return (struct value_map){1, (to[0] + to[1]) / 2 - from[0]};

@@ -355,12 +355,6 @@ static double axis_factor(double pivot, double start, double now)
     return 1 + (now - start) / reach;
 }
 
-static void end_scale(void *room, struct core *core, bool keep)
-{
-    (void)room;
-    if (keep && core->drag.moved) core_edited(core, -1);
-}
-
 /// The factor that keeps an edge of the box under the pointer. Distances are pixels from the pivot.
 static double edge_factor(double reach, double by, int direction)
 {
@@ -486,24 +480,6 @@ static enum drag_answer scale_event(void *room, struct core *core, const struct 
 
 enum { TAG_PAD = 8, LINE = 16, MARGIN = 4, MOST_LINES = 4 };
 
-/// The text beside the pointer.
-struct tag {
-    int count;
-    struct {
-        char text[STOPPED_SIZE];
-        bool is_stop;
-    } line[MOST_LINES];
-};
-
-/// A factor, and what stopped it on a second line.
-static void add_factor(struct tag *tag, const char *what, double factor, const char *stopped)
-{
-    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s × %.3g", what, factor);
-    if (!*stopped) return;
-    tag->line[tag->count].is_stop = true;
-    snprintf(tag->line[tag->count++].text, sizeof tag->line[0].text, "%s", stopped);
-}
-
 static const float BESIDE = 16, BELOW = 20; ///< pixels from the pointer
 
 static void scale_show(void *room, struct core *core)
@@ -523,28 +499,37 @@ static void scale_show(void *room, struct core *core)
     if (!drag->lock_x) drawlist_line(&core->list, down, 2, 1.5f, theme()->playhead);
     drawlist_set_clip(&core->list, clip);
 
-    // The factors beside the pointer.
-    struct tag tag = {0};
-    if (!drag->lock_y) add_factor(&tag, "time", scaling->by.time, scaling->stopped[0]);
-    if (!drag->lock_x) add_factor(&tag, "value", scaling->by.value, scaling->stopped[1]);
-    const struct rect panel = core->layout.curves;
+    // The factors beside the pointer, and what stopped each on a second line.
+    char factor[2][STOPPED_SIZE];
+    const char *text[MOST_LINES];
+    uint32_t color[MOST_LINES];
+    int count = 0;
     float width = 0;
-    for (int i = 0; i < tag.count; i++)
-        width = fmaxf(width, ceilf(font_width(FONT_LABEL, THEME_TEXT_SMALL, tag.line[i].text)));
-    const float w = width + 2 * TAG_PAD, h = (float)(tag.count * LINE + TAG_PAD);
+    snprintf(factor[0], STOPPED_SIZE, "time × %.3g", scaling->by.time);
+    snprintf(factor[1], STOPPED_SIZE, "value × %.3g", scaling->by.value);
+    for (int i = 0; i < MOST_LINES; i++) {
+        if (i < 2 ? drag->lock_y : drag->lock_x) continue;
+        if (i % 2 && !scaling->stopped[i / 2][0]) continue;
+        color[count] = i % 2 ? theme()->warning : theme()->text;
+        text[count] = i % 2 ? scaling->stopped[i / 2] : factor[i / 2];
+        width = fmaxf(width, ceilf(font_width(FONT_LABEL, THEME_TEXT_SMALL, text[count])));
+        count++;
+    }
+    const struct rect panel = core->layout.curves;
+    const float w = width + 2 * TAG_PAD, h = (float)(count * LINE + TAG_PAD);
     const float right = panel.x + panel.w - MARGIN - w, bottom = panel.y + panel.h - MARGIN - h;
     const struct rect box = {roundf(fmaxf(panel.x + MARGIN, fminf(drag->x + BESIDE, right))),
                              roundf(drag->y + BELOW <= bottom ? drag->y + BELOW : drag->y - BELOW - h), w, h};
     drawlist_rounded(&core->list, box, 4, theme()->raised);
     drawlist_rounded_line(&core->list, box, 4, 1, theme()->control);
-    for (int i = 0; i < tag.count; i++)
+    for (int i = 0; i < count; i++)
         drawlist_text(&core->list, box.x + TAG_PAD, box.y + (float)((i + 1) * LINE), FONT_LABEL, THEME_TEXT_SMALL,
-                      tag.line[i].is_stop ? theme()->warning : theme()->text, tag.line[i].text);
+                      color[i], text[i]);
 }
 
 /// Started by S (a click or Enter ends it) or by pressing a handle of the selection box.
 static const struct drag_owner scale_owner = {
-    .cursor = CURSOR_MOVE, .apply = scale_knots, .event = scale_event, .end = end_scale, .show = scale_show};
+    .cursor = CURSOR_MOVE, .apply = scale_knots, .event = scale_event, .end = end_knots, .show = scale_show};
 
 /// `handle`: of the selection box, or -1 for S.
 static void begin_scale(struct curves *curves, struct core *core, enum pivot pivot, int handle)
@@ -553,6 +538,7 @@ static void begin_scale(struct curves *curves, struct core *core, enum pivot piv
     const struct evaluation *evaluation = core->evaluation;
     double frames[2], values[2];
     *scaling = (struct scaling){.pivot = pivot, .handle = handle, .by = {1, 1}, .free_time = 1};
+    curves->knot_drag = (struct knot_drag){0};
     core->message.text[0] = 0;
     core->hover = (struct hover){.thing = NULL};
 
@@ -647,8 +633,8 @@ static bool find_box(void *room, const struct core *core, const struct target *t
 {
     struct knot_box box;
     const int column = (int)target->number[0], row = (int)target->number[1];
-    const bool known = abs(column) <= 1 && abs(row) <= 1 && find_knot_box(room, core, &box);
-    return known && handle_place(&box, 3 * (row + 1) + column + 1, xy);
+    const bool exists = abs(column) <= 1 && abs(row) <= 1 && find_knot_box(room, core, &box);
+    return exists && handle_place(&box, 3 * (row + 1) + column + 1, xy);
 }
 
 /// box(1,0): a handle of the selection box, here the middle of its right edge; box(-1,-1) is the upper left corner.

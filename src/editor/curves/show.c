@@ -557,17 +557,23 @@ static bool shows_imaginary(const struct core *core, const struct spline *spline
     return core->curves.phase && spline_mode(spline) == WIGGLY_COMPLEX && core->look != LOOK_CUBIC;
 }
 
-/// The frames in which the active curve is pushed to a selected knot, as a faint band; in a loop also round the seam.
-static void show_wind_up(const struct curves *curves, struct core *core)
+/// In painter's order, the active line and the take last.
+static void show_lines(struct curves *curves, struct core *core)
 {
     const struct document *document = core->document;
+    const struct curve_cache *cache = &curves->cache;
     const struct spline *spline = spline_list_seen(core);
+    const struct ghost *ghost = &curves->ghost;
     const struct rect plot = core->layout.plot;
-    if (!spline || core->look == LOOK_CUBIC || !spline_winds_up(document, core->active)) return;
-    const uint32_t color = theme_fade(spline_list_color(document, core->active), 0.07f);
+    uint32_t color = spline_list_color(document, core->active);
+    float *xy = curves->scratch;
+
+    // The frames in which the active curve is pushed to a selected knot, as a faint band; in a loop also round the seam.
+    const bool winds_up = spline && core->look != LOOK_CUBIC && spline_winds_up(document, core->active);
+    const bool loops = winds_up && spline_start(spline) == WIGGLY_LOOP;
+    const bool rests = winds_up && spline_start(spline) == WIGGLY_REST;
     const double period = document->last_frame - document->first_frame;
-    const bool loops = spline_start(spline) == WIGGLY_LOOP, rests = spline_start(spline) == WIGGLY_REST;
-    for (int k = 0; k < spline->knot_count; k++) {
+    for (int k = 0; winds_up && k < spline->knot_count; k++) {
         const struct knot *knot = &spline->knots[k], *last = &spline->knots[spline->knot_count - 1];
         if (!selection_has(&core->selection, knot->id) || (k == 0 && !loops && !rests)) continue;
         const double frequency =
@@ -580,24 +586,14 @@ static void show_wind_up(const struct curves *curves, struct core *core)
         for (int round = 0; round < (from < document->first_frame ? 2 : 1); round++) {
             const double first = fmax(from + round * period, document->first_frame);
             const double end = fmin(knot->frame + round * period, document->last_frame);
-            const float x = curves_x(curves, core, first);
-            drawlist_rect(&core->list, (struct rect){x, plot.y, curves_x(curves, core, end) - x, plot.h}, color);
+            const float x = curves_x(curves, core, first), width = curves_x(curves, core, end) - x;
+            drawlist_rect(&core->list, (struct rect){x, plot.y, width, plot.h}, theme_fade(color, 0.07f));
         }
     }
-}
-
-/// In painter's order, the active line and the take last.
-static void show_lines(struct curves *curves, struct core *core)
-{
-    const struct curve_cache *cache = &curves->cache;
-    const struct spline *spline = spline_list_seen(core);
-    const struct ghost *ghost = &curves->ghost;
-    uint32_t color = spline_list_color(core->document, core->active);
-    float *xy = curves->scratch;
     for (int i = 0; i < cache->other_count && cache->count > 1; i++) {
         const bool hot = core->hover.thing == &thing_curve && core->hover.spline == cache->other_spline[i];
         show_line(core, &cache->others[i][0][0], cache->count, cache->other_band[i], 1.25f,
-                  theme_fade(spline_list_color(core->document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
+                  theme_fade(spline_list_color(document, cache->other_spline[i]), hot ? 1 : THEME_OTHERS));
     }
     if (spline && cache->count > 1) {
         if (ghost->is_shown && core->drag.owner && ghost->count > 1) {
@@ -621,14 +617,14 @@ static void show_lines(struct curves *curves, struct core *core)
     for (int i = take_is_shown(core) ? cache->other_count - 1 : -2; i >= -1; i--) {
         const int shown = i < 0 ? core->active : cache->other_spline[i];
         if (!spline_list_shows(core, shown)) continue;
-        color = i < 0 ? theme()->playhead : spline_list_color(core->document, shown);
+        color = i < 0 ? theme()->playhead : spline_list_color(document, shown);
         const struct take *take = &core->take;
         const int before = take_spline(core, shown);
         const struct value_map map = normal_map(curves, core, shown);
-        const double by = cache->by * take->document->substeps / core->document->substeps;
+        const double by = cache->by * take->document->substeps / document->substeps;
         int count = 0;
         for (int c = 0; c < cache->count && before >= 0; c++) {
-            const double frame = frame_of(core->document, cache->first + cache->by * c);
+            const double frame = frame_of(document, cache->first + cache->by * c);
             const double middle = core_position(take->document, frame);
             if (middle < 0 || middle > take->evaluation.samples - 1) continue;
             const double position = outermost(&take->evaluation, before, middle, by, c % 2);
@@ -847,7 +843,6 @@ void curves_show(struct curves *curves, struct core *core)
         drawlist_dashed(&core->list, line, 2, hot ? 2 : 1.25f, 10, 6,
                         theme_fade(spline_list_color(document, core->active), hot ? 1 : 0.6f));
     }
-    show_wind_up(curves, core);
     show_lines(curves, core);
     for (int i = 0; i < curves->cache.other_count; i++) {
         knots_show(curves, core, curves->cache.other_spline[i], NAN);
