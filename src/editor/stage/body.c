@@ -22,6 +22,17 @@
 #include <stdlib.h>
 #include <string.h>
 
+static const struct drag_owner body_owner;
+
+static bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
+
+/// A rig's tail; NULL if it is none or gone.
+static struct tail *tail_of(const struct document *document, int rig)
+{
+    const bool is_tail = rig >= 0 && rig < document->rig_count && document->rigs[rig]->kind == RIG_TAIL;
+    return is_tail ? &document->rigs[rig]->tail : NULL;
+}
+
 // Follow-through, which is not part of the document's solution but added to it.
 
 /// Index of a rig's swing; id 0 finds a free one; −1: none.
@@ -56,13 +67,14 @@ void drag_inertia_advance(struct stage *stage, const struct core *core, double d
             inertia->velocity[k] = velocity;
             inertia->offset[k] = offset[k];
         }
-
-        // The change of its velocity drives its channels; it is not at rest while any still swings.
-        struct swing_arm arm;
+        const bool drives = moves || inertia->swings;
+        struct swing_arm arm = {.joints = 0};
         int count = 0;
-        const bool is_driven = (moves || inertia->swings) && swing_arm(&posing, r, &arm);
-        const struct channel *channels = is_driven ? rig_channels(document->rigs[r], &count) : NULL;
-        bool swings = moves;
+        const struct channel *channels = rig_channels(document->rigs[r], &count);
+        if (!drives || !swing_arm(&posing, r, &arm)) count = 0;
+        inertia->swings = moves;
+
+        // The change of the base's velocity drives the channels.
         for (int c = 0; c < count; c++) {
             const struct channel *channel = &channels[c];
             const struct spline *spline = document->splines[channel->spline];
@@ -83,10 +95,9 @@ void drag_inertia_advance(struct stage *stage, const struct core *core, double d
             double along = kick[0] * direction[0] + kick[1] * direction[1] + kick[2] * direction[2];
             swing_step(&inertia->channel[c], &filter, along, dt);
             inertia->scale[c] = swing_scale(&arm, channel, &filter);
-            swings |= !swing_settled(&inertia->channel[c], &filter);
+            inertia->swings |= !swing_settled(&inertia->channel[c], &filter);
         }
-        inertia->swings = swings;
-        if (!swings) *inertia = (struct drag_inertia){0}; // at rest
+        if (!inertia->swings) *inertia = (struct drag_inertia){0}; // at rest
     }
 }
 
@@ -185,7 +196,7 @@ static double base_value(const struct core *core, int rig, int coordinate, int s
 }
 
 /// Makes the coordinate follow the spline.
-static void base_follow(const struct stage *stage, struct core *core, int coordinate, int base)
+static void coordinate_follow(const struct stage *stage, struct core *core, int coordinate, int base)
 {
     const int rig = stage->body_drag.rig;
     struct rig moved = *core->document->rigs[rig];
@@ -193,16 +204,16 @@ static void base_follow(const struct stage *stage, struct core *core, int coordi
     edit_rig_set(core->document, rig, &moved, &core->error);
 }
 
-static void follow_base(struct core *core, int spline, int base)
+static void equilibrium_follow(struct core *core, int spline, int base)
 {
     const struct param param = param_track(base);
     edit_parameter(core->document, spline, PARAMETER_EQUILIBRIUM, &param, &core->error);
 }
 
-/// Adds a displacement channel about an axis, copying another channel; returns its spline, or -1. The spline has the copied one's poles and
-/// no knots, and is driven by the base, from rest or as a loop.
-static int add_channel(const struct stage *stage, struct core *core, const struct channel *model, enum axis axis,
-                       const char *name, double scale, int base)
+/// Adds a displacement channel about the axis and with the angles of a model channel; returns its spline, or -1. The spline has the poles
+/// of the model's and no knots, and is driven by the base, from rest or as a loop.
+static int add_channel(const struct stage *stage, struct core *core, const struct channel *model, const char *name,
+                       double scale, int base)
 {
     struct document *document = core->document;
     if (!edit_spline_add(document, -1, name, NULL, &core->error)) return -1;
@@ -215,14 +226,14 @@ static int add_channel(const struct stage *stage, struct core *core, const struc
             edit_parameter(document, spline, p, &copied->parameter[p], &core->error);
     }
     core_set_parameter(core, spline, PARAMETER_START, loops ? WIGGLY_LOOP : WIGGLY_REST);
-    follow_base(core, spline, base);
+    equilibrium_follow(core, spline, base);
 
     struct angles gain = model->gain;
     const struct angles lag = model->lag;
     for (int i = 0; i < angles_count(&gain); i++)
         angles_set_number(&gain, i, round(angles_number(&gain, i) * scale * 1e4) / 1e4);
     const int rig = stage->body_drag.rig;
-    if (!edit_channel_add(document, rig, spline, axis, PART_DISPLACEMENT, &core->error)) return -1;
+    if (!edit_channel_add(document, rig, spline, model->axis, PART_DISPLACEMENT, &core->error)) return -1;
     const struct channel_place added = {rig, document->rigs[rig]->tail.channel_count - 1};
     edit_angles(document, added, ANGLE_LAG, &lag, &core->error);
     edit_angles(document, added, ANGLE_GAIN, &gain, &core->error);
@@ -249,9 +260,9 @@ static int base_hang_channels(const struct stage *stage, struct core *core, int 
         if (channel.of == PART_TOTAL) {
             snprintf(name, sizeof name, "%.*s follow", name_fit(core->document->splines[channel.spline]->name, 280),
                      core->document->splines[channel.spline]->name);
-            add_channel(stage, core, &channel, channel.axis, name, scale * direction[coordinate], base);
+            add_channel(stage, core, &channel, name, scale * direction[coordinate], base);
         } else if (!param_follows(equilibrium)) {
-            follow_base(core, channel.spline, base);
+            equilibrium_follow(core, channel.spline, base);
         }
     }
 
@@ -266,10 +277,11 @@ static int base_hang_channels(const struct stage *stage, struct core *core, int 
     snprintf(name, sizeof name, "%.*s %s", name_fit(rig_title(core->document->rigs[rig]), 250),
              rig_title(core->document->rigs[rig]), axis_word(axis));
     for (int c = 0; missing && c < tail->channel_count; c++) {
-        const struct channel model = tail->channels[c];
+        struct channel model = tail->channels[c];
         const double scale = drag_inertia_scale(stage, core->document, rig, c);
-        if (axis_bends(model.axis) && stage->body_drag.hangs[c] && scale != 0)
-            return add_channel(stage, core, &model, axis, name, scale * share, base);
+        if (!axis_bends(model.axis) || !stage->body_drag.hangs[c] || scale == 0) continue;
+        model.axis = axis;
+        return add_channel(stage, core, &model, name, scale * share, base);
     }
     return -1;
 }
@@ -286,6 +298,38 @@ static void base_say_channel(const struct core *core, int spline, char *text, si
 }
 
 // A recording: a place per sample, and knots fitted to them.
+
+enum { AXIS_X, AXIS_Y, AXIS_Z };
+
+/// Movement along one ground axis that keeps the body under the pointer, from the axis' direction on the screen.
+static double along_axis(const struct body_drag *hold, const double axis[2], double dx, double dy)
+{
+    double across = axis[0] * hold->right[0] + axis[1] * hold->right[1];
+    double away = (axis[0] * hold->right[1] - axis[1] * hold->right[0]) * hold->pitch;
+    return stage_along(across, away, dx, dy) / hold->pixels_per_metre;
+}
+
+/// The pointer's movement of the held body in metres, before limits; 0 if none is held.
+static void body_drag_way(const struct stage *stage, const struct core *core, double offset[3])
+{
+    const struct drag *drag = &core->drag;
+    const struct body_drag *hold = &stage->body_drag;
+    offset[0] = offset[1] = offset[2] = 0;
+    if (!body_is_held(core) || !drag->moved) return;
+    const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
+    const double across = drag->moved_x / hold->pixels_per_metre;
+    const double up = -drag->moved_y / hold->pixels_per_metre;
+    const double away = hold->lifts ? 0 : up / hold->pitch;
+    if (hold->axis == AXIS_X) {
+        offset[0] = along_axis(hold, x_axis, drag->moved_x, drag->moved_y);
+    } else if (hold->axis == AXIS_Z) {
+        offset[2] = along_axis(hold, z_axis, drag->moved_x, drag->moved_y);
+    } else if (hold->axis != AXIS_Y) {
+        offset[0] = across * hold->right[0] + away * hold->right[1];
+        offset[2] = across * hold->right[1] - away * hold->right[0];
+    }
+    if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
+}
 
 /// Starts to record at the playhead, and plays. The body must be held.
 static void record_begin(struct stage *stage, struct core *core)
@@ -329,17 +373,16 @@ int record_simplify(const double *values, int count, double tolerance, int *knot
     wiggly_solver *solver = NULL;
     double *total = need((size_t)count, sizeof *total);
     wiggly_knot *buffer = need((size_t)capacity, sizeof *buffer);
+    wiggly_desc desc = wiggly_default_desc();
+    desc.samples = count;
+    desc.mode = WIGGLY_CUBIC;
+    desc.knots = buffer;
     int made = 2;
     knots[0] = 0;
     knots[1] = count - 1;
     if (wiggly_create(count, capacity, &solver) != WIGGLY_OK) need_failed();
     for (;;) {
-        // The cubic through them, level at both ends.
-        wiggly_desc desc = wiggly_default_desc();
         wiggly_curve curve = {.size = sizeof curve, .total = total};
-        desc.samples = count;
-        desc.mode = WIGGLY_CUBIC;
-        desc.knots = buffer;
         desc.knot_count = made;
         for (int i = 0; i < made; i++) {
             const bool end = i == 0 || i == made - 1;
@@ -403,7 +446,7 @@ static int key_way(const struct stage *stage, struct core *core, int coordinate,
         if (record->first > 1) base_put_knot(core, spline, 0, way[0], true, why);
         if (record->first + count < last) base_put_knot(core, spline, last, way[count - 1], true, why);
     }
-    if (is_new) base_follow(stage, core, coordinate, spline);
+    if (is_new) coordinate_follow(stage, core, coordinate, spline);
     const int hung = base_hang_channels(stage, core, coordinate, spline);
     if (hung >= 0) *swings = hung;
     core_edited(core, spline);
@@ -467,48 +510,12 @@ void record_show(struct stage *stage, struct core *core)
 
 // The drag.
 
-enum { AXIS_X, AXIS_Y, AXIS_Z };
+enum { REPORT_SIZE = 512 }; ///< of the message after a drag
 
-/// Movement along one ground axis that keeps the body under the pointer, from the axis' direction on the screen.
-static double along_axis(const struct body_drag *hold, const double axis[2], double dx, double dy)
+static void say_part(char report[REPORT_SIZE], const char *text)
 {
-    double across = axis[0] * hold->right[0] + axis[1] * hold->right[1];
-    double away = (axis[0] * hold->right[1] - axis[1] * hold->right[0]) * hold->pitch;
-    return stage_along(across, away, dx, dy) / hold->pixels_per_metre;
-}
-
-void body_drag_way(const struct stage *stage, const struct core *core, double offset[3])
-{
-    const struct drag *drag = &core->drag;
-    const struct body_drag *hold = &stage->body_drag;
-    offset[0] = offset[1] = offset[2] = 0;
-    if (!body_is_held(core) || !drag->moved) return;
-    const double x_axis[2] = {1, 0}, z_axis[2] = {0, 1};
-    const double across = drag->moved_x / hold->pixels_per_metre;
-    const double up = -drag->moved_y / hold->pixels_per_metre;
-    const double away = hold->lifts ? 0 : up / hold->pitch;
-    if (hold->axis == AXIS_X) {
-        offset[0] = along_axis(hold, x_axis, drag->moved_x, drag->moved_y);
-    } else if (hold->axis == AXIS_Z) {
-        offset[2] = along_axis(hold, z_axis, drag->moved_x, drag->moved_y);
-    } else if (hold->axis != AXIS_Y) {
-        offset[0] = across * hold->right[0] + away * hold->right[1];
-        offset[2] = across * hold->right[1] - away * hold->right[0];
-    }
-    if (hold->axis == AXIS_Y || (hold->axis < 0 && hold->lifts)) offset[1] = fmax(up / hold->rise, hold->lowest);
-}
-
-/// The message after a drag, and why a knot stopped.
-struct report {
-    char text[512], why[STOPPED_SIZE];
-    size_t length;
-};
-
-static void say_part(struct report *report, const char *text)
-{
-    report->length +=
-        (size_t)snprintf(report->text + report->length, sizeof report->text - report->length, "%s", text);
-    if (report->length >= sizeof report->text) report->length = sizeof report->text - 1;
+    const size_t length = strlen(report);
+    snprintf(report + length, REPORT_SIZE - length, "%s", text);
 }
 
 /// The playhead's sample, clamped to where the spline may have knots.
@@ -518,34 +525,6 @@ static int sample_of(const struct core *core, int spline)
     const int sample = document_sample(document, round(core_frame(core)));
     const int last = document_last_knot_sample(document, document->splines[spline]);
     return sample > last ? last : sample < 0 ? 0 : sample;
-}
-
-/// Sets a knot at the playhead. A fixed coordinate gets a spline that starts at the body's place. Returns the new spline that swings the
-/// tail with it, or -1.
-static int key_coordinate(const struct stage *stage, struct core *core, int coordinate, double by,
-                          char why[STOPPED_SIZE])
-{
-    const struct document *document = core->document;
-    const int rig = stage->body_drag.rig;
-    const bool is_new = tail_of(document, rig)->position[coordinate].track < 0;
-    const int spline = base_spline(stage, core, coordinate);
-    if (spline < 0) return -1;
-    const int sample = sample_of(core, spline);
-    const double before = base_value(core, rig, coordinate, sample);
-    if (!is_new) {
-        struct knot knot = core_knot_at(document, spline, sample);
-        knot.value = core_round(before + by, RESOLUTION);
-        core_hold(document->splines[spline], &knot, why);
-        core_put_knot(core, spline, &knot);
-        core_edited(core, spline);
-        return -1;
-    }
-    if (sample > 1) base_put_knot(core, spline, 0, before, true, why);
-    base_put_knot(core, spline, sample, before + by, true, why);
-    base_follow(stage, core, coordinate, spline);
-    const int swings = base_hang_channels(stage, core, coordinate, spline);
-    core_edited(core, spline);
-    return swings;
 }
 
 /// How far all knots of a spline can move within its limits, and the knot that stops them, or NULL.
@@ -562,9 +541,21 @@ static double room_for(const struct spline *spline, double by, const struct knot
     return room;
 }
 
-/// Shifts all knots of a spline equally, as far as all can move, so that followers keep their motion. Returns the shift.
-static double shift_spline(struct core *core, int spline, double way, char why[STOPPED_SIZE])
+/// Shifts a coordinate; returns the shift. A fixed height stands for the ground, which stays. All knots of a spline shift equally, as far as
+/// all can move, so that followers keep their motion.
+static double shift_coordinate(struct core *core, int rig, int coordinate, double way, char why[STOPPED_SIZE])
 {
+    const struct tail *tail = tail_of(core->document, rig);
+    const int spline = tail ? tail->position[coordinate].track : -1;
+    if (spline < 0 && coordinate == 1) return 0;
+    if (spline < 0) {
+        struct rig moved = *core->document->rigs[rig];
+        const double from = tail ? tail->position[coordinate].value : moved.model.position[coordinate];
+        const double to = core_round(from + way, RESOLUTION);
+        if (tail) moved.tail.position[coordinate] = param_number(to);
+        if (!tail) moved.model.position[coordinate] = to;
+        return edit_rig_set(core->document, rig, &moved, &core->error) || tail ? way : 0;
+    }
     const int count = core->document->splines[spline]->knot_count;
     const struct knot *stops;
     const double by = room_for(core->document->splines[spline], way, &stops);
@@ -590,66 +581,67 @@ static double shift_spline(struct core *core, int spline, double way, char why[S
     return by;
 }
 
-/// Shifts a coordinate; returns the shift. A fixed height stands for the ground, which stays.
-static double shift_coordinate(struct core *core, int rig, int coordinate, double by, char why[STOPPED_SIZE])
-{
-    const struct tail *tail = tail_of(core->document, rig);
-    if (coordinate == 1 && (!tail || tail->position[1].track < 0)) return 0;
-    if (tail && tail->position[coordinate].track >= 0)
-        return shift_spline(core, tail->position[coordinate].track, by, why);
-    struct rig moved = *core->document->rigs[rig];
-    if (tail) {
-        moved.tail.position[coordinate] = param_number(core_round(tail->position[coordinate].value + by, RESOLUTION));
-        edit_rig_set(core->document, rig, &moved, &core->error);
-        return by;
-    }
-    moved.model.position[coordinate] = core_round(moved.model.position[coordinate] + by, RESOLUTION);
-    return edit_rig_set(core->document, rig, &moved, &core->error) ? by : 0;
-}
-
-/// Moves the body by metres: knots at the playhead with auto-key, else the whole motion. Reports which.
-static void place_body(struct stage *stage, struct core *core, const double offset[3])
+/// Leaves the body where the pointer has moved it: knots at the playhead with auto-key, else the whole motion. Reports which.
+static void place_body(struct stage *stage, struct core *core)
 {
     const int rig = stage->body_drag.rig;
+    double offset[3];
+    body_drag_way(stage, core, offset);
     const bool is_tail = tail_of(core->document, rig), keys = core->auto_key && is_tail;
-    struct report report = {.length = 0};
+    char report[REPORT_SIZE] = "", why[STOPPED_SIZE] = "";
     bool any = false;
     int swings = -1;
     if (keys) base_begin(stage, core);
-    say_part(&report, keys ? "Keyed " : "Moved for the whole shot: ");
+    say_part(report, keys ? "Keyed " : "Moved for the whole shot: ");
     for (int k = 0; k < 3; k++) {
         char part[32];
         const char *name = part;
         if (offset[k] == 0) continue;
         if (keys) {
-            const int made = key_coordinate(stage, core, k, offset[k], report.why);
-            if (made >= 0) swings = made;
-            const int track = tail_of(core->document, rig)->position[k].track;
-            if (track < 0) continue;
-            name = core->document->splines[track]->name;
+            // A fixed coordinate gets a spline that starts at the body's place.
+            const bool is_new = tail_of(core->document, rig)->position[k].track < 0;
+            const int spline = base_spline(stage, core, k);
+            if (spline < 0) continue;
+            const int sample = sample_of(core, spline);
+            const double before = base_value(core, rig, k, sample);
+            if (is_new) {
+                if (sample > 1) base_put_knot(core, spline, 0, before, true, why);
+                base_put_knot(core, spline, sample, before + offset[k], true, why);
+                coordinate_follow(stage, core, k, spline);
+                const int hung = base_hang_channels(stage, core, k, spline);
+                if (hung >= 0) swings = hung;
+            } else {
+                struct knot knot = core_knot_at(core->document, spline, sample);
+                knot.value = core_round(before + offset[k], RESOLUTION);
+                core_hold(core->document->splines[spline], &knot, why);
+                core_put_knot(core, spline, &knot);
+            }
+            core_edited(core, spline);
+            if (tail_of(core->document, rig)->position[k].track < 0) continue;
+            name = core->document->splines[spline]->name;
         } else {
-            const double by = shift_coordinate(core, rig, k, offset[k], report.why);
+            const double by = shift_coordinate(core, rig, k, offset[k], why);
             if (by == 0) continue;
             snprintf(part, sizeof part, "%s %+.2f m", coordinate_name(k), by);
         }
-        if (any) say_part(&report, ", ");
-        say_part(&report, name);
+        if (any) say_part(report, ", ");
+        say_part(report, name);
         any = true;
     }
     if (keys) {
         char frame[64];
         snprintf(frame, sizeof frame, " at frame %.0f.", round(core_frame(core)));
-        say_part(&report, frame);
+        say_part(report, frame);
     } else if (any) {
-        say_part(&report, is_tail && !report.why[0] ? ". Auto-key (Shift+A) sets knots instead." : ".");
-    } else if (report.why[0]) {
-        core_stopped(core, report.why);
+        say_part(report, is_tail && !why[0] ? ". Auto-key (Shift+A) sets knots instead." : ".");
+    } else if (why[0]) {
+        core_stopped(core, why);
     } else {
         core_message(core, false, "Back on the ground. Turn on auto-key (Shift+A) or record (R) to keep the height.");
     }
-    core_add_stopped(report.why, report.text, sizeof report.text);
-    base_say_channel(core, swings, report.text, sizeof report.text);
-    if (any) core_message(core, false, "%s", report.text);
+    core_add_stopped(why, report, sizeof report);
+    base_say_channel(core, swings, report, sizeof report);
+    if (any) core_message(core, false, "%s", report);
     for (int i = 0; i < STAGE_MAX_STRANDS; i++) // the document now contains the offset: no new movement of the base
         memset(stage->inertia[i].offset, 0, sizeof stage->inertia[i].offset);
 }
@@ -690,12 +682,6 @@ static const double LEAST_PITCH = 0.35; ///< sine of the camera's elevation; bel
 static const double LEAST_RISE = 0.3;   ///< cosine of the elevation; below it height follows the pointer less
 static const float ring_middle[2] = {0, -0.25f}; ///< x and z in bind space, metres
 static const float RING_RADIUS = 0.6f;
-
-struct tail *tail_of(const struct document *document, int rig)
-{
-    const bool is_tail = rig >= 0 && rig < document->rig_count && document->rigs[rig]->kind == RIG_TAIL;
-    return is_tail ? &document->rigs[rig]->tail : NULL;
-}
 
 /// Where a body stands.
 struct stand {
@@ -857,40 +843,35 @@ static enum drag_answer body_event(void *room, struct core *core, const struct e
 static void end_body(void *room, struct core *core, bool keep)
 {
     struct stage *stage = room;
+    struct record *record = &stage->record;
     const int body = stage->body_drag.rig;
-    if (core->drag.moved) {
-        double offset[3];
-        const bool edits = keep && body < core->document->rig_count; // an edit may have removed the body
-        const bool records = edits && record_has_motion(stage) && tail_of(core->document, body);
-        body_drag_way(stage, core, offset);
-        if (records) {
-            // Base splines for coordinates that moved, and channels that follow them.
-            const struct record *record = &stage->record;
-            char text[768], why[STOPPED_SIZE] = "";
-            int made = 0, swings = -1;
-            base_begin(stage, core);
-            for (int k = 0; k < 3; k++) {
-                double most = 0;
-                for (int i = 0; i < record->count; i++) most = fmax(most, fabs(record->way[k][i]));
-                if (most >= STILL) made += key_way(stage, core, k, &swings, why);
-            }
-            snprintf(text, sizeof text, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.",
-                     made);
-            core_add_stopped(why, text, sizeof text);
-            base_say_channel(core, swings, text, sizeof text);
-            core_message(core, false, "%s", text);
+    const bool moved = core->drag.moved;
+    const bool edits = moved && keep && body < core->document->rig_count; // an edit may have removed the body
+    const bool records = edits && record_has_motion(stage) && tail_of(core->document, body);
+    if (records) { // splines for coordinates that moved, and channels that follow them
+        char text[768], why[STOPPED_SIZE] = "";
+        int made = 0, swings = -1;
+        base_begin(stage, core);
+        for (int k = 0; k < 3; k++) {
+            double most = 0;
+            for (int i = 0; i < record->count; i++) most = fmax(most, fabs(record->way[k][i]));
+            if (most >= STILL) made += key_way(stage, core, k, &swings, why);
         }
-        if (edits && !records) place_body(stage, core, offset);
-        if (!edits || records) drag_inertia_stop(stage, core->document, body);
-        stage->record = (struct record){0};
+        snprintf(text, sizeof text, made == 0 ? "Nothing moved, so nothing was recorded." : "%d knots recorded.",
+                 made);
+        core_add_stopped(why, text, sizeof text);
+        base_say_channel(core, swings, text, sizeof text);
+        core_message(core, false, "%s", text);
+    } else if (edits) {
+        place_body(stage, core);
     }
+    if (moved && (!edits || records)) drag_inertia_stop(stage, core->document, body);
+    if (moved) *record = (struct record){0};
     stage_click(room, core, keep);
 }
 
 static const struct drag_owner body_owner = {
     .cursor = CURSOR_MOVE, .move = body_moves, .event = body_event, .end = end_body};
-
-bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
 
 void press_body(void *room, struct core *core, const struct hover *hover, const struct event *event)
 {

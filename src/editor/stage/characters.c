@@ -491,54 +491,12 @@ static bool difference(const struct brush_work *work, const struct figure *figur
     return true;
 }
 
-/// One Jacobi pass over all vertices, so that their order does not matter.
-static void smooth_once(struct painting *painting, const struct figure *figure, int coordinate, float radius,
-                        int count, double flow)
-{
-    struct brush_work *work = &painting->work;
-    const bool phase = painting->stroke == BRUSH_SMOOTH_PHASE;
-    const float share = (float)fmin(MOST_BLEND, BLENDING_FLOW * flow / SMOOTHINGS);
-    for (int i = 0; i < count; i++) {
-        const int vertex = work->vertices[i];
-        const float weight = share * falloff(work->reach.distance[vertex], radius);
-        float by[2] = {0, 0};
-        difference(work, figure, coordinate, vertex, by);
-        work->steps[i][0] = phase ? 0 : weight * by[0];
-        work->steps[i][1] = phase ? weight * by[1] : 0;
-    }
-    for (int i = 0; i < count; i++) {
-        float *value = work->values[i], *turned = work->turned[work->vertices[i]];
-        const float swell = glm_clamp(value[0] + work->steps[i][0], LEAST_SWELL, MOST_SWELL) - value[0];
-        const float lead = glm_clamp(value[1] + work->steps[i][1], -MOST_LEAD, MOST_LEAD) - value[1];
-        const float size = maths_expf(swell);
-        multiply_complex(turned, (const float[2]){size * maths_cosf(lead), size * maths_sinf(lead)}, turned);
-        value[0] += swell;
-        value[1] += lead;
-    }
-}
-
 /// Limits a step so that the stroke's sum `spent` stays within `most`; adds the step to it.
 static float saturate(float step, float most, float *spent)
 {
     const float allowed = fminf(step, fmaxf(most - *spent, 0));
     *spent += allowed;
     return allowed;
-}
-
-/// Changes one vertex's paint, in modes that ignore its neighbours.
-static void change_paint(enum brush_mode mode, double flow, float weight, float *spent, float value[2])
-{
-    const bool turns = mode == BRUSH_ADVANCE || mode == BRUSH_DELAY,
-               swells = mode == BRUSH_MORE || mode == BRUSH_LESS;
-    const float lead = turns ? saturate(weight * (float)(PHASE_FLOW * flow), weight * STROKE_LEAD, spent) : 0;
-    const float swell = swells ? saturate(weight * (float)(AMPLITUDE_FLOW * flow), weight * STROKE_SWELL, spent) : 0;
-    const float kept = 1 - weight * (float)fmin(1, BLENDING_FLOW * flow);
-    if (mode == BRUSH_ADVANCE) value[1] = glm_clamp(value[1] + lead, -MOST_LEAD, MOST_LEAD);
-    if (mode == BRUSH_DELAY) value[1] = glm_clamp(value[1] - lead, -MOST_LEAD, MOST_LEAD);
-    if (mode == BRUSH_MORE) value[0] = glm_clamp(value[0] + swell, LEAST_SWELL, MOST_SWELL);
-    if (mode == BRUSH_LESS) value[0] = glm_clamp(value[0] - swell, LEAST_SWELL, MOST_SWELL);
-    if (mode != BRUSH_ERASE) return;
-    for (int k = 0; k < 2; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
 }
 
 /// Continues the stroke for drag.dt seconds.
@@ -569,7 +527,10 @@ static void paint_stroke(void *room, struct core *core)
     if (count == 0) return;
     reach_find(&work->reach, figure, spots, count, radius);
 
-    // A dab on the vertices within reach.
+    // A dab on the vertices within reach, in modes that ignore their neighbours.
+    const enum brush_mode mode = painting->stroke;
+    const bool turns = mode == BRUSH_ADVANCE || mode == BRUSH_DELAY,
+               swells = mode == BRUSH_MORE || mode == BRUSH_LESS;
     const double flow = core->brush.strength * core->drag.dt;
     struct dab dab = {coordinate, 0, work->vertices, (const float(*)[2])work->values};
     for (int i = 0; i < work->reach.count; i++) {
@@ -578,17 +539,44 @@ static void paint_stroke(void *room, struct core *core)
         const float *old = paint->values[(size_t)coordinate * (size_t)paint->vertices + (size_t)vertex];
         if (!(weight > 0)) continue;
         work->vertices[dab.count] = vertex;
-        for (int k = 0; k < 2; k++) work->values[dab.count][k] = old[k];
-        change_paint(painting->stroke, flow, weight, &work->spent[vertex], work->values[dab.count]);
-        dab.count++;
+        float *value = work->values[dab.count++], *spent = &work->spent[vertex];
+        for (int k = 0; k < 2; k++) value[k] = old[k];
+        const float lead = turns ? saturate(weight * (float)(PHASE_FLOW * flow), weight * STROKE_LEAD, spent) : 0;
+        const float swell =
+            swells ? saturate(weight * (float)(AMPLITUDE_FLOW * flow), weight * STROKE_SWELL, spent) : 0;
+        const float kept = 1 - weight * (float)fmin(1, BLENDING_FLOW * flow);
+        if (mode == BRUSH_ADVANCE) value[1] = glm_clamp(value[1] + lead, -MOST_LEAD, MOST_LEAD);
+        if (mode == BRUSH_DELAY) value[1] = glm_clamp(value[1] - lead, -MOST_LEAD, MOST_LEAD);
+        if (mode == BRUSH_MORE) value[0] = glm_clamp(value[0] + swell, LEAST_SWELL, MOST_SWELL);
+        if (mode == BRUSH_LESS) value[0] = glm_clamp(value[0] - swell, LEAST_SWELL, MOST_SWELL);
+        for (int k = 0; k < 2 && mode == BRUSH_ERASE; k++) value[k] = fabsf(value[k]) < 1e-3f ? 0 : kept * value[k];
     }
-    if (painting->stroke == BRUSH_SMOOTH_PHASE || painting->stroke == BRUSH_SMOOTH_AMPLITUDE) {
-        for (int pass = 0; pass < SMOOTHINGS; pass++)
-            smooth_once(painting, figure, coordinate, radius, dab.count, flow);
+
+    // Smoothing: Jacobi passes over all vertices, so that their order does not matter.
+    const bool smooths = mode == BRUSH_SMOOTH_PHASE || mode == BRUSH_SMOOTH_AMPLITUDE;
+    const float blend = (float)fmin(MOST_BLEND, BLENDING_FLOW * flow / SMOOTHINGS);
+    for (int pass = 0; pass < SMOOTHINGS && smooths; pass++) {
         for (int i = 0; i < dab.count; i++) {
-            work->turned[work->vertices[i]][0] = 1;
-            work->turned[work->vertices[i]][1] = 0;
+            const int vertex = work->vertices[i];
+            const float weight = blend * falloff(work->reach.distance[vertex], radius);
+            float by[2] = {0, 0};
+            difference(work, figure, coordinate, vertex, by);
+            work->steps[i][0] = mode == BRUSH_SMOOTH_PHASE ? 0 : weight * by[0];
+            work->steps[i][1] = mode == BRUSH_SMOOTH_PHASE ? weight * by[1] : 0;
         }
+        for (int i = 0; i < dab.count; i++) {
+            float *value = work->values[i], *turned = work->turned[work->vertices[i]];
+            const float swell = glm_clamp(value[0] + work->steps[i][0], LEAST_SWELL, MOST_SWELL) - value[0];
+            const float lead = glm_clamp(value[1] + work->steps[i][1], -MOST_LEAD, MOST_LEAD) - value[1];
+            const float size = maths_expf(swell);
+            multiply_complex(turned, (const float[2]){size * maths_cosf(lead), size * maths_sinf(lead)}, turned);
+            value[0] += swell;
+            value[1] += lead;
+        }
+    }
+    for (int i = 0; i < dab.count && smooths; i++) {
+        work->turned[work->vertices[i]][0] = 1;
+        work->turned[work->vertices[i]][1] = 0;
     }
     edit_paint(core->document, characters_rig(core), &dab, &core->error);
 }

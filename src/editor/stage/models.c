@@ -71,6 +71,7 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
     struct stage_model *shown = models_show(view, &posed);
     if (!shown) return;
     const struct skeleton *skeleton = &posed.model.imported->skeleton;
+    const mat4s to_world = mat4_from(posed.model.root);
     for (int b = 0; b < skeleton->count && stage->bone_count < STAGE_MAX_BONES; b++) {
         const struct bone *bone = &skeleton->bones[b];
         struct shown_bone *added = &stage->bones[stage->bone_count++];
@@ -79,7 +80,7 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
             (struct shown_bone){.model = rig, .part = *bone, .carries = skeleton->carries[bone->node], .chain = -1};
         skeleton_ends(bone, posed.model.pose, ends);
         for (int e = 0; e < 2; e++) {
-            const vec3s at = glms_mat4_mulv3(mat4_from(posed.model.root), vec3_from(ends[e]), 1.0f);
+            const vec3s at = glms_mat4_mulv3(to_world, vec3_from(ends[e]), 1.0f);
             memcpy(added->ends[e], at.raw, sizeof at.raw);
         }
     }
@@ -97,7 +98,7 @@ static void pose_imported(struct stage *stage, const struct core *core, int rig,
     shown->root[12] += by;
     shown->lo[0] += by;
     shown->hi[0] += by;
-    add_shadows(view, shown, skeleton);
+    add_shadows(view, shown, &posed.model.imported->skeleton);
 }
 
 static uint64_t hash_models(uint64_t sum, const struct stage_view *view)
@@ -317,25 +318,6 @@ static const float THICKEST = 5, THINNEST = 1.5f;    ///< pixels: half of a bone
 static const float SHARE = 0.09f, WIDEST_AT = 0.14f; ///< of a bone's length: half its width, and where it is widest
 static const float PLAIN = 0.3f, MEANT = 0.6f, CHOSEN = 0.85f; ///< opacity of the fill
 
-/// The rig whose bones show because the pointer is over its character's bounding box on the screen, or −1.
-static int model_under(const struct stage *stage, const struct core *core)
-{
-    const struct stage_view *view = &stage->view;
-    if (core->hover.thing == &thing_bone) return core->hover.model;
-    if (core->brush.on || !rect_contains(view->viewport, core->pointer_x, core->pointer_y)) return -1;
-    for (int rig = -1; (rig = document_next_rig(core->document, RIG_MODEL, rig)) >= 0;) {
-        const struct gltf_pose *pose = models_pose(core->models, core->document, rig, POSE_SHOWN);
-        for (int m = 0; pose && m < view->model_count; m++) {
-            const struct stage_model *model = &view->models[m];
-            struct rect box;
-            if (model->pose == pose && (!stage_project_box(stage, core->layout.stage, model->lo, model->hi, &box) ||
-                                        rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y)))
-                return rig;
-        }
-    }
-    return -1;
-}
-
 /// The bones from a node down to a tip, which a new chain would bend; −1: none.
 struct way {
     int model, node, tip;
@@ -368,16 +350,32 @@ static int way_count(const struct core *core, const struct way *way, int model, 
 
 void bones_show(const struct stage *stage, struct core *core)
 {
+    const struct stage_view *view = &stage->view;
     const struct hover *hover = &core->hover;
+    const struct rect place = core->layout.stage;
+
+    // The rig whose bones show because the pointer is over its character's bounding box on the screen, or −1.
+    int under = hover->thing == &thing_bone ? hover->model : -1;
+    const bool searches =
+        under < 0 && !core->brush.on && rect_contains(view->viewport, core->pointer_x, core->pointer_y);
+    for (int rig = -1; searches && under < 0 && (rig = document_next_rig(core->document, RIG_MODEL, rig)) >= 0;) {
+        const struct gltf_pose *pose = models_pose(core->models, core->document, rig, POSE_SHOWN);
+        for (int m = 0; pose && m < view->model_count; m++) {
+            const struct stage_model *model = &view->models[m];
+            struct rect box;
+            if (model->pose == pose && (!stage_project_box(stage, place, model->lo, model->hi, &box) ||
+                                        rect_contains(rect_inset(box, -NEAR_BOX), core->pointer_x, core->pointer_y)))
+                under = rig;
+        }
+    }
     const struct way chosen = way_chosen(core);
-    const int under = model_under(stage, core);
     struct way meant = {-1, -1, -1};
     if (!core->drag.owner && hover->thing == &thing_bone)
         meant = way_from(core, hover->model, hover->node);
     else if (!core->drag.owner && hover->thing == &thing_chain)
         meant = (struct way){hover->model, hover->node, -1};
-    for (int i = 0; i < stage->bone_count; i++) {
-        const struct shown_bone *bone = &stage->bones[i];
+    for (int b = 0; b < stage->bone_count; b++) {
+        const struct shown_bone *bone = &stage->bones[b];
         const int model = bone->model, node = bone->part.node;
         float ends[2][2];
         if (model != under && model != chosen.model && core->pick.use == BONE_SELECTED) continue;
@@ -392,13 +390,17 @@ void bones_show(const struct stage *stage, struct core *core)
             continue;
         }
 
-        // Widest near its joint.
-        const float *a = ends[0], *b = ends[1], dx = b[0] - a[0], dy = b[1] - a[1], length = maths_hypotf(dx, dy);
+        // A kite from joint to joint, widest near the first.
+        const float *from = ends[0], *to = ends[1];
+        const float dx = to[0] - from[0], dy = to[1] - from[1], length = maths_hypotf(dx, dy);
         const float half = fmaxf(THINNEST, fminf(THICKEST, SHARE * length));
         const float ux = length > 0 ? dx / length : 1, uy = length > 0 ? dy / length : 0;
-        const float x = a[0] + WIDEST_AT * dx, y = a[1] + WIDEST_AT * dy;
-        const float corners[5][2] = {
-            {a[0], a[1]}, {x - half * uy, y + half * ux}, {b[0], b[1]}, {x + half * uy, y - half * ux}, {a[0], a[1]}};
+        const float x = from[0] + WIDEST_AT * dx, y = from[1] + WIDEST_AT * dy;
+        const float corners[5][2] = {{from[0], from[1]},
+                                     {x - half * uy, y + half * ux},
+                                     {to[0], to[1]},
+                                     {x + half * uy, y - half * ux},
+                                     {from[0], from[1]}};
         drawlist_line(&core->list, corners[0], 5, 3, theme_fade(theme()->panel, 0.45f));
         drawlist_convex(&core->list, corners[0], 4, theme_fade(color, opacity));
         drawlist_line(&core->list, corners[0], 5, 1.25f,
@@ -415,7 +417,6 @@ void bones_show(const struct stage *stage, struct core *core)
     if (count > 1)
         snprintf(text + length, sizeof text - (size_t)length, " to %.*s, %d bones",
                  name_fit(nodes[meant.tip].name, 200), nodes[meant.tip].name, count);
-    const struct rect place = core->layout.stage;
     const float width = fminf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, text), place.w / 2) + 2 * LABEL_PAD + 2;
     struct rect r = {core->pointer_x + LABEL_AWAY, core->pointer_y - LABEL_AWAY - LABEL_HEIGHT, width, LABEL_HEIGHT};
     if (r.x + r.w > place.x + place.w) r.x = core->pointer_x - LABEL_AWAY - r.w;

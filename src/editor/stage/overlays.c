@@ -417,22 +417,22 @@ struct rig_point overlay_point(struct stage *stage, const struct core *core)
     const int n = core->characters.character;
     const struct figure *figure = models_figure(core->models, n);
     if (!figure) return (struct rig_point){-1, -1};
-    struct liveliest *known = &stage->liveliest;
-    if (known->figure != figure->id || known->version != figure->version) { // search all vertices once
+    struct liveliest *kept = &stage->liveliest;
+    if (kept->figure != figure->id || kept->version != figure->version) { // search all vertices once
         const struct character *character = &figure->character;
         float most = -1;
-        *known = (struct liveliest){figure->id, figure->version, 0};
+        *kept = (struct liveliest){figure->id, figure->version, 0};
         for (int i = 0; i < character->vertex_count; i++) {
             float way = 0;
             for (int k = 0; k < character->coordinate_count; k++) {
                 const struct coordinate *c = &character->coordinates[k];
                 way += glms_vec3_norm2(vec3_from(c->re[i])) + glms_vec3_norm2(vec3_from(c->im[i]));
             }
-            if (way > most) known->vertex = i;
+            if (way > most) kept->vertex = i;
             most = fmaxf(most, way);
         }
     }
-    return (struct rig_point){document_find_rig(core->document, RIG_CHARACTER, n), known->vertex};
+    return (struct rig_point){document_find_rig(core->document, RIG_CHARACTER, n), kept->vertex};
 }
 
 static bool loops(const struct document *document, int spline)
@@ -485,15 +485,15 @@ void path_show(struct stage *stage, struct core *core, enum trail which, struct 
     if (!repeats && first < 0) first = 0;
     if (!repeats && last > end) last = end;
 
-    // The world places are kept until an edit.
-    uint64_t key = hash_word(HASH_START, history_revision(core->history));
-    key = hash_word(key, core->evaluation ? core->evaluation->revision : 0);
+    // The point's world place at each frame, kept until an edit.
+    const uint64_t solved = core->evaluation ? core->evaluation->revision : 0;
+    uint64_t key = hash_word(hash_word(HASH_START, history_revision(core->history)), solved);
     key = hash_word(hash_word(key, (uint64_t)point.rig << 8 | (uint64_t)core->look), (uint64_t)point.at);
     float screen[TRAIL_FRAMES][2], points[PIECES * TRAIL_FRAMES][2];
     for (int frame = first; frame <= last; frame++) {
         struct trail_point *kept = &stage->trail[which][(frame % TRAIL_FRAMES + TRAIL_FRAMES) % TRAIL_FRAMES];
-        if (!kept->known || kept->key != key || kept->frame != frame) {
-            *kept = (struct trail_point){.known = true, .key = key, .frame = frame};
+        if (!kept->is_set || kept->key != key || kept->frame != frame) {
+            *kept = (struct trail_point){.is_set = true, .key = key, .frame = frame};
             point_place(core, point, (double)frame * document->substeps, kept->place);
         }
         if (!stage_project_point(stage, core->layout.stage, kept->place, screen[count++])) return;
@@ -548,6 +548,46 @@ void trail_show(struct stage *stage, struct core *core)
 static const float MARKER_REACH = 9;    ///< pixels
 static const float LEAST_SHARE = 0.05f; ///< of the largest movement; vertices that move less are not offered
 
+/// The surface vertex under a point; of several characters the one nearest to the eye.
+static struct hover find_vertex(struct stage *stage, const struct core *core, float x, float y)
+{
+    const struct stage_view *view = &stage->view;
+    struct hover hover = {.thing = NULL};
+    float nearest = INFINITY;
+    for (int c = 0; c < view->character_count; c++) {
+        const struct stage_character *shown = &view->characters[c];
+        const struct figure *figure = shown->figure;
+        struct surface_spot spot;
+        float xy[2];
+        if (!skin_pose(stage, shown->rig) || !skin_spot(stage, figure, x, y, &spot)) continue;
+        int corner = 0;
+        for (int k = 1; k < 3; k++) {
+            if (spot.weight[k] > spot.weight[corner]) corner = k;
+        }
+        const int rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig),
+                  vertex = (int)spot.corner[corner];
+        if (!point_exists(core, (struct rig_point){rig, vertex})) continue; // an edit in the same frame removed it
+        const float *place = stage->skin.posed[vertex];
+        const float depth = camera_depth(view->view, view->eye, place);
+        if (depth >= nearest) continue;
+        nearest = depth;
+        hover.thing = NULL;
+
+        // The vertex's movement per unit of the coordinates, squared, relative to the largest movement along each axis.
+        float own = 0, most = 0;
+        for (int k = 0; k < shown->morph.count; k++) {
+            const int n = shown->morph.coordinate[k];
+            const struct coordinate *moves = &figure->character.coordinates[n];
+            own += glms_vec3_norm2(vec3_from(moves->re[vertex])) + glms_vec3_norm2(vec3_from(moves->im[vertex]));
+            most += glms_vec3_norm2(vec3_from(figure->largest[n]));
+        }
+        if ((most > 0 ? own / most : 0) < LEAST_SHARE * LEAST_SHARE) continue;
+        if (!stage_project_point(stage, view->viewport, place, xy)) continue;
+        hover = (struct hover){.thing = &thing_point, .rig = rig, .joint = vertex, .x = xy[0], .y = xy[1]};
+    }
+    return hover;
+}
+
 /// The next pin with a marker. Characters of a pair stand aside, so their pins have none.
 static const struct pin *next_marker(const struct core *core, struct pin_place *place)
 {
@@ -589,42 +629,8 @@ struct hover pins_hover(struct stage *stage, const struct core *core, const stru
     struct pointed *pointed = &stage->pointed;
     const bool still = pointed->x == x && pointed->y == y, same = still && pointed->hash == stage->view.hash;
     if (still && !same && core->playback.playing) return hover;
-    if (same) return pointed->hover;
-    const struct stage_view *view = &stage->view;
-    float nearest = INFINITY; // of several characters the one nearest to the eye
-    for (int c = 0; c < view->character_count; c++) {
-        const struct stage_character *shown = &view->characters[c];
-        const struct figure *figure = shown->figure;
-        struct surface_spot spot;
-        float xy[2];
-        if (!skin_pose(stage, shown->rig) || !skin_spot(stage, figure, x, y, &spot)) continue;
-        int corner = 0;
-        for (int k = 1; k < 3; k++) {
-            if (spot.weight[k] > spot.weight[corner]) corner = k;
-        }
-        const int rig = document_find_rig(core->document, RIG_CHARACTER, shown->rig),
-                  vertex = (int)spot.corner[corner];
-        if (!point_exists(core, (struct rig_point){rig, vertex})) continue; // an edit in the same frame removed it
-        const float *at = stage->skin.posed[vertex];
-        const float depth = camera_depth(view->view, view->eye, at);
-        if (depth >= nearest) continue;
-        nearest = depth;
-        hover.thing = NULL;
-
-        // The vertex's movement per unit of the coordinates, squared, relative to the largest movement along each axis.
-        float own = 0, most = 0;
-        for (int k = 0; k < shown->morph.count; k++) {
-            const int n = shown->morph.coordinate[k];
-            const struct coordinate *moves = &figure->character.coordinates[n];
-            own += glms_vec3_norm2(vec3_from(moves->re[vertex])) + glms_vec3_norm2(vec3_from(moves->im[vertex]));
-            most += glms_vec3_norm2(vec3_from(figure->largest[n]));
-        }
-        if ((most > 0 ? own / most : 0) < LEAST_SHARE * LEAST_SHARE) continue;
-        if (!stage_project_point(stage, view->viewport, at, xy)) continue;
-        hover = (struct hover){.thing = &thing_point, .rig = rig, .joint = vertex, .x = xy[0], .y = xy[1]};
-    }
-    *pointed = (struct pointed){x, y, view->hash, hover};
-    return hover;
+    if (!same) *pointed = (struct pointed){x, y, stage->view.hash, find_vertex(stage, core, x, y)};
+    return pointed->hover;
 }
 
 /// The screen's directions in the world, and its scale at a place.

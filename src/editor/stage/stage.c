@@ -30,42 +30,6 @@ void stage_note(struct core *core, float x, float y, enum font font, uint32_t co
     drawlist_text(&core->list, x, y, font, THEME_TEXT_SMALL, color, text);
 }
 
-/// Skips names that would overlap others, or whose tail's feet are behind the eye.
-static void names_show(const struct stage *stage, struct core *core)
-{
-    const struct document *document = core->document;
-    const struct rect r = core->layout.stage;
-    struct rect shown[STAGE_MAX_TAILS];
-    int count = 0;
-    for (int t = 0; t < stage->tail_count && stage->tail_count > 1; t++) {
-        const struct rig *rig = document->rigs[stage->strands[t].rig];
-        const int spline = rig->tail.channel_count > 0 ? rig->tail.channels[0].spline : -1;
-        const uint32_t color = spline >= 0 ? spline_list_color(document, spline) : theme()->text_dim;
-        const struct pose *pose = &stage->strands[t].pose;
-        const float *base = pose->matrix[0] + 12;
-        const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose->scale};
-        float xy[2];
-        bool free = stage_project_point(stage, r, feet, xy);
-        if (!free) continue;
-        struct rect place = {.w = ceilf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, rig->name)) + DOT + 3 * PAD,
-                             .h = HEIGHT};
-        place.x = roundf(fmaxf(fminf(xy[0] - place.w / 2, r.x + r.w - place.w), r.x));
-        place.y = roundf(fminf(xy[1] + BELOW, r.y + r.h - HEIGHT));
-        for (int i = 0; i < count && free; i++) {
-            const struct rect *other = &shown[i];
-            free = !(place.x < other->x + other->w && other->x < place.x + place.w && place.y < other->y + other->h &&
-                     other->y < place.y + place.h);
-        }
-        if (!free) continue;
-        const struct rect dot = {place.x + PAD, place.y + (HEIGHT - DOT) / 2.0f, DOT, DOT};
-        drawlist_rounded(&core->list, place, HEIGHT / 2.0f, theme()->panel);
-        drawlist_rounded(&core->list, dot, 2, color);
-        drawlist_text(&core->list, dot.x + DOT + PAD, place.y + HEIGHT - PAD, FONT_LABEL, THEME_TEXT_NORMAL,
-                      theme()->text, rig->name);
-        shown[count++] = place;
-    }
-}
-
 enum { MARGIN = 16, CAPTION_AROUND = 8, TOP = 10, WIDEST = 960, LINE = 18, MAX_LINES = 4, MAX_TITLE = 256 };
 
 /// A description in lines: the title up to the first full stop, then the rest.
@@ -189,32 +153,6 @@ static const struct drag_owner orbiting = {.cursor = CURSOR_ARROW, .move = orbit
 
 static const double MOMENT = 0.35, STEP = 1.0 / 60; ///< seconds; per STEP a tail moves less than its grab distance
 
-/// The tail, chain or body at a point within the last MOMENT of playback: a press aims at what was just visible.
-static struct hover moment_ago(struct stage *stage, const struct core *core, float x, float y)
-{
-    const struct document *document = core->document;
-    struct hover hover = {.thing = NULL};
-    double range[2];
-    playback_range(core, range);
-    const double first = core_position(document, range[0]), last = core_position(document, range[1]);
-    for (double ago = STEP; core->playback.playing && ago <= MOMENT && !hover.thing; ago += STEP) {
-        float nearest = STRAND_REACH;
-        const double back = ago * document->fps * document->substeps * core->playback.speed;
-        double position = core->playback.position - back;
-        if (position < first && core->playback.looping) position = last - (first - position);
-        position = fmax(position, first);
-        for (int s = 0; s < stage->strand_count; s++) {
-            const int rig = stage->strands[s].rig;
-            struct rig_pose posed;
-            if (!strand_pose(stage, core, rig, position, NULL, &posed)) continue;
-            strand_nearer(stage, core, rig, &posed.strand, (const float[2]){x, y}, &nearest, &hover);
-        }
-        if (hover.thing && document->rigs[hover.rig]->kind == RIG_CHAIN) hover.thing = &thing_chain;
-        if (!hover.thing) hover = body_hover(stage, core, position, x, y);
-    }
-    return hover;
-}
-
 void stage_press(struct stage *stage, struct core *core, const struct event *event)
 {
     const bool pans = event->button == BUTTON_MIDDLE || (event->button == BUTTON_LEFT && core->space_down);
@@ -227,7 +165,27 @@ void stage_press(struct stage *stage, struct core *core, const struct event *eve
     stage->pointed.hash = 0; // forces a new search, because everything may have moved
     struct hover hover = stage_hover(stage, core, event->x, event->y);
     const bool holds = event->button == BUTTON_LEFT && core->pick.use == BONE_SELECTED;
-    if (holds && !hover.thing) hover = moment_ago(stage, core, event->x, event->y);
+
+    // While it plays, a press aims at what was just visible: the tail, chain or body there within the last MOMENT.
+    const struct document *document = core->document;
+    double range[2];
+    playback_range(core, range);
+    const double first = core_position(document, range[0]), last = core_position(document, range[1]);
+    for (double ago = STEP; holds && core->playback.playing && ago <= MOMENT && !hover.thing; ago += STEP) {
+        float nearest = STRAND_REACH;
+        const double back = ago * document->fps * document->substeps * core->playback.speed;
+        double position = core->playback.position - back;
+        if (position < first && core->playback.looping) position = last - (first - position);
+        position = fmax(position, first);
+        for (int s = 0; s < stage->strand_count; s++) {
+            const int rig = stage->strands[s].rig;
+            struct rig_pose posed;
+            if (!strand_pose(stage, core, rig, position, NULL, &posed)) continue;
+            strand_nearer(stage, core, rig, &posed.strand, (const float[2]){event->x, event->y}, &nearest, &hover);
+        }
+        if (hover.thing && document->rigs[hover.rig]->kind == RIG_CHAIN) hover.thing = &thing_chain;
+        if (!hover.thing) hover = body_hover(stage, core, position, event->x, event->y);
+    }
     stage->pressed = hover;
     if (holds && is_on_rig(&hover)) core->limb = core->document->rigs[hover.rig]->id;
     if (event->button == BUTTON_LEFT && hover.thing != &thing_pin) pins_clear(core);
@@ -359,15 +317,15 @@ void stage_fit(struct stage *stage, const struct core *core)
 {
     float lo[3] = {INFINITY, INFINITY, INFINITY}, hi[3] = {-INFINITY, -INFINITY, -INFINITY};
     const struct document *document = core->document;
+    const double last = document_samples(document) - 1;
     bool seen[RIG_KINDS] = {false}, any = false;
-    const struct posing posing = stage_posing_by_hand(stage);
-    for (int r = 0; r < document->rig_count; r++) { // over the scene
+    for (int r = 0; r < document->rig_count; r++) { // the box around each rig's motion over the scene
         const struct stage_kind *kind = kinds[document->rigs[r]->kind];
+        const struct posing posing = stage_posing_by_hand(stage);
         for (int step = 0; kind->bound_steps > 0 && step <= kind->bound_steps; step++) {
-            const double position = (document_samples(document) - 1.0) * step / kind->bound_steps;
             struct rig_pose posed;
             float low[3], high[3];
-            if (!rig_pose(&posing, r, position, NULL, &posed)) break;
+            if (!rig_pose(&posing, r, last * step / kind->bound_steps, NULL, &posed)) break;
             const float aside = kind->aside ? kind->aside(core, document_rig_number(document, r)) : 0.0f;
             rig_bounds(&posed, low, high);
             for (int k = 0; k < 3; k++) {
@@ -487,7 +445,38 @@ void stage_show(struct stage *stage, struct core *core)
     trail_show(stage, core);
     floors_show(stage, core);
     characters_show(stage, core);
-    names_show(stage, core);
+
+    // Names of several tails, but for those that would overlap others or whose tail's feet are behind the eye.
+    const struct rect r = core->layout.stage;
+    struct rect shown[STAGE_MAX_TAILS];
+    int count = 0;
+    for (int t = 0; t < stage->tail_count && stage->tail_count > 1; t++) {
+        const struct rig *rig = core->document->rigs[stage->strands[t].rig];
+        const int spline = rig->tail.channel_count > 0 ? rig->tail.channels[0].spline : -1;
+        const uint32_t color = spline >= 0 ? spline_list_color(core->document, spline) : theme()->text_dim;
+        const struct pose *pose = &stage->strands[t].pose;
+        const float *base = pose->matrix[0] + 12;
+        const float feet[3] = {base[0], pose->ground, base[2] + FEET * pose->scale};
+        float xy[2];
+        bool free = stage_project_point(stage, r, feet, xy);
+        if (!free) continue;
+        struct rect place = {.w = ceilf(font_width(FONT_LABEL, THEME_TEXT_NORMAL, rig->name)) + DOT + 3 * PAD,
+                             .h = HEIGHT};
+        place.x = roundf(fmaxf(fminf(xy[0] - place.w / 2, r.x + r.w - place.w), r.x));
+        place.y = roundf(fminf(xy[1] + BELOW, r.y + r.h - HEIGHT));
+        for (int i = 0; i < count && free; i++) {
+            const struct rect *other = &shown[i];
+            free = !(place.x < other->x + other->w && other->x < place.x + place.w && place.y < other->y + other->h &&
+                     other->y < place.y + place.h);
+        }
+        if (!free) continue;
+        const struct rect dot = {place.x + PAD, place.y + (HEIGHT - DOT) / 2.0f, DOT, DOT};
+        drawlist_rounded(&core->list, place, HEIGHT / 2.0f, theme()->panel);
+        drawlist_rounded(&core->list, dot, 2, color);
+        drawlist_text(&core->list, dot.x + DOT + PAD, place.y + HEIGHT - PAD, FONT_LABEL, THEME_TEXT_NORMAL,
+                      theme()->text, rig->name);
+        shown[count++] = place;
+    }
     brush_show(stage, core);
     body_drag_show(stage, core);
     record_show(stage, core);

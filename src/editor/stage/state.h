@@ -128,7 +128,7 @@ struct liveliest {
 
 /// A point of a rig at a frame, cached for the document state `key`.
 struct trail_point {
-    bool known;
+    bool is_set;
     uint64_t key;
     int frame;
     float place[3];
@@ -327,16 +327,11 @@ void brush_show(struct stage *stage, struct core *core);
 
 /// The body at a point of the stage nearest to the eye, at a position in samples.
 struct hover body_hover(struct stage *stage, const struct core *core, double position, float x, float y);
-/// A rig's tail; NULL if it is none or gone.
-struct tail *tail_of(const struct document *document, int rig);
 /// Starts to drag a body, or the character of a bone, over the ground or, with Ctrl, up and across. X, Y and Z lock an axis; R records.
 void press_body(void *room, struct core *core, const struct hover *hover, const struct event *event);
-bool body_is_held(const struct core *core);
 /// A ring on the ground around the held body, or the one under the pointer.
 void body_drag_show(struct stage *stage, struct core *core);
 
-/// The pointer's movement of the held body in metres, before limits; 0 if none is held.
-void body_drag_way(const struct stage *stage, const struct core *core, double offset[3]);
 /// Moves the held body within its limits. Call before anything else advances.
 void body_drag_advance(struct stage *stage, const struct core *core);
 /// How far the current drag has moved a rig, in metres; 0 unless it is on the held body.
