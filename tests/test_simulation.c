@@ -2,7 +2,6 @@
 #include "beam.h"
 #include "near.h"
 #include "simulation/body.h"
-#include "simulation/linear.h"
 #include <lapacke.h>
 
 static double determinant(const double m[3][3])

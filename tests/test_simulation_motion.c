@@ -1,8 +1,8 @@
 /// What an elastic body does in time: its frequency, its energy, its momenta, and that it always comes back to rest.
 #include "beam.h"
 #include "near.h"
+#include "simulation/body.h"
 #include "simulation/integrator.h"
-#include "simulation/linear.h"
 #include <lapacke.h>
 
 static const double pi = 3.14159265358979323846;

@@ -1,6 +1,6 @@
 /// What acts on a soft body from outside: a base that moves, gravity, a floor; where it is held and how soft it is.
 #include "near.h"
-#include "simulation/linear.h"
+#include "simulation/body.h"
 #include "simulation/soft.h"
 #include "temporary.h"
 

@@ -102,46 +102,6 @@ static bool fit_to_clip(struct document *document, int rig, const struct gltf_cl
     return true;
 }
 
-/// A soft character. Its first coordinate is driven by a spline: -1: a new one, with the coordinate's frequency and damping and a first knot.
-static bool add_soft(struct document *document, char *file, int spline, const struct character *character,
-                     struct error *error)
-{
-    const struct coordinate *first = &character->coordinates[0];
-    if (spline < 0) {
-        const struct knot start = {.frame = document->first_frame, .value = 0.5}; // so that it swings at once
-        const struct param frequency = param_number(round(first->frequency * 100) / 100),
-                           damping = param_number(round(first->damping * 1000) / 1000);
-        spline = document->spline_count;
-        if (!edit_spline_add(document, -1, NULL, &start, error)) return false;
-        if (frequency.value > 0 && !edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error))
-            return false;
-        if (damping.value > 0 && !edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error)) return false;
-    }
-    struct drive drive = {.name = first->name, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
-    const struct rig rig = {.kind = RIG_CHARACTER,
-                            .character = {.model = file, .phases = -1, .drives = &drive, .drive_count = 1}};
-    return edit_rig_add(document, &rig, error);
-}
-
-/// A stiff character, or one with bones. An empty document takes the clip's frame rate and range.
-static bool add_imported(struct document *document, char *file, const struct gltf *gltf, struct error *error)
-{
-    const struct gltf_clip *clip = gltf->clip_count > 0 ? &gltf->clips[0] : NULL;
-    struct rig rig = {.kind = RIG_MODEL, .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = 1}};
-
-    // A tiny or huge character gets the usual size, by a scale of one digit.
-    double size = 0;
-    for (int k = 0; k < 3; k++) size = fmax(size, (double)(gltf->hi[k] - gltf->lo[k]));
-    if (size > 0 && !(size >= SMALLEST && size <= LARGEST)) {
-        const double scale = USUAL / size, digit = maths_power_of_ten(maths_decade(scale));
-        rig.model.scale = round(scale / digit) * digit;
-    }
-    if (document->spline_count == 0 && document->rig_count == 0) {
-        if (!set_range(document, &rig.model, clip, error)) return false;
-    }
-    return edit_rig_add(document, &rig, error);
-}
-
 bool import_add(struct document *document, const char *path, int spline, struct error *error)
 {
     char file[PATH_LIMIT];
@@ -149,10 +109,39 @@ bool import_add(struct document *document, const char *path, int spline, struct 
     struct gltf gltf = {0};
     if (!path_rebase(path, NULL, document->folder, file)) snprintf(file, sizeof file, "%s", path);
     if (!gltf_read(path, &gltf, error)) return false;
-    const bool is_soft = gltf_is_soft(&gltf);
-    const bool added =
-        is_soft ? character_read(path, &character, error) && add_soft(document, file, spline, &character, error)
-                : add_imported(document, file, &gltf, error);
+    bool added;
+    if (gltf_is_soft(&gltf)) {
+        added = character_read(path, &character, error);
+        const struct coordinate *first = added ? &character.coordinates[0] : NULL;
+        if (added && spline < 0) { // a new spline drives it, with the coordinate's frequency and damping
+            const struct knot start = {.frame = document->first_frame, .value = 0.5}; // so that it swings at once
+            const struct param frequency = param_number(round(first->frequency * 100) / 100),
+                               damping = param_number(round(first->damping * 1000) / 1000);
+            spline = document->spline_count;
+            added = edit_spline_add(document, -1, NULL, &start, error) &&
+                    (!(frequency.value > 0) ||
+                     edit_parameter(document, spline, PARAMETER_FREQUENCY, &frequency, error)) &&
+                    (!(damping.value > 0) || edit_parameter(document, spline, PARAMETER_DAMPING, &damping, error));
+        }
+        struct drive drive = {
+            .name = added ? first->name : NULL, .spline = spline, .amplitude = DRIVE_DEFAULT_AMPLITUDE};
+        const struct rig rig = {.kind = RIG_CHARACTER,
+                                .character = {.model = file, .phases = -1, .drives = &drive, .drive_count = 1}};
+        added = added && edit_rig_add(document, &rig, error);
+    } else {
+        const struct gltf_clip *clip = gltf.clip_count > 0 ? &gltf.clips[0] : NULL;
+        struct rig rig = {.kind = RIG_MODEL, .model = {.model = file, .clip = clip ? clip->name : NULL, .scale = 1}};
+
+        // A tiny or huge character gets the usual size, by a scale of one digit.
+        double size = 0;
+        for (int k = 0; k < 3; k++) size = fmax(size, (double)(gltf.hi[k] - gltf.lo[k]));
+        if (size > 0 && !(size >= SMALLEST && size <= LARGEST)) {
+            const double scale = USUAL / size, digit = maths_power_of_ten(maths_decade(scale));
+            rig.model.scale = round(scale / digit) * digit;
+        }
+        const bool is_empty = document->spline_count == 0 && document->rig_count == 0;
+        added = (!is_empty || set_range(document, &rig.model, clip, error)) && edit_rig_add(document, &rig, error);
+    }
     character_free(&character);
     gltf_free(&gltf);
     return added;
@@ -195,25 +184,20 @@ bool import_choose_clip(struct document *document, int rig, const struct gltf *g
            fit_to_clip(document, rig, &gltf->clips[found], error);
 }
 
-/// Removes knots and pins that were set for another clip.
-static bool remove_keys(struct document *document, struct error *error)
-{
-    for (int s = 0; s < document->spline_count; s++) {
-        while (follows_clip(document->splines[s]) && document->splines[s]->knot_count > 0)
-            if (!edit_knot_remove(document, s, document->splines[s]->knots[0].id, error)) return false;
-    }
-    for (int r = 0; r < document->rig_count; r++) {
-        while (document->rigs[r]->kind == RIG_CHAIN && document->rigs[r]->pin_count > 0)
-            if (!edit_pin_remove(document, r, document->rigs[r]->pins[0].id, error)) return false;
-    }
-    return true;
-}
-
 struct document *import_with_clip(const struct document *document, int rig, const struct gltf *gltf, int clip,
                                   struct error *error)
 {
     struct document *copy = document_copy(document);
-    if (remove_keys(copy, error) && set_clip(copy, rig, gltf->clips[clip].name, REPEAT_BY_CLIP, error) &&
+    bool done = true; // knots and pins that were set for another clip go
+    for (int s = 0; s < copy->spline_count; s++) {
+        while (done && follows_clip(copy->splines[s]) && copy->splines[s]->knot_count > 0)
+            done = edit_knot_remove(copy, s, copy->splines[s]->knots[0].id, error);
+    }
+    for (int r = 0; r < copy->rig_count; r++) {
+        while (done && copy->rigs[r]->kind == RIG_CHAIN && copy->rigs[r]->pin_count > 0)
+            done = edit_pin_remove(copy, r, copy->rigs[r]->pins[0].id, error);
+    }
+    if (done && set_clip(copy, rig, gltf->clips[clip].name, REPEAT_BY_CLIP, error) &&
         fit_to_clip(copy, rig, &gltf->clips[clip], error))
         return copy;
     document_destroy(copy);
@@ -262,7 +246,6 @@ double chain_bend_a_metre(const struct imported *imported, const struct chain_bo
 /// Properties shared by all splines of a new chain.
 struct plan {
     struct document *document;
-    const struct chain_wish *wish;
     char *model; ///< its name, else its file
     bool by_file;
     char *chain, *from, *to; ///< the names of the chain, its first bone and its last
@@ -296,35 +279,6 @@ static bool follow_tip(const struct plan *plan, int spline, enum motion_of of, s
         .model = plan->model, .by_file = plan->by_file, .joint = plan->to, .of = of, .gain = 1, .chain = plan->chain};
     const struct param equilibrium = {.track = -1, .motion = &motion};
     return plan_set(plan, spline, PARAMETER_EQUILIBRIUM, equilibrium, error);
-}
-
-static bool add_chain(const struct plan *plan, const struct chain *chain, int *rig, struct error *error)
-{
-    const struct rig contents = {.kind = RIG_CHAIN, .name = plan->chain, .chain = *chain};
-    *rig = plan->document->rig_count;
-    return edit_rig_add(plan->document, &contents, error);
-}
-
-/// Adds two splines, and a chain of `bones` bones that each bend by `bend` degrees.
-static bool add_whole(const struct plan *plan, struct chain *chain, int bones, double bend, int *rig,
-                      struct error *error)
-{
-    const struct chain_wish *wish = plan->wish;
-    struct channel channels[2];
-    for (int c = 0; c < 2; c++) {
-        channels[c] = (struct channel){.spline = plan->document->spline_count + c,
-                                       .axis = c == 0 ? AXIS_SIDE : AXIS_UP,
-                                       .of = wish->follows ? PART_DISPLACEMENT : PART_TOTAL,
-                                       .lag.value = {wish->lag > 0 ? wish->lag : round(WHOLE_LAG / bones)},
-                                       .gain.value = {round(10 * bend) / 10}};
-    }
-    chain->channels = channels;
-    chain->channel_count = 2;
-    const int first = channels[0].spline;
-    if (!add_spline(plan, "side", error) || !add_spline(plan, "up", error) || !add_chain(plan, chain, rig, error))
-        return false;
-    return !wish->follows ||
-           (follow_tip(plan, first, MOTION_ACROSS, error) && follow_tip(plan, first + 1, MOTION_UP, error));
 }
 
 bool chain_make(struct document *document, const struct models *models, const struct chain_wish *wish, int *rig,
@@ -362,7 +316,7 @@ bool chain_make(struct document *document, const struct models *models, const st
     free(stem);
 
     const struct plan plan = {.document = document,
-                              .wish = wish,
+
                               .model = model->name ? model->name : model->model.model,
                               .by_file = !model->name,
                               .chain = name,
@@ -378,16 +332,31 @@ bool chain_make(struct document *document, const struct models *models, const st
     }
     const double bend =
         wish->follows ? chain_bend_a_metre(imported, &bones, model->model.scale) : WHOLE_BEND / bones.count;
-    bool done;
+    struct channel channels[2];
+    const int first = document->spline_count;
+    bool done = true;
     if (twin) {
         chain.turn = -twin->turn;
         chain.mirror = !twin->mirror;
         chain.channels = twin->channels;
         chain.channel_count = twin->channel_count;
-        done = add_chain(&plan, &chain, rig, error);
     } else {
-        done = add_whole(&plan, &chain, bones.count, bend, rig, error);
+        for (int c = 0; c < 2; c++) {
+            channels[c] = (struct channel){.spline = first + c,
+                                           .axis = c == 0 ? AXIS_SIDE : AXIS_UP,
+                                           .of = wish->follows ? PART_DISPLACEMENT : PART_TOTAL,
+                                           .lag.value = {wish->lag > 0 ? wish->lag : round(WHOLE_LAG / bones.count)},
+                                           .gain.value = {round(10 * bend) / 10}};
+        }
+        chain.channels = channels;
+        chain.channel_count = 2;
+        done = add_spline(&plan, "side", error) && add_spline(&plan, "up", error);
     }
+    const struct rig contents = {.kind = RIG_CHAIN, .name = plan.chain, .chain = chain};
+    *rig = document->rig_count;
+    done = done && edit_rig_add(document, &contents, error);
+    if (done && !twin && wish->follows)
+        done = follow_tip(&plan, first, MOTION_ACROSS, error) && follow_tip(&plan, first + 1, MOTION_UP, error);
     free(name);
     return done;
 }

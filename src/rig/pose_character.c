@@ -196,42 +196,10 @@ static void find_ranges(const double *x, int blocks, double *const range[2], dou
     }
 }
 
-static void find_driven(const struct coordinate *coordinate, const struct drive *drive, const wiggly_curve *curve,
-                        int samples, double **room, struct driven *driven)
-{
-    const int blocks = low_point_samples(samples) / BLOCK;
-    *driven = (struct driven){.coordinate = coordinate,
-                              .re = take_room(room, BLOCK * blocks),
-                              .im = take_room(room, BLOCK * blocks),
-                              .re_range = {take_room(room, blocks), take_room(room, blocks)},
-                              .im_range = {take_room(room, blocks), take_room(room, blocks)}};
-
-    // z at every sample, as in pose_character(); after the last sample it stays.
-    const double lag = radians(drive->lag), c = maths_cos(lag), s = maths_sin(lag);
-    for (int i = 0; i < BLOCK * blocks; i++) {
-        const int at = i < samples ? i : samples - 1;
-        driven->re[i] = drive->amplitude * (curve->y[at] + curve->re[at] * c + curve->im[at] * s);
-        driven->im[i] = drive->amplitude * (curve->im[at] * c - curve->re[at] * s);
-    }
-    find_ranges(driven->re, blocks, driven->re_range, driven->re_all);
-    find_ranges(driven->im, blocks, driven->im_range, driven->im_all);
-}
-
 /// A vertex's height by coordinate: a Re z − b Im z.
 struct moves {
     double at_rest, a[CHARACTER_MAX_DRIVES], b[CHARACTER_MAX_DRIVES];
 };
-
-/// A lower bound of a vertex's height.
-static double least_height(const struct driven *driven, int count, const struct moves *moves)
-{
-    double least = moves->at_rest;
-    for (int k = 0; k < count; k++) {
-        least += moves->a[k] * driven[k].re_all[moves->a[k] < 0];
-        least -= moves->b[k] * driven[k].im_all[moves->b[k] > 0];
-    }
-    return least;
-}
 
 /// Marks the blocks of a row in which a vertex may be lower than those found; returns whether there are any.
 WIDEST static bool may_be_low(const struct driven *driven, int count, const struct moves *moves, int from,
@@ -304,18 +272,37 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
     for (int d = 0; d < character->drive_count; d++) {
         const int coordinate = figure_find(figure, character->drives[d].name);
         if (coordinate < 0) continue;
-        find_driven(&figure->character.coordinates[coordinate], &character->drives[d],
-                    &posing->evaluation->curves[character->drives[d].spline], samples, &room, &driven[count++]);
+        struct driven *one = &driven[count++];
+        *one = (struct driven){.coordinate = &figure->character.coordinates[coordinate],
+                               .re = take_room(&room, BLOCK * blocks),
+                               .im = take_room(&room, BLOCK * blocks),
+                               .re_range = {take_room(&room, blocks), take_room(&room, blocks)},
+                               .im_range = {take_room(&room, blocks), take_room(&room, blocks)}};
+
+        // z at every sample, as in pose_character(); after the last sample it stays.
+        const struct drive *drive = &character->drives[d];
+        const wiggly_curve *curve = &posing->evaluation->curves[drive->spline];
+        const double lag = radians(drive->lag), c = maths_cos(lag), s = maths_sin(lag);
+        for (int i = 0; i < BLOCK * blocks; i++) {
+            const int at = i < samples ? i : samples - 1;
+            one->re[i] = drive->amplitude * (curve->y[at] + curve->re[at] * c + curve->im[at] * s);
+            one->im[i] = drive->amplitude * (curve->im[at] * c - curve->re[at] * s);
+        }
+        find_ranges(one->re, blocks, one->re_range, one->re_all);
+        find_ranges(one->im, blocks, one->im_range, one->im_all);
     }
     for (int i = 0; i < BLOCK * blocks; i++) found.height[i] = ceiling, found.vertex[i] = -1;
     for (int b = 0; b < blocks; b++) found.highest[b] = ceiling;
     for (int v = 0; v < figure->character.vertex_count; v++) {
         moves.at_rest = character->position[1] + (double)figure->character.position[v][1] - (double)figure->lo[1];
+        double least = moves.at_rest; // a lower bound of the vertex's height
         for (int k = 0; k < count; k++) {
-            moves.a[k] = (double)driven[k].coordinate->re[v][1];
-            moves.b[k] = (double)driven[k].coordinate->im[v][1];
+            const double a = moves.a[k] = (double)driven[k].coordinate->re[v][1];
+            const double b = moves.b[k] = (double)driven[k].coordinate->im[v][1];
+            least += a * driven[k].re_all[a < 0];
+            least -= b * driven[k].im_all[b > 0];
         }
-        if (least_height(driven, count, &moves) < ceiling) look_at_vertex(driven, count, &moves, v, &found);
+        if (least < ceiling) look_at_vertex(driven, count, &moves, v, &found);
     }
     for (int i = 0; i < samples; i++) low[i] = (struct low_point){found.height[i], (int)found.vertex[i]};
     return true;

@@ -150,19 +150,6 @@ static bool find_followed(const struct models *models, const struct document *do
     return followed->node >= 0;
 }
 
-/// Degrees about the chain's side axis by which the joint has turned from rest.
-static double followed_turn(struct followed *followed)
-{
-    const mat3s rest = glms_mat4_pick3(mat4_from(followed->imported->rest.world[followed->node]));
-    const mat3s now = glms_mat4_pick3(mat4_from(followed->pose->world[followed->node]));
-    const vec3s axis = vec3_from(followed->axes.side), before = vec3_from(followed->axes.along);
-    const vec3s after = glms_mat3_mulv(now, glms_mat3_mulv(mat3_inverse(rest), before));
-    const vec3s across = glms_vec3_cross(axis, before);
-    double turn = DEGREES * maths_atan2((double)glms_vec3_dot(after, across), (double)glms_vec3_dot(after, before));
-    turn += 360 * round((followed->seen - turn) / 360);
-    return followed->seen = turn;
-}
-
 static double followed_at(struct followed *followed, double time)
 {
     const double travelled = followed->drift * (time - followed->play.first);
@@ -173,8 +160,17 @@ static double followed_at(struct followed *followed, double time)
         gltf_pose_loop(gltf, followed->clip, time, followed->pose);
     }
     gltf_pose_world(gltf, followed->pose);
-    if (followed->of == MOTION_TURN) return followed_turn(followed) - travelled;
     const vec3s side = vec3_from(followed->axes.side), along = vec3_from(followed->axes.along);
+    if (followed->of == MOTION_TURN) { // degrees about the side axis by which the joint has turned from rest
+        const mat3s rest = glms_mat4_pick3(mat4_from(followed->imported->rest.world[followed->node]));
+        const mat3s now = glms_mat4_pick3(mat4_from(followed->pose->world[followed->node]));
+        const vec3s after = glms_mat3_mulv(now, glms_mat3_mulv(mat3_inverse(rest), along));
+        const vec3s across = glms_vec3_cross(side, along);
+        const double turn =
+            DEGREES * maths_atan2((double)glms_vec3_dot(after, across), (double)glms_vec3_dot(after, along));
+        followed->seen = turn + 360 * round((followed->seen - turn) / 360);
+        return followed->seen - travelled;
+    }
     const vec3s direction = followed->of == MOTION_UP ? side : glms_vec3_cross(side, along);
     return followed->scale * (double)glms_vec3_dot(direction, vec3_from(followed->pose->world[followed->node] + 12)) -
            travelled;

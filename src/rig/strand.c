@@ -239,29 +239,6 @@ static void rotation_matrix(const double q[4], double m[9])
     memcpy(m, turned, sizeof turned);
 }
 
-/// The nodes from the root to a bone, posed by the clip. False if there are too many.
-static bool list_nodes(const struct imported *imported, const struct gltf_pose *pose, int last, struct path *path)
-{
-    const struct gltf *gltf = &imported->gltf;
-    path->count = 0;
-    for (int n = last; n >= 0; n = gltf->nodes[n].parent) path->count++;
-    if (path->count > PATH_MAX_NODES) return false;
-    for (int n = last, i = path->count - 1; i >= 0; n = gltf->nodes[n].parent, i--) {
-        const struct gltf_node *of = &gltf->nodes[n];
-        const struct gltf_place *place = &pose->place[n];
-        struct path_node *node = &path->nodes[i];
-        *node = (struct path_node){.node = n};
-        for (int k = 0; k < 4; k++) node->rotation[k] = (double)place->rotation[k];
-        for (int k = 0; k < 3; k++) {
-            node->offset[k] = (double)(of->has_matrix ? of->matrix[12 + k] : place->translation[k]);
-            node->scale[k] = of->has_matrix ? 1 : (double)place->scale[k];
-        }
-        rotation_matrix(node->rotation, node->turn);
-        for (int k = 0; k < 9 && of->has_matrix; k++) node->turn[k] = (double)of->matrix[4 * (k / 3) + k % 3];
-    }
-    return true;
-}
-
 bool path_find(const struct posing *posing, int rig, double position, const struct by_hand *by_hand,
                struct path *path)
 {
@@ -286,8 +263,26 @@ bool path_find(const struct posing *posing, int rig, double position, const stru
         posing_values(posing, rig, position, by_hand, values);
         path->limbs = tail_base(posing, rig, position, values, by_hand, root + 9);
     } else {
-        if (!list_nodes(strand.imported, pose, strand.bones.node[strand.joints - 1], path)) return false;
-        const mat3s inward = into_bone(strand.imported, strand.bones.node[strand.joints - 1]);
+        // The nodes from the root to the last bone, posed by the clip.
+        const struct gltf *gltf = &strand.imported->gltf;
+        const int last = strand.bones.node[strand.joints - 1];
+        path->count = 0;
+        for (int n = last; n >= 0; n = gltf->nodes[n].parent) path->count++;
+        if (path->count > PATH_MAX_NODES) return false;
+        for (int n = last, i = path->count - 1; i >= 0; n = gltf->nodes[n].parent, i--) {
+            const struct gltf_node *of = &gltf->nodes[n];
+            const struct gltf_place *place = &pose->place[n];
+            struct path_node *node = &path->nodes[i];
+            *node = (struct path_node){.node = n};
+            for (int k = 0; k < 4; k++) node->rotation[k] = (double)place->rotation[k];
+            for (int k = 0; k < 3; k++) {
+                node->offset[k] = (double)(of->has_matrix ? of->matrix[12 + k] : place->translation[k]);
+                node->scale[k] = of->has_matrix ? 1 : (double)place->scale[k];
+            }
+            rotation_matrix(node->rotation, node->turn);
+            for (int k = 0; k < 9 && of->has_matrix; k++) node->turn[k] = (double)of->matrix[4 * (k / 3) + k % 3];
+        }
+        const mat3s inward = into_bone(strand.imported, last);
         const vec3s tip = glms_mat3_mulv(inward, last_way(strand.imported, &strand.bones));
         for (int k = 0; k < 3; k++) path->tip[k] = (double)tip.raw[k];
         posing_root(posing, body, NULL, root);

@@ -77,36 +77,6 @@ double drive_end(const struct base_drive *d)
     return d->kind == DRIVE_TRACK ? d->time[d->count - 1] : INFINITY;
 }
 
-static bool read_track_lines(struct base_drive *d, char *text, const char *path, struct error *error)
-{
-    int number = 0;
-    for (char *line = text, *next; line; line = next) {
-        next = strchr(line, '\n');
-        if (next) *next++ = '\0';
-        number++;
-        double time, value;
-        int end = 0;
-        if (!line[strspn(line, " \t\r")]) continue;
-        bool good = sscanf(line, "%lf , %lf %n", &time, &value, &end) == 2 && !line[end] &&
-                    fabs(time) <= TRACK_LIMIT && fabs(value) <= TRACK_LIMIT;
-        if (!good && d->count == 0 && !strpbrk(line, "0123456789")) continue; // the headings
-        if (!good) {
-            return fail(error, ERROR_INPUT,
-                        "%s:%d: expected two numbers up to 1e9, \"seconds,displacement\", got '%.24s'", path, number,
-                        line);
-        }
-        if (d->count > 0 && !(time - d->time[d->count - 1] >= TRACK_STEP)) {
-            return fail(error, ERROR_INPUT, "%s:%d: expected a time a nanosecond or more after %g, got %g", path,
-                        number, d->time[d->count - 1], time);
-        }
-        d->time[d->count] = time;
-        d->value[d->count++] = value;
-    }
-    if (d->count >= 2) return true;
-    return fail(error, ERROR_INPUT, "%s: expected two lines \"seconds,displacement\" or more, got %d", path,
-                d->count);
-}
-
 bool drive_read_track(struct base_drive *d, const char *path, struct error *error)
 {
     char *text;
@@ -117,7 +87,35 @@ bool drive_read_track(struct base_drive *d, const char *path, struct error *erro
     d->time = need_zeroed(lines, sizeof *d->time);
     d->value = need_zeroed(lines, sizeof *d->value);
     d->curvature = need_zeroed(lines, sizeof *d->curvature);
-    const bool good = read_track_lines(d, text, path, error);
+    bool good = true;
+    int number = 0;
+    for (char *line = text, *next; good && line; line = next) {
+        next = strchr(line, '\n');
+        if (next) *next++ = '\0';
+        number++;
+        double time, value;
+        int end = 0;
+        if (!line[strspn(line, " \t\r")]) continue;
+        good = sscanf(line, "%lf , %lf %n", &time, &value, &end) == 2 && !line[end] && fabs(time) <= TRACK_LIMIT &&
+               fabs(value) <= TRACK_LIMIT;
+        if (!good && d->count == 0 && !strpbrk(line, "0123456789")) { // the headings
+            good = true;
+            continue;
+        }
+        if (!good) {
+            fail(error, ERROR_INPUT, "%s:%d: expected two numbers up to 1e9, \"seconds,displacement\", got '%.24s'",
+                 path, number, line);
+        } else if (d->count > 0 && !(time - d->time[d->count - 1] >= TRACK_STEP)) {
+            good = fail(error, ERROR_INPUT, "%s:%d: expected a time a nanosecond or more after %g, got %g", path,
+                        number, d->time[d->count - 1], time);
+        } else {
+            d->time[d->count] = time;
+            d->value[d->count++] = value;
+        }
+    }
+    if (good && d->count < 2)
+        good = fail(error, ERROR_INPUT, "%s: expected two lines \"seconds,displacement\" or more, got %d", path,
+                    d->count);
 
     // Second derivatives of the natural cubic spline, by the usual tridiagonal elimination.
     const double *t = d->time, *y = d->value;

@@ -3,7 +3,7 @@
 #include "base/need.h"
 #include "base/progress.h"
 #include "model/adjacency.h"
-#include "simulation/linear.h"
+#include "simulation/body.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
