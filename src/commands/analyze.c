@@ -228,50 +228,6 @@ static void keep_components(const struct job *job, const struct analysis *analys
            analysis->count, analysis->count > 1 ? "s" : "", analysis->left, analysis->real_left);
 }
 
-/// Analyses a file and appends its coordinates.
-static bool analyse_file(const struct job *job, int file, const struct lapack *lapack, struct result *result,
-                         struct error *error)
-{
-    const struct character *character = &result->character;
-    const struct surface rest = {.position = character->position, // the arrays stay the character's
-                                 .color = character->color,
-                                 .vertex_count = character->vertex_count,
-                                 .indices = character->indices,
-                                 .index_count = character->index_count};
-    struct input in = {.motion.file = -1};
-    struct analysis analysis = {0};
-    bool done = open_input(job, file, &rest, lapack, &in, error);
-    const bool directed = job->direction_count > 0;
-    const double driven = job->from >= 0 ? job->from * in.fps : in.made.from * in.made.fps; // frames
-    const struct analysis_plan plan = {
-        .method = method_of(job),
-        .fps = in.fps,
-        .modes = job->modes,
-        .first = method_of(job) == ANALYSIS_CPCA ? 0 : (int)fmin(ceil(driven), ANALYSIS_FRAMES_MAX),
-        .direction = directed             ? job->directions[job->direction_count > 1 ? file : 0]
-                     : in.made.frames > 0 ? in.made.shake
-                                          : NULL,
-        .base = &in.base,
-    };
-    done = done && analysis_create(&analysis, lapack, &in.motion, &plan, error);
-    if (done) {
-        warn_of_input(&in, &analysis, &rest);
-        print_line(stdout, "%s: %d frames of %d vertices at %g fps", in.motion.path, in.motion.frames,
-                   in.motion.vertices, in.fps);
-        if (in.base.frames > 0)
-            printf("  removed the motion of the %s: up to %.3g m and %.3g degrees\n",
-                   in.base.whole ? "whole mesh" : "base", printable_number(in.base.travel, 1e-4),
-                   printable_number(in.base.angle, 0.01));
-        if (analysis.count < job->modes)
-            printf("  %d of %d coordinates: the motion has no more poles that matter\n", analysis.count, job->modes);
-        keep_components(job, &analysis, &in, result);
-    }
-    analysis_free(&analysis);
-    rigid_free(&in.base);
-    motion_close(&in.motion);
-    return done;
-}
-
 /// Writes a scene for the character file `model`, with one spline per coordinate, as many coordinates as a scene allows. The first
 /// coordinate of every motion comes before the second of any.
 static bool analyze_write_scene(const char *path, const char *model, const struct character *character,
@@ -378,7 +334,46 @@ static bool analyse_files(const struct job *job, int files, struct error *error)
         result.analyzed = need_zeroed((size_t)(files * job->modes), sizeof *result.analyzed);
         done = character_create(character, &rest, files * job->modes) || fail_no_memory(error, job->rest);
     }
-    for (int i = 0; done && i < files; i++) done = analyse_file(job, i, &lapack, &result, error);
+    for (int file = 0; done && file < files; file++) {
+        // Appends the file's coordinates.
+        const struct surface resting = {.position = character->position, // the arrays stay the character's
+                                        .color = character->color,
+                                        .vertex_count = character->vertex_count,
+                                        .indices = character->indices,
+                                        .index_count = character->index_count};
+        struct input in = {.motion.file = -1};
+        struct analysis analysis = {0};
+        done = open_input(job, file, &resting, &lapack, &in, error);
+        const bool directed = job->direction_count > 0;
+        const double driven = job->from >= 0 ? job->from * in.fps : in.made.from * in.made.fps; // frames
+        const struct analysis_plan plan = {
+            .method = method_of(job),
+            .fps = in.fps,
+            .modes = job->modes,
+            .first = method_of(job) == ANALYSIS_CPCA ? 0 : (int)fmin(ceil(driven), ANALYSIS_FRAMES_MAX),
+            .direction = directed             ? job->directions[job->direction_count > 1 ? file : 0]
+                         : in.made.frames > 0 ? in.made.shake
+                                              : NULL,
+            .base = &in.base,
+        };
+        done = done && analysis_create(&analysis, &lapack, &in.motion, &plan, error);
+        if (done) {
+            warn_of_input(&in, &analysis, &resting);
+            print_line(stdout, "%s: %d frames of %d vertices at %g fps", in.motion.path, in.motion.frames,
+                       in.motion.vertices, in.fps);
+            if (in.base.frames > 0)
+                printf("  removed the motion of the %s: up to %.3g m and %.3g degrees\n",
+                       in.base.whole ? "whole mesh" : "base", printable_number(in.base.travel, 1e-4),
+                       printable_number(in.base.angle, 0.01));
+            if (analysis.count < job->modes)
+                printf("  %d of %d coordinates: the motion has no more poles that matter\n", analysis.count,
+                       job->modes);
+            keep_components(job, &analysis, &in, &result);
+        }
+        analysis_free(&analysis);
+        rigid_free(&in.base);
+        motion_close(&in.motion);
+    }
     while (done && character->coordinate_count > result.filled) { // those without poles
         struct coordinate *last = &character->coordinates[--character->coordinate_count];
         free(last->re);

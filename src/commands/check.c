@@ -24,24 +24,6 @@ static void print_warning(void *user, const char *sentence)
     print_line(stdout, "warning: %s: %s", *path, sentence);
 }
 
-static int check_character(const char *path)
-{
-    struct imported imported;
-    struct error error;
-    int triangles = 0;
-    if (!imported_read(&imported, path, &error)) return options_end(false, &error);
-    const struct gltf *gltf = &imported.gltf;
-    for (int m = 0; m < gltf->mesh_count; m++) {
-        for (int p = 0; p < gltf->meshes[m].part_count; p++) triangles += gltf->meshes[m].parts[p].index_count / 3;
-    }
-    const int joints = gltf->skin_count > 0 ? imported.skeleton.own : 0;
-    print_line(stdout, "%s: a glTF character of %d triangle%s and %d joint%s", path, triangles,
-               triangles == 1 ? "" : "s", joints, joints == 1 ? "" : "s");
-    contents_print(&imported);
-    imported_free(&imported);
-    return 0;
-}
-
 int command_check(int argc, char **argv)
 {
     const char *path;
@@ -53,11 +35,26 @@ int command_check(int argc, char **argv)
     };
     enum options_result result = options_parse(&usage, argc, argv, &path);
     if (result != OPTIONS_RUN) return (int)result;
-    if (import_suits(path)) return check_character(path);
+    struct error error = {0};
+    if (import_suits(path)) {
+        struct imported imported;
+        int triangles = 0;
+        if (!imported_read(&imported, path, &error)) return options_end(false, &error);
+        const struct gltf *gltf = &imported.gltf;
+        for (int m = 0; m < gltf->mesh_count; m++) {
+            for (int p = 0; p < gltf->meshes[m].part_count; p++)
+                triangles += gltf->meshes[m].parts[p].index_count / 3;
+        }
+        const int joints = gltf->skin_count > 0 ? imported.skeleton.own : 0;
+        print_line(stdout, "%s: a glTF character of %d triangle%s and %d joint%s", path, triangles,
+                   triangles == 1 ? "" : "s", joints, joints == 1 ? "" : "s");
+        contents_print(&imported);
+        imported_free(&imported);
+        return 0;
+    }
 
     // It goes on where paint, a model, or something the scene names in one is missing.
     struct problems problems = {.report = print_problem};
-    struct error error = {0};
     struct opened opened = {.document = scene_load(path, &problems, &error)};
     if (!opened.document) return (int)error.kind;
     opened.models = models_create();

@@ -75,28 +75,6 @@ static bool read_int(const char *text, char end, double minimum, double maximum,
     return true;
 }
 
-/// The index of one of "a|b|c", from 1.
-static enum options_result read_word(const struct usage *usage, const struct option_spec *option, const char *text)
-{
-    char list[2 * WORD_MAX] = "";
-    const size_t length = strlen(text);
-    int number = 0;
-    for (const char *word = option->argument; *word;) {
-        const size_t span = strcspn(word, "|"), used = strlen(list);
-        number++;
-        if (span == length && strncmp(word, text, span) == 0) {
-            *(int *)option->target = number;
-            return OPTIONS_RUN;
-        }
-        const char *next = word + span + (word[span] == '|'), *joint = !*next              ? ""
-                                                                       : strchr(next, '|') ? ", "
-                                                                                           : " or ";
-        snprintf(list + used, sizeof list - used, "%.*s%s", (int)span, word, joint);
-        word = next;
-    }
-    return options_wrong(usage, "%s: expected %s, got '%s'", option->name, list, text);
-}
-
 static enum options_result store_value(const struct usage *usage, const struct option_spec *option, const char *text)
 {
     const char *rest;
@@ -142,8 +120,25 @@ static enum options_result store_value(const struct usage *usage, const struct o
         return options_wrong(usage, "%s: expected WIDTHxHEIGHT, each from %.10g to %.10g, got '%s'", option->name,
                              low, high, text);
     }
-    case OPTION_WORD:
-        return read_word(usage, option, text);
+    case OPTION_WORD: { // the index of one of "a|b|c", from 1
+        char list[2 * WORD_MAX] = "";
+        const size_t length = strlen(text);
+        int number = 0;
+        for (const char *word = option->argument; *word;) {
+            const size_t span = strcspn(word, "|"), used = strlen(list);
+            number++;
+            if (span == length && strncmp(word, text, span) == 0) {
+                *(int *)option->target = number;
+                return OPTIONS_RUN;
+            }
+            const char *next = word + span + (word[span] == '|'), *joint = !*next              ? ""
+                                                                           : strchr(next, '|') ? ", "
+                                                                                               : " or ";
+            snprintf(list + used, sizeof list - used, "%.*s%s", (int)span, word, joint);
+            word = next;
+        }
+        return options_wrong(usage, "%s: expected %s, got '%s'", option->name, list, text);
+    }
     }
     return OPTIONS_WRONG;
 }
@@ -180,23 +175,6 @@ static enum options_result read_option(const struct usage *usage, int argc, char
     return store_value(usage, option, argv[++*at]);
 }
 
-/// `all`: not just the common options.
-static void options_print_help(const struct usage *usage, bool all)
-{
-    const int count = all || !usage->common_count ? usage->option_count : usage->common_count;
-    printf("Usage: wiggly %s%s %s\n%s\n", usage->command, usage->option_count ? " [options]" : "", usage->operands,
-           usage->summary);
-    if (usage->option_count) printf("\nOptions:\n");
-    for (int i = 0; i < count; i++) {
-        const struct option_spec *option = &usage->options[i];
-        char left[WORD_MAX + 1];
-        snprintf(left, sizeof left, "%s%s%s%s%s", option->alias ? option->alias : "", option->alias ? ", " : "",
-                 option->name, option->argument ? " " : "", option->argument ? option->argument : "");
-        printf("  %-26s %s\n", left, option->help);
-    }
-    if (count < usage->option_count) printf("\nwiggly %s --help-all lists all options.\n", usage->command);
-}
-
 enum options_result options_parse(const struct usage *usage, int argc, char **argv, const char **operands)
 {
     int count = 0;
@@ -205,7 +183,19 @@ enum options_result options_parse(const struct usage *usage, int argc, char **ar
     for (int i = 1; i < argc; i++) {
         const bool asks_all = !only_operands && strcmp(argv[i], "--help-all") == 0;
         if (asks_all || (!only_operands && (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0))) {
-            options_print_help(usage, asks_all);
+            const int shown = asks_all || !usage->common_count ? usage->option_count : usage->common_count;
+            printf("Usage: wiggly %s%s %s\n%s\n", usage->command, usage->option_count ? " [options]" : "",
+                   usage->operands, usage->summary);
+            if (usage->option_count) printf("\nOptions:\n");
+            for (int o = 0; o < shown; o++) {
+                const struct option_spec *option = &usage->options[o];
+                char left[WORD_MAX + 1];
+                snprintf(left, sizeof left, "%s%s%s%s%s", option->alias ? option->alias : "",
+                         option->alias ? ", " : "", option->name, option->argument ? " " : "",
+                         option->argument ? option->argument : "");
+                printf("  %-26s %s\n", left, option->help);
+            }
+            if (shown < usage->option_count) printf("\nwiggly %s --help-all lists all options.\n", usage->command);
             return OPTIONS_HELP;
         }
         if (!only_operands && strcmp(argv[i], "--") == 0) {
