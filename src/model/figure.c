@@ -168,26 +168,6 @@ static int compare_collapses(const void *a, const void *b)
     return x->from < y->from ? -1 : x->from > y->from;
 }
 
-/// Moves v's triangles over and locks everything around, so that the round's other costs stay valid.
-static bool carry_out(struct work *work, const struct collapse *collapse)
-{
-    uint32_t ring[MAX_RING], other[MAX_RING];
-    const int count = ring_of(work, collapse->from, ring), other_count = ring_of(work, collapse->to, other);
-    bool free = !work->locked[collapse->from] && !work->locked[collapse->to];
-    for (int i = 0; i < count; i++) free = free && !work->locked[ring[i]];
-    for (int i = 0; i < other_count; i++) free = free && !work->locked[other[i]];
-    if (!free) return false;
-    for (int i = 0; i < count; i++) work->locked[ring[i]] = true;
-    for (int i = 0; i < other_count; i++) work->locked[other[i]] = true;
-    for (int a = work->first[collapse->from]; a < work->first[collapse->from + 1]; a++) {
-        uint32_t *corner = work->indices + 3 * work->around[a];
-        for (int k = 0; k < 3; k++) {
-            if (corner[k] == collapse->from) corner[k] = collapse->to;
-        }
-    }
-    return true;
-}
-
 /// One round of at most `most` collapses, each removing two triangles; returns how many there were.
 static int collapse_round(struct work *work, int most)
 {
@@ -210,7 +190,26 @@ static int collapse_round(struct work *work, int most)
         if (best.cost < INFINITY) work->collapses[found++] = best;
     }
     qsort(work->collapses, (size_t)found, sizeof *work->collapses, compare_collapses);
-    for (int i = 0; i < found && done < most; i++) done += carry_out(work, &work->collapses[i]);
+    for (int i = 0; i < found && done < most; i++) {
+        const uint32_t from = work->collapses[i].from, to = work->collapses[i].to;
+        uint32_t ring[MAX_RING], other[MAX_RING];
+        const int count = ring_of(work, from, ring), other_count = ring_of(work, to, other);
+        bool free = !work->locked[from] && !work->locked[to];
+        for (int k = 0; k < count; k++) free = free && !work->locked[ring[k]];
+        for (int k = 0; k < other_count; k++) free = free && !work->locked[other[k]];
+        if (!free) continue;
+
+        // Its triangles move over, and everything around is locked, so that the round's other costs stay valid.
+        for (int k = 0; k < count; k++) work->locked[ring[k]] = true;
+        for (int k = 0; k < other_count; k++) work->locked[other[k]] = true;
+        for (int a = work->first[from]; a < work->first[from + 1]; a++) {
+            uint32_t *corner = work->indices + 3 * work->around[a];
+            for (int k = 0; k < 3; k++) {
+                if (corner[k] == from) corner[k] = to;
+            }
+        }
+        done++;
+    }
 
     int kept = 0; // without those that have become flat
     for (int t = 0; t < work->index_count; t += 3) {

@@ -359,77 +359,65 @@ bool gltf_surface_read(struct words *words, struct surface_builder *b)
 
 // --- writing
 
-/// The vertices of a file: one for each pair of a vertex and its texture coordinates. The character's come first, in order; then copies of those
-/// with several texture coordinates.
-struct split {
-    int count;
-    uint32_t *source;  ///< per vertex of the file: the character's
-    uint32_t *indices; ///< as many as the character's, in order
-    float (*uv)[2];    ///< NULL: none
-};
-
-static void split_create(struct split *split, struct pool *pool, const struct character *c)
-{
-    const struct looks *looks = &c->looks;
-    const size_t most = (size_t)c->vertex_count + (looks->corner ? (size_t)c->index_count : 0);
-    uint32_t *uv_of = pool_take(pool, most, sizeof *uv_of), *next = pool_take(pool, most, sizeof *next);
-    *split = (struct split){.count = c->vertex_count,
-                            .source = pool_take(pool, most, sizeof *split->source),
-                            .indices = pool_take(pool, (size_t)c->index_count, sizeof *split->indices),
-                            .uv = looks->uv ? pool_take(pool, most, sizeof *split->uv) : NULL};
-    for (int v = 0; v < c->vertex_count; v++) {
-        split->source[v] = (uint32_t)v;
-        uv_of[v] = LOOKS_NONE;
-        next[v] = 0;
-    }
-    for (int i = 0; i < c->index_count; i++) {
-        const uint32_t vertex = c->indices[i], uv = looks->corner ? looks->corner[i] : LOOKS_NONE;
-        uint32_t at = vertex; // of its copies, the first of which has its number: `next` is the next copy, 0 the end
-        if (uv != LOOKS_NONE) {
-            if (uv_of[at] == LOOKS_NONE) uv_of[at] = uv;
-            while (uv_of[at] != uv && next[at]) at = next[at];
-            if (uv_of[at] != uv) {
-                next[at] = (uint32_t)split->count;
-                at = (uint32_t)split->count++;
-                split->source[at] = vertex;
-                uv_of[at] = uv;
-                next[at] = 0;
-            }
-        }
-        split->indices[i] = at;
-    }
-    for (int v = 0; split->uv && v < split->count; v++) {
-        const uint32_t uv = looks->corner ? uv_of[v] : (uint32_t)v;
-        memcpy(split->uv[v], uv != LOOKS_NONE ? looks->uv[uv] : (float[2]){0}, sizeof *split->uv);
-    }
-}
-
 bool character_write(const char *path, const struct character *character, bool turn_normals, struct error *error)
 {
     struct figure figure = {.character = *character};
     struct pool pool = {0};
     struct gltf_file file = {0};
     struct gltf_looks looks = {.file = &file};
-    struct split split;
     if (turn_normals) figure_derive(&figure);
-    split_create(&split, &pool, character);
+
+    // The vertices of the file: one for each pair of a vertex and its texture coordinates. The character's come first, in order; then copies
+    // of those with several texture coordinates.
+    const struct looks *own = &character->looks;
+    const size_t most = (size_t)character->vertex_count + (own->corner ? (size_t)character->index_count : 0);
+    uint32_t *uv_of = pool_take(&pool, most, sizeof *uv_of), *next = pool_take(&pool, most, sizeof *next);
+    uint32_t *source = pool_take(&pool, most, sizeof *source); // per vertex of the file: the character's
+    uint32_t *indices = pool_take(&pool, (size_t)character->index_count, sizeof *indices);
+    float(*uv_at)[2] = own->uv ? pool_take(&pool, most, sizeof *uv_at) : NULL;
+    int count = character->vertex_count;
+    for (int v = 0; v < character->vertex_count; v++) {
+        source[v] = (uint32_t)v;
+        uv_of[v] = LOOKS_NONE;
+        next[v] = 0;
+    }
+    for (int i = 0; i < character->index_count; i++) {
+        const uint32_t vertex = character->indices[i], uv = own->corner ? own->corner[i] : LOOKS_NONE;
+        uint32_t at = vertex; // of its copies, the first of which has its number: `next` is the next copy, 0 the end
+        if (uv != LOOKS_NONE) {
+            if (uv_of[at] == LOOKS_NONE) uv_of[at] = uv;
+            while (uv_of[at] != uv && next[at]) at = next[at];
+            if (uv_of[at] != uv) {
+                next[at] = (uint32_t)count;
+                at = (uint32_t)count++;
+                source[at] = vertex;
+                uv_of[at] = uv;
+                next[at] = 0;
+            }
+        }
+        indices[i] = at;
+    }
+    for (int v = 0; uv_at && v < count; v++) {
+        const uint32_t uv = own->corner ? uv_of[v] : (uint32_t)v;
+        memcpy(uv_at[v], uv != LOOKS_NONE ? own->uv[uv] : (float[2]){0}, sizeof *uv_at);
+    }
+
     struct gltf_shape shape = {.name = "character",
-                               .vertex_count = split.count,
-                               .source = split.source,
+                               .vertex_count = count,
+                               .source = source,
                                .position = (const float(*)[3])character->position,
                                .normal = (const float(*)[3])character->normal,
                                .color = (const float(*)[3])character->color,
-                               .uv = (const float(*)[2])split.uv,
-                               .indices = split.indices,
+                               .uv = (const float(*)[2])uv_at,
+                               .indices = indices,
                                .index_count = character->index_count,
                                .looks = &character->looks,
                                .target_count = 2 * character->coordinate_count,
                                .character = character};
     shape.targets = pool_take(&pool, (size_t)shape.target_count, sizeof *shape.targets);
     for (int t = 0; t < shape.target_count; t++) {
-        const struct figure_target own = figure_target_create(&figure, t / 2, t % 2, &pool);
-        shape.targets[t] =
-            (struct gltf_shape_target){own.name, own.position, (const float(*)[3])own.normal, own.sign, 1};
+        const struct figure_target of = figure_target_create(&figure, t / 2, t % 2, &pool);
+        shape.targets[t] = (struct gltf_shape_target){of.name, of.position, (const float(*)[3])of.normal, of.sign, 1};
     }
 
     struct file_output out;

@@ -763,39 +763,6 @@ static void widen(struct gltf *gltf, const float at[3])
     }
 }
 
-/// The box of all vertices at rest or, without vertices, of the nodes.
-static bool measure(struct gltf_reader *r)
-{
-    struct gltf *gltf = r->gltf;
-    struct gltf_pose pose;
-    int most = 0;
-    for (int i = 0; i < gltf->node_count; i++) {
-        int count = gltf_vertex_count(gltf, i);
-        if (count > most) most = count;
-    }
-    float(*positions)[3] = malloc(((size_t)most + 1) * sizeof *positions);
-    if (!positions || !gltf_pose_create(gltf, &pose)) {
-        free(positions);
-        return fail_no_memory(r->error, r->file.path);
-    }
-    glm_vec3_fill(gltf->lo, INFINITY);
-    glm_vec3_fill(gltf->hi, -INFINITY);
-    for (int i = 0; i < gltf->node_count; i++) {
-        int count = gltf_vertex_count(gltf, i);
-        gltf_pose_vertices(gltf, &pose, i, positions, NULL);
-        for (int n = 0; n < count; n++) widen(gltf, positions[n]);
-    }
-    for (int i = 0; most == 0 && i < gltf->node_count; i++) widen(gltf, pose.world[i] + 12);
-    gltf_pose_free(&pose);
-    free(positions);
-    for (int k = 0; k < 3; k++) {
-        if (!isfinite(gltf->lo[k]) || !isfinite(gltf->hi[k]))
-            return fail(r->error, ERROR_INPUT, "%s: expected a size that can be shown, got an infinite one",
-                        gltf->path);
-    }
-    return true;
-}
-
 uint64_t gltf_new_id(void)
 {
     static atomic_uint_fast64_t last;
@@ -849,7 +816,37 @@ static bool read_all(struct gltf_reader *r)
     if (total > limit) // nodes may show a mesh several times
         return fail(r->error, ERROR_INPUT, "%s: nodes: expected at most %zu vertices together%s, got %zu",
                     r->file.path, limit, limit < VERTEX_LIMIT ? " in a file of this size" : "", total);
-    return read_skins(r) && read_clips(r) && measure(r);
+    if (!read_skins(r) || !read_clips(r)) return false;
+
+    // The box of all vertices at rest or, without vertices, of the nodes.
+    struct gltf *gltf = r->gltf;
+    struct gltf_pose pose;
+    int most = 0;
+    for (int n = 0; n < gltf->node_count; n++) {
+        int count = gltf_vertex_count(gltf, n);
+        if (count > most) most = count;
+    }
+    float(*positions)[3] = malloc(((size_t)most + 1) * sizeof *positions);
+    if (!positions || !gltf_pose_create(gltf, &pose)) {
+        free(positions);
+        return fail_no_memory(r->error, r->file.path);
+    }
+    glm_vec3_fill(gltf->lo, INFINITY);
+    glm_vec3_fill(gltf->hi, -INFINITY);
+    for (int n = 0; n < gltf->node_count; n++) {
+        int count = gltf_vertex_count(gltf, n);
+        gltf_pose_vertices(gltf, &pose, n, positions, NULL);
+        for (int v = 0; v < count; v++) widen(gltf, positions[v]);
+    }
+    for (int n = 0; most == 0 && n < gltf->node_count; n++) widen(gltf, pose.world[n] + 12);
+    gltf_pose_free(&pose);
+    free(positions);
+    for (int k = 0; k < 3; k++) {
+        if (!isfinite(gltf->lo[k]) || !isfinite(gltf->hi[k]))
+            return fail(r->error, ERROR_INPUT, "%s: expected a size that can be shown, got an infinite one",
+                        gltf->path);
+    }
+    return true;
 }
 
 /// Reads the opened file, if it is open, and closes it.

@@ -118,24 +118,6 @@ static double fps_of_times(const unsigned char *times, int frames)
     return fabs(fps - whole) < 1e-4 * fps ? whole : fps;
 }
 
-static bool read_mdd_header(struct motion *m, int64_t size, struct error *error)
-{
-    unsigned char counts[MDD_HEADER];
-    if (!read_at(m, 0, counts, sizeof counts, error)) return false;
-    if (!set_counts(m, big_endian(counts), big_endian(counts + 4), error)) return false;
-    m->data = MDD_HEADER + 4 * (int64_t)m->frames;
-    m->number_size = 4;
-    m->swapped = true;
-    if (!set_layout(m, size, error)) return false;
-    size_t bytes = 4 * (size_t)m->frames;
-    unsigned char *times = malloc(bytes);
-    if (!times) return fail_no_memory(error, m->path);
-    bool done = read_at(m, MDD_HEADER, times, bytes, error);
-    if (done) m->fps = m->frames > 1 ? fps_of_times(times, m->frames) : 0;
-    free(times);
-    return done;
-}
-
 // --- all formats
 
 static bool read_header(struct motion *m, int64_t size, struct error *error)
@@ -155,8 +137,22 @@ static bool read_header(struct motion *m, int64_t size, struct error *error)
         m->number_size = 4;
         return set_counts(m, numbers[4], numbers[1], error) && set_layout(m, size, error);
     }
-    if (path_has_end(m->path, ".mdd")) return read_mdd_header(m, size, error); // has no magic number
-    return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got something else", m->path);
+    if (!path_has_end(m->path, ".mdd")) // which has no magic number
+        return fail(error, ERROR_INPUT, "%s: expected a motion (.npy, .pc2 or .mdd), got something else", m->path);
+    unsigned char counts[MDD_HEADER];
+    if (!read_at(m, 0, counts, sizeof counts, error)) return false;
+    if (!set_counts(m, big_endian(counts), big_endian(counts + 4), error)) return false;
+    m->data = MDD_HEADER + 4 * (int64_t)m->frames;
+    m->number_size = 4;
+    m->swapped = true;
+    if (!set_layout(m, size, error)) return false;
+    size_t bytes = 4 * (size_t)m->frames;
+    unsigned char *times = malloc(bytes);
+    if (!times) return fail_no_memory(error, m->path);
+    bool done = read_at(m, MDD_HEADER, times, bytes, error);
+    if (done) m->fps = m->frames > 1 ? fps_of_times(times, m->frames) : 0;
+    free(times);
+    return done;
 }
 
 bool motion_open(struct motion *motion, const char *path, struct error *error)
