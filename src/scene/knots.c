@@ -89,32 +89,6 @@ static bool csv_fail(const struct csv *csv, const char *expected, const char *go
                 got && *got ? "\"" : "", got && *got ? got : "nothing", got && *got ? "\"" : "");
 }
 
-/// Splits a line at semicolons, else tabs, else commas. With semicolons or tabs, a comma in a number is the decimal point.
-static void csv_split(struct line *line, const char *text, size_t length)
-{
-    static const char around[] = " \t\r\"";
-    char separator = memchr(text, ';', length) ? ';' : memchr(text, '\t', length) ? '\t' : ',';
-    line->count = 0;
-    for (const char *end = text + length; text <= end;) {
-        const char *next = memchr(text, separator, (size_t)(end - text));
-        if (!next) next = end;
-        const char *from = text, *to = next;
-        while (from < to && strchr(around, *from)) from++;
-        while (from < to && strchr(around, to[-1])) to--;
-        text = next + 1;
-        if (line->count == MAX_FIELDS) continue;
-        char *field = line->field[line->count++];
-        const bool fits = to - from < MAX_FIELD;
-        const size_t kept = fits ? (size_t)(to - from) : MAX_FIELD - sizeof cut_off;
-        memcpy(field, from, kept);
-        strcpy(field + kept, fits ? "" : cut_off);
-    }
-    for (int i = 0; i < line->count && separator != ','; i++) {
-        char *comma = strchr(line->field[i], ',');
-        if (comma) *comma = '.';
-    }
-}
-
 static bool is_number(const char *field, double *number)
 {
     char *end;
@@ -144,11 +118,32 @@ static bool csv_read_field(const struct csv *csv, enum column column, bool *give
 /// Reads a knot, or a header: its columns have names; frame and value default to the first and second column.
 static bool csv_read_line(struct csv *csv, const char *text, size_t length, bool *started)
 {
-    const struct line *line = &csv->line;
+    static const char around[] = " \t\r\"";
+    struct line *line = &csv->line;
     double number;
     size_t blank = strspn(text, " \t\r");
     if (blank >= length || text[blank] == '#') return true;
-    csv_split(&csv->line, text, length);
+    // Its fields lie between semicolons, else tabs, else commas. With semicolons or tabs, a comma in a number is the decimal point.
+    char separator = memchr(text, ';', length) ? ';' : memchr(text, '\t', length) ? '\t' : ',';
+    line->count = 0;
+    for (const char *at = text, *end = text + length; at <= end;) {
+        const char *next = memchr(at, separator, (size_t)(end - at));
+        if (!next) next = end;
+        const char *from = at, *to = next;
+        while (from < to && strchr(around, *from)) from++;
+        while (from < to && strchr(around, to[-1])) to--;
+        at = next + 1;
+        if (line->count == MAX_FIELDS) continue;
+        char *field = line->field[line->count++];
+        const bool fits = to - from < MAX_FIELD;
+        const size_t kept = fits ? (size_t)(to - from) : MAX_FIELD - sizeof cut_off;
+        memcpy(field, from, kept);
+        strcpy(field + kept, fits ? "" : cut_off);
+    }
+    for (int i = 0; i < line->count && separator != ','; i++) {
+        char *comma = strchr(line->field[i], ',');
+        if (comma) *comma = '.';
+    }
     bool is_header =
         !*started && line->count > 1 && !is_number(line->field[0], &number) && !is_number(line->field[1], &number);
     *started = true;

@@ -192,39 +192,6 @@ static void load_knots(struct reader *reader, const struct value *object, struct
     }
 }
 
-static void load_spline(struct reader *reader, struct value object, struct spline *spline)
-{
-    const int samples = document_samples(reader->document);
-    // the other parameters' limits depend on the mode
-    if (load_parameter(reader, &object, spline, PARAMETER_MODE, NULL)) load_spring(reader, &object, spline);
-    const char *known[PARAMETER_COUNT + sizeof spline_keys / sizeof *spline_keys];
-    for (enum parameter p = 0; p < PARAMETER_COUNT; p++) known[p] = parameter_key(p);
-    memcpy(known + PARAMETER_COUNT, spline_keys, sizeof spline_keys);
-    json_t *extra = reader_extra(reader, &object, known);
-    for (enum parameter p = PARAMETER_MODE + 1; p < PARAMETER_COUNT; p++)
-        load_parameter(reader, &object, spline, p, &extra);
-    spline->extra = reader_keep(reader, extra);
-
-    const struct value color = reader_member(&object, "color");
-    const char *text = json_string_value(color.json);
-    if (color.json && !text) reader_unexpected(reader, color, "a colour such as \"#FFB000\"");
-    if (text && !color_parse(text, &spline->color))
-        reader_fail(reader, &color.at, "expected a colour such as \"#FFB000\", got \"%s\"", text);
-
-    const struct where start_at = {.parent = &object.at, .key = "start"};
-    if (spline_start(spline) == WIGGLY_LOOP && reader->has_domain && samples == 1)
-        reader_fail(reader, &start_at, "expected more than one frame for a loop, got one");
-
-    // Samples at a limit are held like knots, so a spline with limits costs more.
-    const struct where limits_at = {.parent = &object.at, .key = parameter_key(PARAMETER_LOW)};
-    struct error error;
-    if (reader->has_domain && spline_is_limited(spline) &&
-        !document_check_samples(1, ++reader->limited_count, samples, &error))
-        reader_fail(reader, &limits_at, "expected %s", error.text);
-
-    load_knots(reader, &object, spline);
-}
-
 static void load_splines(struct reader *reader, const struct value *scene)
 {
     const struct value splines = reader_member(scene, "splines");
@@ -250,7 +217,39 @@ static void load_splines(struct reader *reader, const struct value *scene)
         reader_fail(reader, &at, "expected a unique name, got \"%s\", the name of splines[%d]", name->name,
                     name[-1].spline);
     }
-    for (int i = 0; i < count; i++) load_spline(reader, reader_element(&splines, i), document->splines[i]);
+    for (int i = 0; i < count; i++) {
+        const struct value object = reader_element(&splines, i);
+        struct spline *spline = document->splines[i];
+        const int samples = document_samples(document);
+        // the other parameters' limits depend on the mode
+        if (load_parameter(reader, &object, spline, PARAMETER_MODE, NULL)) load_spring(reader, &object, spline);
+        const char *known[PARAMETER_COUNT + sizeof spline_keys / sizeof *spline_keys];
+        for (enum parameter p = 0; p < PARAMETER_COUNT; p++) known[p] = parameter_key(p);
+        memcpy(known + PARAMETER_COUNT, spline_keys, sizeof spline_keys);
+        json_t *extra = reader_extra(reader, &object, known);
+        for (enum parameter p = PARAMETER_MODE + 1; p < PARAMETER_COUNT; p++)
+            load_parameter(reader, &object, spline, p, &extra);
+        spline->extra = reader_keep(reader, extra);
+
+        const struct value color = reader_member(&object, "color");
+        const char *text = json_string_value(color.json);
+        if (color.json && !text) reader_unexpected(reader, color, "a colour such as \"#FFB000\"");
+        if (text && !color_parse(text, &spline->color))
+            reader_fail(reader, &color.at, "expected a colour such as \"#FFB000\", got \"%s\"", text);
+
+        const struct where start_at = {.parent = &object.at, .key = "start"};
+        if (spline_start(spline) == WIGGLY_LOOP && reader->has_domain && samples == 1)
+            reader_fail(reader, &start_at, "expected more than one frame for a loop, got one");
+
+        // Samples at a limit are held like knots, so a spline with limits costs more.
+        const struct where limits_at = {.parent = &object.at, .key = parameter_key(PARAMETER_LOW)};
+        struct error error;
+        if (reader->has_domain && spline_is_limited(spline) &&
+            !document_check_samples(1, ++reader->limited_count, samples, &error))
+            reader_fail(reader, &limits_at, "expected %s", error.text);
+
+        load_knots(reader, &object, spline);
+    }
 }
 
 // --- the scene
