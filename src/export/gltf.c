@@ -819,33 +819,6 @@ static bool put_other(struct export_range *range, int clip, struct original *o, 
     return done;
 }
 
-/// Places all scenes' nodes under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
-/// validators warn of one that has a parent.
-static void put_place(struct original *o, const float root[16])
-{
-    json_t *matrix = json_array(), *nodes = json_object_get(o->source.json, "nodes"), *scene, *number;
-    size_t s, i;
-    for (i = 0; i < 16; i++) gltf_append(&o->file, matrix, json_real((double)root[i]));
-    json_array_foreach(json_object_get(o->source.json, "scenes"), s, scene)
-    {
-        json_t *placed = json_array(), *roots = json_array();
-        json_array_foreach(json_object_get(scene, "nodes"), i, number)
-        {
-            const json_t *node = json_array_get(nodes, (size_t)json_integer_value(number));
-            const bool is_skinned = json_object_get(node, "skin") && !json_object_get(node, "children");
-            gltf_append(&o->file, is_skinned ? roots : placed, json_incref(number));
-        }
-        if (json_array_size(placed) > 0) {
-            json_t *shown = json_pack("{s:s, s:O, s:O}", "name", "as shown", "matrix", matrix, "children", placed);
-            gltf_append(&o->file, roots, json_integer(gltf_append(&o->file, nodes, shown)));
-            gltf_set(&o->file, scene, "nodes", json_incref(roots));
-        }
-        json_decref(placed);
-        json_decref(roots);
-    }
-    json_decref(matrix);
-}
-
 /// Copies the file of the range's only rig and gives its clip, or a copy of that by another name, the keys of chains. Everything else stays the
 /// same, also in the other container (.glb or .gltf). Without a chain the clip stays, too.
 static bool write_model(struct export_range *range, FILE *out, struct error *error)
@@ -891,7 +864,28 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
             const struct gltf_clip *clip = &body->gltf->clips[c]; // chains do not move in clips of a single pose
             if (clip != body->clip && clip->last > clip->first) done = put_other(range, c, &o, error);
         }
-        if (done && root) put_place(&o, root);
+        // All scenes' nodes go under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
+        // validators warn of one that has a parent.
+        json_t *nodes = json_object_get(o.source.json, "nodes"), *scene, *number;
+        size_t s, i;
+        json_array_foreach(done && root ? json_object_get(o.source.json, "scenes") : NULL, s, scene)
+        {
+            json_t *placed = json_array(), *roots = json_array();
+            json_array_foreach(json_object_get(scene, "nodes"), i, number)
+            {
+                const json_t *node = json_array_get(nodes, (size_t)json_integer_value(number));
+                const bool is_skinned = json_object_get(node, "skin") && !json_object_get(node, "children");
+                gltf_append(&o.file, is_skinned ? roots : placed, json_incref(number));
+            }
+            if (json_array_size(placed) > 0) {
+                json_t *shown = json_pack("{s:s, s:o, s:O}", "name", "as shown", "matrix", reals(&o.file, root, 16),
+                                          "children", placed);
+                gltf_append(&o.file, roots, json_integer(gltf_append(&o.file, nodes, shown)));
+                gltf_set(&o.file, scene, "nodes", json_incref(roots));
+            }
+            json_decref(placed);
+            json_decref(roots);
+        }
         done = done && gltf_file_write(&o.file, json_incref(o.source.json), binary, out, error);
     }
     gltf_file_free(&o.file);

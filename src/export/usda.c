@@ -852,29 +852,6 @@ static int count_influences(const struct run *run)
     return most > 0 ? most : 1;
 }
 
-/// Writes the meshes of all nodes.
-static void write_meshes(struct usda_model *model)
-{
-    const struct gltf *gltf = model->gltf;
-    for (int n = 0; n < gltf->node_count; n++) {
-        const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
-        for (int p = 0, end; mesh && p < mesh->part_count; p = end) {
-            struct run run = {.model = model, .node = n, .parts = mesh->parts + p, .owner = -1};
-            const bool skinned = has_skin(model, n, run.parts), is_flat = !run.parts->normal;
-            for (end = p; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned &&
-                          !mesh->parts[end].normal == is_flat;
-                 end++) {
-                if (model->is_own && run.owner < 0 && mesh->parts[end].position == mesh->parts->position)
-                    run.owner = end - p;
-            }
-            run.count = end - p;
-            run.influences = count_influences(&run);
-            run.name = usda_name(&model->prims, gltf->nodes[n].name, false);
-            write_run(&run);
-        }
-    }
-}
-
 // --- all of it
 
 /// Writes the prim of a rig. False with a sentence. All of the model but what it is made of is zero.
@@ -941,40 +918,28 @@ static bool usda_model_write(struct usda_model *model, struct error *error)
         for (int s = 0; s < skeletons; s++) write_skeleton(model, s);
         if (is_animated(model)) write_animation(model);
         done = write_materials(model, error);
-        if (done) write_meshes(model);
+        for (int n = 0; done && n < gltf->node_count; n++) {
+            const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
+            for (int p = 0, end; mesh && p < mesh->part_count; p = end) {
+                struct run run = {.model = model, .node = n, .parts = mesh->parts + p, .owner = -1};
+                const bool skinned = has_skin(model, n, run.parts), is_flat = !run.parts->normal;
+                for (end = p; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned &&
+                              !mesh->parts[end].normal == is_flat;
+                     end++) {
+                    if (model->is_own && run.owner < 0 && mesh->parts[end].position == mesh->parts->position)
+                        run.owner = end - p;
+                }
+                run.count = end - p;
+                run.influences = count_influences(&run);
+                run.name = usda_name(&model->prims, gltf->nodes[n].name, false);
+                write_run(&run);
+            }
+        }
     }
     fputs("    }\n", model->out);
     gltf_pose_free(&pose);
     for (size_t i = 0; i < sizeof sets / sizeof *sets; i++) names_free(sets[i]);
     pool_free(pool);
-    return done;
-}
-
-// --- rigs
-
-static bool write_rig(struct export_range *range, int rig, const char *name, FILE *out, struct error *error)
-{
-    const struct rig *source = range->posing->document->rigs[rig];
-    struct usda_model model = {.range = range, .rig = rig, .name = name, .out = out};
-    struct rig_pose pose;
-    struct gltf gltf = {0};
-    model.is_own = !(form_kind(source->kind)->holds & FORM_FILE);
-    if (!model.is_own && !range_pose(range, rig, 0, &pose, error)) return false;
-    if (model.is_own) { // read back from the glTF file that it would be
-        char *data = NULL;
-        size_t size = 0;
-        FILE *file = open_memstream(&data, &size);
-        const bool made = file && gltf_write_rig(range, rig, file, error);
-        const bool whole = file && fclose(file) == 0;
-        if (!made || !whole) {
-            free(data);
-            return file && !made ? false : fail_no_memory(error, range->path);
-        }
-        if (!gltf_read_bytes(form_name(source), data, size, &gltf, error)) return false;
-    }
-    model.gltf = model.is_own ? &gltf : &pose.model.imported->gltf;
-    const bool done = usda_model_write(&model, error);
-    gltf_free(&gltf);
     return done;
 }
 
@@ -987,8 +952,31 @@ bool usda_write(struct export_range *range, FILE *out, struct error *error)
             range_frame(range, 0), range_frame(range, range->key_count - 1), range->posing->document->fps);
     fputs("\ndef Xform \"scene\"\n{", out);
     for (int r = 0; done && r < range->rig_count; r++) {
-        const char *wanted = form_name(range->posing->document->rigs[range->rigs[r]]);
-        done = write_rig(range, range->rigs[r], usda_name(&names, wanted, false), out, error);
+        const int rig = range->rigs[r];
+        const struct rig *source = range->posing->document->rigs[rig];
+        struct usda_model model = {
+            .range = range, .rig = rig, .name = usda_name(&names, form_name(source), false), .out = out};
+        struct rig_pose pose;
+        struct gltf gltf = {0};
+        model.is_own = !(form_kind(source->kind)->holds & FORM_FILE);
+        if (model.is_own) { // read back from the glTF file that it would be
+            char *data = NULL;
+            size_t size = 0;
+            FILE *file = open_memstream(&data, &size);
+            const bool made = file && gltf_write_rig(range, rig, file, error);
+            const bool whole = file && fclose(file) == 0;
+            if (!made || !whole) {
+                free(data);
+                done = file && !made ? false : fail_no_memory(error, range->path);
+            }
+            done = done && gltf_read_bytes(form_name(source), data, size, &gltf, error);
+        } else {
+            done = range_pose(range, rig, 0, &pose, error);
+        }
+        if (!done) break;
+        model.gltf = model.is_own ? &gltf : &pose.model.imported->gltf;
+        done = usda_model_write(&model, error);
+        gltf_free(&gltf);
     }
     fputs("}\n", out);
     names_free(&names);
