@@ -367,27 +367,6 @@ static bool simulate_mesh(struct job *job, struct error *error)
     return good;
 }
 
-/// Parses --drive; an unknown name is a file. NULL or an error text.
-static const char *parse_drive(struct job *job)
-{
-    static const char *const kinds[] = {"none", "sine", "burst", "sweep"}; // as in enum drive_kind
-    const bool impulse = job->shake.shake.impulse, unpinned = job->soft.pin.kind == REGION_NONE;
-    const bool adjusted = job->drive.frequency > 0 || job->shake.world;
-    enum drive_kind kind = DRIVE_NONE;
-    if (!job->drive_text && adjusted) job->drive_text = "burst";
-    const char *text = job->drive_text ? job->drive_text : impulse || unpinned ? "none" : "burst";
-    while (kind < DRIVE_TRACK && strcmp(text, kinds[kind]) != 0) kind++;
-    set_swing(job, kind);
-    if (kind == DRIVE_NONE) return adjusted ? "--drive-frequency and --world need a drive, got none" : NULL;
-    if (impulse) return "--impulse and a drive both start the motion: give one";
-    if (unpinned) return "--drive moves the pinned part, but --pin none pins nothing";
-    if (kind != DRIVE_TRACK) return NULL;
-    if (!path_has_end(text, ".csv")) return "--drive: expected burst, sine, sweep, a track's FILE.csv or none";
-    if (isfinite(job->amplitude) || job->drive.frequency > 0)
-        return "--drive: a track has its own size in metres and time: leave out --amplitude and --drive-frequency";
-    return NULL;
-}
-
 /// Checks what the option table cannot; NULL or an error text.
 static const char *check_job(struct job *job)
 {
@@ -405,8 +384,24 @@ static const char *check_job(struct job *job)
     job->shake.output = job->output;
     job->shake.budget = 1e6 * job->budget;
     set_swing(job, DRIVE_NONE);
-    const char *wrong = job->modal ? NULL : parse_drive(job);
-    if (wrong) return wrong;
+    if (!job->modal) {                                                         // an unknown name of a drive is a file
+        static const char *const kinds[] = {"none", "sine", "burst", "sweep"}; // as in enum drive_kind
+        const bool impulse = job->shake.shake.impulse, unpinned = job->soft.pin.kind == REGION_NONE;
+        const bool adjusted = job->drive.frequency > 0 || job->shake.world;
+        enum drive_kind kind = DRIVE_NONE;
+        if (!job->drive_text && adjusted) job->drive_text = "burst";
+        const char *text = job->drive_text ? job->drive_text : impulse || unpinned ? "none" : "burst";
+        while (kind < DRIVE_TRACK && strcmp(text, kinds[kind]) != 0) kind++;
+        set_swing(job, kind);
+        if (kind == DRIVE_NONE && adjusted) return "--drive-frequency and --world need a drive, got none";
+        if (kind != DRIVE_NONE && impulse) return "--impulse and a drive both start the motion: give one";
+        if (kind != DRIVE_NONE && unpinned) return "--drive moves the pinned part, but --pin none pins nothing";
+        if (kind == DRIVE_TRACK && !path_has_end(text, ".csv"))
+            return "--drive: expected burst, sine, sweep, a track's FILE.csv or none";
+        if (kind == DRIVE_TRACK && (isfinite(job->amplitude) || job->drive.frequency > 0))
+            return "--drive: a track has its own size in metres and time: leave out --amplitude and "
+                   "--drive-frequency";
+    }
 
     // Stiffness and mass; 0: not given.
     const struct soft_options usual = soft_default_options();

@@ -219,32 +219,6 @@ static json_int_t add_material(struct gltf_looks *l, const struct looks_material
 
 // --- triangles
 
-/// The corners of one material; returns how many. Successive polygons begin at different corners, so that readers can tell them apart.
-static size_t collect(const struct gltf_shape *shape, uint32_t material, uint32_t *corners)
-{
-    const struct looks *looks = shape->looks;
-    const bool polygons = looks && looks->joined;
-    const size_t count = (size_t)shape->index_count / 3;
-    size_t used = 0, end;
-    for (size_t t = 0; t < count; t = end) {
-        const uint32_t *fan = shape->indices + 3 * t;
-        const uint32_t own = looks && looks->material ? looks->material[t] : LOOKS_NONE;
-        end = t + 1;
-        while (polygons && end < count && looks->joined[end] && (!looks->material || looks->material[end] == own))
-            end++;
-        if ((looks && own < (uint32_t)looks->material_count ? own : LOOKS_NONE) != material) continue;
-        const bool same = polygons && used > 0 && corners[used - 3] == fan[0];
-        for (size_t n = 0; n < end - t; n++) { // every triangle begins with the first corner, or with the second
-            const size_t places[3] = {same, same + n + 1, same + n + 2};
-            for (int k = 0; k < 3; k++) { // corners of the fan: the first triangle's, then the last of each other
-                const size_t place = places[k] % (end - t + 2);
-                corners[used++] = place < 3 ? fan[place] : fan[3 * (place - 2) + 2];
-            }
-        }
-    }
-    return used;
-}
-
 /// A primitive per material of the triangles, and one for triangles without.
 static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *shape, json_t *attributes,
                                json_t *targets)
@@ -258,9 +232,29 @@ static json_t *make_primitives(struct gltf_looks *l, const struct gltf_shape *sh
     if (!l->images) l->images = json_array();
     if (!attributes) l->file->without_memory = true;
     for (uint32_t m = 0; attributes && m <= materials; m++) {
-        const bool none = m == materials;
-        const size_t count = collect(shape, none ? LOOKS_NONE : m, corners);
+        // Its corners. Successive polygons begin at different ones, so that readers can tell them apart.
+        const bool polygons = looks && looks->joined;
+        const size_t triangles = (size_t)shape->index_count / 3;
+        size_t count = 0, end;
+        for (size_t t = 0; t < triangles; t = end) {
+            const uint32_t *fan = shape->indices + 3 * t;
+            const uint32_t own = looks && looks->material ? looks->material[t] : LOOKS_NONE;
+            end = t + 1;
+            while (polygons && end < triangles && looks->joined[end] &&
+                   (!looks->material || looks->material[end] == own))
+                end++;
+            if ((own < materials ? own : materials) != m) continue;
+            const bool same = polygons && count > 0 && corners[count - 3] == fan[0];
+            for (size_t n = 0; n < end - t; n++) { // every triangle begins with the first corner, or with the second
+                const size_t places[3] = {same, same + n + 1, same + n + 2};
+                for (int k = 0; k < 3; k++) { // corners of the fan: the first triangle's, then the last of each other
+                    const size_t place = places[k] % (end - t + 2);
+                    corners[count++] = place < 3 ? fan[place] : fan[3 * (place - 2) + 2];
+                }
+            }
+        }
         if (count == 0) continue;
+        const bool none = m == materials;
         const json_int_t indices = gltf_file_add(l->file, ELEMENTS_INDICES, corners, count, false);
         json_int_t material;
         if (!none) {

@@ -469,22 +469,6 @@ static bool make_poses(struct placed_model *placed, const struct imported *impor
     return true;
 }
 
-/// Reads the model of a rig and allocates its poses.
-static bool place_model(struct models *models, const struct document *document, const struct model_rig *rig,
-                        struct placed_model *placed, struct error *error)
-{
-    char path[PATH_LIMIT];
-    *placed = (struct placed_model){.path = need_text(rig->model)};
-    if (!resolve_model(document, rig->model, path, error)) return false;
-    const struct model_file *file = read_model(&models->files, path, MODEL_IMPORTED, error);
-    if (!file) return false;
-    if (!make_poses(placed, &file->imported)) return fail_no_memory(error, rig->model);
-    const struct gltf *gltf = &file->imported.gltf;
-    if (!rig->clip || gltf_find_clip(gltf, rig->clip) >= 0) return true;
-    return fail(error, ERROR_INPUT, "%s: expected a clip called \"%s\", got %s%s", rig->model, rig->clip,
-                gltf->clip_count > 0 ? "others, such as " : "none", gltf->clip_count > 0 ? gltf->clips[0].name : "");
-}
-
 bool models_update(struct models *models, const struct document *document, struct error *error)
 {
     struct error first = {0};
@@ -508,8 +492,20 @@ bool models_update(struct models *models, const struct document *document, struc
     for (int i = 0, rig = -1; i < count; i++) {
         struct error trouble = {0};
         rig = document_next_rig(document, RIG_MODEL, rig);
-        place_model(models, document, &document->rigs[rig]->model, &models->placed[i], &trouble);
-        models->placed_count++;
+        const struct model_rig *model = &document->rigs[rig]->model;
+        struct placed_model *placed = &models->placed[models->placed_count++];
+        *placed = (struct placed_model){.path = need_text(model->model)};
+        char path[PATH_LIMIT];
+        const struct model_file *file = resolve_model(document, model->model, path, &trouble)
+                                            ? read_model(&models->files, path, MODEL_IMPORTED, &trouble)
+                                            : NULL;
+        if (file && !make_poses(placed, &file->imported)) {
+            fail_no_memory(&trouble, model->model);
+        } else if (file && model->clip && gltf_find_clip(&file->imported.gltf, model->clip) < 0) {
+            const struct gltf *gltf = &file->imported.gltf;
+            fail(&trouble, ERROR_INPUT, "%s: expected a clip called \"%s\", got %s%s", model->model, model->clip,
+                 gltf->clip_count > 0 ? "others, such as " : "none", gltf->clip_count > 0 ? gltf->clips[0].name : "");
+        }
         keep_first(&first, &trouble);
     }
     models_follow(models, document);

@@ -51,7 +51,7 @@ struct held_pin {
     bool is_found;
     struct pin_point from; ///< the point at which its pulls were found
     double passed[3];      ///< Σ Re(c x) there
-    double ease;           ///< pin_ease() without pins
+    double ease;           ///< how easily splines move it without pins: |c| over all pulls
 };
 
 /// Capacities.
@@ -378,19 +378,6 @@ static const double PIN_FIRMNESS = 0.3; ///< with less, they curl tails up; with
 
 static double dot(const double a[3], const double b[3]) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-/// How easily splines move a point: |c| over all of a pin's pulls.
-static double pin_ease(const wiggly_pin *pin)
-{
-    double sum = 0;
-    for (int i = 0; i < pin->pull_count; i++) {
-        for (int k = 0; k < 3; k++) {
-            const double *c = pin->pulls[i].c[k];
-            sum += c[0] * c[0] + c[1] * c[1];
-        }
-    }
-    return sqrt(sum);
-}
-
 /// L of L Lᵀ = C + least.
 static void factor(const wiggly_pull *pulls, int count, double least, double l[3][3])
 {
@@ -495,7 +482,13 @@ static void find_pulls(struct pinned *pinned, bool is_first)
                     pulls[i].c[k][0] * curve->re[pin->sample] - pulls[i].c[k][1] * curve->im[pin->sample];
             }
         }
-        if (is_first) held->ease = pin_ease(pin);
+        if (!is_first) continue;
+        double sum = 0;
+        for (int i = 0; i < pin->pull_count; i++) {
+            for (int k = 0; k < 3; k++)
+                sum += pulls[i].c[k][0] * pulls[i].c[k][0] + pulls[i].c[k][1] * pulls[i].c[k][1];
+        }
+        held->ease = sqrt(sum);
     }
 }
 
@@ -642,30 +635,6 @@ static void find_sunk(struct pinned *pinned, int rig)
     }
 }
 
-/// Adds a bound for the deepest vertex of every dip. Returns whether there was any.
-static bool add_bounds(struct pinned *pinned, int rig)
-{
-    const int samples = pinned->evaluation->samples;
-    struct floors *floors = &pinned->floors;
-    bool any = false;
-    if (!find_low(pinned, rig)) return false;
-    for (int i = 0; i < samples && floors->count < FLOORS_MOST_BOUNDS; i++) {
-        const double deep = floor_depth(pinned, rig, i);
-        if (!(deep > 0) || (i > 0 && floor_depth(pinned, rig, i - 1) > deep)) continue;
-        if (i + 1 < samples && floor_depth(pinned, rig, i + 1) >= deep) continue;
-        const double size = put_bound(pinned, floors->count, rig, i, floor_level(pinned, rig, i));
-        bool is_known = false;
-        for (int b = 0; b < floors->count; b++) {
-            is_known |= floors->rig[b] == rig && floors->bounds[b].sample == i &&
-                        floors->vertex[b] == floors->vertex[floors->count];
-        }
-        if (!(deep > DEEP * size) || is_known) continue;
-        floors->count++;
-        any = true;
-    }
-    return any;
-}
-
 /// Solves the current group again, above its floors; `status` is the result without them.
 static wiggly_status floors_solve(struct pinned *pinned, wiggly_status status)
 {
@@ -680,7 +649,23 @@ static wiggly_status floors_solve(struct pinned *pinned, wiggly_status status)
         bool any = false;
         for (int r = 0; r < rigs; r++) {
             if (!floor_concerns(pinned, r)) continue;
-            any |= add_bounds(pinned, r);
+
+            // A bound for the deepest vertex of every dip.
+            const int end = find_low(pinned, r) ? pinned->evaluation->samples : 0;
+            for (int i = 0; i < end && floors->count < FLOORS_MOST_BOUNDS; i++) {
+                const double deep = floor_depth(pinned, r, i);
+                if (!(deep > 0) || (i > 0 && floor_depth(pinned, r, i - 1) > deep)) continue;
+                if (i + 1 < end && floor_depth(pinned, r, i + 1) >= deep) continue;
+                const double size = put_bound(pinned, floors->count, r, i, floor_level(pinned, r, i));
+                bool is_known = false;
+                for (int b = 0; b < floors->count; b++) {
+                    is_known |= floors->rig[b] == r && floors->bounds[b].sample == i &&
+                                floors->vertex[b] == floors->vertex[floors->count];
+                }
+                if (!(deep > DEEP * size) || is_known) continue;
+                floors->count++;
+                any = true;
+            }
             struct floor_left *left = &floors->left[r];
             *left = (struct floor_left){.sample = -1};
             for (int i = 0; i < pinned->evaluation->samples; i++) {

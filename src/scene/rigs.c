@@ -23,24 +23,21 @@ double axis_gain(enum axis axis)
     return gain[axis] > 0 ? gain[axis] : CHANNEL_DEFAULT_GAIN;
 }
 
-static double ramp_at(const struct angles *angles, double place)
-{
-    const struct ramp_point *ramp = angles->ramp;
-    int next = 0;
-    while (next < angles->count && ramp[next].at < place) next++;
-    if (next == 0) return ramp[0].angle;
-    if (next == angles->count) return ramp[next - 1].angle;
-    const struct ramp_point *before = &ramp[next - 1], *after = &ramp[next];
-    return before->angle + (after->angle - before->angle) * ((place - before->at) / (after->at - before->at));
-}
-
 double angles_at(const struct angles *angles, int joint, int joints)
 {
     switch (angles->form) {
     case ANGLES_EACH:
         return angles->value[joint < angles->count ? joint : angles->count - 1];
-    case ANGLES_RAMP:
-        return ramp_at(angles, joints > 1 ? (double)joint / (joints - 1) : 0);
+    case ANGLES_RAMP: {
+        const double place = joints > 1 ? (double)joint / (joints - 1) : 0;
+        const struct ramp_point *ramp = angles->ramp;
+        int next = 0;
+        while (next < angles->count && ramp[next].at < place) next++;
+        if (next == 0) return ramp[0].angle;
+        if (next == angles->count) return ramp[next - 1].angle;
+        const struct ramp_point *before = &ramp[next - 1], *after = &ramp[next];
+        return before->angle + (after->angle - before->angle) * ((place - before->at) / (after->at - before->at));
+    }
     default:
         return angles->value[0];
     }

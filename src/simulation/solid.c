@@ -176,39 +176,6 @@ static int compare_corners(const void *a, const void *b)
     return x->triangle - y->triangle;
 }
 
-/// Marks triangles without area, and all but the first of those with the same corners, as left out.
-static void leave_out(struct repair *r, int *duplicates)
-{
-    struct surface *s = r->shape;
-    const int triangles = s->index_count / 3;
-    struct corners *all = need((size_t)triangles + 1, sizeof *all);
-    uint8_t *dropped = need_zeroed((size_t)triangles + 1, 1);
-    int count = 0, kept = 0;
-    for (int t = 0; t < triangles; t++) {
-        struct corners c = {.triangle = t};
-        for (int k = 0; k < 3; k++) {
-            const uint32_t name = r->name[s->indices[3 * t + k]];
-            int at = k;
-            for (; at > 0 && c.name[at - 1] > name; at--) c.name[at] = c.name[at - 1];
-            c.name[at] = name;
-        }
-        dropped[t] = c.name[0] == c.name[1] || c.name[1] == c.name[2];
-        if (!dropped[t]) all[count++] = c;
-    }
-    qsort(all, (size_t)count, sizeof *all, compare_corners);
-    for (int i = 1; i < count; i++) {
-        if (memcmp(all[i].name, all[i - 1].name, sizeof all->name) != 0) continue;
-        dropped[all[i].triangle] = 1;
-        ++*duplicates;
-    }
-    for (int t = 0; t < triangles; t++) {
-        if (!dropped[t]) memmove(s->indices + 3 * kept++, s->indices + 3 * t, 3 * sizeof *s->indices);
-    }
-    s->index_count = 3 * kept;
-    free(all);
-    free(dropped);
-}
-
 static int compare_edges(const void *a, const void *b)
 {
     const struct edge *x = a, *y = b;
@@ -379,8 +346,35 @@ void solid_create(struct solid *solid, const struct surface *surface, double thi
         r.name[spots[i].vertex] = (uint32_t)first;
     }
     free(spots);
-    report_repair(1);
-    leave_out(&r, &solid->duplicates);
+    report_repair(1); // triangles without area go, and all but the first of those with the same corners
+    struct surface *s = &solid->shape;
+    const int triangles = s->index_count / 3;
+    struct corners *all = need((size_t)triangles + 1, sizeof *all);
+    uint8_t *dropped = need_zeroed((size_t)triangles + 1, 1);
+    int different = 0, kept = 0;
+    for (int t = 0; t < triangles; t++) {
+        struct corners c = {.triangle = t};
+        for (int k = 0; k < 3; k++) {
+            const uint32_t name = r.name[s->indices[3 * t + k]];
+            int at = k;
+            for (; at > 0 && c.name[at - 1] > name; at--) c.name[at] = c.name[at - 1];
+            c.name[at] = name;
+        }
+        dropped[t] = c.name[0] == c.name[1] || c.name[1] == c.name[2];
+        if (!dropped[t]) all[different++] = c;
+    }
+    qsort(all, (size_t)different, sizeof *all, compare_corners);
+    for (int i = 1; i < different; i++) {
+        if (memcmp(all[i].name, all[i - 1].name, sizeof all->name) != 0) continue;
+        dropped[all[i].triangle] = 1;
+        solid->duplicates++;
+    }
+    for (int t = 0; t < triangles; t++) {
+        if (!dropped[t]) memmove(s->indices + 3 * kept++, s->indices + 3 * t, 3 * sizeof *s->indices);
+    }
+    s->index_count = 3 * kept;
+    free(all);
+    free(dropped);
 
     report_repair(2); // edges with the same ends lie together; two triangles that share one are neighbours
     uint32_t *corner = solid->shape.indices;
