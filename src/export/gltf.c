@@ -864,6 +864,7 @@ static bool write_model(struct export_range *range, FILE *out, struct error *err
             const struct gltf_clip *clip = &body->gltf->clips[c]; // chains do not move in clips of a single pose
             if (clip != body->clip && clip->last > clip->first) done = put_other(range, c, &o, error);
         }
+
         // All scenes' nodes go under one with the character's matrix on the stage. Joints place a skinned mesh: it stays where it is, because
         // validators warn of one that has a parent.
         json_t *nodes = json_object_get(o.source.json, "nodes"), *scene, *number;

@@ -68,7 +68,6 @@ static bool jpeg_is_sound(const unsigned char *at, const unsigned char *end)
 
 /// Whether a PNG's chunks end within the file and its data does not begin with an empty one: otherwise stb_image allocates what a chunk claims,
 /// and copies an empty one to nowhere.
-
 static bool png_is_sound(const unsigned char *at, const unsigned char *end)
 {
     bool has_data = false;

@@ -860,31 +860,6 @@ static void mark_solved(struct storage *storage, const struct document *document
     state->baked.is_new = state->forced = false;
 }
 
-/// Solves a group of splines, listed from `order` on, if one is out of date. Returns how many there are.
-static int update_group(struct evaluation *evaluation, const struct document *document, const int *order)
-{
-    struct pinned *pinned = &evaluation->storage->pinned;
-    int count = 0;
-    wiggly_status status = WIGGLY_OK;
-    bool due = false;
-    pinned->group = pinned->which[order[0]];
-    pin_groups_find_bases(document, pinned->which, pinned->group, pinned->bases);
-    for (int s = 0; s < evaluation->count; s++) {
-        due |= pinned->bases[s] && pinned->placed[s] && evaluation->storage->state[s].solved; // it moves the group
-        if (pinned->which[s] != pinned->group) continue;
-        count++;
-        due |= is_due(evaluation, document, s);
-    }
-    const bool together = due && pinned_solve(pinned, &status);
-    for (int i = 0; i < count; i++) {
-        pinned->placed[order[i]] = true;
-        if (due) mark_solved(evaluation->storage, document, order[i]);
-        if (together) count_solved(evaluation, document, order[i], status);
-        if (due && !together) solve_alone(evaluation, document, order[i], false);
-    }
-    return count;
-}
-
 wiggly_desc evaluation_describe(const struct evaluation *evaluation, const struct document *document, int spline,
                                 wiggly_knot *knots)
 {
@@ -981,16 +956,35 @@ void evaluation_update(struct evaluation *evaluation, const struct document *doc
     const int *order = grouped ? pinned->order : storage->order;
     for (int i = 0; i < evaluation->count; i++) storage->state[i].solved = false;
     for (int i = 0; i < evaluation->count;) {
-        if (grouped && pinned->which[order[i]] >= 0) {
-            i += update_group(evaluation, document, &order[i]);
+        if (!grouped || pinned->which[order[i]] < 0) {
+            if (is_due(evaluation, document, order[i])) {
+                mark_solved(storage, document, order[i]);
+                solve_alone(evaluation, document, order[i], cubic);
+            }
+            if (grouped) pinned->placed[order[i]] = true;
+            i++;
             continue;
         }
-        if (is_due(evaluation, document, order[i])) {
-            mark_solved(storage, document, order[i]);
-            solve_alone(evaluation, document, order[i], cubic);
+
+        // A group of splines is solved if one of them is out of date.
+        wiggly_status status = WIGGLY_OK;
+        bool due = false;
+        int end = i;
+        pinned->group = pinned->which[order[i]];
+        pin_groups_find_bases(document, pinned->which, pinned->group, pinned->bases);
+        for (int s = 0; s < evaluation->count; s++) {
+            due |= pinned->bases[s] && pinned->placed[s] && storage->state[s].solved; // it moves the group
+            if (pinned->which[s] != pinned->group) continue;
+            end++;
+            due |= is_due(evaluation, document, s);
         }
-        if (grouped) pinned->placed[order[i]] = true;
-        i++;
+        const bool together = due && pinned_solve(pinned, &status);
+        for (; i < end; i++) {
+            pinned->placed[order[i]] = true;
+            if (due) mark_solved(storage, document, order[i]);
+            if (together) count_solved(evaluation, document, order[i], status);
+            if (due && !together) solve_alone(evaluation, document, order[i], false);
+        }
     }
     storage->is_new = false;
 

@@ -123,6 +123,7 @@ static bool csv_read_line(struct csv *csv, const char *text, size_t length, bool
     double number;
     size_t blank = strspn(text, " \t\r");
     if (blank >= length || text[blank] == '#') return true;
+
     // Its fields lie between semicolons, else tabs, else commas. With semicolons or tabs, a comma in a number is the decimal point.
     char separator = memchr(text, ';', length) ? ';' : memchr(text, '\t', length) ? '\t' : ',';
     line->count = 0;

@@ -319,6 +319,7 @@ static void validate_scene(struct reader *reader, const struct where *scene_at)
         reader_warn(reader, &at, "%.4g Hz is above half the sample rate, %.4g Hz: it aliases", highest, limit);
     }
     if (!reader->has_domain) return;
+
     for (int i = 0; i < document->spline_count; i++) { // slopes and phases without effect; of phases once per spline
         const struct spline *spline = document->splines[i];
         const struct where spline_at = {.parent = &splines_at, .index = (size_t)i};
@@ -477,16 +478,6 @@ bool scene_read_paint(struct document *document, struct error *error)
 
 static bool is_parameter(const char *key) { return parameter_find(key) != PARAMETER_COUNT; }
 
-/// Values that differ from the default are printed even if the mode does not use them, because another mode may.
-static bool is_printed(const struct spline *spline, enum parameter parameter)
-{
-    const struct param *param = &spline->parameter[parameter];
-    const struct parameter_row *row = &parameter_rows[parameter];
-    if (row->kind == PARAMETER_LIMIT || parameter == PARAMETER_VARIATION || parameter == PARAMETER_SEED) return false;
-    if (param_follows(param) || param->value != row->standard) return true;
-    return row->print == PRINT_ALWAYS || (row->print == PRINT_USED && spline_uses(spline, parameter, false));
-}
-
 static void print_spline(struct text *text, const struct document *document, const struct spline *spline,
                          const char *folder)
 {
@@ -524,13 +515,20 @@ static void print_spline(struct text *text, const struct document *document, con
             members_extra(&pair, extra, NULL);
             text_string(text, " }");
         }
-        if (!is_printed(spline, p)) continue;
-        if (parameter_rows[p].kind == PARAMETER_CHOICE) {
-            member_string(&members, name, parameter_rows[p].words[(int)value]);
+
+        // Values that differ from the default are printed even if the mode does not use them, because another mode may.
+        const struct param *param = &spline->parameter[p];
+        const struct parameter_row *row = &parameter_rows[p];
+        const bool is_usual = !param_follows(param) && value == row->standard;
+        if (row->kind == PARAMETER_LIMIT || p == PARAMETER_VARIATION || p == PARAMETER_SEED) continue;
+        if (is_usual && row->print != PRINT_ALWAYS && !(row->print == PRINT_USED && spline_uses(spline, p, false)))
+            continue;
+        if (row->kind == PARAMETER_CHOICE) {
+            member_string(&members, name, row->words[(int)value]);
             continue;
         }
         member(&members, name);
-        print_param(text, document, &spline->parameter[p], spline->extra, name, folder);
+        print_param(text, document, param, spline->extra, name, folder);
     }
     list_print(&members, document, &knot_list_field, spline, folder);
     members_extra(&members, spline->extra, is_parameter);

@@ -142,6 +142,7 @@ size_t number_print(double value, char text[NUMBER_TEXT_SIZE])
         strcpy(text, "0");
         return 1;
     }
+
     // The shortest decimal that reads back the same. Any decimal of up to 15 digits survives a round trip through a double, so rounding to
     // 15 digits shows a shorter one as trailing zeros. Subnormals have fewer digits: these are tried from one up.
     const double magnitude = fabs(value);

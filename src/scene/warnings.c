@@ -97,6 +97,7 @@ const char *knot_idle_slope(const struct document *document, int of, int knot)
         if (frequency->value > 0 && damping->value < FULL)
             return at->has_phase ? "after the last pose the motion follows from that pose alone" : NULL;
     }
+
     // The oscillator's slope is a speed measured on both sides, at an end on one.
     const bool complex = spline_mode(spline) == WIGGLY_COMPLEX;
     const int period = samples - 1;
