@@ -997,8 +997,8 @@ void inspector_pins(struct inspector *in)
         ui_hint(ui, r, "Frame and point of a pin, and how far the point is from it");
         if (pressed) pins_visit(core, pin);
         if (ui_icon_button(ui, button, remove, UI_ICON_DELETE, false, "Remove this pin"))
-            removed = core_step(core, "Delete pin", 0) &&
-                      edit_pin_remove(core->document, place.rig, pin->id, &core->error);
+            removed =
+                core_step(core, "Delete pin", 0) && edit_pin_remove(core->document, place.rig, pin->id, &core->error);
     }
     if (!removed) inspector_more(in, count, MAX_PINS, " pins; , and . show more");
     if (!pins_selected(core, &owner)) return;
