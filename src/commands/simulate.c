@@ -256,38 +256,6 @@ static bool make_body(struct job *job, struct soft *soft, const struct surface *
     return make_body(job, soft, surface, error);
 }
 
-static bool shake_body(struct job *job, struct soft *soft, const struct surface *surface, struct error *error)
-{
-    struct floor floor = {0};
-    struct base_drive *drive = &job->drive;
-    if (drive->kind != DRIVE_NONE) { // it moves the base along the shake
-        memcpy(drive->direction, job->shake.shake.direction, sizeof drive->direction);
-        drive->size = drive->kind == DRIVE_TRACK ? 1 : job->shake.shake.amplitude * soft->size;
-        drive->seconds = job->shake.seconds;
-        job->shake.loads.drive = drive;
-    }
-    if (job->floor >= 0) {
-        floor_create(&floor, &soft->lattice, surface, soft->bottom + job->floor, soft->young, job->soft.density);
-        job->shake.loads.floor = &floor;
-    }
-    const bool good = simulate_shake(&job->shake, soft, surface, error);
-    floor_free(&floor);
-    if (!good) return false;
-
-    // What analyze needs to know of the motion.
-    const struct shake_job *shake = &job->shake;
-    struct companion made = {.frames = shake_frames(shake), .vertices = surface->vertex_count, .fps = shake->fps};
-    const double end = shake->loads.drive ? drive_end(drive) : 0;
-    made.from = end < shake->seconds ? end : 0;
-    made.world = shake->world;
-    memcpy(made.shake, shake->shake.direction, sizeof made.shake);
-    if (job->pin_text)
-        snprintf(made.pin, sizeof made.pin, "%s", job->pin_text);
-    else
-        snprintf(made.pin, sizeof made.pin, "%.6g", 0.05 * soft->height);
-    return companion_write(job->output, &made, error);
-}
-
 /// Writes each mode's displacement, scaled to a maximum of 1.
 static bool write_modes(const struct job *job, const struct soft *soft, struct error *error)
 {
@@ -357,7 +325,40 @@ static bool simulate_mesh(struct job *job, struct error *error)
             print_line(stderr, "%s: warning: %d of %d separate parts are not pinned and will drift", job->mesh,
                        soft.unpinned_parts, soft.lattice.part_count);
         }
-        good = job->modal ? write_modes(job, &soft, error) : shake_body(job, &soft, &surface, error);
+
+        if (job->modal) {
+            good = write_modes(job, &soft, error);
+        } else {
+            struct shake_job *shake = &job->shake;
+            struct base_drive *drive = &job->drive;
+            struct floor floor = {0};
+            if (drive->kind != DRIVE_NONE) { // it moves the base along the shake
+                memcpy(drive->direction, shake->shake.direction, sizeof drive->direction);
+                drive->size = drive->kind == DRIVE_TRACK ? 1 : shake->shake.amplitude * soft.size;
+                drive->seconds = shake->seconds;
+                shake->loads.drive = drive;
+            }
+            if (job->floor >= 0) {
+                floor_create(&floor, &soft.lattice, &surface, soft.bottom + job->floor, soft.young,
+                             job->soft.density);
+                shake->loads.floor = &floor;
+            }
+            good = simulate_shake(shake, &soft, &surface, error);
+            floor_free(&floor);
+
+            // What analyze needs to know of the motion.
+            struct companion made = {
+                .frames = shake_frames(shake), .vertices = surface.vertex_count, .fps = shake->fps};
+            const double end = shake->loads.drive ? drive_end(drive) : 0;
+            made.from = end < shake->seconds ? end : 0;
+            made.world = shake->world;
+            memcpy(made.shake, shake->shake.direction, sizeof made.shake);
+            if (job->pin_text)
+                snprintf(made.pin, sizeof made.pin, "%s", job->pin_text);
+            else
+                snprintf(made.pin, sizeof made.pin, "%.6g", 0.05 * soft.height);
+            good = good && companion_write(job->output, &made, error);
+        }
         good = good && obj_write(job->rest, &surface, error);
         if (good) print_line(stdout, "%s: the mesh at rest", job->rest);
         soft_free(&soft);

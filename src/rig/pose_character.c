@@ -239,24 +239,6 @@ WIDEST static bool look_at_block(const struct driven *driven, int count, const s
     return true;
 }
 
-static void look_at_vertex(const struct driven *driven, int count, const struct moves *moves, int vertex,
-                           struct lowest *found)
-{
-    bool may[ROW];
-    for (int row = 0; row < found->blocks; row += ROW) {
-        if (!may_be_low(driven, count, moves, row, found->highest + row, may)) continue;
-        for (int b = row; b < row + ROW; b++) {
-            double *height = found->height + BLOCK * b;
-            if (!may[b - row] ||
-                !look_at_block(driven, count, moves, vertex, BLOCK * b, height, found->vertex + BLOCK * b))
-                continue;
-            found->highest[b] = height[0];
-            for (int i = 1; i < BLOCK; i++)
-                found->highest[b] = height[i] > found->highest[b] ? height[i] : found->highest[b];
-        }
-    }
-}
-
 bool character_lowest(const struct posing *posing, int rig, double ceiling, double *room, struct low_point *low)
 {
     const struct character_rig *character = &posing->document->rigs[rig]->character;
@@ -302,7 +284,19 @@ bool character_lowest(const struct posing *posing, int rig, double ceiling, doub
             least += a * driven[k].re_all[a < 0];
             least -= b * driven[k].im_all[b > 0];
         }
-        if (least < ceiling) look_at_vertex(driven, count, &moves, v, &found);
+        bool may[ROW];
+        for (int row = 0; least < ceiling && row < found.blocks; row += ROW) {
+            if (!may_be_low(driven, count, &moves, row, found.highest + row, may)) continue;
+            for (int b = row; b < row + ROW; b++) {
+                double *height = found.height + BLOCK * b;
+                if (!may[b - row] ||
+                    !look_at_block(driven, count, &moves, v, BLOCK * b, height, found.vertex + BLOCK * b))
+                    continue;
+                found.highest[b] = height[0];
+                for (int i = 1; i < BLOCK; i++)
+                    found.highest[b] = height[i] > found.highest[b] ? height[i] : found.highest[b];
+            }
+        }
     }
     for (int i = 0; i < samples; i++) low[i] = (struct low_point){found.height[i], (int)found.vertex[i]};
     return true;
