@@ -918,22 +918,22 @@ static bool usda_model_write(struct usda_model *model, struct error *error)
         for (int s = 0; s < skeletons; s++) write_skeleton(model, s);
         if (is_animated(model)) write_animation(model);
         done = write_materials(model, error);
-        for (int n = 0; done && n < gltf->node_count; n++) {
-            const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
-            for (int p = 0, end; mesh && p < mesh->part_count; p = end) {
-                struct run run = {.model = model, .node = n, .parts = mesh->parts + p, .owner = -1};
-                const bool skinned = has_skin(model, n, run.parts), is_flat = !run.parts->normal;
-                for (end = p; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned &&
-                              !mesh->parts[end].normal == is_flat;
-                     end++) {
-                    if (model->is_own && run.owner < 0 && mesh->parts[end].position == mesh->parts->position)
-                        run.owner = end - p;
-                }
-                run.count = end - p;
-                run.influences = count_influences(&run);
-                run.name = usda_name(&model->prims, gltf->nodes[n].name, false);
-                write_run(&run);
+    }
+    for (int n = 0; done && n < gltf->node_count; n++) {
+        const struct gltf_mesh *mesh = gltf->nodes[n].mesh >= 0 ? &gltf->meshes[gltf->nodes[n].mesh] : NULL;
+        for (int p = 0, end; mesh && p < mesh->part_count; p = end) {
+            struct run run = {.model = model, .node = n, .parts = mesh->parts + p, .owner = -1};
+            const bool skinned = has_skin(model, n, run.parts), is_flat = !run.parts->normal;
+            for (end = p; end < mesh->part_count && has_skin(model, n, &mesh->parts[end]) == skinned &&
+                          !mesh->parts[end].normal == is_flat;
+                 end++) {
+                if (model->is_own && run.owner < 0 && mesh->parts[end].position == mesh->parts->position)
+                    run.owner = end - p;
             }
+            run.count = end - p;
+            run.influences = count_influences(&run);
+            run.name = usda_name(&model->prims, gltf->nodes[n].name, false);
+            write_run(&run);
         }
     }
     fputs("    }\n", model->out);
