@@ -33,12 +33,12 @@ refuses editor/a.c '#include "draw/draw.h"' "editor must not include draw/draw.h
 refuses draw/a.c '#include "editor/editor.h"' "draw must not include editor/editor.h"
 refuses draw/a.c '#include <epoxy/gl.h>' "src/draw reaches GL through draw/gl.h alone"
 refuses editor/a.c '#include <GLFW/glfw3.h>' "GLFW/glfw3.h belongs in src/draw and src/platform alone"
-refuses model/a.c '#include <jansson.h>' "jansson.h belongs in src/scene, src/base/json.h, src/commands/companion.c and the glTF files of src/model and src/export alone"
+refuses model/a.c '#include <jansson.h>' "jansson.h belongs in src/scene, src/base/json.h, src/app/settings.c, src/commands/companion.c and the glTF files of src/model and src/export alone"
 refuses base/a.c '#include "error.h"' '"error.h" must be written with its folder'
 refuses rig/a.c '#include <cglm/vec3.h>' "cglm comes through model/vector.h"
 refuses_through draw/a.c ui/stage.h '#include "rig/posing.h"' "draw must not include rig/posing.h"
-refuses_through commands/a.c model/glb.h '#include <jansson.h>' "jansson.h belongs in src/scene, src/base/json.h, src/commands/companion.c and the glTF files of src/model and src/export alone"
-refuses_through model/a.c model/glb.h '#include <jansson.h>' "jansson.h belongs in src/scene, src/base/json.h, src/commands/companion.c and the glTF files of src/model and src/export alone"
+refuses_through commands/a.c model/glb.h '#include <jansson.h>' "jansson.h belongs in src/scene, src/base/json.h, src/app/settings.c, src/commands/companion.c and the glTF files of src/model and src/export alone"
+refuses_through model/a.c model/glb.h '#include <jansson.h>' "jansson.h belongs in src/scene, src/base/json.h, src/app/settings.c, src/commands/companion.c and the glTF files of src/model and src/export alone"
 refuses_through app/a.c draw/gl.h '#include <epoxy/gl.h>' "epoxy/gl.h belongs in src/draw and src/platform alone"
 refuses_through model/a.c base/status.h '#include <wiggly/wiggly.h>' "model must not include wiggly/wiggly.h"
 plant draw/a.c '#include "ui/stage.h"' ui/stage.h '#include "model/fox.h"' model/fox.h '#include "base/error.h"'
