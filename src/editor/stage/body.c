@@ -22,7 +22,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const struct drag_owner body_owner;
+static const struct drag_owner body_owner; ///< of a body; its functions come last
 
 static bool body_is_held(const struct core *core) { return core->drag.owner == &body_owner; }
 
