@@ -65,14 +65,12 @@ TEST(found_before)
     static const struct {
         uint64_t seed, number;
     } found[] = {
-        {302, 958}, // a loop whose damping falls from 7.7 to 0: of the light jets the squared matrix kept nothing
-        {77001,
-         55105},    // no damping, no calm, knots at half periods: the band had no digit left, the chain hardly one
-        {21, 7748}, // a wind-up over frequencies that jump: the pushes lost digits in a difference of variances
-        {23, 6116}, // the same, and the difference was nothing but rounding
-        {24,
-         19482}, // a loop that winds up about a resonance: what one round keeps of a phase was rounded as the resonance is
-        {28, 14307}, // a loop overdamped a hundred million times: the pull of a step was lost beside its brake
+        {302, 958},     // a loop whose damping falls from 7.7 to 0: of the light jets the squared matrix kept nothing
+        {77001, 55105}, // no damping or calm, knots at half periods: the band had no digit left, the chain hardly one
+        {21, 7748},     // a wind-up over frequencies that jump: a variance lost its digits, and with it the pushes
+        {23, 6116},     // the same, and the variance was nothing but rounding
+        {24, 19482},    // a loop in resonance that winds up: a phase of 1 was rounded like a response of a million
+        {28, 14307},    // a loop overdamped a hundred million times: the pull of a step was lost beside its brake
     };
     for (size_t i = 0; i < sizeof found / sizeof *found; i++) {
         adversary_make_nth(&problem, found[i].seed, found[i].number);

@@ -32,7 +32,8 @@ static bool is_whole(const struct spline *spline, const struct knot *knot)
     return knot && (spline_mode(spline) != WIGGLY_COMPLEX || knot->has_phase || knot->still);
 }
 
-const char *spline_idle_wind_up(const struct document *document, int of)
+/// Why a spline's wind-up has no effect, as the rest of "the wind-up has no effect: "; NULL if it has one, or there is none.
+static const char *spline_idle_wind_up(const struct document *document, int of)
 {
     const struct spline *spline = document->splines[of];
     if (!(spline->parameter[PARAMETER_WIND_UP].value > 0)) return NULL;

@@ -7,9 +7,7 @@
 /// Why a knot's slope has no effect, as the rest of "the slope has no effect: "; NULL if it has one or if that depends on a track.
 const char *knot_idle_slope(const struct document *document, int of, int knot);
 
-/// Why a spline's wind-up has no effect, as the rest of "the wind-up has no effect: "; NULL if it has one, or there is none.
-const char *spline_idle_wind_up(const struct document *document, int of);
-/// Whether it is pushed only shortly before its knots.
+/// Whether a spline is pushed only shortly before its knots.
 bool spline_winds_up(const struct document *document, int of);
 
 /// Whether calm has an effect: not on a spline that winds up, unless it loops.

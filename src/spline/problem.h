@@ -99,7 +99,13 @@ static inline bool problem_is_asked(const problem *p) { return p->earliest >= 0;
 /// Whether the oscillator's rules apply: jets weighted by |g|⁻², speeds given by the poles, the tail.
 static inline bool problem_oscillates(const problem *p) { return p->desc->passive == WIGGLY_OSCILLATOR; }
 
-/// Rounding of the level that knots are measured from, and the error of the response. An infinite one is reported elsewhere.
+/// The error of the response. An infinite one is reported elsewhere, and counts as none here.
+static inline double problem_response_error(const problem *p)
+{
+    return p->response.error < INFINITY ? p->response.error : 0;
+}
+
+/// Rounding of the level that knots are measured from, and the error of the response.
 double problem_noise(const problem *p);
 
 /// The cost of Im x at a sample of that natural frequency, times h³: T⁻⁴ (1 + (ω_n T)⁸)⁻¹, without `unit`.

@@ -330,8 +330,7 @@ static void set_tail(system_rows *rows, const problem *p)
 
 double problem_noise(const problem *p)
 {
-    return 2 * DBL_EPSILON * extent_size(extent_of(p->y, p->desc->samples)) +
-           (p->response.error < INFINITY ? p->response.error : 0);
+    return 2 * DBL_EPSILON * extent_size(extent_of(p->y, p->desc->samples)) + problem_response_error(p);
 }
 
 /// Whether Im x can be other than 0: not where both poles are conjugate or real all the way and no pose asks for it.

@@ -63,7 +63,7 @@ typedef struct wind_gap {
     cplx coast[2];    ///< knot and row without a push
     cplx both;        ///< the covariance of knot and row
     double row, knot; ///< the variance of the row, with its own; of the knot where the row is met
-    double doubt;     ///< what rounding may be of the knot's, as a share: it is a difference
+    double doubt;     ///< how much of `knot` may be rounding, as a share: it is a difference of two
 } wind_gap;
 
 /// Memory for splines that wind up (wind_up.c).

@@ -26,7 +26,7 @@ static const double turn_of_period = 6.28318530717958647692;
 typedef struct goal {
     cplx w;
     bool is_whole; ///< both parts are known
-    double swung;  ///< Im u, which Im w comes on top of
+    double swung;  ///< Im u; Im x is this and Im w
     double slope, pull;
 } goal;
 
@@ -270,7 +270,8 @@ static void coast(wiggly_solver *solver, const problem *p, cplx w, int from, int
     }
 }
 
-/// Fills the samples after a gap's knot, to its end; returns by how much the pushes miss the end, or by how much doubt in them moves the curve.
+/// Fills the samples after a gap's knot, to its end. Returns the larger of two errors: how far the pushes miss the end, and how far rounding
+/// in them may move the curve.
 static double fill_gap(wiggly_solver *solver, const problem *p, const wind_gap *g, cplx w, cplx end, double *re,
                        double *im)
 {
@@ -376,13 +377,10 @@ static cplx start_of(const wiggly_solver *solver, const problem *p)
     return fade > 0 ? as_posed(&to, swings) : to.w;
 }
 
-/// How far Re w at knots may be off: by u there.
-static double error_at_knots(const problem *p) { return p->response.error < INFINITY ? p->response.error : 0; }
-
 /// Im w after going once round a loop, or what is left of w there if all knots ask for 0; and its error.
 static double go_round(const wiggly_solver *solver, const problem *p, cplx w, bool asks, double *error)
 {
-    const double given = asks ? error_at_knots(p) : 0;
+    const double given = asks ? problem_response_error(p) : 0; // of Re w at knots
     *error = 0;
     for (int n = 0; n < p->desc->knot_count; n++) {
         goal to = goal_of(solver, p, knot_of(solver, p, n + 1));
@@ -428,7 +426,7 @@ void problem_solve_gaps(wiggly_solver *solver, const problem *p, wiggly_curve *c
         const wind_gap *g = &solver->wind.gap[n];
         const goal to = goal_of(solver, p, knot_of(solver, p, n + c.skipped));
         const cplx end = loops && n + 1 == c.gaps ? first : arrive(solver, p, g, w, &to);
-        off = error_at_end(g, w, off + error_at_knots(p), &to);
+        off = error_at_end(g, w, off + problem_response_error(p), &to);
         result->error = fmax(result->error, fmax(off, fill_gap(solver, p, g, w, end, re, im)));
         w = end;
     }

@@ -38,7 +38,8 @@ const struct column timing_columns[COLUMN_COUNT] = {
     {ROW(uploaded_bytes), .use = COLUMN_COST, .is_count = true},
 };
 
-double column_value(const struct column *column, const struct frame_row *row)
+/// The number in a column of a row; NAN where it was not measured.
+static double column_value(const struct column *column, const struct frame_row *row)
 {
     const char *field = (const char *)row + column->offset;
     if (column->is_count) {

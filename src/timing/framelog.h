@@ -94,9 +94,6 @@ enum {
 
 extern const struct column timing_columns[COLUMN_COUNT];
 
-/// The number in a column of a row; NAN where it was not measured.
-double column_value(const struct column *column, const struct frame_row *row);
-
 /// Sorts ascending; no NaN among them.
 void statistics_sort(double *values, int count);
 

@@ -135,7 +135,8 @@ void core_toggle_settles(struct core *core, int unused)
     core_edited(core, -1);
 }
 
-void core_remove_knots(struct core *core, const char *label)
+/// Deletes the selected knots in a step `label`.
+static void remove_knots(struct core *core, const char *label)
 {
     const struct originals *originals = &core->originals;
     if (!core_step(core, label, 0)) return;
@@ -153,7 +154,7 @@ void core_delete(struct core *core, int unused)
     const struct pin *pin = pins_selected(core, &rig);
     (void)unused;
     if (!pin) {
-        core_remove_knots(core, selected_count(core) == 1 ? "Delete knot" : "Delete knots");
+        remove_knots(core, selected_count(core) == 1 ? "Delete knot" : "Delete knots");
     } else if (core_step(core, "Delete pin", 0) && edit_pin_remove(core->document, rig, pin->id, &core->error)) {
         pins_clear(core);
     }
@@ -326,7 +327,7 @@ bool core_copy_knots(struct core *core, bool cut)
     core->clipboard = knots_print(&list);
     free(list.knots);
     free(list.splines); // the document owns the names
-    if (cut) core_remove_knots(core, count == 1 ? "Cut knot" : "Cut knots");
+    if (cut) remove_knots(core, count == 1 ? "Cut knot" : "Cut knots");
     say_count(core, cut ? "Cut" : "Copied", count);
     return true;
 }

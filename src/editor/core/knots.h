@@ -8,8 +8,6 @@
 void core_insert_knot(struct core *core, double frame, double value, bool snap);
 /// Inserts a knot where the curve is: a value, or a pose. Without wind-up, between knots, the curve stays as it is.
 void core_insert_on_curve(struct core *core, double frame, bool snap, enum holds holds);
-/// Deletes the selected knots in a step `label`.
-void core_remove_knots(struct core *core, const char *label);
 /// Deletes the selected pin, else the selected knots.
 void core_delete(struct core *core, int unused);
 /// Selects the active spline's knots, or those of all shown splines.

@@ -54,8 +54,8 @@ struct page {
     float view, content;          ///< of the list, in its unit
     int columns;                  ///< F1: column c holds headings first[c] … first[c + 1] − 1
     int first[MAX_COLUMNS + 1];
-    float here,
-        column; ///< F1: height of the rows for the place under the pointer, with the gap below; a column's width
+    float here;   ///< F1: height of the rows for the place under the pointer, with the gap below
+    float column; ///< F1: a column's width
 };
 
 static struct page palette_page(const struct commands_found *found, struct rect window)

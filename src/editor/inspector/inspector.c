@@ -309,8 +309,7 @@ bool inspector_step(struct inspector *in, enum ui_change change, const char *lab
     case UI_CANCEL:
     case UI_DROP:
         if (history_is_open(core->history) && change == UI_CANCEL) history_restart(core->history);
-        core->step_ends = history_is_open(core->history);
-        return false;
+        return false; // inspector_event() sees that the drag is over
     case UI_NUDGE:
     case UI_SET:
         return core_step(core, label, change == UI_NUDGE ? core_merge_key(core, ui_id(&in->ui, what)) : 0);
