@@ -70,6 +70,7 @@ TEST(found_before)
         {21, 7748},     // a wind-up over frequencies that jump: a variance lost its digits, and with it the pushes
         {23, 6116},     // the same, and the variance was nothing but rounding
         {24, 19482},    // a loop in resonance that winds up: a phase of 1 was rounded like a response of a million
+        {29, 18769},    // a response of 1e17 left nothing of the curve, and a curve of nothing had no error
         {28, 14307},    // a loop overdamped a hundred million times: the pull of a step was lost beside its brake
     };
     for (size_t i = 0; i < sizeof found / sizeof *found; i++) {

@@ -140,7 +140,7 @@ static wiggly_status judge(wiggly_curve *curve, double error, wiggly_status stat
     if (error > 0) {
         const extent total = extent_of(curve->total, curve->samples), re = extent_of(curve->re, curve->samples);
         const double size = fmax(fmax(total.high - total.low, extent_size(total)), negligible * extent_size(re));
-        curve->error += size > 0 ? error / size : 0;
+        curve->error += size > 0 ? error / size : DBL_MAX;
         // A curve that is all error has no meaningful size.
         if (curve->error > 1 && curve->error < DBL_MAX) curve->error = DBL_MAX;
     }
